@@ -1,0 +1,1 @@
+//! Poses, angles and their exact printing

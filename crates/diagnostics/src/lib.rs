@@ -1,0 +1,1 @@
+//! What is wrong, where (file:line:column), and what to do

@@ -1,0 +1,1 @@
+//! One door for every robot and world file: recognise, expand, read, check

@@ -1,0 +1,1 @@
+//! STL, OBJ, COLLADA and glTF to triangles

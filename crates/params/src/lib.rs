@@ -1,0 +1,1 @@
+//! Parameters declared once: name, type, unit, default, range, doc

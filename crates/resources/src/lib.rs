@@ -1,0 +1,1 @@
+//! Finding what a URI names: packages, models, Fuel cache, files

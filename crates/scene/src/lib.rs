@@ -1,0 +1,1 @@
+//! The world as plain data: links, joints, frames, shapes, sensors

@@ -1,0 +1,1 @@
+//! The xacro language: macros, properties and expressions over XML

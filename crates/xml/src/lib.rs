@@ -1,0 +1,1 @@
+//! XML trees in which every node knows the place it came from
