@@ -1,1 +1,11 @@
-//! Poses, angles and their exact printing
+//! Poses, angles and numbers that print exactly.
+//!
+//! Frames are named in variables: `map_from_base` turns coordinates in `base` into coordinates in
+//! `map`, and `map_from_odom * odom_from_base` reads off as `map_from_base`.
+
+mod number;
+mod pose;
+
+pub use glam::{DQuat, DVec3};
+pub use number::{format_number, parse_number, parse_numbers};
+pub use pose::{Pose, Rpy, quaternion_from_rpy, rpy_from_quaternion};

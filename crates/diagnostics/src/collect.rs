@@ -1,0 +1,114 @@
+//! Findings as they gather during a reading.
+
+use crate::{Diagnostic, Severity};
+
+/// A broken file may repeat one slip a million times; more than this many findings are only
+/// counted.
+pub const MOST_KEPT: usize = 1_000;
+
+/// The findings of a reading, in the order in which they were met.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnostics {
+    kept: Vec<Diagnostic>,
+    counts: [usize; 3],
+}
+
+impl Diagnostics {
+    /// No findings.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a finding. The same finding at the same place counts once.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        let repeated = |earlier: &Diagnostic| {
+            earlier.code == diagnostic.code
+                && earlier.span == diagnostic.span
+                && earlier.message == diagnostic.message
+        };
+        // A repetition comes soon after its first (two readers of one element), so a short look
+        // back is enough and keeps this linear.
+        if self.kept.iter().rev().take(64).any(repeated) {
+            return;
+        }
+        self.counts[diagnostic.severity as usize] += 1;
+        if self.kept.len() < MOST_KEPT
+            || diagnostic.severity == Severity::Error && self.errors() == 1
+        {
+            self.kept.push(diagnostic);
+        }
+    }
+
+    /// Adds all findings of another reading.
+    pub fn append(&mut self, other: Self) {
+        let mut unkept = other.counts;
+        for diagnostic in other.kept {
+            unkept[diagnostic.severity as usize] -= 1;
+            self.push(diagnostic);
+        }
+        for (count, more) in self.counts.iter_mut().zip(unkept) {
+            *count += more;
+        }
+    }
+
+    /// The findings, at most about [`MOST_KEPT`] of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.kept.iter()
+    }
+
+    /// How many there were of one severity, kept or not.
+    #[must_use]
+    pub fn count(&self, severity: Severity) -> usize {
+        self.counts[severity as usize]
+    }
+
+    /// How many errors there were.
+    #[must_use]
+    pub fn errors(&self) -> usize {
+        self.count(Severity::Error)
+    }
+
+    /// Whether something was lost or cannot work.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.errors() > 0
+    }
+
+    /// Whether there is nothing to say.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.counts == [0; 3]
+    }
+
+    /// How many findings were counted but not kept.
+    #[must_use]
+    pub fn unkept(&self) -> usize {
+        self.counts.iter().sum::<usize>() - self.kept.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_million_slips_are_counted_but_not_kept() {
+        let mut diagnostics = Diagnostics::new();
+        for index in 0..1_000_000 {
+            diagnostics.push(Diagnostic::warning("slip", format!("slip {index}")));
+        }
+        diagnostics.push(Diagnostic::error("end", "the end"));
+        assert_eq!(diagnostics.count(Severity::Warning), 1_000_000);
+        assert_eq!(diagnostics.iter().count(), MOST_KEPT + 1);
+        assert!(diagnostics.iter().any(|d| d.code == "end"));
+    }
+
+    #[test]
+    fn the_same_finding_counts_once() {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(Diagnostic::hint("again", "again"));
+        diagnostics.push(Diagnostic::hint("again", "again"));
+        assert_eq!(diagnostics.count(Severity::Hint), 1);
+    }
+}

@@ -1,0 +1,220 @@
+use expect_test::{Expect, expect};
+use periplus_diagnostics::{Style, render};
+use proptest::prelude::*;
+
+use super::*;
+use crate::{canonical, write_document};
+
+fn read(text: &str) -> (Option<Document>, String) {
+    let mut sources = SourceMap::new();
+    let file = sources.add("file.xml", text);
+    let mut diagnostics = Diagnostics::new();
+    let document = parse(file, &sources, &mut diagnostics);
+    let said = diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
+    (document, said)
+}
+
+fn check(text: &str, expected: Expect) {
+    let (document, said) = read(text);
+    let tree = document.map(|document| canonical(&document.root)).unwrap_or_default();
+    expected.assert_eq(&format!("{tree}{said}"));
+}
+
+#[test]
+fn elements_attributes_and_text() {
+    check(
+        "<?xml version='1.0'?><!--c--><a y='1' x=\"2&lt;\">t<b/>u<![CDATA[<v>]]></a>",
+        expect![[r#"
+            <a x="2&lt;" y="1">
+            t
+            <b>
+            </b>
+            u&lt;v&gt;
+            </a>
+        "#]],
+    );
+}
+
+#[test]
+fn what_tinyxml_forgives_is_forgiven() {
+    check(
+        "<a><!-- -- --><gz:b c:d='R&D'/>x & y &nbsp;</a>",
+        expect![[r#"
+        <a>
+        <gz:b c:d="R&amp;D">
+        </gz:b>
+        x &amp; y &amp;nbsp;
+        </a>
+        warning[unknown-entity]: `&nbsp;` is not an entity
+         --> file.xml:1:38
+          |
+        1 | <a><!-- -- --><gz:b c:d='R&D'/>x & y &nbsp;</a>
+          |                                      ^^^^^^ kept as it stands
+          |
+          = help: write `&amp;` for an ampersand
+    "#]],
+    );
+}
+
+#[test]
+fn a_wrong_end_names_both_places() {
+    check(
+        "<robot>\n<link>\n</robot>",
+        expect![[r#"
+        error[malformed-xml]: `</robot>` closes an element that is not open here
+         --> file.xml:3:1
+          |
+        3 | </robot>
+          | ^^^^^^^^ `</link>` was expected
+          |
+         ::: file.xml:2:1
+          |
+        2 | <link>
+          | ------ this element is still open
+          |
+          = help: write `</link>` before it, or remove it
+    "#]],
+    );
+}
+
+#[test]
+fn a_file_that_ends_early_names_the_open_element() {
+    check(
+        "<robot>\n<link>",
+        expect![[r#"
+        error[malformed-xml]: the file ends, but `link` is still open
+         --> file.xml:2:1
+          |
+        2 | <link>
+          | ^^^^^^
+          |
+          = help: write `</link>` where it ends
+    "#]],
+    );
+}
+
+#[test]
+fn an_attribute_given_twice() {
+    check(
+        "<a x='1' x='2'/>",
+        expect![[r#"
+        <a x="1">
+        </a>
+        error[malformed-xml]: the attribute `x` is given twice
+         --> file.xml:1:10
+          |
+        1 | <a x='1' x='2'/>
+          |          ^^^^^
+          |
+         ::: file.xml:1:4
+          |
+        1 | <a x='1' x='2'/>
+          |    ----- first given here
+          |
+          = help: keep one of them; the first is used
+    "#]],
+    );
+}
+
+#[test]
+fn declared_entities_expand() {
+    check(
+        "<!DOCTYPE a [<!ENTITY r '0.1'><!ENTITY d '&r; &r;'>]><a r='&d;'>&r;</a>",
+        expect![[r#"
+            <a r="0.1 0.1">
+            0.1
+            </a>
+        "#]],
+    );
+}
+
+#[test]
+fn an_entity_bomb_is_defused() {
+    let mut text = String::from("<!DOCTYPE a [<!ENTITY e0 'ha'>");
+    for level in 1..=12 {
+        text += &format!("<!ENTITY e{level} '{}'>", format!("&e{};", level - 1).repeat(10));
+    }
+    check(
+        &(text + "]>\n<a>&e12;</a>"),
+        expect![[r#"
+        error[entity-bomb]: `&e12;` expands to too much text, or to itself
+         --> file.xml:2:4
+          |
+        2 | <a>&e12;</a>
+          |    ^^^^^
+          |
+          = help: entities may bring in at most 1 MiB, 16 levels deep
+    "#]],
+    );
+}
+
+#[test]
+fn files_are_not_read_by_entities() {
+    check(
+        "<!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><a>&x;</a>",
+        expect![[r#"
+        error[external-entity]: `&x;` stands for another file, which is not read
+         --> file.xml:1:58
+          |
+        1 | <!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><a>&x;</a>
+          |                                                          ^^^
+          |
+          = help: use <include> or <xacro:include>
+    "#]],
+    );
+}
+
+#[test]
+fn ten_thousand_levels_are_too_deep() {
+    let (document, said) = read(&"<a>".repeat(10_000));
+    assert!(document.is_none());
+    assert!(said.contains("nested deeper than 200 levels"), "{said}");
+}
+
+#[test]
+fn spans_of_names_values_and_text() {
+    let mut sources = SourceMap::new();
+    let file = sources.add("a", "<a>\n <b k='v w'> text </b></a>");
+    let document = parse(file, &sources, &mut Diagnostics::new()).unwrap();
+    let b = document.root.child("b").unwrap();
+    let text = |origin: Origin| sources.text(origin.0.unwrap());
+    assert_eq!(text(b.origin), "<b k='v w'>");
+    assert_eq!(text(b.name_origin()), "b");
+    assert_eq!(text(b.attribute("k").unwrap().origin), "k='v w'");
+    assert_eq!(text(b.attribute("k").unwrap().value_origin), "v w");
+    assert_eq!(text(b.text_origin()), "text");
+}
+
+fn elements() -> impl Strategy<Value = Element> {
+    let name = "[a-z]{1,5}";
+    let leaf = (name, prop::collection::vec(("[a-z]{1,3}", "[ -~é]{0,8}"), 0..3), "[!-~é]{0,6}")
+        .prop_map(|(name, mut attributes, text)| {
+            attributes.sort();
+            attributes.dedup_by(|a, b| a.0 == b.0);
+            let mut element = Element::new(name);
+            for (name, value) in attributes {
+                element = element.with_attribute(&name, value);
+            }
+            if text.is_empty() { element } else { element.with_text(text) }
+        });
+    leaf.prop_recursive(4, 30, 4, |inner| {
+        ("[a-z]{1,5}", prop::collection::vec(inner, 0..4)).prop_map(|(name, children)| {
+            children.into_iter().fold(Element::new(name), Element::with_child)
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn what_is_written_reads_back(root in elements()) {
+        let document = Document { before: vec![], root, after: vec![] };
+        let (read, said) = read(&write_document(&document));
+        prop_assert_eq!(said, "");
+        prop_assert_eq!(canonical(&read.unwrap().root), canonical(&document.root));
+    }
+
+    #[test]
+    fn nothing_panics(text in "[<>/a-b='\"& ;!\\[\\]\\-?é#x0]{0,60}") {
+        let _ = read(&text);
+    }
+}
