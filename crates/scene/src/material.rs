@@ -1,0 +1,61 @@
+//! Looks.
+
+use periplus_xml::Element;
+
+/// Red, green, blue, alpha in 0..1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colour(pub [f64; 4]);
+
+impl Colour {
+    /// Black and opaque.
+    pub const BLACK: Self = Self([0.0, 0.0, 0.0, 1.0]);
+    /// White and opaque.
+    pub const WHITE: Self = Self([1.0; 4]);
+}
+
+/// A look. What the file leaves out is `None`, for the defaults depend on what else is given.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Material {
+    /// The name of a URDF material.
+    pub name: Option<String>,
+    /// Colour under ambient light.
+    pub ambient: Option<Colour>,
+    /// Colour under direct light.
+    pub diffuse: Option<Colour>,
+    /// Colour of highlights.
+    pub specular: Option<Colour>,
+    /// Colour in the dark.
+    pub emissive: Option<Colour>,
+    /// An OGRE material by name; the built-in ones of Classic are known.
+    pub script: Option<Script>,
+    /// Physically based maps and numbers.
+    pub pbr: Option<Pbr>,
+    /// Whether light matters.
+    pub lighting: Option<bool>,
+    /// Whether both sides are drawn.
+    pub double_sided: bool,
+    /// Shaders and the rest.
+    pub extra: Vec<Element>,
+}
+
+/// An OGRE material script.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Script {
+    /// Files and folders to look in.
+    pub uris: Vec<String>,
+    /// The material's name: `Gazebo/Grey`.
+    pub name: String,
+}
+
+/// Physically based looks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pbr {
+    /// 0 mirror-like to 1 matt.
+    pub roughness: Option<f64>,
+    /// 0 to 1.
+    pub metalness: Option<f64>,
+    /// Texture of the colour.
+    pub albedo_map: Option<String>,
+    /// The whole element, for what is not listed here.
+    pub element: Option<Element>,
+}

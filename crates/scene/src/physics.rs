@@ -1,0 +1,39 @@
+//! How time advances.
+
+use periplus_xml::Element;
+
+/// One `<physics>` profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Physics {
+    /// Its name.
+    pub name: String,
+    /// Whether it is marked as the world's default.
+    pub default: bool,
+    /// The engine that the file asks for: `ode`, `bullet`, `simbody`, `dart`.
+    pub engine: String,
+    /// Step of the simulation [s].
+    pub max_step_size_s: f64,
+    /// How fast simulated time should follow the wall; 0 is as fast as possible.
+    pub real_time_factor: f64,
+    /// Steps per second of wall time that Classic aims at [Hz]; 0 is as fast as possible.
+    pub real_time_update_rate_hz: f64,
+    /// Most contact points between two bodies.
+    pub max_contacts: u32,
+    /// Settings of the engines.
+    pub extra: Vec<Element>,
+}
+
+impl Default for Physics {
+    fn default() -> Self {
+        Self {
+            name: "default_physics".into(),
+            default: false,
+            engine: "ode".into(),
+            max_step_size_s: 0.001,
+            real_time_factor: 1.0,
+            real_time_update_rate_hz: 1000.0,
+            max_contacts: 20,
+            extra: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Turn rates and accelerations.
+
+use periplus_xml::Element;
+
+use crate::Noise;
+
+/// An inertial measurement unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imu {
+    /// Noise about x, y, z [rad/s].
+    pub angular_velocity: [Noise; 3],
+    /// Noise along x, y, z [m/s²].
+    pub linear_acceleration: [Noise; 3],
+    /// Whether it reports an orientation.
+    pub enable_orientation: bool,
+    /// What the orientation is measured against: `CUSTOM`, `ENU`, `NED`, `NWU`, `GRAV_UP`,
+    /// `GRAV_DOWN`; none for the orientation at the start.
+    pub localization: Option<String>,
+    /// Custom reference frames.
+    pub extra: Vec<Element>,
+}
