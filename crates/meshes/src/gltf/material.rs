@@ -1,0 +1,70 @@
+//! Materials: base colour and its texture.
+
+use std::sync::Arc;
+
+use ::gltf::json::image::MimeType;
+use ::gltf::json::mesh::Primitive;
+use ::gltf::json::{Index, Root, image, material};
+
+use super::buffers::{Buffers, data_uri, percent_decode};
+use crate::error::MeshError;
+use crate::limits::Budget;
+use crate::mesh::{Material, Texture};
+use crate::notes::Notes;
+
+/// The texture coordinate set that the primitive's base colour texture uses.
+pub(super) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
+    let material = primitive.material.and_then(|index| root.materials.get(index.value()));
+    let texture = material.and_then(|m| m.pbr_metallic_roughness.base_color_texture.as_ref());
+    texture.map_or(0, |texture| texture.tex_coord)
+}
+
+/// Reads a material; an image that cannot be read costs the texture, with a note.
+pub(super) fn read(
+    root: &Root,
+    index: Index<material::Material>,
+    buffers: &mut Buffers<'_>,
+    budget: &mut Budget,
+    notes: &mut Notes,
+) -> Result<Option<Arc<Material>>, MeshError> {
+    let Some(json) = root.materials.get(index.value()) else {
+        notes.add(format!("material {} does not exist", index.value()));
+        return Ok(None);
+    };
+    let pbr = &json.pbr_metallic_roughness;
+    let diffuse_rgba =
+        pbr.base_color_factor.0.map(|x| if x.is_finite() { x.clamp(0.0, 1.0) } else { 1.0 });
+    let image = pbr.base_color_texture.as_ref().and_then(|info| {
+        let texture = root.textures.get(info.index.value())?;
+        root.images.get(texture.source.value())
+    });
+    if pbr.base_color_texture.is_some() && image.is_none() {
+        notes.add("base colour texture without a plain image left out");
+    }
+    let texture = image.and_then(|image| read_image(image, buffers, budget, notes));
+    let name = json.name.clone().unwrap_or_default();
+    let material = Material { name, diffuse_rgba, texture };
+    budget.bytes(material.size_bytes())?;
+    Ok(Some(Arc::new(material)))
+}
+
+fn read_image(
+    image: &image::Image,
+    buffers: &mut Buffers<'_>,
+    budget: &mut Budget,
+    notes: &mut Notes,
+) -> Option<Texture> {
+    let media_type = image.mime_type.as_ref().map_or(String::new(), |MimeType(mime)| mime.clone());
+    let embedded = match (&image.uri, image.buffer_view) {
+        (Some(uri), _) if uri.starts_with("data:") => data_uri(uri).map(|data| Texture::Embedded {
+            media_type: data.media_type,
+            bytes: data.bytes.into(),
+        }),
+        (Some(uri), _) => Ok(Texture::File(percent_decode(uri))),
+        (None, Some(view)) => buffers
+            .view(view, budget)
+            .map(|view| Texture::Embedded { media_type, bytes: view.bytes().into() }),
+        (None, None) => return None,
+    };
+    embedded.map_err(|error| notes.add(format!("texture left out: {error}"))).ok()
+}

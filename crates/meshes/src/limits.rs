@@ -1,0 +1,94 @@
+//! How much a mesh file may ask for, so that a small hostile file stays small.
+
+use crate::error::MeshError;
+
+/// Bounds on what one file may unfold to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Triangles over all parts, after instancing.
+    pub triangles_max: usize,
+    /// Scene nodes, geometry instances and primitives visited.
+    pub visits_max: usize,
+    /// Nesting of scene nodes.
+    pub depth_max: usize,
+    /// Memory of the finished mesh: vertices, indices and names \[bytes\].
+    pub bytes_max: usize,
+}
+
+impl Default for Limits {
+    /// Ten million triangles, a million visits, 128 levels, 2 GiB:
+    /// far above anything that runs in a simulator, far below harm.
+    fn default() -> Self {
+        Limits {
+            triangles_max: 10_000_000,
+            visits_max: 1_000_000,
+            depth_max: 128,
+            bytes_max: 2 << 30,
+        }
+    }
+}
+
+/// What is left of the [`Limits`] while a file is read.
+pub(crate) struct Budget {
+    limits: Limits,
+    triangles: usize,
+    visits: usize,
+    bytes: usize,
+    /// Steps left for cutting ears off concave polygons, which takes quadratic
+    /// to cubic time in the number of corners.
+    pub(crate) ear_steps: usize,
+}
+
+impl Budget {
+    pub(crate) fn new(limits: Limits) -> Self {
+        let Limits { triangles_max, visits_max, bytes_max, .. } = limits;
+        let ear_steps = 10usize.saturating_mul(triangles_max);
+        Budget { limits, triangles: triangles_max, visits: visits_max, bytes: bytes_max, ear_steps }
+    }
+
+    pub(crate) fn triangles(&mut self, count: usize) -> Result<(), MeshError> {
+        spend(&mut self.triangles, count, || {
+            MeshError::new(
+                format!("the mesh has more than {} triangles", self.limits.triangles_max),
+                "decimate it, or check for instances of instances",
+            )
+        })
+    }
+
+    pub(crate) fn visit(&mut self) -> Result<(), MeshError> {
+        spend(&mut self.visits, 1, || {
+            MeshError::new(
+                format!("the scene unfolds to more than {} nodes", self.limits.visits_max),
+                "look for nodes that instance each other many times over",
+            )
+        })
+    }
+
+    pub(crate) fn bytes(&mut self, count: usize) -> Result<(), MeshError> {
+        spend(&mut self.bytes, count, || {
+            MeshError::new(
+                format!("the mesh unfolds to more than {} MiB", self.limits.bytes_max >> 20),
+                "decimate it, or check for instances of instances",
+            )
+        })
+    }
+
+    pub(crate) fn depth(&self, depth: usize) -> Result<(), MeshError> {
+        if depth <= self.limits.depth_max {
+            return Ok(());
+        }
+        Err(MeshError::new(
+            format!("scene nodes are nested more than {} deep", self.limits.depth_max),
+            "look for a node that contains or instances itself",
+        ))
+    }
+}
+
+fn spend(
+    left: &mut usize,
+    count: usize,
+    error: impl FnOnce() -> MeshError,
+) -> Result<(), MeshError> {
+    *left = left.checked_sub(count).ok_or_else(error)?;
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Wavefront MTL: diffuse colour, opacity and diffuse texture.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::lines::lines;
+use crate::mesh::{Material, Texture};
+use crate::notes::Notes;
+
+/// Reads every material of a file into `materials`; a damaged line loses its
+/// property, with a note, not the mesh.
+pub(super) fn read(
+    bytes: &[u8],
+    file: &str,
+    materials: &mut HashMap<String, Arc<Material>>,
+    notes: &mut Notes,
+) {
+    let mut current: Option<Material> = None;
+    for line in lines(bytes) {
+        let keyword = line.keyword().to_ascii_lowercase();
+        if keyword == "newmtl" {
+            keep(current.take(), materials);
+            current = Some(Material {
+                name: line.rest().to_owned(),
+                diffuse_rgba: [1.0; 4],
+                texture: None,
+            });
+            continue;
+        }
+        let Some(material) = &mut current else { continue };
+        let number = || line.numbers::<1>(1).ok().map(|[x]| x as f32).filter(|x| x.is_finite());
+        match keyword.as_str() {
+            "kd" => match line.numbers::<3>(3) {
+                Ok(rgb) if rgb.iter().all(|x| x.is_finite()) => {
+                    for (to, from) in material.diffuse_rgba.iter_mut().zip(rgb) {
+                        *to = (from as f32).clamp(0.0, 1.0);
+                    }
+                }
+                _ => notes.add(format!("`{file}`: `Kd` that is not three numbers left out")),
+            },
+            "d" => material.diffuse_rgba[3] = number().unwrap_or(1.0).clamp(0.0, 1.0),
+            "tr" => material.diffuse_rgba[3] = 1.0 - number().unwrap_or(0.0).clamp(0.0, 1.0),
+            "map_kd" => {
+                material.texture =
+                    texture_file(line.rest()).map(|file| Texture::File(file.to_owned()));
+            }
+            _ => {}
+        }
+    }
+    keep(current, materials);
+}
+
+/// The first definition of a name wins, as with tobj and assimp's lookup.
+fn keep(material: Option<Material>, materials: &mut HashMap<String, Arc<Material>>) {
+    if let Some(material) = material {
+        materials.entry(material.name.clone()).or_insert_with(|| Arc::new(material));
+    }
+}
+
+/// The file name after options such as `-s 1 1 1` or `-clamp on`; it may have spaces.
+fn texture_file(mut text: &str) -> Option<&str> {
+    while let Some(option) = text.strip_prefix('-') {
+        let (name, mut rest) = option.split_once(char::is_whitespace)?;
+        let arguments = match name {
+            "o" | "s" | "t" => 3,
+            "mm" => 2,
+            _ => 1,
+        };
+        for i in 0..arguments {
+            rest = rest.trim_start();
+            let (word, after) = rest.split_once(char::is_whitespace)?;
+            // `-o`, `-s` and `-t` may have fewer than three numbers.
+            if i > 0 && word.parse::<f64>().is_err() {
+                break;
+            }
+            rest = after;
+        }
+        text = rest.trim_start();
+    }
+    (!text.is_empty()).then_some(text)
+}
