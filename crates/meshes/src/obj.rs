@@ -50,6 +50,7 @@ pub(crate) fn read(
     let mut part_of_names: HashMap<(String, String), usize> = HashMap::new();
     let (mut name, mut material) = (String::new(), String::new());
     let mut current = None;
+    let mut material_file_is_missing = false;
     let mut seen = Seen::default();
 
     for line in lines(bytes) {
@@ -76,7 +77,9 @@ pub(crate) fn read(
             "o" | "g" => (name, current) = (line.rest().to_owned(), None),
             "usemtl" => (material, current) = (line.rest().to_owned(), None),
             "mtllib" => {
-                for (file, text) in material_files(line.rest(), side_files, &mut notes) {
+                let files = material_files(line.rest(), side_files, &mut notes);
+                material_file_is_missing |= files.is_empty();
+                for (file, text) in files {
                     mtl::read(&text, &file, &mut materials, &mut notes);
                 }
             }
@@ -96,8 +99,8 @@ pub(crate) fn read(
     let mut submeshes = Vec::new();
     for (name, material, part) in parts.iter().filter(|(_, _, part)| !part.is_empty()) {
         let found = materials.get(material).cloned();
-        if found.is_none() && !material.is_empty() {
-            notes.add(format!("material `{material}` is in no material file that could be read"));
+        if found.is_none() && !material.is_empty() && !material_file_is_missing {
+            notes.add(format!("material `{material}` is defined in no material file"));
         }
         submeshes.push(part.placed(name.clone(), found, DMat4::IDENTITY, &mut notes)?);
     }
