@@ -1,0 +1,208 @@
+//! Values and how they are read.
+
+use crate::{Kind, Parameter};
+
+/// The value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Of [`Kind::Bool`].
+    Bool(bool),
+    /// Of [`Kind::Integer`].
+    Integer(i64),
+    /// Of [`Kind::Number`].
+    Number(f64),
+    /// Of [`Kind::Text`] and [`Kind::Choice`]; empty for [`Kind::Group`].
+    Text(String),
+    /// Of [`Kind::NumberList`].
+    Numbers(Vec<f64>),
+    /// Of [`Kind::TextList`].
+    Texts(Vec<String>),
+}
+
+/// Longest piece of a value that a message repeats.
+const MOST_QUOTED: usize = 40;
+
+impl Value {
+    /// Reads a value as written. Lists are separated by white space or commas, with or without
+    /// brackets, so that SDF and YAML read alike.
+    ///
+    /// # Errors
+    /// The rest of the sentence "the value ...": "is not a number".
+    pub fn read(parameter: &Parameter, written: &str) -> Result<Self, String> {
+        let written = written.trim();
+        let value = match parameter.kind {
+            Kind::Bool => Self::Bool(read_bool(written)?),
+            Kind::Integer => Self::Integer(read_integer(written)?),
+            Kind::Number => Self::Number(read_number(parameter, written)?),
+            Kind::Text => Self::Text(written.to_owned()),
+            Kind::Group => Self::Text(String::new()),
+            Kind::NumberList => Self::Numbers(
+                items(written)
+                    .map(|item| read_number(parameter, item))
+                    .collect::<Result<_, _>>()?,
+            ),
+            Kind::TextList => Self::Texts(items(written).map(str::to_owned).collect()),
+            Kind::Choice(words) => {
+                match words.iter().find(|word| word.eq_ignore_ascii_case(written)) {
+                    Some(word) => Self::Text((*word).to_owned()),
+                    None => return Err(format!("is none of {}", quoted_list(words))),
+                }
+            }
+        };
+        let numbers = match &value {
+            Self::Integer(integer) => vec![*integer as f64],
+            Self::Number(number) => vec![*number],
+            Self::Numbers(numbers) => numbers.clone(),
+            _ => Vec::new(),
+        };
+        if let Some(range) = parameter.range
+            && let Some(number) = numbers.iter().find(|number| !range.contains(**number))
+        {
+            let unit = parameter.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+            return Err(format!("is out of range: {number}{unit} must be {range}"));
+        }
+        Ok(value)
+    }
+}
+
+fn read_bool(written: &str) -> Result<bool, String> {
+    match written.to_ascii_lowercase().as_str() {
+        "true" | "1" => Ok(true),
+        "false" | "0" => Ok(false),
+        "" => Err("is empty; write `true` or `false`".into()),
+        _ => Err("is neither `true` nor `false`".into()),
+    }
+}
+
+fn read_integer(written: &str) -> Result<i64, String> {
+    if let Ok(integer) = written.parse() {
+        return Ok(integer);
+    }
+    match written.parse::<f64>() {
+        // Up to 2^53 every whole number is itself.
+        Ok(number) if number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0 =>
+        {
+            #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
+            Ok(number as i64)
+        }
+        _ if written.is_empty() => Err("is empty; write a whole number".into()),
+        _ => Err("is not a whole number".into()),
+    }
+}
+
+fn read_number(parameter: &Parameter, written: &str) -> Result<f64, String> {
+    if let Ok(number) = written.parse::<f64>()
+        && !number.is_nan()
+    {
+        return Ok(number);
+    }
+    if written.is_empty() {
+        return Err("is empty; write a number".into());
+    }
+    let digits = written.trim_end_matches(|c: char| c.is_alphabetic() || "/°%².³".contains(c));
+    match (digits.trim().parse::<f64>(), parameter.unit) {
+        (Ok(_), Some(unit)) if digits.len() < written.len() => {
+            Err(format!("is not a number; write it in {unit}, without the unit"))
+        }
+        _ => Err("is not a number".into()),
+    }
+}
+
+fn items(written: &str) -> impl Iterator<Item = &str> {
+    written
+        .trim_matches(['[', ']'])
+        .split(|c: char| c.is_whitespace() || c == ',')
+        .filter(|item| !item.is_empty())
+        .map(|item| item.trim_matches(['"', '\'']))
+}
+
+fn quoted_list(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    quoted.join(", ")
+}
+
+/// What was written, short enough for a message.
+pub(crate) fn quote(written: &str) -> String {
+    let written = written.trim();
+    if written.chars().count() <= MOST_QUOTED {
+        return format!("`{written}`");
+    }
+    let start: String = written.chars().take(MOST_QUOTED).collect();
+    format!("`{start}...`")
+}
+
+impl std::fmt::Display for Value {
+    /// As YAML.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bool(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Number(value) => write!(f, "{}", yaml_number(*value)),
+            Self::Text(value) => write!(f, "{}", yaml_text(value)),
+            Self::Numbers(values) => {
+                let items: Vec<String> = values.iter().map(|value| yaml_number(*value)).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
+            Self::Texts(values) => {
+                let items: Vec<String> = values.iter().map(|value| yaml_text(value)).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
+        }
+    }
+}
+
+fn yaml_number(number: f64) -> String {
+    if number == f64::INFINITY {
+        return ".inf".into();
+    }
+    if number == f64::NEG_INFINITY {
+        return "-.inf".into();
+    }
+    // `{:?}` keeps a decimal point or exponent, so that it stays a float in YAML.
+    format!("{number:?}")
+}
+
+fn yaml_text(text: &str) -> String {
+    let plain = !text.is_empty()
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || "_/-.".contains(c))
+        && text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/' || c == '_')
+        && !["true", "false", "null", "yes", "no", "on", "off"]
+            .contains(&text.to_ascii_lowercase().as_str());
+    if plain { text.to_owned() } else { format!("\"{}\"", text.escape_default()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{choice, flag, integer, number, numbers, texts};
+
+    #[test]
+    fn numbers_are_read_or_the_reason_is_said() {
+        let length = number("length", "m", "").above(0.0);
+        assert_eq!(Value::read(&length, " 1e-1 "), Ok(Value::Number(0.1)));
+        let reason = |written| Value::read(&length, written).unwrap_err();
+        assert_eq!(reason("0.3m"), "is not a number; write it in m, without the unit");
+        assert_eq!(reason("wide"), "is not a number");
+        assert_eq!(reason("nan"), "is not a number");
+        assert_eq!(reason(""), "is empty; write a number");
+        assert_eq!(reason("0"), "is out of range: 0 m must be above 0");
+    }
+
+    #[test]
+    fn other_kinds() {
+        assert_eq!(Value::read(&flag("f", ""), "True"), Ok(Value::Bool(true)));
+        assert_eq!(Value::read(&flag("f", ""), "0"), Ok(Value::Bool(false)));
+        assert!(Value::read(&flag("f", ""), "yes").is_err());
+        assert_eq!(Value::read(&integer("i", ""), "2.0"), Ok(Value::Integer(2)));
+        assert!(Value::read(&integer("i", ""), "2.5").is_err());
+        assert!(Value::read(&integer("i", ""), "1e300").is_err());
+        let list = Value::Numbers(vec![1.0, 2.0]);
+        assert_eq!(Value::read(&numbers("n", "", ""), "1 2"), Ok(list.clone()));
+        assert_eq!(Value::read(&numbers("n", "", ""), "[1, 2]"), Ok(list));
+        let words = Value::Texts(vec!["a".into(), "b".into()]);
+        assert_eq!(Value::read(&texts("t", ""), "[\"a\", b]"), Ok(words));
+        let side = choice("side", &["left", "right"], "");
+        assert_eq!(Value::read(&side, "Left"), Ok(Value::Text("left".into())));
+        assert_eq!(Value::read(&side, "up").unwrap_err(), "is none of `left`, `right`");
+    }
+}

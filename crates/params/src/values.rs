@@ -1,0 +1,142 @@
+//! The parameters of a table with their values.
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::Origin;
+
+use crate::{Default, Table, Value};
+
+/// A value and where it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Located {
+    pub(crate) value: Value,
+    pub(crate) origin: Origin,
+}
+
+/// The values of a [`Table`]: what was given, and the defaults of the rest. Looking up a name that
+/// the table does not declare is a slip of the program and answers as if nothing were set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values {
+    table: &'static Table,
+    given: BTreeMap<&'static str, Vec<Located>>,
+}
+
+impl Values {
+    pub(crate) fn new(table: &'static Table, given: BTreeMap<&'static str, Vec<Located>>) -> Self {
+        Self { table, given }
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn table(&self) -> &'static Table {
+        self.table
+    }
+
+    /// Whether somebody set it (readably).
+    #[must_use]
+    pub fn is_given(&self, name: &str) -> bool {
+        self.given.contains_key(name)
+    }
+
+    /// Where its first value was written.
+    #[must_use]
+    pub fn origin(&self, name: &str) -> Origin {
+        self.given.get(name).and_then(|values| values.first()).map(|v| v.origin).unwrap_or_default()
+    }
+
+    /// All values of a parameter that may be set several times, each with its place; the default
+    /// where nobody set it.
+    #[must_use]
+    pub fn all(&self, name: &str) -> Vec<(Value, Origin)> {
+        match self.given.get(name) {
+            Some(values) => values.iter().map(|v| (v.value.clone(), v.origin)).collect(),
+            None => {
+                self.default(name).map(|value| (value, Origin::default())).into_iter().collect()
+            }
+        }
+    }
+
+    /// The value, or the default.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<Value> {
+        debug_assert!(self.table.find(name).is_some(), "{} has no `{name}`", self.table.name);
+        match self.given.get(name).and_then(|values| values.first()) {
+            Some(located) => Some(located.value.clone()),
+            None => self.default(name),
+        }
+    }
+
+    fn default(&self, name: &str) -> Option<Value> {
+        let parameter = self.table.find(name)?;
+        match parameter.default {
+            Default::Value(default) => Value::read(parameter, default).ok(),
+            Default::Required | Default::None => None,
+        }
+    }
+
+    /// The value of a yes or no.
+    #[must_use]
+    pub fn flag(&self, name: &str) -> Option<bool> {
+        match self.get(name)? {
+            Value::Bool(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The value of a whole number.
+    #[must_use]
+    pub fn integer(&self, name: &str) -> Option<i64> {
+        match self.get(name)? {
+            Value::Integer(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The value of a number, in the unit of its table.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Value::Number(value) => Some(value),
+            Value::Integer(value) => Some(value as f64),
+            _ => None,
+        }
+    }
+
+    /// The value of a text or choice.
+    #[must_use]
+    pub fn text(&self, name: &str) -> Option<String> {
+        match self.get(name)? {
+            Value::Text(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Every number of a list or of a repeated number, in the unit of its table.
+    #[must_use]
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        let mut numbers = Vec::new();
+        for (value, _) in self.all(name) {
+            match value {
+                Value::Number(value) => numbers.push(value),
+                Value::Integer(value) => numbers.push(value as f64),
+                Value::Numbers(values) => numbers.extend(values),
+                _ => {}
+            }
+        }
+        numbers
+    }
+
+    /// Every word of a list or of a repeated text.
+    #[must_use]
+    pub fn texts(&self, name: &str) -> Vec<String> {
+        let mut texts = Vec::new();
+        for (value, _) in self.all(name) {
+            match value {
+                Value::Text(value) => texts.push(value),
+                Value::Texts(values) => texts.extend(values),
+                _ => {}
+            }
+        }
+        texts
+    }
+}
