@@ -11,7 +11,7 @@
 #include <exception>
 #include <string>
 
-constexpr unsigned kSecondsPerFile = 10;
+constexpr unsigned kSecondsPerFile = 30;
 
 struct ChildAnswer
 {

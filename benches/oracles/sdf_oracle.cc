@@ -2,7 +2,7 @@
 // may be FILE, a tab, ORIGIN: then includes are searched as if FILE lay at ORIGIN (a file expanded
 // from xacro elsewhere).
 //
-// Every file is loaded in a child process of its own with a 10 s alarm, so that a file which
+// Every file is loaded in a child process of its own with a time limit, so that a file which
 // crashes or hangs the library costs one line, not the run. `--bench` loads all files in this
 // process instead, prints nothing a file, and reports the seconds. The fields, the frames of the
 // poses and the search rule for includes are in README.md beside this file.

@@ -1,7 +1,7 @@
 // Reads names of URDF files (already expanded) on stdin, prints one JSON line a file: the tree
 // that liburdfdom, the library behind check_urdf, builds of it.
 //
-// Each file is parsed in a child process with a 10 s alarm, so a crash costs one line. The fields
+// Each file is parsed in a child process with a time limit, so a crash costs one line. The fields
 // are in README.md beside this file. `--bench` parses all in this process and prints the seconds.
 
 #include <fcntl.h>
