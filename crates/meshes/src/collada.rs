@@ -25,7 +25,7 @@ use crate::notes::Notes;
 
 pub(crate) fn read(bytes: &[u8], budget: &mut Budget) -> Result<Mesh, MeshError> {
     let text = text::decode(bytes)?;
-    let tree = Tree::parse(&text)?;
+    let tree = Tree::parse(&text, budget)?;
     let root = tree.root()?;
     let mut notes = Notes::default();
     let mesh_from_scene = DMat4::from_scale(DVec3::splat(unit_m(root)?));

@@ -43,12 +43,17 @@ const KNOWN_EXTENSIONS: [&str; 16] = [
     "MSFT_texture_dds",
 ];
 
+/// Memory of one parsed JSON object, at most.
+const OBJECT_BYTES: usize = 512;
+
 pub(crate) fn read(
     bytes: &[u8],
     budget: &mut Budget,
     side_files: &mut SideFiles<'_>,
 ) -> Result<Mesh, MeshError> {
     let container::Parts { json, binary } = container::split(bytes)?;
+    // An object of two characters, `{}`, can become a node of hundreds of bytes.
+    budget.bytes(json.iter().filter(|&&b| b == b'{').count().saturating_mul(OBJECT_BYTES))?;
     let root = Root::from_slice(json).map_err(|error| not_gltf(&error))?;
     if !root.asset.version.starts_with("2.") {
         let version: String = root.asset.version.chars().take(20).collect();

@@ -28,6 +28,9 @@ impl Default for Limits {
     }
 }
 
+/// Corners of one polygon.
+const CORNERS_MAX: usize = 1_000_000;
+
 /// What is left of the [`Limits`] while a file is read.
 pub(crate) struct Budget {
     limits: Limits,
@@ -42,7 +45,7 @@ pub(crate) struct Budget {
 impl Budget {
     pub(crate) fn new(limits: Limits) -> Self {
         let Limits { triangles_max, visits_max, bytes_max, .. } = limits;
-        let ear_steps = 10usize.saturating_mul(triangles_max);
+        let ear_steps = 40usize.saturating_mul(triangles_max);
         Budget { limits, triangles: triangles_max, visits: visits_max, bytes: bytes_max, ear_steps }
     }
 
@@ -71,6 +74,17 @@ impl Budget {
                 "decimate it, or check for instances of instances",
             )
         })
+    }
+
+    /// Checks the corners of one polygon, which are held all at once.
+    pub(crate) fn corners(&self, count: usize) -> Result<(), MeshError> {
+        if count <= CORNERS_MAX {
+            return Ok(());
+        }
+        Err(MeshError::new(
+            format!("a polygon has more than {CORNERS_MAX} corners"),
+            "triangulate the mesh before export",
+        ))
     }
 
     pub(crate) fn depth(&self, depth: usize) -> Result<(), MeshError> {

@@ -151,6 +151,7 @@ fn face(
 ) -> Result<(), MeshError> {
     let mut corners = Vec::new();
     for word in line.rest().split_whitespace() {
+        budget.corners(corners.len() + 1)?;
         let mut fields = word.split('/');
         let mut index = |what, seen: usize, len: usize| match fields.next() {
             None | Some("") => Ok(None),

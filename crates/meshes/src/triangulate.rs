@@ -78,10 +78,9 @@ fn cut_ears(
     let mut start = 0;
     while ring.len() > 3 {
         let n = ring.len();
-        let ear = (0..n).map(|k| (start + k) % n).find(|&i| {
-            budget.ear_steps = budget.ear_steps.saturating_sub(n);
-            budget.ear_steps > 0 && is_ear(flat, &ring, i)
-        });
+        let ear = (0..n)
+            .map(|k| (start + k) % n)
+            .find(|&i| budget.ear_steps > 0 && is_ear(flat, &ring, i, &mut budget.ear_steps));
         let Some(i) = ear else { break };
         emit([ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]]);
         ring.remove(i);
@@ -91,7 +90,7 @@ fn cut_ears(
     ring
 }
 
-fn is_ear(flat: &[DVec2], ring: &[usize], i: usize) -> bool {
+fn is_ear(flat: &[DVec2], ring: &[usize], i: usize, steps: &mut usize) -> bool {
     let n = ring.len();
     let (before, after) = ((i + n - 1) % n, (i + 1) % n);
     let [a, b, c] = [before, i, after].map(|k| flat[ring[k]]);
@@ -99,6 +98,7 @@ fn is_ear(flat: &[DVec2], ring: &[usize], i: usize) -> bool {
         return false;
     }
     ring.iter().enumerate().all(|(k, &corner)| {
+        *steps = steps.saturating_sub(1);
         let p = flat[corner];
         // A corner that coincides with one of the ear's (a bridge to a hole) does not block it.
         let own = [before, i, after].contains(&k) || p == a || p == b || p == c;
@@ -161,5 +161,36 @@ mod tests {
     fn collinear_corners_do_not_hang_or_vanish() {
         assert_eq!(split(&[[0.; 3], [1., 0., 0.], [2., 0., 0.], [3., 0., 0.]]).len(), 2);
         assert_eq!(split(&[[0.; 3]; 6]).len(), 4);
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn star_shaped_polygons_are_covered_exactly(
+            radii in proptest::collection::vec(0.1f64..10.0, 4..60),
+            tilt in -3.0f64..3.0,
+        ) {
+            let step = std::f64::consts::TAU / radii.len() as f64;
+            let plane = glam::DQuat::from_euler(glam::EulerRot::XYZ, tilt, tilt * 0.7, 0.3);
+            let corners: Vec<[f64; 3]> = (0u32..)
+                .zip(&radii)
+                .map(|(i, r)| {
+                    let (sin, cos) = (f64::from(i) * step).sin_cos();
+                    (plane * DVec3::new(r * cos, r * sin, 2.0)).to_array()
+                })
+                .collect();
+            let triangles = split(&corners);
+            proptest::prop_assert_eq!(triangles.len(), corners.len() - 2);
+            let area = |[a, b, c]: [DVec3; 3]| (plane.inverse() * (b - a).cross(c - a)).z / 2.0;
+            let areas = triangles.iter().map(|t| area(t.map(|i| corners[i].into())));
+            let n = radii.len();
+            let whole: f64 = (0..n).map(|i| radii[i] * radii[(i + 1) % n] * step.sin() / 2.0).sum();
+            let (mut total, mut least) = (0.0, f64::INFINITY);
+            for area in areas {
+                total += area;
+                least = least.min(area);
+            }
+            proptest::prop_assert!((total - whole).abs() < 1e-9 * whole, "{total} {whole}");
+            proptest::prop_assert!(least > -1e-9, "a triangle is turned over: {least}");
+        }
     }
 }

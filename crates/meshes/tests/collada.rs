@@ -365,6 +365,15 @@ fn deep_nesting_and_many_attributes_do_not_hurt() {
 }
 
 #[test]
+fn a_flood_of_elements_is_stopped() {
+    let text = format!("<COLLADA>{}</COLLADA>", "<a/>".repeat(10_000));
+    let limits = Limits { bytes_max: 1 << 20, ..Limits::default() };
+    let error =
+        read_within(limits, text.as_bytes(), MeshFormat::Collada, &mut |_| None).unwrap_err();
+    assert_eq!(error.message, "the mesh unfolds to more than 1 MiB");
+}
+
+#[test]
 fn text_that_is_no_collada_says_so() {
     check(
         "<html></html>",

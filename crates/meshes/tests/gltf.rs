@@ -3,7 +3,7 @@
 mod support;
 
 use expect_test::{Expect, expect};
-use periplus_meshes::{MeshFormat, read};
+use periplus_meshes::{Limits, MeshFormat, read, read_within};
 use support::show;
 
 /// Positions of a unit square (48 bytes), then indices 0 1 2, 0 2 3 as u16 (12 bytes).
@@ -229,4 +229,12 @@ fn four_billion_vertices_without_data_cost_nothing() {
           (0 0 0) (0 0 0) (0 0 0)
     "#]],
     );
+}
+
+#[test]
+fn a_flood_of_empty_objects_is_stopped_before_it_unfolds() {
+    let json = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{}{{}}]}}"#, "{},".repeat(10_000));
+    let limits = Limits { bytes_max: 1 << 20, ..Limits::default() };
+    let error = read_within(limits, json.as_bytes(), MeshFormat::Gltf, &mut |_| None).unwrap_err();
+    assert_eq!(error.message, "the mesh unfolds to more than 1 MiB");
 }

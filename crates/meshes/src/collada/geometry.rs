@@ -206,14 +206,11 @@ impl Tuples<'_> {
         part: &mut Part,
         context: &mut Context<'_>,
     ) -> Result<(), MeshError> {
-        let mut triangle = |corners: [&Corner; 3]| {
-            part.triangle(corners, context.budget).map_err(|error| self.locate(error))
-        };
         let (start, len) = match face {
             Face::Triangle(tuples) => {
                 let [a, b, c] = tuples;
                 let corners = [self.corner(a)?, self.corner(b)?, self.corner(c)?];
-                return triangle(corners.each_ref());
+                return self.triangle(corners.each_ref(), part, context);
             }
             Face::Polygon(start, len) => (start, len),
         };
@@ -221,18 +218,26 @@ impl Tuples<'_> {
             context.notes.add("polygons with fewer than three corners left out");
             return Ok(());
         }
+        context.budget.corners(len).map_err(|error| self.locate(error))?;
         let corners: Vec<Corner> =
             (start..start + len).map(|tuple| self.corner(tuple)).collect::<Result<_, _>>()?;
-        if is_fan {
-            return corners[1..].windows(2).try_for_each(|w| triangle([&corners[0], &w[0], &w[1]]));
-        }
-        let positions: Vec<DVec3> = corners.iter().map(|corner| corner.position).collect();
         let mut triangles = Vec::with_capacity(len - 2);
-        triangulate(&positions, context.budget, context.notes, &mut |t| triangles.push(t));
-        triangles.into_iter().try_for_each(|t| {
-            part.triangle(t.map(|i| &corners[i]), context.budget)
-                .map_err(|error| self.locate(error))
-        })
+        if is_fan {
+            triangles.extend((1..len - 1).map(|i| [0, i, i + 1]));
+        } else {
+            let positions: Vec<DVec3> = corners.iter().map(|corner| corner.position).collect();
+            triangulate(&positions, context.budget, context.notes, &mut |t| triangles.push(t));
+        }
+        triangles.into_iter().try_for_each(|t| self.triangle(t.map(|i| &corners[i]), part, context))
+    }
+
+    fn triangle(
+        &self,
+        corners: [&Corner; 3],
+        part: &mut Part,
+        context: &mut Context<'_>,
+    ) -> Result<(), MeshError> {
+        part.triangle(corners, context.budget).map_err(|error| self.locate(error))
     }
 
     fn corner(&self, tuple: usize) -> Result<Corner, MeshError> {

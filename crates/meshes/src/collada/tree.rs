@@ -8,6 +8,12 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
 use crate::error::{MeshError, Place};
+use crate::limits::Budget;
+
+/// Memory of an element and an attribute without their text: much more than
+/// the four characters of a small one in the file, so it is counted.
+const ELEMENT_BYTES: usize = 128;
+const ATTRIBUTE_BYTES: usize = 80;
 
 struct Element<'x> {
     tag: String,
@@ -34,15 +40,15 @@ pub(super) struct Node<'t> {
 }
 
 impl<'x> Tree<'x> {
-    pub(super) fn parse(xml: &'x str) -> Result<Tree<'x>, MeshError> {
+    pub(super) fn parse(xml: &'x str, budget: &mut Budget) -> Result<Tree<'x>, MeshError> {
         let mut tree = Tree { xml, elements: Vec::new(), by_id: BTreeMap::new() };
         let mut reader = Reader::from_str(xml);
         let mut open: Vec<u32> = Vec::new();
         loop {
             let offset = usize::try_from(reader.buffer_position()).unwrap_or(xml.len());
             match reader.read_event() {
-                Ok(Event::Start(start)) => open.push(tree.push(&start, offset, &open)?),
-                Ok(Event::Empty(start)) => drop(tree.push(&start, offset, &open)?),
+                Ok(Event::Start(start)) => open.push(tree.push(&start, offset, &open, budget)?),
+                Ok(Event::Empty(start)) => drop(tree.push(&start, offset, &open, budget)?),
                 Ok(Event::End(_)) => drop(open.pop()),
                 Ok(Event::Text(text)) => tree.append_text(&open, text.into_inner()),
                 Ok(Event::CData(text)) => tree.append_text(&open, text.into_inner()),
@@ -68,7 +74,9 @@ impl<'x> Tree<'x> {
         start: &BytesStart<'x>,
         offset: usize,
         open: &[u32],
+        budget: &mut Budget,
     ) -> Result<u32, MeshError> {
+        budget.bytes(ELEMENT_BYTES)?;
         let Ok(index) = u32::try_from(self.elements.len()) else {
             return Err(self.error_at(offset, "more than 4 billion elements".to_owned()));
         };
@@ -82,6 +90,7 @@ impl<'x> Tree<'x> {
                 .normalized_value(quick_xml::XmlVersion::Implicit1_0)
                 .map_or_else(|_| attribute.value.clone().into_owned(), Cow::into_owned);
             let name = attribute.key.local_name().as_ref().to_owned();
+            budget.bytes(ATTRIBUTE_BYTES)?;
             if name == "id" {
                 self.by_id.entry((tag.clone(), value.clone())).or_insert(index);
             }
