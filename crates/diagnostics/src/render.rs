@@ -12,6 +12,9 @@ use crate::{Diagnostic, Severity};
 /// Longest piece of a line that is shown; generated files hold lines of megabytes.
 const MOST_SHOWN: usize = 160;
 
+/// How many lines apart two places may be to be shown together.
+const NEAR_LINES: usize = 8;
+
 /// How many steps of a long chain of macro calls are shown.
 const MOST_STEPS: usize = 6;
 
@@ -47,12 +50,10 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> Str
     }
     let mut report = vec![group];
     if let Some(replacement) = &diagnostic.replacement {
-        let (shown, snippet) = excerpt(sources, replacement.span);
-        report.push(
-            Level::HELP
-                .secondary_title(&replacement.message)
-                .element(snippet.patch(Patch::new(shown, &replacement.text))),
-        );
+        let (lines, snippet) = excerpt(sources, replacement.span, replacement.span);
+        let patch = Patch::new(lines.shown(replacement.span), &replacement.text);
+        report
+            .push(Level::HELP.secondary_title(&replacement.message).element(snippet.patch(patch)));
     }
     let renderer = match style {
         Style::Plain => Renderer::plain().decor_style(DecorStyle::Ascii),
@@ -63,47 +64,86 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> Str
     text
 }
 
-/// The marked text and the related places, those of one file in one snippet when they are near.
+/// The marked text and the related places; those near it in the same snippet.
 fn places<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap, span: Span) -> Vec<Element<'a>> {
-    let mut elements = Vec::new();
-    let (shown, snippet) = excerpt(sources, span);
-    let mut annotation = AnnotationKind::Primary.span(shown);
+    let is_near = |place: &&(Span, String)| near(sources, span, place.0);
+    let first = diagnostic.related.iter().filter(is_near).map(|(place, _)| place.start);
+    let last = diagnostic.related.iter().filter(is_near).map(|(place, _)| place.end);
+    let around = Span {
+        start: first.fold(span.start, u32::min),
+        end: last.fold(span.start, u32::max),
+        ..span
+    };
+    let (lines, snippet) = excerpt(sources, span, around);
+    let mut annotation = AnnotationKind::Primary.span(lines.shown(span));
     if let Some(label) = &diagnostic.label {
         annotation = annotation.label(label);
     }
-    elements.push(snippet.annotation(annotation).into());
-    for (place, label) in &diagnostic.related {
-        let (shown, snippet) = excerpt(sources, *place);
-        elements.push(snippet.annotation(AnnotationKind::Context.span(shown).label(label)).into());
+    let mut snippet = snippet.annotation(annotation);
+    for (place, label) in diagnostic.related.iter().filter(is_near) {
+        let annotation = AnnotationKind::Context.span(lines.shown(*place)).label(label);
+        snippet = snippet.annotation(annotation);
+    }
+    let mut elements = vec![snippet.into()];
+    for (place, label) in diagnostic.related.iter().filter(|place| !is_near(place)) {
+        let (lines, snippet) = excerpt(sources, *place, *place);
+        let annotation = AnnotationKind::Context.span(lines.shown(*place)).label(label);
+        elements.push(snippet.annotation(annotation).into());
     }
     elements
 }
 
-/// The lines of a span (only the first, when it covers many) and the span within them.
-fn excerpt<'a, T: Clone>(sources: &'a SourceMap, span: Span) -> (Range<usize>, Snippet<'a, T>) {
+/// Whether two places are close enough to be shown together.
+fn near(sources: &SourceMap, span: Span, other: Span) -> bool {
     let file = sources.file(span.file);
-    let (mut lines, first_line) = file.lines_around(span.start, span.start);
-    let start = (span.start as usize).clamp(lines.start, lines.end);
-    let end = (span.end as usize).clamp(start, lines.end);
-    // Keep whole characters: spans come from parsers and lie on boundaries, cuts need not.
-    let floor = |mut byte: usize| {
-        while !file.text.is_char_boundary(byte) {
-            byte -= 1;
-        }
-        byte
-    };
-    if lines.len() > MOST_SHOWN {
-        let from = floor(start.saturating_sub(MOST_SHOWN / 2).max(lines.start));
-        let to = floor((from + MOST_SHOWN).min(lines.end));
-        lines = from..to;
+    let lines = file.position(span.start).line.abs_diff(file.position(other.start).line);
+    span.file == other.file && lines <= NEAR_LINES && span.start.abs_diff(other.end) < 2_000
+}
+
+/// A piece of a text that is shown.
+struct Shown<'a> {
+    text: &'a str,
+    bytes: Range<usize>,
+}
+
+impl Shown<'_> {
+    /// A span within the piece; of one that covers many lines only the first.
+    fn shown(&self, span: Span) -> Range<usize> {
+        let start = floor(self.text, (span.start as usize).clamp(self.bytes.start, self.bytes.end));
+        let end = floor(self.text, (span.end as usize).clamp(start, self.bytes.end));
+        let line = self.text[start..end].find('\n').map_or(end, |newline| start + newline);
+        start - self.bytes.start..line - self.bytes.start
     }
-    let start = floor(start.clamp(lines.start, lines.end));
-    let end = floor(end.clamp(start, lines.end));
-    let snippet = Snippet::source(&file.text[lines.clone()])
-        .line_start(first_line)
-        .path(&file.name)
-        .fold(false);
-    (start - lines.start..end - lines.start, snippet)
+}
+
+/// The lines of the places `around` a span; when they are long, only a piece about the span.
+fn excerpt<'a, T: Clone>(
+    sources: &'a SourceMap,
+    span: Span,
+    around: Span,
+) -> (Shown<'a>, Snippet<'a, T>) {
+    let file = sources.file(span.file);
+    let text: &str = &file.text;
+    let last = if around == span { span.start } else { around.end };
+    let (mut lines, mut first_line) = file.lines_around(around.start, last);
+    let longest = text[lines.clone()].lines().map(str::len).max().unwrap_or(0);
+    if longest > MOST_SHOWN {
+        (lines, first_line) = file.lines_around(span.start, span.start);
+        let start = (span.start as usize).clamp(lines.start, lines.end);
+        let from = floor(text, start.saturating_sub(MOST_SHOWN / 2).max(lines.start));
+        lines = from..floor(text, (from + MOST_SHOWN).min(lines.end));
+    }
+    let snippet =
+        Snippet::source(&text[lines.clone()]).line_start(first_line).path(&file.name).fold(true);
+    (Shown { text, bytes: lines }, snippet)
+}
+
+/// The start of the character at a byte.
+fn floor(text: &str, mut byte: usize) -> usize {
+    while !text.is_char_boundary(byte) {
+        byte -= 1;
+    }
+    byte
 }
 
 fn backtrace(sources: &SourceMap, span: Span) -> Vec<String> {

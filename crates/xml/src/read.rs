@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, Origin, SourceMap, Span};
+use quick_xml::events::attributes::AttrError;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, errors::Error};
 use smol_str::SmolStr;
@@ -111,14 +112,7 @@ impl Builder<'_> {
             let attribute = match attribute {
                 Ok(attribute) => attribute,
                 Err(error) => {
-                    self.error(
-                        Diagnostic::error(
-                            "malformed-xml",
-                            format!("this tag's attributes are not well-formed: {error}"),
-                        )
-                        .at(span)
-                        .help("write attributes as name=\"value\", separated by spaces"),
-                    );
+                    self.attribute_error(&error, span);
                     return None;
                 }
             };
@@ -157,6 +151,28 @@ impl Builder<'_> {
             origin: span.into(),
         });
         Some(())
+    }
+
+    fn attribute_error(&mut self, error: &AttrError, span: Span) {
+        let text = &self.text[span.start as usize..span.end as usize];
+        // The end of a tag and the end of a comment, run into one.
+        if let Some(before) = text.strip_suffix("/-->").or_else(|| text.strip_suffix("-->")) {
+            let place = span.part(before.len(), text.len());
+            self.error(
+                Diagnostic::error("malformed-xml", "a tag does not end in `-->`, a comment does")
+                    .at(place)
+                    .replace(place, "/>", "end the tag with `/>`, or put `<!--` before it"),
+            );
+            return;
+        }
+        self.error(
+            Diagnostic::error(
+                "malformed-xml",
+                format!("this tag's attributes are not well-formed: {error}"),
+            )
+            .at(span)
+            .help("write attributes as name=\"value\", separated by spaces"),
+        );
     }
 
     fn end(&mut self, name: &str, span: Span) -> Option<()> {

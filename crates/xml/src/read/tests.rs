@@ -61,19 +61,16 @@ fn a_wrong_end_names_both_places() {
     check(
         "<robot>\n<link>\n</robot>",
         expect![[r#"
-        error[malformed-xml]: `</robot>` closes an element that is not open here
-         --> file.xml:3:1
-          |
-        3 | </robot>
-          | ^^^^^^^^ `</link>` was expected
-          |
-         ::: file.xml:2:1
-          |
-        2 | <link>
-          | ------ this element is still open
-          |
-          = help: write `</link>` before it, or remove it
-    "#]],
+            error[malformed-xml]: `</robot>` closes an element that is not open here
+             --> file.xml:3:1
+              |
+            2 | <link>
+              | ------ this element is still open
+            3 | </robot>
+              | ^^^^^^^^ `</link>` was expected
+              |
+              = help: write `</link>` before it, or remove it
+        "#]],
     );
 }
 
@@ -94,25 +91,42 @@ fn a_file_that_ends_early_names_the_open_element() {
 }
 
 #[test]
+fn the_end_of_a_comment_on_a_tag() {
+    check(
+        "<launch>\n  <remap from='/a' to='/b'/-->\n</launch>",
+        expect![[r#"
+        error[malformed-xml]: a tag does not end in `-->`, a comment does
+         --> file.xml:2:27
+          |
+        2 |   <remap from='/a' to='/b'/-->
+          |                           ^^^^
+          |
+        help: end the tag with `/>`, or put `<!--` before it
+          |
+        2 -   <remap from='/a' to='/b'/-->
+        2 +   <remap from='/a' to='/b'/>
+          |
+    "#]],
+    );
+}
+
+#[test]
 fn an_attribute_given_twice() {
     check(
         "<a x='1' x='2'/>",
         expect![[r#"
-        <a x="1">
-        </a>
-        error[malformed-xml]: the attribute `x` is given twice
-         --> file.xml:1:10
-          |
-        1 | <a x='1' x='2'/>
-          |          ^^^^^
-          |
-         ::: file.xml:1:4
-          |
-        1 | <a x='1' x='2'/>
-          |    ----- first given here
-          |
-          = help: keep one of them; the first is used
-    "#]],
+            <a x="1">
+            </a>
+            error[malformed-xml]: the attribute `x` is given twice
+             --> file.xml:1:10
+              |
+            1 | <a x='1' x='2'/>
+              |    ----- ^^^^^
+              |    |
+              |    first given here
+              |
+              = help: keep one of them; the first is used
+        "#]],
     );
 }
 
