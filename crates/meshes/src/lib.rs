@@ -49,6 +49,9 @@ pub use crate::mesh::{Bounds, Material, Mesh, Submesh, Texture, UpAxis};
 pub use crate::notes::Note;
 
 /// Gives the bytes of a file named in a mesh file, relative to it, or `None`.
+///
+/// The name is what the mesh file says (percent-decoded for glTF): the callee
+/// decides whether `../../secret` or an absolute path may be followed.
 pub type SideFiles<'a> = dyn FnMut(&str) -> Option<Vec<u8>> + 'a;
 
 /// Reads a mesh within the default [`Limits`].
