@@ -1,7 +1,17 @@
 //! Finding what a URI names, on a machine that is only ever asked through [`Host`].
 
+mod crawl;
+mod fuel;
 mod host;
+mod manifest;
 mod memory;
+mod miss;
+mod places;
+mod resolver;
+mod surroundings;
+mod uri;
 
 pub use host::{Host, Kind, LARGEST_FILE, ReadError};
 pub use memory::MemoryHost;
+pub use miss::{Miss, MissKind};
+pub use resolver::Resolver;

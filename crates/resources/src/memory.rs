@@ -5,11 +5,13 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::host::{Host, Kind, ReadError};
 
-/// Files and variables for tests and fuzzers. Folders exist where files are in them.
+/// Files and variables for tests and fuzzers. Folders exist where files are in them; relative
+/// paths start at `/`.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryHost {
     files: BTreeMap<PathBuf, Vec<u8>>,
     variables: BTreeMap<String, String>,
+    links: BTreeMap<PathBuf, PathBuf>,
 }
 
 impl MemoryHost {
@@ -26,6 +28,30 @@ impl MemoryHost {
         self
     }
 
+    /// Adds a symbolic link at an absolute path to another absolute path.
+    #[must_use]
+    pub fn with_link(mut self, path: impl AsRef<Path>, target: impl AsRef<Path>) -> Self {
+        self.links.insert(plain(path.as_ref()), plain(target.as_ref()));
+        self
+    }
+
+    /// The path without `.`, `..` and links.
+    fn followed(&self, path: &Path) -> PathBuf {
+        let mut path = path.to_path_buf();
+        // As many as Linux follows before it says that links run in a circle.
+        for _ in 0..40 {
+            let crossed = path.ancestors().find_map(|up| {
+                let target = self.links.get(&plain(up))?;
+                Some(target.join(path.strip_prefix(up).unwrap_or(Path::new(""))))
+            });
+            match crossed {
+                Some(further) => path = further,
+                None => break,
+            }
+        }
+        plain(&path)
+    }
+
     /// Sets a variable.
     #[must_use]
     pub fn with_variable(mut self, name: &str, value: &str) -> Self {
@@ -36,7 +62,7 @@ impl MemoryHost {
 
 impl Host for MemoryHost {
     fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
-        match (self.files.get(&plain(path)), self.kind(path)) {
+        match (self.files.get(&self.followed(path)), self.kind(path)) {
             (Some(content), _) => Ok(content.clone()),
             (None, Some(_)) => Err(ReadError::NotAFile),
             (None, None) => Err(ReadError::Missing),
@@ -44,7 +70,7 @@ impl Host for MemoryHost {
     }
 
     fn kind(&self, path: &Path) -> Option<Kind> {
-        let path = plain(path);
+        let path = self.followed(path);
         if self.files.contains_key(&path) {
             return Some(Kind::File);
         }
@@ -52,19 +78,22 @@ impl Host for MemoryHost {
     }
 
     fn list(&self, folder: &Path) -> Vec<String> {
-        let folder = plain(folder);
+        let folder = self.followed(folder);
         let mut names: Vec<String> = self
             .files
             .keys()
             .filter_map(|file| file.strip_prefix(&folder).ok()?.components().next())
             .map(|name| name.as_os_str().to_string_lossy().into_owned())
             .collect();
+        let links = self.links.keys().filter(|link| link.parent() == Some(folder.as_path()));
+        names.extend(links.filter_map(|link| Some(link.file_name()?.to_string_lossy().into())));
+        names.sort();
         names.dedup();
         names
     }
 
     fn canonical(&self, path: &Path) -> Option<PathBuf> {
-        self.kind(path).map(|_| plain(path))
+        self.kind(path).map(|_| self.followed(path))
     }
 
     fn variable(&self, name: &str) -> Option<String> {
@@ -72,9 +101,9 @@ impl Host for MemoryHost {
     }
 }
 
-/// The path without `.` and `..`.
+/// The path from the root, which is the working folder too, without `.` and `..`.
 fn plain(path: &Path) -> PathBuf {
-    let mut out = PathBuf::new();
+    let mut out = PathBuf::from("/");
     for component in path.components() {
         match component {
             Component::CurDir => {}

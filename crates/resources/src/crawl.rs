@@ -1,0 +1,97 @@
+//! Looking through a tree of folders for ROS packages.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::path::{Path, PathBuf};
+
+use crate::host::{Host, Kind};
+use crate::manifest::{self, PackageManifest};
+
+/// A crawl looks into at most this many folders.
+const MOST_FOLDERS: usize = 4_000;
+/// A crawl asks of at most this many names whether they are folders.
+const MOST_NAMES: usize = 50_000;
+
+/// Folders in which no sources lie.
+const SKIPPED: [&str; 5] = ["build", "install", "log", "node_modules", "target"];
+/// Files that tell ROS's own tools to look no further.
+const IGNORE_MARKS: [&str; 3] = ["COLCON_IGNORE", "CATKIN_IGNORE", "AMENT_IGNORE"];
+
+/// The packages below a folder.
+#[derive(Debug, Default)]
+pub(crate) struct Crawl {
+    /// Package name to folders, nearest first, then by name.
+    pub(crate) packages: BTreeMap<String, Vec<PathBuf>>,
+    /// Folders and what their packages export.
+    pub(crate) exports: Vec<(PathBuf, PackageManifest)>,
+    /// Whether it stopped because there was too much to look at.
+    pub(crate) cut_short: bool,
+}
+
+/// All packages at most `depth` folders below `top`, `top` itself not counted. Broad before deep,
+/// in the order of names.
+pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
+    let mut found = Crawl::default();
+    let mut waiting = VecDeque::from([(top.to_path_buf(), 0)]);
+    let (mut folders, mut asked) = (0, 0);
+    while let Some((folder, level)) = waiting.pop_front() {
+        folders += 1;
+        let names = host.list(&folder);
+        asked += names.len();
+        if folders > MOST_FOLDERS || asked > MOST_NAMES {
+            found.cut_short = true;
+            break;
+        }
+        let holds = |wanted: &str| names.iter().any(|name| name == wanted);
+        if level > 0 {
+            if IGNORE_MARKS.into_iter().any(holds) {
+                continue;
+            }
+            if holds("package.xml") {
+                note_package(host, &folder, &mut found);
+            }
+        }
+        if level == depth {
+            continue;
+        }
+        let inner = names
+            .iter()
+            .filter(|name| !name.starts_with('.') && !SKIPPED.contains(&name.as_str()))
+            .map(|name| folder.join(name))
+            .filter(|path| host.kind(path) == Some(Kind::Folder));
+        waiting.extend(inner.map(|path| (path, level + 1)));
+    }
+    found
+}
+
+fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) {
+    let Ok(bytes) = host.read(&folder.join("package.xml")) else { return };
+    let manifest = manifest::package(&bytes);
+    if manifest.name.is_empty() {
+        return;
+    }
+    found.packages.entry(manifest.name.clone()).or_default().push(folder.to_path_buf());
+    if !manifest.gazebo_paths.is_empty() {
+        found.exports.push((folder.to_path_buf(), manifest));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::MemoryHost;
+
+    #[test]
+    fn packages_are_found_by_their_own_name_to_a_depth() {
+        let manifest = "<package><name>bot</name></package>";
+        let host = MemoryHost::new()
+            .with_file("/w/z/package.xml", manifest)
+            .with_file("/w/a/b/package.xml", manifest)
+            .with_file("/w/a/b/c/d/package.xml", manifest)
+            .with_file("/w/install/bot/package.xml", manifest)
+            .with_file("/w/old/COLCON_IGNORE", "")
+            .with_file("/w/old/package.xml", manifest);
+        let found = crawl(&host, Path::new("/w"), 3);
+        assert_eq!(found.packages["bot"], [Path::new("/w/z"), Path::new("/w/a/b")]);
+        assert!(!found.cut_short);
+    }
+}

@@ -1,0 +1,147 @@
+//! The two small files that say what a folder is: `package.xml` and `model.config`.
+
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+/// Manifests are a few kilobytes; more than this is not read [bytes].
+const LARGEST: usize = 1 << 20;
+
+/// What a ROS package says of itself (REP 140, REP 149).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PackageManifest {
+    pub(crate) name: String,
+    /// `gazebo_model_path` and `gazebo_media_path` of `<export><gazebo_ros/>`, entries of
+    /// colon-separated lists with `${prefix}` for the package's own folder.
+    pub(crate) gazebo_paths: Vec<String>,
+}
+
+pub(crate) fn package(bytes: &[u8]) -> PackageManifest {
+    let mut manifest = PackageManifest::default();
+    walk(bytes, |path, attributes, text| match (path, text) {
+        (["package", "name"], Some(text)) if manifest.name.is_empty() => {
+            manifest.name = text.trim().to_owned();
+        }
+        (["package", "export", "gazebo_ros"], None) => {
+            let paths = attributes
+                .iter()
+                .filter(|(name, _)| name == "gazebo_model_path" || name == "gazebo_media_path")
+                .flat_map(|(_, value)| value.split(':'))
+                .filter(|entry| !entry.is_empty());
+            manifest.gazebo_paths.extend(paths.map(str::to_owned));
+        }
+        _ => {}
+    });
+    manifest
+}
+
+/// One `<sdf>` entry of a `model.config`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct ModelEntry {
+    /// Major and minor of `version`; 0.0 when it is not given.
+    pub(crate) version: (u32, u32),
+    pub(crate) file: String,
+}
+
+/// The `<sdf>` entries of a `model.config`, in the order written.
+pub(crate) fn model_config(bytes: &[u8]) -> Vec<ModelEntry> {
+    let mut entries: Vec<ModelEntry> = Vec::new();
+    let mut version = (0, 0);
+    walk(bytes, |path, attributes, text| match (path, text) {
+        (["model", "sdf"], None) => {
+            let written = attributes.iter().find(|(name, _)| name == "version");
+            version = written.map_or((0, 0), |(_, value)| version_of(value));
+        }
+        (["model", "sdf"], Some(text)) if !text.trim().is_empty() => {
+            entries.push(ModelEntry { version, file: text.trim().to_owned() });
+        }
+        _ => {}
+    });
+    entries
+}
+
+fn version_of(text: &str) -> (u32, u32) {
+    let mut parts = text.trim().split('.').map(|part| part.parse().unwrap_or(0));
+    (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+}
+
+/// Calls `see` for each element with its path and attributes, and again with each piece of text.
+/// Stops at the first thing that is not XML; entities stay unresolved, so nothing can blow up.
+fn walk(bytes: &[u8], mut see: impl FnMut(&[&str], &[(String, String)], Option<&str>)) {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]);
+    let mut reader = Reader::from_str(&text);
+    reader.config_mut().allow_dangling_amp = true;
+    let mut path: Vec<String> = Vec::new();
+    let mut visit = |path: &[String], attributes: &[(String, String)], text: Option<&str>| {
+        // Nothing of interest lies deeper, and a hostile file may nest a hundred thousand times.
+        if path.len() <= 3 {
+            let path: Vec<&str> = path.iter().map(String::as_str).collect();
+            see(&path, attributes, text);
+        }
+    };
+    loop {
+        match reader.read_event() {
+            Ok(Event::Start(tag)) => {
+                path.push(tag.name().as_ref().to_owned());
+                visit(&path, &attributes(&tag), None);
+            }
+            Ok(Event::Empty(tag)) => {
+                path.push(tag.name().as_ref().to_owned());
+                visit(&path, &attributes(&tag), None);
+                path.pop();
+            }
+            Ok(Event::End(_)) => {
+                path.pop();
+            }
+            Ok(Event::Text(text)) => visit(&path, &[], Some(&text.xml10_content())),
+            Ok(Event::CData(text)) => visit(&path, &[], Some(&text.xml10_content())),
+            Ok(Event::Eof) | Err(_) => return,
+            Ok(_) => {}
+        }
+    }
+}
+
+fn attributes(tag: &quick_xml::events::BytesStart<'_>) -> Vec<(String, String)> {
+    tag.attributes()
+        .filter_map(Result::ok)
+        .map(|attribute| {
+            let name = attribute.key.as_ref().to_owned();
+            (name, attribute.value.into_owned())
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_package_has_a_name_and_exports() {
+        let manifest = package(
+            b"<?xml version='1.0'?><!-- a --><package format='3'><name> bot </name>
+              <author><name>nobody</name></author>
+              <export><gazebo_ros gazebo_model_path='${prefix}/..:${prefix}/models'/></export>
+              </package>",
+        );
+        assert_eq!(manifest.name, "bot");
+        assert_eq!(manifest.gazebo_paths, ["${prefix}/..", "${prefix}/models"]);
+    }
+
+    #[test]
+    fn a_model_lists_its_versions() {
+        let entries = model_config(
+            b"<model><name>m</name><sdf version='1.10'>new.sdf</sdf><sdf>old.sdf</sdf></model>",
+        );
+        let entry = |version, file: &str| ModelEntry { version, file: file.into() };
+        assert_eq!(entries, [entry((1, 10), "new.sdf"), entry((0, 0), "old.sdf")]);
+    }
+
+    #[test]
+    fn broken_manifests_say_nothing() {
+        for bytes in [&b""[..], b"<package><name>", b"\xff\xfe", b"</a></b>", b"<a b=<c>&x;"] {
+            assert_eq!(package(bytes), PackageManifest::default());
+            assert_eq!(model_config(bytes), []);
+        }
+        let deep = "<a>".repeat(100_000);
+        assert_eq!(package(deep.as_bytes()), PackageManifest::default());
+    }
+}

@@ -1,0 +1,191 @@
+//! From a URI to a file.
+
+mod advice;
+mod fence;
+mod model_file;
+mod named;
+mod paths;
+
+#[cfg(test)]
+mod tests;
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use crate::crawl::Crawl;
+use crate::host::Host;
+use crate::manifest::PackageManifest;
+use crate::miss::{Miss, MissKind};
+use crate::places::{self, Place};
+use crate::surroundings::{Surroundings, surroundings};
+use crate::uri::{self, Scheme, Uri};
+use crate::{crawl, fuel, manifest};
+
+/// After this many different misses of one file, nothing more is looked for in its name: a
+/// hostile file may mention a million.
+const MOST_MISSES: usize = 2_000;
+
+/// Finds what the URIs in robot and world files name. Looks at the machine only through a
+/// [`Host`], and at each thing once; make a new one to see changes.
+///
+/// # Where it looks
+/// For `package://name/rest` and `model://name/rest` alike, in this order:
+/// 1. each `--resource-path`: as the folder itself, `name`, `models/name`, `src/name` in it, and
+///    any package of that name a few folders below;
+/// 2. `GZ_SIM_RESOURCE_PATH`, `IGN_GAZEBO_RESOURCE_PATH`, `SDF_PATH`, `GAZEBO_MODEL_PATH`,
+///    `GAZEBO_RESOURCE_PATH`, `ROS_PACKAGE_PATH` (also below its entries), `AMENT_PREFIX_PATH`
+///    (in `share`), and `~/.gazebo/models`;
+/// 3. upward from the mentioning file, to the repository around it or 8 folders, each folder as
+///    under 1;
+/// 4. the `gazebo_model_path` that the packages met on the way export.
+///
+/// # What it refuses
+/// Files outside the resource paths, the mentioning file's project, and packages or models found:
+/// a downloaded world shall not read the rest of the machine, neither by `..` nor by links.
+pub struct Resolver<'h> {
+    host: &'h dyn Host,
+    fixed: Vec<Place>,
+    fuel_caches: Vec<PathBuf>,
+    /// Canonical folders whose content anyone may name.
+    roots: Vec<PathBuf>,
+    /// Packages and models that were found outside the roots.
+    granted: RefCell<BTreeSet<PathBuf>>,
+    around: RefCell<BTreeMap<PathBuf, Rc<Surroundings>>>,
+    answers: RefCell<BTreeMap<(usize, String), Result<PathBuf, Miss>>>,
+    looks: RefCell<BTreeMap<(Place, String), Rc<named::Look>>>,
+    crawls: RefCell<BTreeMap<(PathBuf, usize), Rc<Crawl>>>,
+    manifests: RefCell<BTreeMap<PathBuf, Rc<PackageManifest>>>,
+    model_files: RefCell<BTreeMap<PathBuf, Result<PathBuf, Miss>>>,
+    exports: RefCell<BTreeMap<usize, Rc<Vec<Place>>>>,
+    known: RefCell<BTreeMap<usize, Rc<BTreeSet<String>>>>,
+    /// How many URIs led nowhere, by mentioning file.
+    misses: RefCell<BTreeMap<usize, usize>>,
+}
+
+impl<'h> Resolver<'h> {
+    /// A resolver over the `--resource-path` folders in `extra` and the machine's variables.
+    #[must_use]
+    pub fn new(host: &'h dyn Host, extra: &[PathBuf]) -> Self {
+        let fixed = places::fixed(host, extra);
+        let fuel_caches = fuel::caches(host);
+        let folders = fixed.iter().map(|place| &place.folder).chain(&fuel_caches);
+        let mut roots: Vec<PathBuf> = folders.filter_map(|folder| host.canonical(folder)).collect();
+        roots.sort();
+        roots.dedup();
+        Self {
+            host,
+            fixed,
+            fuel_caches,
+            roots,
+            granted: RefCell::default(),
+            around: RefCell::default(),
+            answers: RefCell::default(),
+            looks: RefCell::default(),
+            crawls: RefCell::default(),
+            manifests: RefCell::default(),
+            model_files: RefCell::default(),
+            exports: RefCell::default(),
+            known: RefCell::default(),
+            misses: RefCell::default(),
+        }
+    }
+
+    /// The file or folder that `uri` names when the file `from` mentions it, as a canonical path.
+    ///
+    /// # Errors
+    /// A miss: nothing stands there, or it lies outside the resource paths.
+    pub fn resolve(&self, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
+        let around = self.surroundings(from);
+        let key = (around.id, uri.to_owned());
+        if let Some(answer) = self.answers.borrow().get(&key) {
+            return answer.clone();
+        }
+        if self.misses(&around) >= MOST_MISSES {
+            let reason = format!(
+                "{MOST_MISSES} other URIs of this file led nowhere, so it was not looked for"
+            );
+            return Err(Miss::missing(uri, reason));
+        }
+        let answer = self.look_up(uri, &around);
+        if answer.is_err() {
+            *self.misses.borrow_mut().entry(around.id).or_default() += 1;
+        }
+        self.answers.borrow_mut().insert(key, answer.clone());
+        answer
+    }
+
+    /// The folder of a ROS package, as xacro's `$(find name)` and `package://name` mean it.
+    ///
+    /// # Errors
+    /// A miss with every place tried.
+    pub fn find_package(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+        self.find(Scheme::Package, name, from)
+    }
+
+    /// The folder of a model, as `model://name` means it. See [`Resolver::model_file`] for the
+    /// file in it.
+    ///
+    /// # Errors
+    /// A miss with every place tried.
+    pub fn find_model(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+        self.find(Scheme::Model, name, from)
+    }
+
+    fn find(&self, scheme: Scheme, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+        self.resolve(&format!("{}://{}", scheme.word(), name.trim()), from)
+    }
+
+    fn look_up(&self, uri: &str, around: &Surroundings) -> Result<PathBuf, Miss> {
+        match uri::parse(uri)? {
+            Uri::Named { scheme, name, rest } => self.named(uri, scheme, &name, &rest, around),
+            Uri::Path(path) => self.path(uri, &path, around),
+            Uri::Loose(path) => self.loose(uri, &path, around),
+            Uri::Fuel(wanted) => self.fuel(uri, &wanted, around),
+        }
+    }
+
+    fn surroundings(&self, from: &Path) -> Rc<Surroundings> {
+        if let Some(known) = self.around.borrow().get(from) {
+            return known.clone();
+        }
+        let mut around = self.around.borrow_mut();
+        let made = Rc::new(surroundings(self.host, from, around.len()));
+        around.insert(from.to_path_buf(), made.clone());
+        made
+    }
+
+    fn misses(&self, around: &Surroundings) -> usize {
+        self.misses.borrow().get(&around.id).copied().unwrap_or(0)
+    }
+
+    fn crawl(&self, folder: &Path, depth: usize) -> Rc<Crawl> {
+        let key = (folder.to_path_buf(), depth);
+        if let Some(known) = self.crawls.borrow().get(&key) {
+            return known.clone();
+        }
+        let made = Rc::new(crawl::crawl(self.host, folder, depth));
+        self.crawls.borrow_mut().insert(key, made.clone());
+        made
+    }
+
+    /// What a folder's `package.xml` says; nothing when it has none.
+    fn manifest(&self, folder: &Path) -> Rc<PackageManifest> {
+        if let Some(known) = self.manifests.borrow().get(folder) {
+            return known.clone();
+        }
+        let bytes = self.host.read(&folder.join("package.xml")).unwrap_or_default();
+        let made = Rc::new(manifest::package(&bytes));
+        self.manifests.borrow_mut().insert(folder.to_path_buf(), made.clone());
+        made
+    }
+
+    /// Answers that a newly granted folder may change are forgotten.
+    fn grant(&self, folder: PathBuf) {
+        if self.granted.borrow_mut().insert(folder) {
+            let refused = |answer: &Result<PathBuf, Miss>| matches!(answer, Err(miss) if miss.kind == MissKind::Outside);
+            self.answers.borrow_mut().retain(|_, answer| !refused(answer));
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What to do about a miss.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use periplus_diagnostics::closest;
+
+use super::Resolver;
+use crate::host::Kind;
+use crate::miss::Miss;
+use crate::places::How;
+use crate::surroundings::Surroundings;
+use crate::uri::Scheme;
+
+/// The nearest name is sought for this many misses; it costs too much for thousands.
+const MOST_ADVISED: usize = 100;
+/// Of all names known, the nearest is sought among this many.
+const MOST_NAMES: usize = 5_000;
+
+impl Resolver<'_> {
+    /// The package or model is there, the file in it is not.
+    pub(super) fn without_file(
+        &self,
+        uri: &str,
+        name: &str,
+        rest: &str,
+        folder: &Path,
+        around: &Surroundings,
+    ) -> Miss {
+        let reason = format!("`{name}` is {}, but has no `{rest}`", folder.display());
+        let miss = Miss::missing(uri, reason);
+        match self.nearest_name(folder, rest, around) {
+            Some(near) => miss.help(format!("did you mean `{near}`?")),
+            None => miss,
+        }
+    }
+
+    pub(super) fn without_folder(
+        &self,
+        uri: &str,
+        scheme: Scheme,
+        name: &str,
+        around: &Surroundings,
+    ) -> Miss {
+        let word = scheme.word();
+        let miss = Miss::missing(uri, format!("there is no {word} `{name}`"));
+        let known = self.known(around);
+        let near = closest(name, known.iter().map(String::as_str).take(MOST_NAMES));
+        let miss = match near.filter(|_| self.misses(around) < MOST_ADVISED) {
+            Some(near) => miss.help(format!("did you mean `{word}://{near}`?")),
+            None => miss,
+        };
+        miss.help(format!("name the folder that holds `{name}`: `--resource-path FOLDER`"))
+    }
+
+    /// The path with the first part that is not there replaced by the nearest name that is.
+    pub(super) fn nearest_name(
+        &self,
+        folder: &Path,
+        path: &str,
+        around: &Surroundings,
+    ) -> Option<String> {
+        if self.misses(around) >= MOST_ADVISED {
+            return None;
+        }
+        let mut reached = PathBuf::from(folder);
+        let mut parts = path.split('/').enumerate();
+        let (at, missing) = parts.find(|(_, part)| {
+            reached.push(part);
+            self.host.kind(&reached).is_none()
+        })?;
+        reached.pop();
+        let names = self.host.list(&reached);
+        let near = closest(missing, names.iter().map(String::as_str).take(MOST_NAMES))?;
+        let mut parts: Vec<&str> = path.split('/').collect();
+        *parts.get_mut(at)? = near;
+        Some(parts.join("/"))
+    }
+
+    /// The names of packages and models that can be seen.
+    fn known(&self, around: &Surroundings) -> Rc<BTreeSet<String>> {
+        if let Some(known) = self.known.borrow().get(&around.id) {
+            return known.clone();
+        }
+        let mut names = BTreeSet::new();
+        let own = around.places.iter().filter(|place| place.folder.starts_with(&around.project));
+        for place in self.fixed.iter().chain(own) {
+            match place.how {
+                How::Tree(depth) => {
+                    names.extend(self.crawl(&place.folder, depth).packages.keys().cloned());
+                }
+                How::Children => names.extend(self.folders_in(&place.folder)),
+                How::Prefix => names.extend(self.folders_in(&place.folder.join("share"))),
+                How::Workspace => {
+                    names.extend(self.folders_in(&place.folder));
+                    names.extend(self.folders_in(&place.folder.join("models")));
+                }
+            }
+        }
+        let names = Rc::new(names);
+        self.known.borrow_mut().insert(around.id, names.clone());
+        names
+    }
+
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        let mut names = self.host.list(folder);
+        names.truncate(MOST_NAMES);
+        names.retain(|name| {
+            !name.starts_with('.') && self.host.kind(&folder.join(name)) == Some(Kind::Folder)
+        });
+        names
+    }
+}

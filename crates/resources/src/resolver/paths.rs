@@ -1,0 +1,120 @@
+//! Paths, absolute and relative, and the Fuel cache.
+
+use std::path::{Path, PathBuf};
+
+use super::Resolver;
+use crate::fuel::FuelUri;
+use crate::miss::Miss;
+use crate::places::How;
+use crate::surroundings::Surroundings;
+use crate::uri::percent_decoded;
+
+impl Resolver<'_> {
+    /// An absolute path, or one from the mentioning file's folder or, as Gazebo has it, from any
+    /// resource path.
+    pub(super) fn path(
+        &self,
+        uri: &str,
+        path: &str,
+        around: &Surroundings,
+    ) -> Result<PathBuf, Miss> {
+        if Path::new(path).is_absolute() {
+            return self.first(uri, path, vec![PathBuf::from("/")], around).map_err(
+                |miss| match miss.kind {
+                    crate::MissKind::Missing => miss.help(
+                        "absolute paths hold on one machine only; \
+                         `package://NAME/path/in/it` holds on all",
+                    ),
+                    _ => miss,
+                },
+            );
+        }
+        let folders = around.folders.iter().chain(self.fixed_folders()).cloned().collect();
+        self.first(uri, path, folders, around)
+    }
+
+    /// A relative path that does not say relative to what: Classic looked for `media/...` in
+    /// `GAZEBO_RESOURCE_PATH`, others mean their package's folder.
+    pub(super) fn loose(
+        &self,
+        uri: &str,
+        path: &str,
+        around: &Surroundings,
+    ) -> Result<PathBuf, Miss> {
+        let exports = self.exports(around);
+        let own = around.upward.iter().filter(|up| up.starts_with(&around.project));
+        let mut folders: Vec<PathBuf> = Vec::new();
+        let all = around.folders.iter().chain(self.fixed_folders()).chain(own);
+        for folder in all.chain(exports.iter().map(|place| &place.folder)) {
+            if !folders.contains(folder) {
+                folders.push(folder.clone());
+            }
+        }
+        self.first(uri, path, folders, around)
+    }
+
+    pub(super) fn fuel(
+        &self,
+        uri: &str,
+        wanted: &FuelUri,
+        around: &Surroundings,
+    ) -> Result<PathBuf, Miss> {
+        match wanted.find(self.host, &self.fuel_caches) {
+            Ok(folder) if wanted.rest.is_empty() => {
+                self.fenced(&folder, None, around).ok_or_else(|| Miss::outside(uri, &folder))
+            }
+            Ok(folder) => self.first(uri, &wanted.rest, vec![folder], around),
+            Err(tried) => {
+                let sort = if wanted.is_world() { "world" } else { "model" };
+                let mut miss = Miss::missing(uri, format!("the {sort} is not in the Fuel cache"))
+                    .help(format!("fetch it once: `gz fuel download -u {}`", wanted.address()));
+                miss.tried = tried;
+                Err(miss)
+            }
+        }
+    }
+
+    fn fixed_folders(&self) -> impl Iterator<Item = &PathBuf> {
+        let is_path = |how| matches!(how, How::Children | How::Workspace);
+        self.fixed.iter().filter(move |place| is_path(place.how)).map(|place| &place.folder)
+    }
+
+    /// The first of `folders` that has something at `path`.
+    fn first(
+        &self,
+        uri: &str,
+        path: &str,
+        folders: Vec<PathBuf>,
+        around: &Surroundings,
+    ) -> Result<PathBuf, Miss> {
+        let decoded = percent_decoded(path);
+        let mut tried = Vec::new();
+        let mut refused = None;
+        for folder in &folders {
+            for path in std::iter::once(path).chain(decoded.as_deref()) {
+                let target = folder.join(path);
+                if self.host.kind(&target).is_none() {
+                    tried.push(target);
+                    continue;
+                }
+                match self.fenced(&target, None, around) {
+                    Some(target) => return Ok(target),
+                    None => {
+                        refused.get_or_insert(target);
+                    }
+                }
+            }
+        }
+        if let Some(refused) = refused {
+            return Err(Miss::outside(uri, &refused));
+        }
+        let mut miss = Miss::missing(uri, "nothing stands there");
+        if let Some(name) =
+            folders.first().and_then(|folder| self.nearest_name(folder, path, around))
+        {
+            miss = miss.help(format!("did you mean `{name}`?"));
+        }
+        miss.tried = tried;
+        Err(miss)
+    }
+}
