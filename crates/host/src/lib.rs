@@ -1,0 +1,7 @@
+//! The real machine, for readers that ask only through [`periplus_resources::Host`].
+//!
+//! This is the one place below the programs where files and the environment are touched.
+
+mod machine;
+
+pub use machine::Machine;

@@ -1,0 +1,169 @@
+//! Files and environment of the machine that this runs on.
+#![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
+
+use std::fs;
+use std::io::{ErrorKind, Read as _};
+use std::path::{Path, PathBuf};
+
+use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError};
+
+/// The machine that this program runs on. It only ever reads.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Machine;
+
+impl Host for Machine {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+        // Asked before opening: opening a pipe would wait for someone to write into it.
+        let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
+        if !metadata.is_file() {
+            return Err(ReadError::NotAFile);
+        }
+        if metadata.len() > LARGEST_FILE {
+            return Err(ReadError::TooLarge(metadata.len()));
+        }
+        let file = fs::File::open(path).map_err(|error| refusal(&error))?;
+        let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
+        // A file may grow while it is read, and those in /proc do not tell their size.
+        let read = file.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+        read.map_err(|error| refusal(&error))?;
+        let size = bytes.len() as u64;
+        if size > LARGEST_FILE { Err(ReadError::TooLarge(size)) } else { Ok(bytes) }
+    }
+
+    fn kind(&self, path: &Path) -> Option<Kind> {
+        let metadata = fs::metadata(path).ok()?;
+        if metadata.is_file() {
+            Some(Kind::File)
+        } else {
+            metadata.is_dir().then_some(Kind::Folder)
+        }
+    }
+
+    fn list(&self, folder: &Path) -> Vec<String> {
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        // A name that is not UTF-8 cannot be written in a robot file either.
+        let mut names: Vec<String> =
+            entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+        names.sort_unstable();
+        names
+    }
+
+    fn canonical(&self, path: &Path) -> Option<PathBuf> {
+        fs::canonicalize(path).ok()
+    }
+
+    fn variable(&self, name: &str) -> Option<String> {
+        std::env::var(name).ok()
+    }
+}
+
+fn refusal(error: &std::io::Error) -> ReadError {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => ReadError::Missing,
+        _ => ReadError::Other(error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder that goes when the test ends.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let name = format!("periplus-host-{name}-{}", std::process::id());
+            let folder = std::env::temp_dir().join(name);
+            fs::create_dir_all(&folder).unwrap();
+            Self(folder.canonicalize().unwrap())
+        }
+
+        fn with_file(self, name: &str, content: &str) -> Self {
+            let path = self.0.join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, content).unwrap();
+            self
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn regular_files_are_read_and_folders_are_not() {
+        let folder = Folder::new("read").with_file("a/b.txt", "hello");
+        let read = |name: &str| Machine.read(&folder.0.join(name));
+        assert_eq!(read("a/b.txt"), Ok(b"hello".to_vec()));
+        assert_eq!(read("a/c.txt"), Err(ReadError::Missing));
+        assert_eq!(read("a/b.txt/c"), Err(ReadError::Missing));
+        assert_eq!(read("a"), Err(ReadError::NotAFile));
+        assert!(Machine.read(Path::new("a\0b")).is_err());
+    }
+
+    #[test]
+    fn what_stands_there() {
+        let folder = Folder::new("kind").with_file("b", "").with_file("a/x", "").with_file("c", "");
+        let kind = |name: &str| Machine.kind(&folder.0.join(name));
+        assert_eq!([kind("a"), kind("b")], [Some(Kind::Folder), Some(Kind::File)]);
+        assert_eq!(kind("d"), None);
+        assert_eq!(Machine.list(&folder.0), ["a", "b", "c"]);
+        assert!(Machine.list(&folder.0.join("b")).is_empty());
+        assert_eq!(Machine.canonical(&folder.0.join("a/../b")), Some(folder.0.join("b")));
+        assert_eq!(Machine.canonical(&folder.0.join("d")), None);
+    }
+
+    #[test]
+    fn a_file_too_large_is_refused_unread() {
+        let folder = Folder::new("large").with_file("large", "");
+        let path = folder.0.join("large");
+        // Sparse: it takes no room on the disk.
+        fs::File::create(&path).unwrap().set_len(LARGEST_FILE + 1).unwrap();
+        assert_eq!(Machine.read(&path), Err(ReadError::TooLarge(LARGEST_FILE + 1)));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_and_pipes_are_refused_without_waiting() {
+        for device in ["/dev/zero", "/dev/random", "/dev/null"] {
+            assert_eq!(Machine.read(Path::new(device)), Err(ReadError::NotAFile), "{device}");
+            assert_eq!(Machine.kind(Path::new(device)), None, "{device}");
+        }
+        let folder = Folder::new("pipe");
+        let pipe = folder.0.join("pipe");
+        match std::process::Command::new("mkfifo").arg(&pipe).status() {
+            Ok(status) if status.success() => {
+                assert_eq!(Machine.read(&pipe), Err(ReadError::NotAFile));
+            }
+            _ => println!("SKIPPED: there is no mkfifo to make a pipe with"),
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_circles_are_nothing() {
+        let folder = Folder::new("links").with_file("a", "hello");
+        std::os::unix::fs::symlink("a", folder.0.join("b")).unwrap();
+        std::os::unix::fs::symlink("c", folder.0.join("c")).unwrap();
+        assert_eq!(Machine.canonical(&folder.0.join("b")), Some(folder.0.join("a")));
+        assert_eq!(Machine.read(&folder.0.join("b")), Ok(b"hello".to_vec()));
+        assert_eq!(Machine.kind(&folder.0.join("c")), None);
+        assert!(Machine.read(&folder.0.join("c")).is_err());
+    }
+
+    #[test]
+    fn a_resolver_finds_real_files() {
+        let folder = Folder::new("resolver")
+            .with_file("bot/package.xml", "<package><name>bot</name></package>")
+            .with_file("bot/urdf/bot.urdf", "")
+            .with_file("bot/meshes/a.stl", "");
+        let resolver = periplus_resources::Resolver::new(&Machine, &[]);
+        let from = folder.0.join("bot/urdf/bot.urdf");
+        let mesh = folder.0.join("bot/meshes/a.stl");
+        assert_eq!(resolver.resolve("package://bot/meshes/a.stl", &from), Ok(mesh));
+        assert!(resolver.resolve("/etc/hostname", &from).is_err());
+    }
+}
