@@ -1,1 +1,18 @@
-//! URDF with Gazebo's extensions, read into a scene and written from one
+//! URDF with Gazebo's extensions.
+//!
+//! [`read`] turns a document into a [`Robot`]: plain data close to the file, checked as
+//! `check_urdf` checks. [`write`] goes back.
+
+mod check;
+mod read;
+mod robot;
+mod tree;
+mod write;
+
+pub use read::read;
+pub use robot::{
+    Calibration, Collision, ColourAsWritten, Dynamics, Extra, GazeboBlock, Geometry, Inertial,
+    Joint, JointType, Limit, Link, Material, Mimic, Placement, Robot, Rotation, SafetyController,
+    Texture, Visual,
+};
+pub use write::write;

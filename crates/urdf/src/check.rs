@@ -1,0 +1,20 @@
+//! What makes a description a robot: unique names, one tree, sane masses, references that exist.
+
+mod inertia;
+mod references;
+mod structure;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_xml::Element;
+
+use crate::robot::Robot;
+
+/// Checks a robot; `root` is the element it was read from.
+pub(crate) fn check(robot: &Robot, root: &Element, diagnostics: &mut Diagnostics) {
+    structure::unique_names(robot, diagnostics);
+    structure::one_tree(robot, root, diagnostics);
+    inertia::check(robot, diagnostics);
+    references::mimics(robot, diagnostics);
+    references::materials(robot, diagnostics);
+    references::gazebo(robot, diagnostics);
+}
