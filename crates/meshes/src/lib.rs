@@ -26,7 +26,7 @@
 //!   TurtleBot3's world meshes say `Y_UP` and have their height along z. The
 //!   declared axis is kept in [`Mesh::declared_up`], with a note when it is not z.
 //! - glTF: coordinates as in the file, metres, with all node transforms, as
-//!   gz-common loads them. The format says +y is up, so an asset that was not
+//!   current gz-common loads them. The format says +y is up, so an asset that was not
 //!   exported with z up lies on its side in Gazebo, and here.
 //! - STL and OBJ have neither unit nor axis: taken as metres, as they are.
 
