@@ -1,1 +1,3 @@
+//! Speed, side by side with the peers.
+
 fn main() {}

@@ -1,1 +1,118 @@
-fn main() {}
+//! The one entry for developers: `cargo xtask`.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a tool that runs other programs, reads the source tree and says how it went"
+)]
+
+mod fuzz;
+mod layers;
+mod step;
+#[cfg(test)]
+mod tidy;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::step::{Failed, cargo, run, timed};
+
+/// Everything a developer of Periplus runs.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// All checks, in the order in which they fail fastest; ends with the tests
+    Ci,
+    /// Whether the sources are formatted
+    Fmt,
+    /// Clippy, with every warning an error
+    Clippy,
+    /// Which crate may use which, and whether each keeps to it
+    Layers,
+    /// Licences, sources and bans of what we borrow
+    Deny,
+    /// The documentation, with every warning an error
+    Docs,
+    /// All tests
+    Test {
+        /// Passed on to `cargo test`
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        rest: Vec<String>,
+    },
+    /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
+    Fuzz {
+        /// For how long each target runs
+        #[arg(long, default_value_t = 60)]
+        seconds: u32,
+        /// Which targets; all when none is named
+        targets: Vec<String>,
+    },
+}
+
+fn main() -> ExitCode {
+    match perform(&Arguments::parse().task) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failed(why)) => {
+            eprintln!("\nxtask: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn perform(task: &Task) -> Result<(), Failed> {
+    match task {
+        Task::Ci => ci(),
+        Task::Fmt => fmt(),
+        Task::Clippy => clippy(),
+        Task::Layers => layers::run(),
+        Task::Deny => deny(),
+        Task::Docs => docs(),
+        Task::Test { rest } => test(rest),
+        Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
+    }
+}
+
+fn ci() -> Result<(), Failed> {
+    timed("fmt", fmt)?;
+    timed("layers", layers::run)?;
+    timed("clippy", clippy)?;
+    timed("deny", deny)?;
+    timed("docs", docs)?;
+    timed("test", || test(&[]))
+}
+
+fn fmt() -> Result<(), Failed> {
+    run(cargo().args(["fmt", "--all", "--check"]), "put it right with `cargo fmt --all`")
+}
+
+fn clippy() -> Result<(), Failed> {
+    let arguments = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
+    run(cargo().args(arguments), "see the findings above")
+}
+
+fn deny() -> Result<(), Failed> {
+    // Not `advisories`: their database is fetched, and a check that depends on the day does not
+    // belong among those that judge a change.
+    let arguments = ["deny", "check", "bans", "licenses", "sources"];
+    run(
+        cargo().args(arguments),
+        "see above; without cargo-deny, `cargo install --locked cargo-deny`",
+    )
+}
+
+fn docs() -> Result<(), Failed> {
+    let mut doc = cargo();
+    doc.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
+    run(&mut doc, "see the findings above")
+}
+
+fn test(rest: &[String]) -> Result<(), Failed> {
+    run(cargo().args(["test", "--workspace"]).args(rest), "see the failures above")
+}

@@ -1,0 +1,56 @@
+//! Running other programs, and telling how long it took.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+/// Why a task failed, in words.
+#[derive(Debug)]
+pub(crate) struct Failed(pub(crate) String);
+
+/// The root of the source tree.
+pub(crate) fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_path_buf()
+}
+
+/// The cargo that runs this, at the root of the tree.
+pub(crate) fn cargo() -> Command {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root());
+    command
+}
+
+/// Runs a program to its end.
+///
+/// # Errors
+/// When it cannot be started or fails, with what to do.
+pub(crate) fn run(command: &mut Command, help: &str) -> Result<(), Failed> {
+    let shown = shown(command);
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(Failed(format!("`{shown}` failed: {help}"))),
+        Err(error) => Err(Failed(format!("`{shown}` cannot be started ({error}): {help}"))),
+    }
+}
+
+/// The command as one would type it.
+fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+    let words = std::iter::once(program).chain(command.get_args());
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}
+
+/// Runs a step of a longer task, with a line before and after.
+///
+/// # Errors
+/// Those of the step.
+pub(crate) fn timed(name: &str, step: impl FnOnce() -> Result<(), Failed>) -> Result<(), Failed> {
+    println!("== {name}");
+    let start = Instant::now();
+    let outcome = step();
+    let verdict = if outcome.is_ok() { "ok" } else { "FAILED" };
+    println!("== {name}: {verdict}, {:.1} s", start.elapsed().as_secs_f64());
+    outcome
+}
