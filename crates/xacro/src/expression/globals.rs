@@ -1,0 +1,228 @@
+//! The names that are always there.
+
+use super::arithmetic_functions::ARITHMETIC;
+use super::builtins::{COLLECTIONS, XACRO};
+use super::callable::{Builtin, Callable};
+use super::conversion::CONVERSIONS;
+use super::error::{ExpressionError, Outcome, fail};
+use super::maths;
+use super::suggest::closest;
+use super::value::Value;
+
+/// Which names are always there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dialect {
+    /// Those of `${...}`.
+    Xacro,
+    /// Those of `$(eval ...)`: Python's own built-in functions, `true` and `false`, and `math` without its name.
+    SubstitutionArgs,
+}
+
+/// A namespace of built-in functions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Module {
+    /// `math`.
+    Math,
+    /// `python`.
+    Python,
+    /// `xacro`.
+    Xacro,
+}
+
+impl Module {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Math => "math",
+            Self::Python => "python",
+            Self::Xacro => "xacro",
+        }
+    }
+}
+
+/// What `${...}` finds without a namespace, `math` aside.
+const BARE: &[&str] =
+    &["list", "dict", "map", "len", "str", "float", "int", "bool", "min", "max", "round"];
+/// The same with a warning, and the name to use instead.
+const DEPRECATED: &[(&str, &str)] = &[
+    ("sorted", "python.sorted"),
+    ("range", "python.range"),
+    ("load_yaml", "xacro.load_yaml"),
+    ("abs_filename", "xacro.abs_filename"),
+    ("dotify", "xacro.dotify"),
+];
+/// What `python.` has; the rest of our functions are for `$(eval ...)` only.
+const PYTHON: &[&str] = &[
+    "list",
+    "dict",
+    "map",
+    "len",
+    "str",
+    "float",
+    "int",
+    "bool",
+    "min",
+    "max",
+    "round",
+    "sorted",
+    "range",
+    "abs",
+    "all",
+    "any",
+    "divmod",
+    "enumerate",
+    "filter",
+    "frozenset",
+    "isinstance",
+    "ord",
+    "repr",
+    "reversed",
+    "set",
+    "sum",
+    "tuple",
+    "type",
+    "zip",
+];
+/// What `python.` has in xacro but not here.
+const UNSUPPORTED: &[&str] = &["complex", "hash", "issubclass", "slice", "vars"];
+/// Functions of `xacro.` that the caller provides.
+const HOST: &[(&str, &str)] = &[
+    ("load_yaml", "xacro.load_yaml"),
+    ("abs_filename", "xacro.abs_filename"),
+    ("arg", "xacro.arg"),
+    ("message", "xacro.message"),
+    ("warning", "xacro.warning"),
+    ("error", "xacro.error"),
+    ("print_location", "xacro.print_location"),
+];
+
+pub(super) struct Global {
+    pub(super) value: Outcome<Value>,
+    /// The name to use instead, where xacro warns.
+    pub(super) deprecated_for: Option<&'static str>,
+}
+
+/// The Python function or type of this name.
+pub(super) fn python_builtin(name: &str) -> Option<&'static Builtin> {
+    [COLLECTIONS, CONVERSIONS, ARITHMETIC]
+        .into_iter()
+        .flatten()
+        .find(|builtin| builtin.name == name)
+}
+
+fn python_value(name: &str) -> Option<Value> {
+    python_builtin(name).map(|builtin| Value::Function(Callable::Builtin(builtin)))
+}
+
+fn xacro_value(name: &str) -> Option<Value> {
+    let host =
+        HOST.iter().find(|(short, _)| *short == name).map(|(_, full)| Value::host_function(*full));
+    host.or_else(|| {
+        XACRO
+            .iter()
+            .find(|builtin| builtin.name == name)
+            .map(|builtin| Value::Function(Callable::Builtin(builtin)))
+    })
+}
+
+/// The value of a bare name.
+pub(super) fn lookup(dialect: Dialect, name: &str) -> Option<Global> {
+    let plain = |value| Global { value: Ok(value), deprecated_for: None };
+    match dialect {
+        Dialect::Xacro => {
+            if let Some((_, replacement)) = DEPRECATED.iter().find(|(short, _)| *short == name) {
+                let value = if replacement.starts_with("python") {
+                    python_value(name)
+                } else {
+                    xacro_value(name)
+                };
+                return value
+                    .map(|value| Global { value: Ok(value), deprecated_for: Some(replacement) });
+            }
+            let module = [Module::Math, Module::Python, Module::Xacro]
+                .into_iter()
+                .find(|module| module.name() == name)
+                .map(Value::Module);
+            let bare = || if BARE.contains(&name) { python_value(name) } else { None };
+            module.or_else(bare).or_else(|| maths::member(name)).map(plain)
+        }
+        Dialect::SubstitutionArgs => match name {
+            "true" => Some(plain(Value::Bool(true))),
+            "false" => Some(plain(Value::Bool(false))),
+            _ => maths::member(name).or_else(|| python_value(name)).map(plain),
+        },
+    }
+}
+
+/// `module.name`.
+pub(super) fn member(module: Module, name: &str) -> Outcome<Value> {
+    let found = match module {
+        Module::Math => maths::member(name),
+        Module::Python if UNSUPPORTED.contains(&name) => {
+            return fail(format!("`python.{name}` is not supported"));
+        }
+        Module::Python if PYTHON.contains(&name) => python_value(name),
+        Module::Python => None,
+        Module::Xacro => xacro_value(name),
+    };
+    found.ok_or_else(|| {
+        let known = member_names(module);
+        let guess = closest(name, known.into_iter())
+            .map(|found| format!("; did you mean `{}.{found}`?", module.name()))
+            .unwrap_or_default();
+        ExpressionError::new(format!("`{}` has no `{name}`{guess}", module.name()))
+    })
+}
+
+fn member_names(module: Module) -> Vec<&'static str> {
+    match module {
+        Module::Math => maths::names(),
+        Module::Python => PYTHON.to_vec(),
+        Module::Xacro => HOST
+            .iter()
+            .map(|(short, _)| *short)
+            .chain(XACRO.iter().map(|builtin| builtin.name))
+            .collect(),
+    }
+}
+
+/// All bare names, for "did you mean".
+pub(super) fn names(dialect: Dialect) -> Vec<&'static str> {
+    let mut names = maths::names();
+    match dialect {
+        Dialect::Xacro => {
+            names.extend(BARE.iter().chain(&["math", "python", "xacro", "True", "False", "None"]));
+        }
+        Dialect::SubstitutionArgs => {
+            names.extend(
+                [COLLECTIONS, CONVERSIONS, ARITHMETIC]
+                    .into_iter()
+                    .flatten()
+                    .map(|builtin| builtin.name),
+            );
+            names.extend(["true", "false", "None"]);
+        }
+    }
+    names
+}
+
+/// What to write instead of a bare name that other languages or Python itself know.
+pub(super) fn hint(dialect: Dialect, name: &str) -> Option<String> {
+    match (dialect, name) {
+        (Dialect::Xacro, "true") => Some("write `True`".to_owned()),
+        (Dialect::Xacro, "false") => Some("write `False`".to_owned()),
+        (_, "none" | "null") => Some("write `None`".to_owned()),
+        (Dialect::Xacro, _) if PYTHON.contains(&name) => {
+            Some(format!("xacro has it as `python.{name}`"))
+        }
+        (Dialect::Xacro, _)
+            if XACRO.iter().any(|builtin| builtin.name == name)
+                || HOST.iter().any(|(short, _)| *short == name) =>
+        {
+            Some(format!("xacro has it as `xacro.{name}`"))
+        }
+        (Dialect::SubstitutionArgs, "math") => {
+            Some("here the functions of `math` stand without it: `sin(...)`".to_owned())
+        }
+        _ => None,
+    }
+}
