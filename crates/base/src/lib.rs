@@ -5,7 +5,9 @@
 
 mod number;
 mod pose;
+mod stream;
 
 pub use glam::{DQuat, DVec3};
 pub use number::{format_number, parse_number, parse_numbers};
 pub use pose::{Pose, Rpy, quaternion_from_rpy, rpy_from_quaternion};
+pub use stream::Stream;

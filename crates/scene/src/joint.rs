@@ -3,11 +3,13 @@
 use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::Sensor;
 
 /// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum JointKind {
     /// Not at all.
     Fixed,
@@ -34,7 +36,7 @@ pub enum JointKind {
 }
 
 /// What holds two links together.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Joint {
     /// Its name, unique in its model.
     pub name: String,
@@ -55,14 +57,16 @@ pub struct Joint {
     /// Force-torque sensors; poses are `joint_from_sensor`.
     pub sensors: Vec<Sensor>,
     /// Engine settings and the rest.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// An axis of motion. Metres and newtons for a prismatic joint, radians and newton metres
 /// otherwise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
     /// Unit direction in the joint's frame.
     pub direction_in_joint: DVec3,
@@ -85,11 +89,12 @@ pub struct Axis {
     /// The joint it follows.
     pub mimic: Option<Mimic>,
     /// What nobody here interprets: limit stiffness and dissipation.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// `position = multiplier * (other - reference) + offset`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mimic {
     /// The joint that leads.
     pub joint: String,

@@ -9,6 +9,7 @@
 
 mod actor;
 mod joint;
+mod json;
 mod light;
 mod link;
 mod material;
@@ -24,7 +25,7 @@ pub use actor::Actor;
 pub use joint::{Axis, Joint, JointKind, Mimic};
 pub use light::{Attenuation, Light, LightKind, Spot};
 pub use link::{Collision, Inertial, Link, Visual};
-pub use material::{Colour, Material, Pbr, Script};
+pub use material::{Colour, Material, Pbr, Script, builtin_material, builtin_material_names};
 pub use model::{Frame, FrameRole, Model};
 pub use periplus_base::{DVec3, Pose};
 pub use periplus_diagnostics::Origin;

@@ -3,11 +3,13 @@
 use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::Colour;
 
 /// How a light spreads.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LightKind {
     /// In all directions.
     Point,
@@ -18,7 +20,7 @@ pub enum LightKind {
 }
 
 /// The cone of a spot light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spot {
     /// Full brightness within this angle [rad].
     pub inner_angle_rad: f64,
@@ -29,7 +31,7 @@ pub struct Spot {
 }
 
 /// A light.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Light {
     /// Its name.
     pub name: String,
@@ -37,8 +39,12 @@ pub struct Light {
     pub parent_from_light: Pose,
     /// How it spreads.
     pub kind: LightKind,
-    /// Where it shines, in its own frame.
+    /// Where it shines, in its own frame, of any length.
     pub direction_in_light: DVec3,
+    /// Whether it is lit.
+    pub is_on: bool,
+    /// Whether a viewer should draw it.
+    pub visualize: bool,
     /// Whether it casts shadows.
     pub cast_shadows: bool,
     /// Factor on its colours.
@@ -50,13 +56,15 @@ pub struct Light {
     /// How it fades with distance.
     pub attenuation: Attenuation,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// Brightness at distance d [m]: `1 / (constant + linear d + quadratic d²)` within the range.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Attenuation {
     /// It ends here [m].
     pub range_m: f64,

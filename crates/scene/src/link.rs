@@ -3,11 +3,12 @@
 use periplus_base::Pose;
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::{Light, Material, Plugin, Sensor, Shape, Surface};
 
 /// A rigid body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Link {
     /// Its name, unique in its model.
     pub name: String,
@@ -34,13 +35,15 @@ pub struct Link {
     /// What shines; poses are `link_from_light`.
     pub lights: Vec<Light>,
     /// What nobody here interprets: batteries, projectors, emitters.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// Mass and inertia.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Inertial {
     /// Mass [kg].
     pub mass_kg: f64,
@@ -51,11 +54,12 @@ pub struct Inertial {
     /// Whether the file leaves mass and inertia to the shapes and their densities (SDF 1.11).
     pub auto: bool,
     /// Added mass of the water around it, densities and more.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// A shape that touches.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Collision {
     /// Its name, unique among the link's collisions.
     pub name: String,
@@ -70,13 +74,15 @@ pub struct Collision {
     /// Most contact points.
     pub max_contacts: u32,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// A shape that is seen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Visual {
     /// Its name, unique among the link's visuals.
     pub name: String,
@@ -97,8 +103,10 @@ pub struct Visual {
     /// Plugins: labels for segmentation and the like.
     pub plugins: Vec<Plugin>,
     /// What nobody here interprets: `<meta>`.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 

@@ -1,9 +1,14 @@
 //! Looks.
 
+mod builtin;
+
 use periplus_xml::Element;
+use serde::Serialize;
+
+pub use builtin::{builtin_material, builtin_material_names};
 
 /// Red, green, blue, alpha in 0..1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Colour(pub [f64; 4]);
 
 impl Colour {
@@ -14,7 +19,7 @@ impl Colour {
 }
 
 /// A look. What the file leaves out is `None`, for the defaults depend on what else is given.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Material {
     /// The name of a URDF material.
     pub name: Option<String>,
@@ -26,6 +31,8 @@ pub struct Material {
     pub specular: Option<Colour>,
     /// Colour in the dark.
     pub emissive: Option<Colour>,
+    /// How sharp highlights are.
+    pub shininess: Option<f64>,
     /// An OGRE material by name; the built-in ones of Classic are known.
     pub script: Option<Script>,
     /// Physically based maps and numbers.
@@ -35,11 +42,12 @@ pub struct Material {
     /// Whether both sides are drawn.
     pub double_sided: bool,
     /// Shaders and the rest.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// An OGRE material script.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Script {
     /// Files and folders to look in.
     pub uris: Vec<String>,
@@ -48,7 +56,7 @@ pub struct Script {
 }
 
 /// Physically based looks.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pbr {
     /// 0 mirror-like to 1 matt.
     pub roughness: Option<f64>,
@@ -57,5 +65,6 @@ pub struct Pbr {
     /// Texture of the colour.
     pub albedo_map: Option<String>,
     /// The whole element, for what is not listed here.
+    #[serde(serialize_with = "crate::json::optional_element")]
     pub element: Option<Element>,
 }

@@ -3,11 +3,12 @@
 use periplus_base::Pose;
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::{Joint, Light, Link, Plugin};
 
 /// Links held together by joints: a robot, a wall, a cup. Its frame is named `__model__`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
     /// Its name, unique among its siblings.
     pub name: String,
@@ -37,13 +38,16 @@ pub struct Model {
     /// The URI it was included from.
     pub included_from: Option<String>,
     /// What nobody here interprets: grippers, transmissions.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// Why a frame is there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FrameRole {
     /// The file declares it.
     #[default]
@@ -55,7 +59,7 @@ pub enum FrameRole {
 }
 
 /// A named place.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Frame {
     /// Its name, unique among the links, joints, frames and models of its parent.
     pub name: String,
@@ -67,6 +71,7 @@ pub struct Frame {
     /// Why it is there.
     pub role: FrameRole,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 

@@ -1,9 +1,10 @@
 //! How time advances.
 
 use periplus_xml::Element;
+use serde::Serialize;
 
 /// One `<physics>` profile.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Physics {
     /// Its name.
     pub name: String,
@@ -20,6 +21,7 @@ pub struct Physics {
     /// Most contact points between two bodies.
     pub max_contacts: u32,
     /// Settings of the engines.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 

@@ -2,17 +2,20 @@
 
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 /// A plugin as the file gives it. What its parameters mean is known to the crate `plugins`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plugin {
     /// Its name; in Harmonic the class, in Classic free.
     pub name: String,
     /// The library that Gazebo would load.
     pub filename: String,
     /// Its parameters.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub content: Vec<Element>,
     /// The whole element, for places in messages.
+    #[serde(skip)]
     pub origin: Origin,
 }
 

@@ -8,6 +8,7 @@ mod noise;
 use periplus_base::Pose;
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 pub use camera::{Camera, CameraKind, Distortion};
 pub use imu::Imu;
@@ -17,7 +18,7 @@ pub use noise::{Noise, NoiseKind};
 use crate::Plugin;
 
 /// A sensor on a link or joint.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensor {
     /// Its name, unique on its parent.
     pub name: String,
@@ -42,14 +43,21 @@ pub struct Sensor {
     pub frame_id: Option<String>,
     /// Plugins.
     pub plugins: Vec<Plugin>,
+    /// What nobody here interprets inside the element of its kind, such as `<navsat>`, for kinds
+    /// without a list of their own.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub kind_extra: Vec<Element>,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// What a sensor measures.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum SensorKind {
     /// Distances along rays: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
     Lidar(Box<Lidar>),
@@ -89,6 +97,8 @@ pub enum SensorKind {
     Contact {
         /// The collisions that it watches.
         collisions: Vec<String>,
+        /// The topic, where the file names one.
+        topic: Option<String>,
     },
     /// Forces in a joint.
     ForceTorque {
@@ -96,6 +106,10 @@ pub enum SensorKind {
         frame: String,
         /// `child_to_parent` or `parent_to_child`.
         measure_direction: String,
+        /// Noise along x, y, z [N].
+        force: Box<[Noise; 3]>,
+        /// Noise about x, y, z [N m].
+        torque: Box<[Noise; 3]>,
     },
     /// The nearest distance in a cone.
     Sonar {

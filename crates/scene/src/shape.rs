@@ -3,9 +3,11 @@
 use periplus_base::DVec3;
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 /// A shape [m].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// Nothing.
     Empty,
@@ -61,11 +63,12 @@ pub enum Shape {
     /// Boxes extruded from an image (Classic).
     Image(Image),
     /// A shape that nobody here interprets.
+    #[serde(serialize_with = "crate::json::element")]
     Unknown(Element),
 }
 
 /// Triangles from a file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mesh {
     /// The URI as written, with the folder of a relative one resolved.
     pub uri: String,
@@ -78,13 +81,15 @@ pub struct Mesh {
     /// Factors along x, y, z.
     pub scale: DVec3,
     /// What nobody here interprets: simplification, convex decomposition.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// A prism along z from 0 to its height.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Polyline {
     /// Corners [m].
     pub points_m: Vec<[f64; 2]>,
@@ -93,7 +98,7 @@ pub struct Polyline {
 }
 
 /// Ground whose height is the brightness of an image.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Heightmap {
     /// The image as written.
     pub uri: String,
@@ -106,11 +111,15 @@ pub struct Heightmap {
     /// Samples per pixel.
     pub sampling: u32,
     /// Textures and blends.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
+    /// Where it was read.
+    #[serde(skip)]
+    pub origin: Origin,
 }
 
 /// Boxes extruded from the dark (or bright) pixels of an image.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Image {
     /// The image as written.
     pub uri: String,
@@ -124,4 +133,10 @@ pub struct Image {
     pub height_m: f64,
     /// Pixels per box.
     pub granularity: i64,
+    /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<Element>,
+    /// Where it was read.
+    #[serde(skip)]
+    pub origin: Origin,
 }

@@ -2,20 +2,22 @@
 
 use periplus_base::DVec3;
 use periplus_xml::Element;
+use serde::Serialize;
 
 /// Friction, contact and bounce.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Surface {
     /// Friction.
     pub friction: Friction,
     /// Stiffness and bounce.
     pub contact: Contact,
     /// Torsional friction, soft contacts, other engines.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// Coulomb friction after ODE: two coefficients along two directions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Friction {
     /// Coefficient along the first direction.
     pub mu: f64,
@@ -30,7 +32,7 @@ pub struct Friction {
 }
 
 /// Stiffness and bounce.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
     /// Stiffness [N/m].
     pub kp: f64,

@@ -3,11 +3,12 @@
 use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::{Actor, Colour, Frame, Joint, Light, Model, Physics, Plugin};
 
 /// All that one file holds: worlds, or models, lights and actors that stand alone.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scene {
     /// Worlds, in order.
     pub worlds: Vec<World>,
@@ -21,7 +22,7 @@ pub struct Scene {
 
 /// A place with models and lights in it. Its frame is named `world`: x east, y north, z up
 /// (REP 103) unless [`SphericalCoordinates::heading_rad`] says otherwise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct World {
     /// Its name.
     pub name: String,
@@ -58,13 +59,15 @@ pub struct World {
     /// World plugins (systems).
     pub plugins: Vec<Plugin>,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
     /// Where it was read.
+    #[serde(skip)]
     pub origin: Origin,
 }
 
 /// Where on Earth a world is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphericalCoordinates {
     /// `EARTH_WGS84`, `MOON_SCS` or `CUSTOM_SURFACE`.
     pub surface_model: String,
@@ -79,18 +82,23 @@ pub struct SphericalCoordinates {
     /// Turn of the world frame about up, against east [rad].
     pub heading_rad: f64,
     /// Axes of a custom surface.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// The window's settings.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gui {
     /// Whether it fills the screen.
     pub fullscreen: bool,
     /// Where the view starts from, `world_from_camera` with x forward.
     pub world_from_camera: Option<Pose>,
+    /// The rest of the view's camera.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub camera_extra: Vec<Element>,
     /// Plugins of the window.
     pub plugins: Vec<Plugin>,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }

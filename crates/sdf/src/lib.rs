@@ -1,1 +1,26 @@
-//! SDF 1.0 to 1.12, read into a scene and written from one
+//! SDF, the format of Gazebo's robots and worlds: versions 1.0 to 1.12 are read into a
+//! [`periplus_scene::Scene`], and a scene is written as SDF.
+//!
+//! Reading goes in three steps, each in its own module: `upgrade` brings old spellings up to
+//! date, `read` turns elements into drafts whose poses are as written, `frames` resolves them.
+//! Nothing is dropped in silence: what no reader asked for is kept word for word (see `fields`).
+
+mod builtin;
+mod draft;
+mod fields;
+mod frames;
+mod inertia;
+mod pose;
+mod read;
+mod upgrade;
+mod value;
+mod version;
+
+pub use inertia::check as check_inertia;
+pub use pose::{Placed, Reference, read_pose};
+pub use read::{
+    Context, Includes, NoIncludes, Opened, PlacedSensor, read_collision, read_document,
+    read_geometry, read_inertial, read_light, read_material, read_plugin, read_sensor,
+    read_surface, read_visual,
+};
+pub use version::Version;

@@ -2,11 +2,13 @@
 
 use periplus_base::Pose;
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::Noise;
 
 /// What the pixels are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum CameraKind {
     /// Colours.
     Colour,
@@ -27,7 +29,7 @@ pub enum CameraKind {
 }
 
 /// A camera. It looks along x of its own frame, y to the left, z up.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
     /// Its name, where the file gives one.
     pub name: Option<String>,
@@ -66,11 +68,12 @@ pub struct Camera {
     /// More cameras of a multi-camera.
     pub others: Vec<Self>,
     /// Lens, saving and the rest.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// Brown's distortion (plumb bob).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
     /// Radial.
     pub k1: f64,

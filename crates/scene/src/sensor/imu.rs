@@ -1,11 +1,12 @@
 //! Turn rates and accelerations.
 
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::Noise;
 
 /// An inertial measurement unit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Imu {
     /// Noise about x, y, z [rad/s].
     pub angular_velocity: [Noise; 3],
@@ -17,5 +18,6 @@ pub struct Imu {
     /// `GRAV_DOWN`; none for the orientation at the start.
     pub localization: Option<String>,
     /// Custom reference frames.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }

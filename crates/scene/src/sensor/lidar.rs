@@ -1,11 +1,12 @@
 //! Distances along rays.
 
 use periplus_xml::Element;
+use serde::Serialize;
 
 use crate::Noise;
 
 /// A lidar: a fan of rays, or a grid of them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lidar {
     /// Rays about z.
     pub horizontal: ScanAxis,
@@ -22,11 +23,12 @@ pub struct Lidar {
     /// Which visuals it sees: those whose flags share a bit.
     pub visibility_mask: u32,
     /// What nobody here interprets.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
 /// Rays between two angles, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ScanAxis {
     /// Rays that are cast.
     pub samples: u32,

@@ -1,7 +1,10 @@
 //! What spoils a measurement.
 
+use serde::Serialize;
+
 /// The distribution.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum NoiseKind {
     /// No noise.
     #[default]
@@ -13,7 +16,7 @@ pub enum NoiseKind {
 }
 
 /// Noise of one quantity, in its unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Noise {
     /// The distribution.
     pub kind: NoiseKind,

@@ -1,0 +1,105 @@
+//! Whether a mass and an inertia can belong to a body.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_scene::Inertial;
+use periplus_xml::Element;
+
+/// Warns where no body can have such a mass and inertia. `element` is where they stand.
+pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &mut Diagnostics) {
+    if inertial.auto {
+        return;
+    }
+    if inertial.mass_kg <= 0.0 {
+        let place = element.child("mass").map_or(element.origin, Element::text_origin);
+        diagnostics.push(
+            Diagnostic::warning("bad-inertia", format!("link `{link}` has no mass"))
+                .at(place)
+                .help("give a link that moves a mass above 0"),
+        );
+        return;
+    }
+    let place = element.child("inertia").map_or(element.origin, |child| child.origin);
+    match judge(inertial.inertia_kg_m2) {
+        Verdict::Possible => {}
+        Verdict::NotPositive => diagnostics.push(
+            Diagnostic::warning(
+                "bad-inertia",
+                format!("the inertia of link `{link}` is not positive definite"),
+            )
+            .at(place)
+            .note("no body turns easier than freely: every principal moment must be above 0")
+            .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),
+        ),
+        Verdict::NotTriangle => diagnostics.push(
+            Diagnostic::warning(
+                "bad-inertia",
+                format!("the inertia of link `{link}` breaks the triangle inequality"),
+            )
+            .at(place)
+            .note("of a body's three principal moments no two add up to less than the third")
+            .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),
+        ),
+    }
+}
+
+#[derive(Debug, PartialEq)]
+enum Verdict {
+    Possible,
+    NotPositive,
+    NotTriangle,
+}
+
+/// Judges `xx, xy, xz, yy, yz, zz` without finding the principal moments: all are positive where
+/// the leading minors are (Sylvester), and they keep the triangle inequality where the covariance
+/// `tr(I)/2 E - I`, whose eigenvalues are half of what two moments exceed the third by, has no
+/// negative eigenvalue.
+fn judge([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Verdict {
+    let scale = xx.abs().max(yy.abs()).max(zz.abs()).max(xy.abs()).max(xz.abs()).max(yz.abs());
+    if scale == 0.0 {
+        return Verdict::NotPositive;
+    }
+    let [xx, xy, xz, yy, yz, zz] = [xx, xy, xz, yy, yz, zz].map(|value| value / scale);
+    let least = |minor: f64, slack: f64| minor > slack;
+    let minors = |xx: f64, yy: f64, zz: f64, sign: f64| {
+        let (xy, xz, yz) = (sign * xy, sign * xz, sign * yz);
+        let cofactors = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
+        let determinant =
+            xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+        (cofactors, determinant)
+    };
+    let (cofactors, determinant) = minors(xx, yy, zz, 1.0);
+    let positive = [xx, yy, zz].iter().all(|value| least(*value, 0.0))
+        && cofactors.iter().all(|value| least(*value, 0.0))
+        && least(determinant, 0.0);
+    if !positive {
+        return Verdict::NotPositive;
+    }
+    let half = (xx + yy + zz) / 2.0;
+    let (xx, yy, zz) = (half - xx, half - yy, half - zz);
+    let (cofactors, determinant) = minors(xx, yy, zz, -1.0);
+    // People round to a few digits, and a flat plate lies exactly on the border.
+    let slack = -1e-3;
+    let triangle = [xx, yy, zz].iter().all(|value| least(*value, slack))
+        && cofactors.iter().all(|value| least(*value, slack))
+        && least(determinant, slack);
+    if triangle { Verdict::Possible } else { Verdict::NotTriangle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_are_told_from_nonsense() {
+        let diagonal = |xx, yy, zz| judge([xx, 0.0, 0.0, yy, 0.0, zz]);
+        assert_eq!(diagonal(1.0, 1.0, 1.0), Verdict::Possible);
+        // A flat plate: the third moment is the sum of the others.
+        assert_eq!(diagonal(1.0, 1.0, 2.0), Verdict::Possible);
+        assert_eq!(diagonal(1.0, 1.0, 2.1), Verdict::NotTriangle);
+        assert_eq!(diagonal(1e-9, 1e-9, 3e-9), Verdict::NotTriangle);
+        assert_eq!(diagonal(0.0, 1.0, 1.0), Verdict::NotPositive);
+        assert_eq!(judge([1.0, 2.0, 0.0, 1.0, 0.0, 1.0]), Verdict::NotPositive);
+        // A thin rod along (1, 1, 0): moments 1 across, nearly 0 along.
+        assert_eq!(judge([0.505, -0.495, 0.0, 0.505, 0.0, 1.0]), Verdict::Possible);
+    }
+}

@@ -1,0 +1,32 @@
+//! Elements to drafts, drafts to a scene.
+
+mod actor;
+mod camera;
+mod imu;
+mod include;
+pub(crate) mod joint;
+mod lidar;
+mod light;
+mod link;
+mod material;
+mod model;
+mod noise;
+mod physics;
+mod plugin;
+mod population;
+mod root;
+mod sensor;
+pub(crate) mod shape;
+mod state;
+mod surface;
+mod world;
+
+pub use include::{Includes, NoIncludes, Opened};
+pub use light::read_light;
+pub use link::{read_collision, read_inertial, read_visual};
+pub use material::read_material;
+pub use plugin::read_plugin;
+pub use root::{Context, read_document};
+pub use sensor::{PlacedSensor, read_sensor};
+pub use shape::read_geometry;
+pub use surface::read_surface;

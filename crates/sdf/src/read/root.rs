@@ -1,0 +1,188 @@
+//! `<sdf>`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_scene::Scene;
+use periplus_xml::{Document, Element};
+
+use super::actor::read_actor;
+use super::include::{Includes, Loaded};
+use super::light::read_light;
+use super::model::read_model;
+use super::world::read_world;
+use crate::draft::LightDraft;
+use crate::frames::{resolve_actor, resolve_light, resolve_model, resolve_world};
+use crate::upgrade::upgrade;
+use crate::version::Version;
+
+/// What a reading needs from outside.
+pub struct Context<'a> {
+    /// Where texts of built-in models are added.
+    pub sources: &'a mut SourceMap,
+    /// Where findings go.
+    pub diagnostics: &'a mut Diagnostics,
+    /// Who opens what an `<include>` names.
+    pub includes: &'a mut dyn Includes,
+}
+
+/// A reading under way.
+pub(crate) struct Reader<'a> {
+    pub(crate) sources: &'a mut SourceMap,
+    pub(crate) diagnostics: &'a mut Diagnostics,
+    pub(crate) includes: &'a mut dyn Includes,
+    /// The version of the file at hand.
+    pub(crate) version: Version,
+    /// The includes that led here: what each opened, and where it stands.
+    pub(crate) chain: Vec<(String, Origin)>,
+    /// What was read from files that are included, for they are often included many times.
+    pub(crate) loaded: BTreeMap<String, Option<Loaded>>,
+    /// What was told to be missing already.
+    pub(crate) missing: BTreeSet<String>,
+    pub(crate) includes_left: usize,
+    pub(crate) parts_left: usize,
+    /// How many models are around the place at hand.
+    pub(crate) depth: usize,
+}
+
+/// Models and includes in each other, at most. The readers recurse.
+pub(crate) const DEEPEST_MODELS: usize = 40;
+
+/// Reads a whole SDF document of any version. Everything that could be understood is in the
+/// scene; what could not is told in the diagnostics.
+pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
+    let mut reader = Reader {
+        sources: context.sources,
+        diagnostics: context.diagnostics,
+        includes: context.includes,
+        version: Version::NEWEST,
+        chain: Vec::new(),
+        loaded: BTreeMap::new(),
+        missing: BTreeSet::new(),
+        includes_left: super::include::MOST_INCLUDES,
+        parts_left: super::include::MOST_PARTS,
+        depth: 0,
+    };
+    let Some((version, root)) = open_root(&document.root, reader.diagnostics) else {
+        return Scene::default();
+    };
+    reader.version = version;
+    let mut scene = Scene::default();
+    for child in root.elements() {
+        match &*child.name {
+            "world" => {
+                let world = read_world(child, &mut reader);
+                let names = &mut scene.worlds;
+                let world = resolve_world(world, reader.diagnostics);
+                names.push(world);
+            }
+            "model" => {
+                if let Some(draft) = read_model(child, &mut reader) {
+                    let placed = resolve_model(draft, reader.diagnostics);
+                    scene.models.push(placed.stand_alone(reader.diagnostics));
+                }
+            }
+            "light" => {
+                let placed = read_light(child, reader.diagnostics);
+                let draft = LightDraft { light: placed.value, relative_to: placed.relative_to };
+                scene.lights.push(resolve_light(draft, reader.diagnostics));
+            }
+            "actor" => {
+                let draft = read_actor(child, reader.diagnostics);
+                scene.actors.push(resolve_actor(draft, reader.diagnostics));
+            }
+            _ => unknown_in_root(child, reader.diagnostics),
+        }
+    }
+    if scene == Scene::default() && !reader.diagnostics.has_errors() {
+        reader.diagnostics.push(
+            Diagnostic::error("empty-file", "this file holds no world, model, light or actor")
+                .at(document.root.origin),
+        );
+    }
+    scene
+}
+
+fn unknown_in_root(child: &Element, diagnostics: &mut Diagnostics) {
+    if child.prefix().is_some() {
+        return;
+    }
+    diagnostics.push(
+        Diagnostic::warning(
+            "unknown-element",
+            format!("`<{}>` is not known at the top of a file; it is left out", child.name),
+        )
+        .at(child.name_origin())
+        .did_you_mean(
+            child.name_origin(),
+            &child.name,
+            ["world", "model", "light", "actor"],
+        ),
+    );
+}
+
+/// The version of a document and its root, in the spelling of the newest version.
+pub(crate) fn open_root<'a>(
+    root: &'a Element,
+    diagnostics: &mut Diagnostics,
+) -> Option<(Version, std::borrow::Cow<'a, Element>)> {
+    if root.name != "sdf" && root.name != "gazebo" {
+        let mut told = Diagnostic::error(
+            "not-sdf",
+            format!("an SDF file starts with `<sdf>`, this one with `<{}>`", root.name),
+        )
+        .at(root.origin);
+        if root.name == "robot" {
+            told = told.help("this is a robot description: read it as URDF, or as xacro");
+        } else if ["world", "model", "light", "actor"].contains(&&*root.name) {
+            told = told.help("wrap it in `<sdf version=\"1.9\">...</sdf>`");
+        }
+        diagnostics.push(told);
+        return None;
+    }
+    let version = read_version(root, diagnostics);
+    Some((version, upgrade(root, version)))
+}
+
+fn read_version(root: &Element, diagnostics: &mut Diagnostics) -> Version {
+    let Some(attribute) = root.attribute("version") else {
+        diagnostics.push(
+            Diagnostic::error("missing-attribute", format!("`<{}>` lacks its version", root.name))
+                .at(root.origin)
+                .note(format!("{} is assumed", Version::NEWEST))
+                .help("write `<sdf version=\"1.9\">`"),
+        );
+        return Version::NEWEST;
+    };
+    match Version::parse(&attribute.value) {
+        Some(version) if version.major == 1 => {
+            if version > Version::NEWEST {
+                diagnostics.push(
+                    Diagnostic::warning(
+                        "newer-version",
+                        format!(
+                            "SDF {version} is newer than {}, the newest that is known here",
+                            Version::NEWEST
+                        ),
+                    )
+                    .at(attribute.value_origin),
+                );
+            }
+            version
+        }
+        _ => {
+            diagnostics.push(
+                Diagnostic::error(
+                    "unknown-version",
+                    format!(
+                        "`{}` is not a version of SDF",
+                        crate::value::shortened(&attribute.value)
+                    ),
+                )
+                .at(attribute.value_origin)
+                .note(format!("known are 1.0 to {0}; {0} is assumed", Version::NEWEST)),
+            );
+            Version::NEWEST
+        }
+    }
+}
