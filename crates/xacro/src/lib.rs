@@ -1,1 +1,38 @@
-//! The xacro language: macros, properties and expressions over XML
+//! The xacro language: macros, properties and expressions over XML.
+//!
+//! [`expand`] turns a document into plain XML. Every node of the result keeps the place it came
+//! from, seen through the macro calls and includes that brought it there, so that later readers
+//! can point at the right line.
+//!
+//! Written from the behaviour of the reference (`ros/xacro` 2.1), not from its code. Where the
+//! reference stops at a limitation of its regular expressions we go on: braces inside `${...}` and
+//! parentheses inside `$(eval ...)` may nest.
+
+mod call;
+mod evaluate;
+mod expand;
+pub mod expression;
+mod extension;
+mod include;
+mod literal;
+mod parameters;
+mod property;
+mod scopes;
+mod text;
+mod yaml;
+
+pub use expand::{Expanded, Setting, expand};
+
+/// The namespace that marks a file as xacro.
+pub const NAMESPACE: &str = "http://www.ros.org/wiki/xacro";
+
+/// Whether a document uses xacro: it declares the namespace, or uses its prefix.
+#[must_use]
+pub fn is_xacro(document: &periplus_xml::Document) -> bool {
+    fn uses(element: &periplus_xml::Element) -> bool {
+        element.prefix() == Some("xacro")
+            || element.attributes.iter().any(|attribute| attribute.name.starts_with("xmlns:xacro"))
+            || element.elements().any(uses)
+    }
+    uses(&document.root)
+}

@@ -1,10 +1,12 @@
 //! A form in which two trees that mean the same are the same text.
 
 use crate::tree::{Element, Node};
-use crate::write::escape;
 
-/// One line per element, text or end: attributes sorted by name, comments and instructions left
-/// out, runs of text joined and trimmed, empty text dropped.
+/// What XML calls white space.
+const SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
+
+/// One text without line breaks of its own: attributes sorted by name, comments and instructions
+/// left out, runs of text joined and trimmed, empty text dropped, `<a></a>` for an empty element.
 #[must_use]
 pub fn canonical(element: &Element) -> String {
     let mut out = String::new();
@@ -21,10 +23,18 @@ fn write(element: &Element, out: &mut String) {
         out.push(' ');
         out.push_str(&attribute.name);
         out.push_str("=\"");
-        escape(&attribute.value, true, out);
+        for character in attribute.value.chars() {
+            match character {
+                '"' => out.push_str("&quot;"),
+                '\t' => out.push_str("&#9;"),
+                '\n' => out.push_str("&#10;"),
+                '\r' => out.push_str("&#13;"),
+                other => escape(other, out),
+            }
+        }
         out.push('"');
     }
-    out.push_str(">\n");
+    out.push('>');
     let mut run = String::new();
     for node in &element.children {
         match node {
@@ -39,14 +49,19 @@ fn write(element: &Element, out: &mut String) {
     flush(&mut run, out);
     out.push_str("</");
     out.push_str(&element.name);
-    out.push_str(">\n");
+    out.push('>');
 }
 
 fn flush(run: &mut String, out: &mut String) {
-    let text = run.trim();
-    if !text.is_empty() {
-        escape(text, false, out);
-        out.push('\n');
-    }
+    run.trim_matches(SPACE).chars().for_each(|character| escape(character, out));
     run.clear();
+}
+
+fn escape(character: char, out: &mut String) {
+    match character {
+        '&' => out.push_str("&amp;"),
+        '<' => out.push_str("&lt;"),
+        '>' => out.push_str("&gt;"),
+        other => out.push(other),
+    }
 }

@@ -94,7 +94,7 @@ fn indent(level: usize, out: &mut String) {
     }
 }
 
-pub(crate) fn escape(text: &str, attribute: bool, out: &mut String) {
+fn escape(text: &str, attribute: bool, out: &mut String) {
     for character in text.chars() {
         match character {
             '<' => out.push_str("&lt;"),

@@ -1,0 +1,84 @@
+//! What a property's text is when it holds no expression, and what counts as true.
+
+use crate::expression::Value;
+
+/// The value of a text: a number, a truth value, or the text itself. Single quotes keep a text a
+/// text, and are taken off; so does an underscore, which Python would allow in a number.
+pub(crate) fn literal(text: &str) -> Value {
+    if text.len() >= 2 && text.starts_with('\'') && text.ends_with('\'') {
+        return Value::text(&text[1..text.len() - 1]);
+    }
+    if text.contains('_') {
+        return Value::text(text);
+    }
+    let trimmed = text.trim();
+    if let Ok(int) = trimmed.parse::<i128>() {
+        return Value::Int(int);
+    }
+    // Rust reads all that Python's `float` reads, and nothing more.
+    if let Ok(float) = trimmed.parse::<f64>() {
+        return Value::Float(float);
+    }
+    match text {
+        "true" | "True" => Value::Bool(true),
+        "false" | "False" => Value::Bool(false),
+        _ => Value::text(text),
+    }
+}
+
+/// Whether a condition holds: `true`, `True`, `false`, `False`, an integer, or for values other
+/// than text Python's idea of truth. None when it is none of these.
+pub(crate) fn condition(value: &Value) -> Option<bool> {
+    match value {
+        Value::Str(text) => match &**text {
+            "true" | "True" => Some(true),
+            "false" | "False" => Some(false),
+            other => other.trim().parse::<i128>().ok().map(|int| int != 0),
+        },
+        other => Some(other.is_true()),
+    }
+}
+
+/// Whether a property may have this name: a Python identifier that is no keyword.
+pub(crate) fn is_name(name: &str) -> bool {
+    const KEYWORDS: &[&str] = &[
+        "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class",
+        "continue", "def", "del", "elif", "else", "except", "finally", "for", "from", "global",
+        "if", "import", "in", "is", "lambda", "nonlocal", "not", "or", "pass", "raise", "return",
+        "try", "while", "with", "yield",
+    ];
+    let mut characters = name.chars();
+    characters.next().is_some_and(|first| first.is_alphabetic() || first == '_')
+        && characters.all(|other| other.is_alphanumeric() || other == '_')
+        && !KEYWORDS.contains(&name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn literals_become_numbers_and_truths() {
+        assert!(matches!(literal("12"), Value::Int(12)));
+        assert!(matches!(literal(" 0.5 "), Value::Float(value) if value == 0.5));
+        assert!(matches!(literal("True"), Value::Bool(true)));
+        assert!(matches!(literal("'12'"), Value::Str(text) if &*text == "12"));
+        assert!(matches!(literal("1_000"), Value::Str(_)));
+        assert!(matches!(literal(""), Value::Str(_)));
+    }
+
+    #[test]
+    fn conditions() {
+        let text = |text: &str| condition(&Value::text(text));
+        assert_eq!(text("true"), Some(true));
+        assert_eq!(text("0"), Some(false));
+        assert_eq!(text("yes"), None);
+        assert_eq!(condition(&Value::Float(0.0)), Some(false));
+    }
+
+    #[test]
+    fn names() {
+        assert!(is_name("wheel_radius2") && is_name("größe"));
+        assert!(!is_name("2x") && !is_name("lambda") && !is_name("a.b") && !is_name(""));
+    }
+}

@@ -1,0 +1,186 @@
+//! Who is called what, where.
+//!
+//! Scopes form a tree: the file, the namespaces of includes, and one scope for each macro call
+//! whose parent is the *caller's* scope. Names are looked up outwards.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use periplus_diagnostics::{ContextId, Origin};
+use periplus_xml::{Element, Node};
+use smol_str::SmolStr;
+
+use crate::expression::Value;
+use crate::parameters::Parameter;
+
+/// Names a scope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ScopeId(usize);
+
+/// The scope of the file itself.
+pub(crate) const TOP: ScopeId = ScopeId(0);
+
+/// What a name stands for. Blocks go by names that start with `*` or `**`.
+#[derive(Clone, Debug)]
+pub(crate) enum Symbol {
+    /// A value.
+    Value(Value),
+    /// A text that becomes a value when someone asks for it.
+    Lazy(Rc<LazyText>),
+    /// Elements for `insert_block`.
+    Block(Block),
+    /// An include's namespace.
+    Namespace(ScopeId),
+}
+
+/// The text of a property that nobody asked for yet.
+#[derive(Debug)]
+pub(crate) struct LazyText {
+    pub(crate) text: SmolStr,
+    pub(crate) origin: Origin,
+}
+
+/// Elements to insert, and the context their places are seen in when they were not expanded yet.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    pub(crate) nodes: Rc<Vec<Node>>,
+    pub(crate) context: Option<ContextId>,
+}
+
+/// A macro.
+#[derive(Debug)]
+pub(crate) struct Macro {
+    pub(crate) name: SmolStr,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) definition: Element,
+}
+
+#[derive(Debug, Default)]
+struct Scope {
+    parent: Option<ScopeId>,
+    is_namespace: bool,
+    symbols: BTreeMap<SmolStr, Symbol>,
+    macros: BTreeMap<SmolStr, Rc<Macro>>,
+}
+
+/// All scopes that are alive.
+#[derive(Debug)]
+pub(crate) struct Scopes {
+    scopes: Vec<Scope>,
+}
+
+impl Scopes {
+    pub(crate) fn new() -> Self {
+        Self { scopes: vec![Scope::default()] }
+    }
+
+    /// Opens the scope of a macro call.
+    pub(crate) fn open(&mut self, parent: ScopeId) -> ScopeId {
+        self.scopes.push(Scope { parent: Some(parent), ..Scope::default() });
+        ScopeId(self.scopes.len() - 1)
+    }
+
+    /// Closes the scope of a macro call, and the namespaces of includes within it. Nothing
+    /// outside can hold any of them.
+    pub(crate) fn close(&mut self, scope: ScopeId) {
+        self.scopes.truncate(scope.0);
+    }
+
+    /// Opens the namespace of an include and names it in `scope`.
+    pub(crate) fn open_namespace(&mut self, scope: ScopeId, name: &str) -> ScopeId {
+        self.scopes.push(Scope { parent: Some(scope), is_namespace: true, ..Scope::default() });
+        let namespace = ScopeId(self.scopes.len() - 1);
+        self.set(scope, name.into(), Symbol::Namespace(namespace));
+        namespace
+    }
+
+    pub(crate) fn set(&mut self, scope: ScopeId, name: SmolStr, symbol: Symbol) {
+        self.scopes[scope.0].symbols.insert(name, symbol);
+    }
+
+    pub(crate) fn define(&mut self, scope: ScopeId, definition: Macro) {
+        self.scopes[scope.0].macros.insert(definition.name.clone(), Rc::new(definition));
+    }
+
+    /// Removes a name from a scope and all around it.
+    pub(crate) fn remove(&mut self, scope: ScopeId, name: &str) {
+        let mut next = Some(scope);
+        while let Some(at) = next {
+            self.scopes[at.0].symbols.remove(name);
+            next = self.scopes[at.0].parent;
+        }
+    }
+
+    /// The nearest meaning of a name, and the scope that holds it.
+    pub(crate) fn find(&self, scope: ScopeId, name: &str) -> Option<(ScopeId, &Symbol)> {
+        self.outwards(scope)
+            .find_map(|at| self.scopes[at.0].symbols.get(name).map(|symbol| (at, symbol)))
+    }
+
+    /// A member of a namespace itself.
+    pub(crate) fn member(&self, namespace: ScopeId, name: &str) -> Option<&Symbol> {
+        self.scopes[namespace.0].symbols.get(name)
+    }
+
+    /// The names in a namespace itself, blocks left out.
+    pub(crate) fn member_names(&self, namespace: ScopeId) -> Vec<String> {
+        let names = self.scopes[namespace.0].symbols.keys();
+        names.filter(|name| !name.starts_with('*')).map(ToString::to_string).collect()
+    }
+
+    /// The scope a property of `scope="parent"` goes to: the one outside, for a macro call past
+    /// all namespaces.
+    pub(crate) fn parent(&self, scope: ScopeId) -> Option<ScopeId> {
+        let mut parent = self.scopes[scope.0].parent?;
+        if !self.scopes[scope.0].is_namespace {
+            while self.scopes[parent.0].is_namespace {
+                parent = self.scopes[parent.0].parent?;
+            }
+        }
+        Some(parent)
+    }
+
+    /// A macro by its name, which may lead through namespaces (`ns.name`), and the scope its call
+    /// is seen from.
+    pub(crate) fn find_macro(&self, scope: ScopeId, name: &str) -> Option<(ScopeId, Rc<Macro>)> {
+        if let Some(found) = self.nearest_macro(scope, name) {
+            return Some((scope, found));
+        }
+        let mut path: Vec<&str> = name.split('.').collect();
+        let name = path.pop()?;
+        let mut at = scope;
+        for step in path {
+            match self.find(at, step)?.1 {
+                Symbol::Namespace(namespace) => at = *namespace,
+                _ => return None,
+            }
+        }
+        self.nearest_macro(at, name).map(|found| (at, found))
+    }
+
+    fn nearest_macro(&self, scope: ScopeId, name: &str) -> Option<Rc<Macro>> {
+        self.outwards(scope).find_map(|at| self.scopes[at.0].macros.get(name).cloned())
+    }
+
+    /// All names that can be seen, blocks left out.
+    pub(crate) fn names(&self, scope: ScopeId) -> Vec<String> {
+        let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].symbols.keys());
+        names.filter(|name| !name.starts_with('*')).map(ToString::to_string).collect()
+    }
+
+    /// All blocks that can be seen, without their stars.
+    pub(crate) fn block_names(&self, scope: ScopeId) -> Vec<String> {
+        let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].symbols.keys());
+        names.filter(|name| name.starts_with('*')).map(|name| name.replace('*', "")).collect()
+    }
+
+    /// All macros that can be seen.
+    pub(crate) fn macro_names(&self, scope: ScopeId) -> Vec<String> {
+        let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].macros.keys());
+        names.map(ToString::to_string).collect()
+    }
+
+    fn outwards(&self, scope: ScopeId) -> impl Iterator<Item = ScopeId> + '_ {
+        std::iter::successors(Some(scope), |at| self.scopes[at.0].parent)
+    }
+}

@@ -1,0 +1,194 @@
+//! Text with `${expressions}` and `$(extensions)` in it, cut into pieces.
+
+use std::ops::Range;
+
+/// A piece of a text, by its byte range.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Piece {
+    /// Characters that stand for themselves.
+    Plain(Range<usize>),
+    /// What stands in `${` and `}`.
+    Expression(Range<usize>),
+    /// What stands in `$(` and `)`.
+    Extension(Range<usize>),
+    /// `${` or `$(` that nothing closes.
+    Unclosed(Range<usize>),
+}
+
+/// Cuts a text. `$${` and `$$(` are a dollar sign and a bracket that stand for themselves.
+pub(crate) fn pieces(text: &str) -> Vec<Piece> {
+    let bytes = text.as_bytes();
+    let mut pieces = Vec::new();
+    let mut plain_from = 0;
+    let mut at = 0;
+    while let Some(dollar) = text[at..].find('$').map(|offset| at + offset) {
+        let run = bytes[dollar..].iter().take_while(|&&byte| byte == b'$').count();
+        let bracket = dollar + run;
+        let Some(open @ (b'{' | b'(')) = bytes.get(bracket).copied() else {
+            at = bracket;
+            continue;
+        };
+        if run > 1 {
+            // One dollar sign of the run is the escape; the rest, and the bracket, stay.
+            pieces.push(Piece::Plain(plain_from..dollar));
+            pieces.push(Piece::Plain(dollar + 1..bracket + 1));
+            (plain_from, at) = (bracket + 1, bracket + 1);
+            continue;
+        }
+        if plain_from < dollar {
+            pieces.push(Piece::Plain(plain_from..dollar));
+        }
+        let inner = bracket + 1;
+        let end =
+            if open == b'{' { closing_brace(text, inner) } else { closing_paren(text, inner) };
+        let Some(end) = end else {
+            pieces.push(Piece::Unclosed(dollar..text.len()));
+            return pieces;
+        };
+        pieces.push(match open {
+            b'{' => Piece::Expression(inner..end),
+            _ => Piece::Extension(inner..end),
+        });
+        (plain_from, at) = (end + 1, end + 1);
+    }
+    if plain_from < text.len() {
+        pieces.push(Piece::Plain(plain_from..text.len()));
+    }
+    pieces.retain(|piece| !matches!(piece, Piece::Plain(range) if range.is_empty()));
+    pieces
+}
+
+/// The brace that closes an expression. The reference ends at the first `}`; braces of dicts and
+/// those in strings are passed over here, so that `${{'a': 1}['a']}` works too.
+fn closing_brace(text: &str, from: usize) -> Option<usize> {
+    balanced(text, from, b'{', b'}').or_else(|| text[from..].find('}').map(|end| from + end))
+}
+
+/// The parenthesis that closes an extension: for `$(eval ...)` the one that matches, for the
+/// others, whose words may hold anything, the first.
+fn closing_paren(text: &str, from: usize) -> Option<usize> {
+    if text[from..].starts_with("eval ") {
+        if let Some(end) = balanced(text, from, b'(', b')') {
+            return Some(end);
+        }
+    }
+    // An expression inside, as in `$(find ${pkg(1)})`, may hold parentheses of its own.
+    let mut at = from;
+    loop {
+        let offset = text[at..].find(['$', ')'])?;
+        let stop = at + offset;
+        if text.as_bytes()[stop] == b')' {
+            return Some(stop);
+        }
+        at = if text[stop..].starts_with("${") {
+            closing_brace(text, stop + 2)? + 1
+        } else {
+            stop + 1
+        };
+    }
+}
+
+fn balanced(text: &str, from: usize, open: u8, close: u8) -> Option<usize> {
+    let mut depth = 0_usize;
+    let mut quote = None;
+    let mut escaped = false;
+    for (offset, byte) in text.bytes().enumerate().skip(from) {
+        if let Some(mark) = quote {
+            match byte {
+                _ if escaped => escaped = false,
+                b'\\' => escaped = true,
+                _ if byte == mark => quote = None,
+                _ => {}
+            }
+        } else if byte == b'\'' || byte == b'"' {
+            quote = Some(byte);
+        } else if byte == open {
+            depth += 1;
+        } else if byte == close {
+            if depth == 0 {
+                return Some(offset);
+            }
+            depth -= 1;
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn check(text: &str, expected: Expect) {
+        let shown: Vec<String> = pieces(text)
+            .into_iter()
+            .map(|piece| match piece {
+                Piece::Plain(range) => format!("plain <{}>", &text[range]),
+                Piece::Expression(range) => format!("expression <{}>", &text[range]),
+                Piece::Extension(range) => format!("extension <{}>", &text[range]),
+                Piece::Unclosed(range) => format!("unclosed <{}>", &text[range]),
+            })
+            .collect();
+        expected.assert_eq(&shown.join("\n"));
+    }
+
+    #[test]
+    fn expressions_and_extensions() {
+        check(
+            "a${b}$(c d)e",
+            expect![[r#"
+            plain <a>
+            expression <b>
+            extension <c d>
+            plain <e>"#]],
+        );
+    }
+
+    #[test]
+    fn escapes() {
+        check(
+            "$${a} $$$(b) $5 $",
+            expect![[r#"
+            plain <${>
+            plain <a} >
+            plain <$$(>
+            plain <b) $5 $>"#]],
+        );
+    }
+
+    #[test]
+    fn braces_in_dicts_and_strings() {
+        check("${{'}': 1}['}']}", expect!["expression <{'}': 1}['}']>"]);
+    }
+
+    #[test]
+    fn parentheses_in_eval_and_in_expressions() {
+        check(
+            "$(eval arg('x') + 1)|$(find ${f(1)})/x",
+            expect![[r#"
+            extension <eval arg('x') + 1>
+            plain <|>
+            extension <find ${f(1)}>
+            plain </x>"#]],
+        );
+    }
+
+    #[test]
+    fn what_nothing_closes() {
+        check(
+            "a ${b",
+            expect![[r#"
+            plain <a >
+            unclosed <${b>"#]],
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_cut(text in "[${}()'a\\\\é]{0,30}") {
+            let _ = pieces(&text);
+        }
+    }
+}
