@@ -1,5 +1,6 @@
 //! Every expression of the robots and worlds in ../shared/corpus parses.
 #![allow(clippy::disallowed_methods, reason = "reads the shared corpus, where there is one")]
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
 //! Errors, bounds and namespaces of expressions.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
