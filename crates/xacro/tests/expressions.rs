@@ -66,7 +66,7 @@ fn properties() -> Properties {
     .unwrap();
     let sensors = Value::dict(vec![
         (Value::text("lidar"), lidar.clone()),
-        (Value::text("all"), Value::list(vec![lidar.clone()]).unwrap()),
+        (Value::text("all"), Value::list(vec![lidar]).unwrap()),
     ])
     .unwrap();
     Properties(BTreeMap::from([
