@@ -19,6 +19,9 @@ pub(crate) struct Surroundings {
     pub(crate) project: PathBuf,
     /// The file's folder and those above it, nearest first, up to the repository.
     pub(crate) upward: Vec<PathBuf>,
+    /// Those of `upward` that may be named as the package around the file by their folder's name
+    /// alone; not someone's home, or what is above it.
+    pub(crate) eponyms: Vec<PathBuf>,
     /// Where to look upward for packages and models.
     pub(crate) places: Vec<Place>,
 }
@@ -39,7 +42,16 @@ pub(crate) fn surroundings(host: &dyn Host, from: &Path, id: usize) -> Surroundi
     let mut folders = vec![named, real];
     folders.dedup();
     let places = places::upward(&upward, &project);
-    Surroundings { id, folders, project, upward, places }
+    let home = home(host);
+    let holds_home = |up: &Path| home.as_ref().is_some_and(|home| home.starts_with(up));
+    let may_be_named = |up: &&PathBuf| up.components().count() > 2 && !holds_home(up);
+    let eponyms = upward.iter().filter(may_be_named).cloned().collect();
+    Surroundings { id, folders, project, upward, eponyms, places }
+}
+
+fn home(host: &dyn Host) -> Option<PathBuf> {
+    let home = host.variable("HOME").filter(|home| !home.is_empty())?;
+    Some(host.canonical(Path::new(&home)).unwrap_or_else(|| home.into()))
 }
 
 /// The project of a folder: the repository around it, else the folder that holds its package or
@@ -52,7 +64,7 @@ fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
         upward.truncate(level + 1);
         return (upward[level].clone(), upward);
     }
-    let home = host.variable("HOME").filter(|home| !home.is_empty()).map(PathBuf::from);
+    let home = home(host);
     let above = |up: &Path| {
         // What lies beside someone's home, or anywhere on the machine, is not of one project.
         let is_home = home.as_deref() == Some(up);

@@ -20,8 +20,8 @@ impl Resolver<'_> {
     }
 
     /// The canonical form of a folder that a package or model name led to, if it may be used:
-    /// it lies inside, or it says itself that it is what was sought. A link named like a model
-    /// that leads to `/etc` says nothing of the kind.
+    /// it lies inside, it holds the mentioning file, or it says itself that it is what was sought.
+    /// A link named like a model that leads to `/etc` says nothing of the kind.
     pub(super) fn accepted(
         &self,
         folder: &Path,
@@ -32,8 +32,10 @@ impl Resolver<'_> {
         if self.inside(&canonical, around) {
             return Some(canonical);
         }
+        let is_around = canonical.file_name().is_some_and(|own| own == name)
+            && around.eponyms.contains(&canonical);
         let is_model = || self.host.kind(&canonical.join("model.config")) == Some(Kind::File);
-        if self.manifest(&canonical).name != name && !is_model() {
+        if !is_around && self.manifest(&canonical).name != name && !is_model() {
             return None;
         }
         self.grant(canonical.clone());

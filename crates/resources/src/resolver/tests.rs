@@ -310,6 +310,20 @@ fn a_package_installed_as_links_into_its_sources() {
 }
 
 #[test]
+fn a_package_without_a_manifest_is_known_by_its_folder() {
+    let from = Path::new("/home/ada/x/bot/urdf/parts/wheel.xacro");
+    let host = machine(&["/home/ada/x/bot/meshes/a.stl", "/home/ada/.ssh/id"])
+        .with_file(from, "")
+        .with_variable("HOME", "/home/ada");
+    let resolver = Resolver::new(&host, &[]);
+    let resolve = |uri| resolver.resolve(uri, from).map_err(|miss| miss.kind);
+    let mesh = PathBuf::from("/home/ada/x/bot/meshes/a.stl");
+    assert_eq!(resolve("package://bot/meshes/a.stl"), Ok(mesh));
+    assert_eq!(resolve("package://ada/.ssh/id"), Err(MissKind::Outside));
+    assert_eq!(resolve("package://home/ada/.ssh/id"), Err(MissKind::Outside));
+}
+
+#[test]
 fn a_package_found_by_name_may_be_named_by_path_afterwards() {
     let host = machine(&[FROM, "/w/src/.git/HEAD", "/opt/x/arm/package.xml", "/opt/x/arm/a.stl"])
         .with_link("/w/src/arm", "/opt/x/arm");
