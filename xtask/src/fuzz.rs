@@ -6,9 +6,9 @@ use std::process::Command;
 
 use crate::step::{Failed, root, run, timed};
 
-/// A single input that takes longer than this is a finding [s].
+/// A single input that takes longer than this is a finding; seconds.
 const SLOWEST_S: u32 = 10;
-/// A single input that takes more than this is a finding [MiB].
+/// A single input that takes more than this is a finding; MiB.
 const LARGEST_MIB: u32 = 2048;
 
 /// Runs the named targets, or all, each for some seconds from the kept seeds. What is found on the

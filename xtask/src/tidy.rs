@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::step::root;
 
-/// No file of the tree is larger [bytes].
+/// No file of the tree is larger; bytes.
 const LARGEST: u64 = 1 << 20;
 
 /// What no file may say, put together so that this one does not say it either, and why.
