@@ -4,11 +4,14 @@
 //! `check_urdf` checks. [`write`] goes back.
 
 mod check;
+mod convert;
+mod lump;
 mod read;
 mod robot;
 mod tree;
 mod write;
 
+pub use convert::{Options, to_model, to_sdf};
 pub use read::read;
 pub use robot::{
     Calibration, Collision, ColourAsWritten, Dynamics, Extra, GazeboBlock, Geometry, Inertial,

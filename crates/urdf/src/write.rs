@@ -143,12 +143,8 @@ fn joint(joint: &Joint) -> Element {
         let axis = Element::new("axis").with_attribute("xyz", numbers(xyz));
         element.push(with_extra(axis, extra));
     }
-    let mut add = |name: &str, values: &[(&str, Option<f64>)], extra: &Extra| {
-        let child = values.iter().fold(Element::new(name), |child, (name, value)| match value {
-            Some(value) => with_number(child, name, *value),
-            None => child,
-        });
-        element.push(with_extra(child, extra));
+    let group = |name, values: &[(&str, Option<f64>)], extra| {
+        Node::Element(with_extra(with_numbers(name, values), extra))
     };
     if let Some(limit) = &joint.limit {
         let values = [
@@ -157,15 +153,27 @@ fn joint(joint: &Joint) -> Element {
             ("effort", Some(limit.effort)),
             ("velocity", Some(limit.velocity)),
         ];
-        add("limit", &values, &limit.extra);
+        element.children.push(group("limit", &values, &limit.extra));
     }
     if let Some(dynamics) = &joint.dynamics {
         let values = [("damping", Some(dynamics.damping)), ("friction", Some(dynamics.friction))];
-        add("dynamics", &values, &dynamics.extra);
+        element.children.push(group("dynamics", &values, &dynamics.extra));
     }
+    element.children.extend(controller_parts(joint).into_iter().map(Node::Element));
+    if let Some(mimic) = &joint.mimic {
+        let child = Element::new("mimic").with_attribute("joint", &*mimic.joint);
+        let child = with_number(child, "multiplier", mimic.multiplier);
+        element.push(with_extra(with_number(child, "offset", mimic.offset), &mimic.extra));
+    }
+    with_extra(element, &joint.extra)
+}
+
+/// `<calibration>` and `<safety_controller>` of a joint.
+pub(crate) fn controller_parts(joint: &Joint) -> Vec<Element> {
+    let mut parts = Vec::new();
     if let Some(calibration) = &joint.calibration {
         let values = [("rising", calibration.rising), ("falling", calibration.falling)];
-        add("calibration", &values, &calibration.extra);
+        parts.push(with_extra(with_numbers("calibration", &values), &calibration.extra));
     }
     if let Some(safety) = &joint.safety_controller {
         let values = [
@@ -174,14 +182,16 @@ fn joint(joint: &Joint) -> Element {
             ("k_position", Some(safety.k_position)),
             ("k_velocity", Some(safety.k_velocity)),
         ];
-        add("safety_controller", &values, &safety.extra);
+        parts.push(with_extra(with_numbers("safety_controller", &values), &safety.extra));
     }
-    if let Some(mimic) = &joint.mimic {
-        let child = Element::new("mimic").with_attribute("joint", &*mimic.joint);
-        let child = with_number(child, "multiplier", mimic.multiplier);
-        element.push(with_extra(with_number(child, "offset", mimic.offset), &mimic.extra));
-    }
-    with_extra(element, &joint.extra)
+    parts
+}
+
+fn with_numbers(name: &str, values: &[(&str, Option<f64>)]) -> Element {
+    values.iter().fold(Element::new(name), |element, (name, value)| match value {
+        Some(value) => with_number(element, name, *value),
+        None => element,
+    })
 }
 
 fn gazebo(block: &GazeboBlock) -> Element {

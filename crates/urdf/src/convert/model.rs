@@ -1,0 +1,210 @@
+//! The model as a whole.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_scene::{FrameRole, Joint as SceneJoint, Model, Sensor, SensorKind};
+use periplus_xml::Element;
+
+use super::element::{element, push_pose, renamed, set};
+use super::extension::{For, check_place, purpose};
+use super::link::shape_name;
+use super::situation::Situation;
+use crate::lump::Fate;
+use crate::robot::{Material, Visual};
+
+impl Situation<'_> {
+    /// The `<model>`.
+    pub(super) fn model_element(&self, diagnostics: &mut Diagnostics) -> Element {
+        self.joint_names.check(self.robot, diagnostics);
+        self.check_losses(diagnostics);
+        self.check_joint_kinds(diagnostics);
+        let mut to = element("model", self.robot.origin).with_attribute("name", self.name());
+        for &link in &self.plan.order {
+            match self.plan.fate[link] {
+                Fate::Body => {
+                    if let Some(joint) = self.joint_element(link, diagnostics) {
+                        to.push(joint);
+                    }
+                    to.push(self.link_element(link, diagnostics));
+                }
+                Fate::Merged { .. } | Fate::Lost => self.frames(link, &mut to),
+                Fate::World => {}
+            }
+        }
+        for setting in self.extensions.settings("") {
+            check_place(setting, &[For::Robot], diagnostics);
+            match &*setting.name {
+                "static" => {
+                    set(&mut to, renamed(setting, "static"));
+                }
+                name if purpose(name).is_some() => {}
+                _ => to.push(setting.clone()),
+            }
+        }
+        self.place(&mut to, diagnostics);
+        to
+    }
+
+    /// Where Gazebo puts the robot, if it says so itself.
+    fn place(&self, to: &mut Element, diagnostics: &mut Diagnostics) {
+        let Some(origin) = &self.robot.origin_in_world else { return };
+        if let Some(pose) = to.child("pose") {
+            diagnostics.push(
+                Diagnostic::warning(
+                    "two-poses",
+                    "the robot has an `origin` and a `pose` in a <gazebo> block; the origin counts",
+                )
+                .at(pose.origin)
+                .help("keep one of them"),
+            );
+            to.children.retain(|node| node.as_element().is_none_or(|child| child.name != "pose"));
+        }
+        push_pose(to, origin.pose(), self.robot.origin);
+    }
+
+    /// The frames that stand for a link that carries no body and for the joint above it: the
+    /// joint's on the parent, the link's on the joint (libsdformat 14, `ReduceFixedJoints`).
+    fn frames(&self, link: usize, to: &mut Element) {
+        let data = self.link(link);
+        let mut on_model = element("frame", data.origin).with_attribute("name", &*data.name);
+        if let Some(joint) = self.joint_above(link) {
+            let name = self.joint_names.of(&joint.name);
+            let parent = match self.parent(link) {
+                Some(parent) if !self.on_world(link) => &*parent.name,
+                _ => "__model__",
+            };
+            let mut frame = element("frame", joint.origin)
+                .with_attribute("name", name)
+                .with_attribute("attached_to", parent);
+            push_pose(&mut frame, joint.parent_from_joint.pose(), joint.origin);
+            to.push(frame);
+            on_model = on_model.with_attribute("attached_to", name);
+        }
+        to.push(on_model);
+    }
+
+    /// The definition of a visual's material: by name, or else its own.
+    pub(super) fn look<'v>(&'v self, visual: &'v Visual) -> Option<&'v Material> {
+        let own = visual.material.as_ref()?;
+        if own.name.is_empty() {
+            return Some(own);
+        }
+        self.materials.get(&*own.name).copied().or_else(|| own.is_definition().then_some(own))
+    }
+
+    /// Adds to a model what SDF cannot say.
+    pub(super) fn complete(&self, model: &mut Model) {
+        self.mark_frames(model);
+        self.name_materials(model);
+        self.rename_contacts(model);
+        model.joints.extend(self.joints_beyond_sdf());
+        self.keep_controllers(model);
+        for verbatim in [&self.robot.transmissions, &self.robot.ros2_controls, &self.robot.sensors]
+        {
+            model.extra.extend(verbatim.iter().cloned());
+        }
+        model.extra.extend(self.robot.extra.elements.iter().cloned());
+    }
+
+    fn mark_frames(&self, model: &mut Model) {
+        let mut roles: BTreeMap<&str, FrameRole> = BTreeMap::new();
+        for &link in &self.plan.order {
+            if matches!(self.plan.fate[link], Fate::Merged { .. } | Fate::Lost) {
+                roles.insert(&self.link(link).name, FrameRole::MergedLink);
+                if let Some(joint) = self.joint_above(link) {
+                    roles.insert(self.joint_names.of(&joint.name), FrameRole::MergedJoint);
+                }
+            }
+        }
+        for frame in &mut model.frames {
+            if let Some(role) = roles.get(&*frame.name) {
+                frame.role = *role;
+            }
+        }
+    }
+
+    fn name_materials(&self, model: &mut Model) {
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+        for (place, link) in model.links.iter().enumerate() {
+            places.insert(&link.name, place);
+        }
+        let places: Vec<(usize, usize)> = self
+            .plan
+            .order
+            .iter()
+            .filter_map(|&link| Some((link, *places.get(&*self.link(link).name)?)))
+            .collect();
+        for (head, place) in places {
+            let members = self.members[head].iter().map(|(link, _)| self.link(*link));
+            let visuals = members.flat_map(|link| &link.visuals);
+            for (to, visual) in model.links[place].visuals.iter_mut().zip(visuals) {
+                let name = visual.material.as_ref().map(|own| &own.name);
+                if let (Some(material), Some(name)) = (&mut to.material, name)
+                    && !name.is_empty()
+                {
+                    material.name = Some(name.clone());
+                }
+            }
+        }
+    }
+
+    /// Contact sensors name collisions as if no link were merged.
+    fn rename_contacts(&self, model: &mut Model) {
+        for link in &mut model.links {
+            let watches = |sensor: &Sensor| matches!(sensor.kind, SensorKind::Contact { .. });
+            let Some(&head) = self.tree.index.get(&*link.name) else { continue };
+            if !link.sensors.iter().any(watches) {
+                continue;
+            }
+            let names: BTreeSet<&str> =
+                link.collisions.iter().map(|collision| &*collision.name).collect();
+            let merged = self.merged_names(head);
+            for sensor in &mut link.sensors {
+                let SensorKind::Contact { collisions, .. } = &mut sensor.kind else { continue };
+                for wanted in collisions.iter_mut().filter(|wanted| !names.contains(&***wanted)) {
+                    if let Some(found) = merged.get(wanted) {
+                        wanted.clone_from(found);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The names on a body of its collisions, by the names they have or would have on their own
+    /// links.
+    fn merged_names(&self, head: usize) -> BTreeMap<String, String> {
+        let head_name = &self.link(head).name;
+        let mut names = BTreeMap::new();
+        let mut index = 0;
+        for &(member, _) in &self.members[head] {
+            let link = self.link(member);
+            for (own_index, collision) in link.collisions.iter().enumerate() {
+                let own = collision.name.as_deref();
+                let merged = shape_name(head_name, &link.name, own, "collision", index);
+                let alone = shape_name(&link.name, &link.name, own, "collision", own_index);
+                index += 1;
+                for name in [Some(&*alone), own].into_iter().flatten() {
+                    names.entry(name.to_owned()).or_insert_with(|| merged.clone());
+                }
+            }
+        }
+        names
+    }
+
+    /// Calibration and soft limits of joints, for controllers.
+    fn keep_controllers(&self, model: &mut Model) {
+        let mut written: BTreeMap<&str, Vec<Element>> = BTreeMap::new();
+        for joint in &self.robot.joints {
+            let kept = crate::write::controller_parts(joint);
+            if !kept.is_empty() || !joint.extra.elements.is_empty() {
+                let kept = kept.into_iter().chain(joint.extra.elements.iter().cloned());
+                written.insert(self.joint_names.of(&joint.name), kept.collect());
+            }
+        }
+        let keep = |joint: &mut SceneJoint| {
+            joint.extra.extend(written.get(&*joint.name).cloned().unwrap_or_default());
+        };
+        model.joints.iter_mut().for_each(keep);
+    }
+}

@@ -1,0 +1,157 @@
+//! Geometry and materials.
+
+use periplus_base::Pose;
+use periplus_diagnostics::Origin;
+use periplus_xml::Element;
+
+use super::element::{child_mut, element, leaf, numbers, push_pose, renamed, set, value};
+use crate::robot::{Collision, GazeboBlock, Geometry, Material, Visual};
+
+/// Where Classic keeps the materials named `Gazebo/...`.
+pub(super) const BUILTIN_MATERIALS: &str = "file://media/materials/scripts/gazebo.material";
+
+/// A `<collision>` with what the blocks about its link say.
+pub(super) fn collision(
+    collision: &Collision,
+    name: &str,
+    head_from_collision: Pose,
+    blocks: &[&GazeboBlock],
+) -> Element {
+    let mut to = element("collision", collision.origin).with_attribute("name", name);
+    push_pose(&mut to, head_from_collision, collision.origin);
+    to.push(geometry(&collision.geometry, collision.origin));
+    for block in blocks {
+        for content in block.content.iter().filter(|setting| setting.name == "collision") {
+            for part in content.elements() {
+                replace_or_push(&mut to, part);
+            }
+        }
+        for setting in &block.content {
+            collision_setting(setting, &mut to);
+        }
+    }
+    to
+}
+
+/// Settings of the time before `<collision>` could stand in a block.
+fn collision_setting(setting: &Element, to: &mut Element) {
+    let (group, name) = match &*setting.name {
+        "mu" | "mu1" => ("friction", "mu"),
+        "mu2" => ("friction", "mu2"),
+        "fdir1" => ("friction", "fdir1"),
+        "kp" => ("contact", "kp"),
+        "kd" => ("contact", "kd"),
+        "maxVel" => ("contact", "max_vel"),
+        "minDepth" => ("contact", "min_depth"),
+        "laserRetro" => ("", "laser_retro"),
+        "maxContacts" => ("", "max_contacts"),
+        _ => return,
+    };
+    let leaf = renamed(setting, name);
+    if group.is_empty() {
+        set(to, leaf);
+    } else {
+        set(child_mut(child_mut(child_mut(to, "surface"), group), "ode"), leaf);
+    }
+}
+
+/// A `<visual>` with what the blocks about its link say. `look` is its material's definition.
+pub(super) fn visual(
+    visual: &Visual,
+    look: Option<&Material>,
+    name: &str,
+    head_from_visual: Pose,
+    blocks: &[&GazeboBlock],
+) -> Element {
+    let mut to = element("visual", visual.origin).with_attribute("name", name);
+    push_pose(&mut to, head_from_visual, visual.origin);
+    to.push(geometry(&visual.geometry, visual.origin));
+    for block in blocks {
+        for content in block.content.iter().filter(|setting| setting.name == "visual") {
+            for part in content.elements() {
+                replace_or_push(&mut to, part);
+            }
+        }
+        for setting in block.content.iter().filter(|setting| setting.name == "material") {
+            let (text, origin) = value(setting);
+            if text.is_empty() {
+                // SDF in the place of a name, which Gazebo ignores and a warning has been given.
+                if setting.elements().next().is_some() {
+                    set(&mut to, setting.clone());
+                }
+                continue;
+            }
+            let script = child_mut(child_mut(&mut to, "material"), "script");
+            set(script, leaf("name", &text, origin));
+            set(script, leaf("uri", BUILTIN_MATERIALS, origin));
+        }
+    }
+    if let Some(look) = look {
+        colour(look, &mut to);
+    }
+    to
+}
+
+/// The colour of a URDF, unless a block gave one. Gazebo brightens it, for its renderers darken
+/// (libsdformat, `CreateVisual`).
+fn colour(look: &Material, to: &mut Element) {
+    let material = child_mut(to, "material");
+    if let Some(colour) = &look.colour
+        && material.child("diffuse").is_none()
+        && material.child("ambient").is_none()
+    {
+        let [red, green, blue, alpha] = colour.rgba;
+        let bright = |part: f64| (part / 0.8).clamp(0.0, 1.0);
+        let rgba = [bright(red), bright(green), bright(blue), alpha.clamp(0.0, 1.0)];
+        material.push(numbers("diffuse", &rgba, look.origin));
+        material.push(numbers("ambient", &rgba, look.origin));
+    }
+    // Gazebo drops the texture of a URDF; as a map of the colour it can be drawn.
+    if let Some(texture) = &look.texture
+        && material.child("pbr").is_none()
+    {
+        let metal = child_mut(child_mut(material, "pbr"), "metal");
+        metal.push(leaf("albedo_map", &texture.filename, look.origin));
+    }
+}
+
+/// Most of a shape stands once; plugins may stand often, and what is already there by the URDF
+/// (pose, geometry) cannot be overruled, as in Gazebo: the reader of SDF says so.
+fn replace_or_push(to: &mut Element, part: &Element) {
+    match &*part.name {
+        "plugin" | "pose" | "geometry" => to.push(part.clone()),
+        _ => {
+            set(to, part.clone());
+        }
+    }
+}
+
+fn geometry(geometry: &Geometry, origin: Origin) -> Element {
+    let one = |name: &str, parts: &[(&str, f64)]| {
+        parts.iter().fold(element(name, origin), |shape, (part, value)| {
+            shape.with_child(numbers(part, &[*value], origin))
+        })
+    };
+    let shape = match geometry {
+        Geometry::Box { size_m } => {
+            element("box", origin).with_child(numbers("size", size_m, origin))
+        }
+        Geometry::Cylinder { radius_m, length_m } => {
+            one("cylinder", &[("radius", *radius_m), ("length", *length_m)])
+        }
+        Geometry::Capsule { radius_m, length_m } => {
+            one("capsule", &[("radius", *radius_m), ("length", *length_m)])
+        }
+        Geometry::Sphere { radius_m } => one("sphere", &[("radius", *radius_m)]),
+        Geometry::Mesh { filename, scale, origin } => {
+            let mesh = element("mesh", *origin).with_child(leaf("uri", filename, *origin));
+            if *scale == [1.0; 3] {
+                mesh
+            } else {
+                mesh.with_child(numbers("scale", scale, *origin))
+            }
+        }
+        Geometry::Unknown(shape) => shape.clone(),
+    };
+    element("geometry", origin).with_child(shape)
+}
