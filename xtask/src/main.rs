@@ -6,6 +6,7 @@
     reason = "a tool that runs other programs, reads the source tree and says how it went"
 )]
 
+mod docs;
 mod fuzz;
 mod layers;
 mod step;
@@ -73,7 +74,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Clippy => clippy(),
         Task::Layers => layers::run(),
         Task::Deny => deny(),
-        Task::Docs => docs(),
+        Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
@@ -84,7 +85,7 @@ fn ci() -> Result<(), Failed> {
     timed("layers", layers::run)?;
     timed("clippy", clippy)?;
     timed("deny", deny)?;
-    timed("docs", docs)?;
+    timed("docs", docs::run)?;
     timed("test", || test(&[]))
 }
 
@@ -105,12 +106,6 @@ fn deny() -> Result<(), Failed> {
         cargo().args(arguments),
         "see above; without cargo-deny, `cargo install --locked cargo-deny`",
     )
-}
-
-fn docs() -> Result<(), Failed> {
-    let mut doc = cargo();
-    doc.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
-    run(&mut doc, "see the findings above")
 }
 
 fn test(rest: &[String]) -> Result<(), Failed> {
