@@ -19,6 +19,7 @@ mod plugin;
 mod sensor;
 mod shape;
 mod surface;
+mod tree;
 mod world;
 
 pub use actor::Actor;
@@ -37,4 +38,5 @@ pub use sensor::{
 };
 pub use shape::{Heightmap, Image, Mesh, Polyline, Shape};
 pub use surface::{Contact, Friction, Surface};
+pub use tree::{TfEdge, carrying_link, tf_tree};
 pub use world::{Gui, Scene, SphericalCoordinates, World};
