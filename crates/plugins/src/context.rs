@@ -1,0 +1,149 @@
+//! Where in a scene a plugin stands.
+
+use periplus_scene::{Link, Model, Plugin, Scene, Sensor, World};
+
+/// What a plugin is attached to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A world.
+    World,
+    /// The window.
+    Gui,
+    /// A model.
+    Model,
+    /// A sensor.
+    Sensor,
+    /// A visual.
+    Visual,
+    /// An actor.
+    Actor,
+}
+
+/// What stands around a plugin.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// What it is attached to.
+    pub place: Place,
+    /// The world around it.
+    pub world: Option<&'a World>,
+    /// The outermost model around it.
+    pub root: Option<&'a Model>,
+    /// The innermost model around it.
+    pub model: Option<&'a Model>,
+    /// The link around it.
+    pub link: Option<&'a Link>,
+    /// The sensor around it.
+    pub sensor: Option<&'a Sensor>,
+    /// Whether the rest of the file speaks ROS 1, for plugins that do not tell by themselves.
+    pub ros1: bool,
+}
+
+/// A plugin and where it stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<'a> {
+    /// The plugin.
+    pub plugin: &'a Plugin,
+    /// Where it stands.
+    pub context: Context<'a>,
+}
+
+impl Context<'_> {
+    /// Nothing is known of the surroundings.
+    pub const NOWHERE: Context<'static> = Context {
+        place: Place::Model,
+        world: None,
+        root: None,
+        model: None,
+        link: None,
+        sensor: None,
+        ros1: false,
+    };
+}
+
+/// All plugins of a scene, in order.
+#[must_use]
+pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
+    let mut sites = Vec::new();
+    for world in &scene.worlds {
+        let context = Context { place: Place::World, world: Some(world), ..Context::NOWHERE };
+        add(&world.plugins, context, &mut sites);
+        if let Some(gui) = &world.gui {
+            add(&gui.plugins, Context { place: Place::Gui, ..context }, &mut sites);
+        }
+        for model in &world.models {
+            add_model(model, Context { root: Some(model), ..context }, &mut sites);
+        }
+        for actor in &world.actors {
+            let context = Context { place: Place::Actor, ..context };
+            add(&actor.plugins, context, &mut sites);
+            for link in &actor.links {
+                add_link(link, context, &mut sites);
+            }
+        }
+        for joint in &world.joints {
+            for sensor in &joint.sensors {
+                add_sensor(sensor, context, &mut sites);
+            }
+        }
+    }
+    for model in &scene.models {
+        add_model(model, Context { root: Some(model), ..Context::NOWHERE }, &mut sites);
+    }
+    for actor in &scene.actors {
+        add(&actor.plugins, Context { place: Place::Actor, ..Context::NOWHERE }, &mut sites);
+    }
+    settle_ros_version(&mut sites);
+    sites
+}
+
+fn add<'a>(plugins: &'a [Plugin], context: Context<'a>, sites: &mut Vec<Site<'a>>) {
+    sites.extend(plugins.iter().map(|plugin| Site { plugin, context }));
+}
+
+fn add_model<'a>(model: &'a Model, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
+    let context = Context { place: Place::Model, model: Some(model), ..context };
+    add(&model.plugins, context, sites);
+    for link in &model.links {
+        add_link(link, context, sites);
+    }
+    for joint in &model.joints {
+        for sensor in &joint.sensors {
+            add_sensor(sensor, context, sites);
+        }
+    }
+    for nested in &model.models {
+        add_model(nested, context, sites);
+    }
+}
+
+fn add_link<'a>(link: &'a Link, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
+    let context = Context { link: Some(link), ..context };
+    for sensor in &link.sensors {
+        add_sensor(sensor, context, sites);
+    }
+    for visual in &link.visuals {
+        add(&visual.plugins, Context { place: Place::Visual, ..context }, sites);
+    }
+}
+
+fn add_sensor<'a>(sensor: &'a Sensor, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
+    let context = Context { place: Place::Sensor, sensor: Some(sensor), ..context };
+    add(&sensor.plugins, context, sites);
+}
+
+/// Files hold plugins of one ROS version: those that tell decide for those that do not.
+fn settle_ros_version(sites: &mut [Site<'_>]) {
+    use crate::Family;
+    let mut ros1 = 0_usize;
+    let mut ros2 = 0_usize;
+    for site in &*sites {
+        match crate::recognise::certain_family(site.plugin) {
+            Some(Family::ClassicRos1) => ros1 += 1,
+            Some(Family::ClassicRos2) => ros2 += 1,
+            _ => {}
+        }
+    }
+    for site in sites {
+        site.context.ros1 = ros1 > ros2;
+    }
+}

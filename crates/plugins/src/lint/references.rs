@@ -1,0 +1,279 @@
+//! Joints, links and frames that plugins name.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_params::{Names, Value};
+use periplus_scene::{FrameRole, Model};
+
+use crate::{Family, Interpreted, Site};
+
+/// Frames that are no part of a robot.
+const GLOBAL: [&str; 5] = ["", "world", "map", "odom", "earth"];
+
+pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+    let Some(root) = site.context.root else { return };
+    let things = Things::of(root);
+    // A file that holds only a robot's plugins, to be included by another, has no links.
+    if things.links.is_empty() {
+        return;
+    }
+    for parameter in plugin.known.table.parameters {
+        let Some(names) = parameter.names else { continue };
+        if !plugin.values.is_given(parameter.name) {
+            continue;
+        }
+        for (value, origin) in plugin.values.all(parameter.name) {
+            let Value::Text(name) = value else { continue };
+            if name.contains('$') {
+                continue;
+            }
+            let finding = match names {
+                Names::Joint => joint(&name, origin, &things),
+                Names::Link => link(&name, origin, &things, plugin),
+                Names::Frame => frame(&name, origin, &things),
+                Names::Topic => None,
+            };
+            if let Some(finding) = finding {
+                diagnostics.push(finding);
+            }
+        }
+    }
+}
+
+/// The names in a model and the models inside it, plain and scoped.
+#[derive(Default)]
+struct Things {
+    links: Vec<String>,
+    joints: Vec<String>,
+    frames: Vec<String>,
+    merged_links: Vec<String>,
+    merged_joints: Vec<String>,
+}
+
+impl Things {
+    fn of(model: &Model) -> Self {
+        let mut things = Self::default();
+        things.add(model, "");
+        things
+    }
+
+    fn add(&mut self, model: &Model, scope: &str) {
+        let both = |names: &mut Vec<String>, name: &str| {
+            names.push(name.to_owned());
+            if !scope.is_empty() {
+                names.push(format!("{scope}{name}"));
+            }
+        };
+        for link in &model.links {
+            both(&mut self.links, &link.name);
+        }
+        for joint in &model.joints {
+            both(&mut self.joints, &joint.name);
+        }
+        for frame in &model.frames {
+            match frame.role {
+                FrameRole::Declared => both(&mut self.frames, &frame.name),
+                FrameRole::MergedLink => both(&mut self.merged_links, &frame.name),
+                FrameRole::MergedJoint => both(&mut self.merged_joints, &frame.name),
+            }
+        }
+        for nested in &model.models {
+            self.add(nested, &format!("{scope}{}::", nested.name));
+        }
+    }
+}
+
+fn has(names: &[String], name: &str) -> bool {
+    names.iter().any(|known| known == name)
+}
+
+fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
+    if has(&things.joints, name) {
+        return None;
+    }
+    if has(&things.merged_joints, name) {
+        return Some(
+            Diagnostic::warning(
+                "merged-joint",
+                format!("the joint `{name}` is fixed; Gazebo merges its links and forgets it"),
+            )
+            .at(origin)
+            .help(format!(
+                "add `<gazebo reference=\"{name}\"><preserveFixedJoint>true</preserveFixedJoint></gazebo>`"
+            )),
+        );
+    }
+    Some(
+        Diagnostic::error("unknown-joint", format!("the model has no joint `{name}`"))
+            .at(origin)
+            .did_you_mean(origin, name, things.joints.iter().map(String::as_str)),
+    )
+}
+
+fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Option<Diagnostic> {
+    // A link may be named with its model before it.
+    let last = name.rsplit("::").next().unwrap_or(name);
+    if has(&things.links, name) || has(&things.links, last) || GLOBAL.contains(&name) {
+        return None;
+    }
+    if has(&things.merged_links, name) {
+        // For ROS 1 the conversion from URDF to SDF puts the parent's name in the place.
+        return (plugin.known.family != Family::ClassicRos1).then(|| {
+            Diagnostic::warning(
+                "merged-link",
+                format!("the link `{name}` hangs on a fixed joint; Gazebo merges it into its parent and does not find it"),
+            )
+            .at(origin)
+            .help("name the parent link, or keep the joint with `<preserveFixedJoint>`")
+        });
+    }
+    let links = things.links.iter().chain(&things.merged_links).map(String::as_str);
+    Some(
+        Diagnostic::error("unknown-link", format!("the model has no link `{name}`"))
+            .at(origin)
+            .did_you_mean(origin, name, links),
+    )
+}
+
+fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
+    // A namespace or tf prefix may stand before the name.
+    let bare = name.rsplit('/').next().unwrap_or(name);
+    let all = [
+        &things.links,
+        &things.merged_links,
+        &things.frames,
+        &things.merged_joints,
+        &things.joints,
+    ];
+    if GLOBAL.contains(&bare) || all.iter().any(|names| has(names, bare)) {
+        return None;
+    }
+    let frames = || all[..3].iter().copied().flatten().map(String::as_str);
+    if periplus_diagnostics::closest(name, frames()).is_some() {
+        let message = format!("the model has no link or frame `{name}`");
+        return Some(Diagnostic::warning("unknown-frame", message).at(origin).did_you_mean(
+            origin,
+            name,
+            frames(),
+        ));
+    }
+    Some(
+        Diagnostic::hint(
+            "foreign-frame",
+            format!("`{name}` is no link or frame of the model; someone else must publish it"),
+        )
+        .at(origin),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use crate::fixture::check;
+
+    #[test]
+    fn joints_must_exist() {
+        check(
+            "<model name='m'><link name='base'/><joint name='wheel_left_joint'/>
+<merged_joint name='lid_joint'/>
+<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>
+  <joint_name>wheel_left_joint</joint_name>
+  <joint_name>wheel_lft_joint</joint_name>
+  <joint_name>lid_joint</joint_name>
+</plugin></model>",
+            expect![[r#"
+                error[unknown-joint]: the model has no joint `wheel_lft_joint`
+                 --> test.sdf:5:15
+                  |
+                5 |   <joint_name>wheel_lft_joint</joint_name>
+                  |               ^^^^^^^^^^^^^^^
+                  |
+                help: did you mean `wheel_left_joint`?
+                  |
+                5 |   <joint_name>wheel_left_joint</joint_name>
+                  |                      +
+                warning[merged-joint]: the joint `lid_joint` is fixed; Gazebo merges its links and forgets it
+                 --> test.sdf:6:15
+                  |
+                6 |   <joint_name>lid_joint</joint_name>
+                  |               ^^^^^^^^^
+                  |
+                  = help: add `<gazebo reference="lid_joint"><preserveFixedJoint>true</preserveFixedJoint></gazebo>`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn links_and_frames_must_exist() {
+        check(
+            "<model name='m'><link name='base_link'/><merged_link name='imu_link'/>
+<plugin name='p' filename='libgazebo_ros_p3d.so'>
+  <body_name>imu_link</body_name>
+  <frame_name>map</frame_name>
+</plugin>
+<plugin name='q' filename='libgazebo_ros_imu.so'>
+  <bodyName>imu_link</bodyName>
+</plugin>
+<plugin name='r' filename='libgazebo_ros_ray_sensor.so'>
+  <frame_name>imu_lnk</frame_name>
+</plugin>
+<plugin name='s' filename='libgazebo_ros_imu_sensor.so'>
+  <ros/>
+  <frame_name>tower</frame_name>
+</plugin>
+<plugin name='t' filename='libgazebo_ros_force.so'>
+  <ros/>
+  <link_name>tower</link_name>
+</plugin></model>",
+            expect![[r#"
+                warning[merged-link]: the link `imu_link` hangs on a fixed joint; Gazebo merges it into its parent and does not find it
+                 --> test.sdf:3:14
+                  |
+                3 |   <body_name>imu_link</body_name>
+                  |              ^^^^^^^^
+                  |
+                  = help: name the parent link, or keep the joint with `<preserveFixedJoint>`
+                warning[unknown-frame]: the model has no link or frame `imu_lnk`
+                  --> test.sdf:10:15
+                   |
+                10 |   <frame_name>imu_lnk</frame_name>
+                   |               ^^^^^^^
+                   |
+                help: did you mean `imu_link`?
+                   |
+                10 |   <frame_name>imu_link</frame_name>
+                   |                    +
+                hint[foreign-frame]: `tower` is no link or frame of the model; someone else must publish it
+                  --> test.sdf:14:15
+                   |
+                14 |   <frame_name>tower</frame_name>
+                   |               ^^^^^
+                error[unknown-link]: the model has no link `tower`
+                  --> test.sdf:18:14
+                   |
+                18 |   <link_name>tower</link_name>
+                   |              ^^^^^
+                hint[ros-version-mix]: this plugin is of ROS 1, others here are of ROS 2
+                 --> test.sdf:6:1
+                  |
+                2 | <plugin name='p' filename='libgazebo_ros_p3d.so'>
+                  | ------------------------------------------------- of ROS 2
+                ...
+                6 | <plugin name='q' filename='libgazebo_ros_imu.so'>
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = note: Gazebo runs with one of the two and fails to load the other's plugins
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_file_of_plugins_alone_is_left_alone() {
+        check(
+            "<model name='m'><plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>
+  <joint_name>elsewhere</joint_name>
+</plugin></model>",
+            expect![[""]],
+        );
+    }
+}

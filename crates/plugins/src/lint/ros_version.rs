@@ -1,0 +1,54 @@
+//! Plugins of ROS 1 and ROS 2 in one file.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use crate::recognise::certain_family;
+use crate::{Family, Interpreted, Site};
+
+pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagnostics) {
+    let of = |family: Family| -> Vec<&Site<'_>> {
+        let certain = |site: &&Site<'_>| certain_family(site.plugin) == Some(family);
+        plugins.iter().map(|(site, _)| site).filter(certain).collect()
+    };
+    let (ros1, ros2) = (of(Family::ClassicRos1), of(Family::ClassicRos2));
+    let (Some(first1), Some(first2)) = (ros1.first(), ros2.first()) else { return };
+    let (odd, odd_version, usual, usual_version) =
+        if ros1.len() > ros2.len() { (first2, 2, first1, 1) } else { (first1, 1, first2, 2) };
+    diagnostics.push(
+        Diagnostic::hint(
+            "ros-version-mix",
+            format!("this plugin is of ROS {odd_version}, others here are of ROS {usual_version}"),
+        )
+        .at(odd.plugin.origin)
+        .related(usual.plugin.origin, format!("of ROS {usual_version}"))
+        .note("Gazebo runs with one of the two and fails to load the other's plugins"),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use crate::fixture::check;
+
+    #[test]
+    fn one_file_one_ros() {
+        check(
+            "<model name='m'>
+<plugin name='a' filename='libgazebo_ros_ray_sensor.so'/>
+<plugin name='b' filename='libgazebo_ros_laser.so'><topicName>scan</topicName></plugin>
+</model>",
+            expect![[r#"
+                hint[ros-version-mix]: this plugin is of ROS 1, others here are of ROS 2
+                 --> test.sdf:3:1
+                  |
+                2 | <plugin name='a' filename='libgazebo_ros_ray_sensor.so'/>
+                  | --------------------------------------------------------- of ROS 2
+                3 | <plugin name='b' filename='libgazebo_ros_laser.so'><topicName>scan</topicName></plugin>
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = note: Gazebo runs with one of the two and fails to load the other's plugins
+            "#]],
+        );
+    }
+}

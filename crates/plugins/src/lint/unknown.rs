@@ -1,0 +1,145 @@
+//! Plugins that nobody knows, and classes that are not in their library.
+
+use std::collections::BTreeSet;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
+
+use crate::library::{class_id, library_id};
+use crate::{Family, Place, Role, Site, known, recognise};
+
+pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
+    let mut told = BTreeSet::new();
+    for site in sites {
+        let filename = site.plugin.filename.trim();
+        // `__default__` is what libsdformat writes where a file names no library.
+        if filename.is_empty() || filename == "__default__" {
+            continue;
+        }
+        match recognise(site.plugin, &site.context) {
+            Some(known) if known.family == Family::Gz && known.role != Role::Gui => {
+                check_class(site, known, diagnostics);
+            }
+            Some(_) => {}
+            None if told.insert(filename) => diagnostics.push(unknown(site, filename)),
+            None => {}
+        }
+    }
+}
+
+fn unknown(site: &Site<'_>, filename: &str) -> Diagnostic {
+    let message = format!("nothing is known of the plugin `{filename}`; it is kept, not run");
+    let diagnostic = Diagnostic::warning("unknown-plugin", message).at(site.plugin.origin);
+    let class = class_id(&site.plugin.name);
+    let by_class = known()
+        .find(|known| site.plugin.name.contains("::systems::") && known.classes.contains(&class));
+    let meant = by_class.map(|known| known.id).or_else(|| {
+        let id = library_id(filename);
+        let core = closest(distinctive(&id), known().map(|known| distinctive(known.id)))?;
+        known().map(|known| known.id).find(|id| distinctive(id) == core)
+    });
+    match meant.and_then(|id| known().find(|known| known.id == id)) {
+        Some(known) => diagnostic.help(format!("did you mean `{}`?", known.filename())),
+        None => diagnostic,
+    }
+}
+
+/// The part of a library's name that tells it from others.
+fn distinctive(id: &str) -> &str {
+    let id = id.strip_prefix("gazebo_ros_").or_else(|| id.strip_prefix("gz-sim-")).unwrap_or(id);
+    id.strip_suffix("-system").unwrap_or(id)
+}
+
+fn check_class(site: &Site<'_>, known: &crate::Known, diagnostics: &mut Diagnostics) {
+    let name = site.plugin.name.trim();
+    let Some(usual) = known.classes.first() else { return };
+    if name.is_empty()
+        || site.context.place == Place::Gui
+        || known.classes.contains(&class_id(name))
+    {
+        return;
+    }
+    let namespace =
+        if known.id.contains("ros2_control") { "gz_ros2_control" } else { "gz::sim::systems" };
+    diagnostics.push(
+        Diagnostic::warning(
+            "plugin-class",
+            format!("`{}` holds no class `{name}`; Gazebo would not load it", known.id),
+        )
+        .at(site.plugin.origin)
+        .help(format!("write `name=\"{namespace}::{usual}\"`")),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use crate::fixture::check;
+
+    #[test]
+    fn an_unknown_plugin_is_told_once() {
+        check(
+            "<model name='m'>
+  <plugin name='a' filename='libmy_robot.so'/>
+  <plugin name='b' filename='libmy_robot.so'/>
+</model>",
+            expect![[r#"
+                warning[unknown-plugin]: nothing is known of the plugin `libmy_robot.so`; it is kept, not run
+                 --> test.sdf:2:3
+                  |
+                2 |   <plugin name='a' filename='libmy_robot.so'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_slip_in_the_name_is_seen() {
+        check(
+            "<model name='m'>
+  <plugin name='a' filename='libgazebo_ros_planer_move.so'/>
+  <plugin name='gz::sim::systems::Imu' filename='gz-sim-imu'/>
+  <plugin name='gz::sim::systems::Mine' filename='gz-sim-mine-system'/>
+</model>",
+            expect![[r#"
+                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_planer_move.so`; it is kept, not run
+                 --> test.sdf:2:3
+                  |
+                2 |   <plugin name='a' filename='libgazebo_ros_planer_move.so'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: did you mean `libgazebo_ros_planar_move.so`?
+                warning[unknown-plugin]: nothing is known of the plugin `gz-sim-imu`; it is kept, not run
+                 --> test.sdf:3:3
+                  |
+                3 |   <plugin name='gz::sim::systems::Imu' filename='gz-sim-imu'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: did you mean `gz-sim-imu-system`?
+                warning[unknown-plugin]: nothing is known of the plugin `gz-sim-mine-system`; it is kept, not run
+                 --> test.sdf:4:3
+                  |
+                4 |   <plugin name='gz::sim::systems::Mine' filename='gz-sim-mine-system'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_class_must_be_in_its_library() {
+        check(
+            "<world name='w'>
+  <plugin name='gz::sim::systems::Phsics' filename='gz-sim-physics-system'/>
+</world>",
+            expect![[r#"
+                warning[plugin-class]: `gz-sim-physics-system` holds no class `gz::sim::systems::Phsics`; Gazebo would not load it
+                 --> test.sdf:2:3
+                  |
+                2 |   <plugin name='gz::sim::systems::Phsics' filename='gz-sim-physics-system'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: write `name="gz::sim::systems::Physics"`
+            "#]],
+        );
+    }
+}

@@ -1,0 +1,92 @@
+//! What became of the parameters of ROS 1 in ROS 2.
+//!
+//! Names that only lost their capitals (`frameName`, `frame_name`) are not listed: the nearest name
+//! finds them. Source: the migration guides of `gazebo_ros_pkgs` and both branches' sources.
+
+use crate::{Known, Role};
+
+/// What to write instead of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Instead {
+    /// This parameter, with the same value.
+    Parameter(&'static str),
+    /// This parameter, with another value: the words to use.
+    Translated(&'static str, &'static [(&'static str, &'static str)]),
+    /// This element of the sensor.
+    Sensor(&'static str),
+    /// A remapping of this topic in `<ros>`.
+    Remapping(&'static str),
+    /// `<namespace>` in `<ros>`.
+    Namespace,
+    /// Nothing, because.
+    Nothing(&'static str),
+}
+
+use Instead::{Namespace, Nothing, Parameter, Remapping, Sensor, Translated};
+
+/// What to write in a ROS 2 plugin instead of a parameter of ROS 1 (or one that older ROS 2
+/// documentation names), if the names do not tell.
+pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead> {
+    let has = |parameter: &str| known.table.find(parameter).is_some();
+    let sensor = known.role == Role::Sensor;
+    let zero = value.parse() == Ok(0.0);
+    let camera = known.id == "gazebo_ros_camera";
+    let instead = match name {
+        "robotNamespace" => Namespace,
+        "alwaysOn" if sensor => Sensor("always_on"),
+        "alwaysOn" => Nothing("plugins always run"),
+        "updateRate" | "updateRateHZ" if sensor => Sensor("update_rate"),
+        "topicName" => Remapping(known.topics.first()?.name),
+        "bodyName" if sensor && !has("body_name") => {
+            Nothing("the plugin watches the link that its sensor is on")
+        }
+        "gaussianNoise" if sensor && !has("gaussian_noise") => Sensor("noise"),
+        "commandTopic" | "command_topic" | "cmd_vel_topic" => Remapping("cmd_vel"),
+        "odometryTopic" | "odometry_topic" | "odom_topic" => Remapping("odom"),
+        "bumperTopicName" => Remapping("bumper_states"),
+        "wheelTorque" | "torque" => Parameter("max_wheel_torque"),
+        "wheelAcceleration" => Parameter("max_wheel_acceleration"),
+        "wheelDeceleration" => Parameter("max_wheel_deceleration"),
+        "encoderWheelSeparation" => Parameter("wheel_separation"),
+        "steeringSpeed" => Parameter("max_steering_speed"),
+        "odometrySource" => Translated("odometry_source", &[("encoder", "0"), ("world", "1")]),
+        "publishTf" | "publishTF" | "broadcastTF" => Parameter("publish_odom_tf"),
+        "publishOdometry" => Parameter("publish_odom"),
+        "odometryRate" | "odometry_rate" => Parameter("publish_rate"),
+        "publishWheelJointState" => Nothing("`libgazebo_ros_joint_state_publisher.so` does it"),
+        "rosDebugLevel" => Nothing("the log level is set when the program starts"),
+        "legacyMode" => Nothing("left is left in ROS 2"),
+        "hokuyoMinIntensity" => Parameter("min_intensity"),
+        "radiation" => Parameter("radiation_type"),
+        "fov" if sensor => Nothing("it follows from the sensor's `<scan>`"),
+        "pointCloudCutoff" => Parameter("min_depth"),
+        "pointCloudCutoffMax" => Parameter("max_depth"),
+        "baseline" | "hackBaseline" => Parameter("hack_baseline"),
+        "CxPrime" => Nothing("ROS 2 has no such parameter"),
+        // In ROS 1 zero meant "from the image"; in ROS 2 zero would be taken at its word.
+        "Cx" | "Cy" | "focalLength" if zero => {
+            Nothing("0 meant that it follows from the image, and without it so it does")
+        }
+        "distortionK1" | "distortion_k1" => Sensor("camera><distortion><k1"),
+        "distortionK2" | "distortion_k2" => Sensor("camera><distortion><k2"),
+        "distortionK3" | "distortion_k3" => Sensor("camera><distortion><k3"),
+        "distortionT1" | "distortion_t1" => Sensor("camera><distortion><p1"),
+        "distortionT2" | "distortion_t2" => Sensor("camera><distortion><p2"),
+        "autoDistortion" => Nothing("the sensor's `<distortion>` always goes into the camera info"),
+        "imageTopicName" if camera => Remapping("{camera_name}/image_raw"),
+        "cameraInfoTopicName" if camera => Remapping("{camera_name}/camera_info"),
+        "depthImageTopicName" if camera => Remapping("{camera_name}/depth/image_raw"),
+        "depthImageCameraInfoTopicName" if camera => Remapping("{camera_name}/depth/camera_info"),
+        "pointCloudTopicName" if camera => Remapping("{camera_name}/points"),
+        "triggerTopicName" if camera => Remapping("{camera_name}/image_trigger"),
+        "useDepth16UC1Format" | "reduceNormals" | "normalsTopicName" => {
+            Nothing("ROS 2 has no such parameter")
+        }
+        _ => return None,
+    };
+    match instead {
+        Parameter(parameter) | Translated(parameter, _) if !has(parameter) => None,
+        Sensor(_) if !sensor => None,
+        instead => Some(instead),
+    }
+}

@@ -1,0 +1,339 @@
+//! Every plugin we know.
+//!
+//! Names, defaults and meanings are those of the plugins' own sources: `gazebo_ros_pkgs` (branches
+//! `ros2` and `noetic-devel`), `gazebo-classic` 11, `gz-sim` 8 and `gz-gui` 8, and their
+//! documentation. A parameter without default either has none or takes it from elsewhere, as its
+//! meaning says.
+
+mod classic;
+mod gui;
+mod gz;
+mod gz_drive;
+mod gz_effect;
+mod gz_world;
+mod ros1;
+mod ros1_camera;
+mod ros1_drive;
+mod ros1_sensor;
+mod ros2;
+mod ros2_drive;
+
+use crate::Known;
+
+/// Every plugin we know, ROS 2 before ROS 1.
+pub fn known() -> impl Iterator<Item = &'static Known> {
+    [
+        ros2::PLUGINS,
+        ros2_drive::PLUGINS,
+        ros1::PLUGINS,
+        ros1_camera::PLUGINS,
+        ros1_drive::PLUGINS,
+        ros1_sensor::PLUGINS,
+        classic::PLUGINS,
+        gz::PLUGINS,
+        gz_drive::PLUGINS,
+        gz_effect::PLUGINS,
+        gz_world::PLUGINS,
+        gui::PLUGINS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// A plugin of Classic and ROS 2: all read `<ros>`.
+macro_rules! of_ros2 {
+    ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
+        crate::Known::new(
+            crate::Family::ClassicRos2,
+            $id,
+            crate::Role::$role,
+            crate::Support::$support,
+            periplus_params::Table {
+                name: concat!("lib", $id, ".so"),
+                doc: $doc,
+                parameters: &[
+                    periplus_params::group(
+                        "ros",
+                        "Namespace, remappings, parameters and QoS of the plugin's node.",
+                    ),
+                    $($parameter),*
+                ],
+            },
+        )
+    };
+}
+
+/// A plugin of Classic and ROS 1: all are given a namespace and two parameters of old.
+macro_rules! of_ros1 {
+    ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
+        crate::Known::new(
+            crate::Family::ClassicRos1,
+            $id,
+            crate::Role::$role,
+            crate::Support::$support,
+            periplus_params::Table {
+                name: concat!("lib", $id, ".so"),
+                doc: $doc,
+                parameters: &[
+                    periplus_params::text("robotNamespace", "Before every topic and service."),
+                    periplus_params::text("alwaysOn", "Nobody reads it since Gazebo 1; harmless."),
+                    $($parameter),*
+                ],
+            },
+        )
+    };
+}
+
+/// A system of today's Gazebo.
+macro_rules! system {
+    ($id:literal, [$($class:literal),*], $role:ident, $support:ident, $doc:literal,
+     [$($parameter:expr),* $(,)?]) => {
+        crate::Known::new(
+            crate::Family::Gz,
+            $id,
+            crate::Role::$role,
+            crate::Support::$support,
+            periplus_params::Table { name: $id, doc: $doc, parameters: &[$($parameter),*] },
+        )
+        .classes(&[$($class),*])
+    };
+}
+
+/// A panel of today's Gazebo's window.
+macro_rules! panel {
+    ($id:literal, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
+        crate::Known::new(
+            crate::Family::Gz,
+            $id,
+            crate::Role::Gui,
+            crate::Support::$support,
+            periplus_params::Table {
+                name: $id,
+                doc: $doc,
+                parameters: &[
+                    periplus_params::group("gz-gui", "Title, place and look of the panel.")
+                        .also(&["ignition-gui"]),
+                    $($parameter),*
+                ],
+            },
+        )
+    };
+}
+
+pub(crate) use {of_ros1, of_ros2, panel, system};
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use expect_test::expect;
+
+    use super::known;
+    use crate::{Family, library_id};
+
+    #[test]
+    fn no_table_has_slips() {
+        let slips: Vec<String> = known().flat_map(|known| known.table.slips()).collect();
+        assert_eq!(slips, [""; 0]);
+    }
+
+    #[test]
+    fn no_plugin_is_listed_twice() {
+        let mut seen = BTreeSet::new();
+        for known in known() {
+            assert!(seen.insert((known.id, known.family)), "{} of {}", known.id, known.family);
+        }
+    }
+
+    #[test]
+    fn only_ros_plugins_share_a_name() {
+        for one in known() {
+            for other in known().filter(|other| other.id == one.id && other.family != one.family) {
+                assert!(
+                    one.family != Family::Gz && other.family != Family::Gz,
+                    "{} is of {} and of {}",
+                    one.id,
+                    one.family,
+                    other.family
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_name_leads_back_to_its_plugin() {
+        for known in known() {
+            assert_eq!(library_id(&known.filename()), known.id);
+        }
+    }
+
+    #[test]
+    fn every_parameter_is_explained() {
+        for known in known() {
+            assert!(known.table.doc.ends_with('.'), "{}", known.id);
+            for parameter in known.table.parameters {
+                assert!(parameter.doc.ends_with('.'), "{}: {}", known.id, parameter.name);
+            }
+        }
+    }
+
+    #[test]
+    fn topics_name_parameters_of_their_table() {
+        for known in known() {
+            for topic in known.topics {
+                for parameter in topic.set_by.into_iter().chain(topic.when) {
+                    assert!(known.table.find(parameter).is_some(), "{}: {parameter}", known.id);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_diff_drives_as_yaml() {
+        let yaml: String = known()
+            .filter(|known| known.id.contains("diff_drive") || known.id.contains("diff-drive"))
+            .map(|known| known.table.to_yaml())
+            .collect();
+        expect![[r#"
+            # Drives wheels on the left and on the right.
+            libgazebo_ros_diff_drive.so:
+              # Namespace, remappings, parameters and QoS of the plugin's node.
+              # ros:
+              # Number of left and right pairs. (at least 1)
+              num_wheel_pairs: 1
+              # The joint of a left wheel, once for each pair. (required)
+              # left_joint:
+              # The joint of a right wheel, once for each pair. (required)
+              # right_joint:
+              # Distance between the wheels of a pair. [m] (above 0)
+              wheel_separation: [0.34]
+              # Diameter of the wheels of a pair. [m] (above 0)
+              wheel_diameter: [0.15]
+              # Most torque of a wheel. [N m] (at least 0)
+              max_wheel_torque: 5.0
+              # Most acceleration at the rim; 0 is without limit. [m/s^2] (at least 0)
+              max_wheel_acceleration: 0.0
+              # Steps of the controller per second; 0 is each step. [Hz] (at least 0)
+              update_rate: 100.0
+              # 0 counts wheel turns, 1 is the true pose. (0 to 1)
+              odometry_source: 1
+              # Frame of the odometry.
+              odometry_frame: odom
+              # Frame that the odometry moves.
+              robot_base_frame: base_footprint
+              # Whether odometry is published.
+              publish_odom: false
+              # Whether the transform from odometry to base is published.
+              publish_odom_tf: false
+              # Whether the transforms of the wheels are published.
+              publish_wheel_tf: false
+              # Entry of the covariance of pose and velocity. [m^2] (at least 0)
+              covariance_x: 1e-5
+              # Entry of the covariance of pose and velocity. [m^2] (at least 0)
+              covariance_y: 1e-5
+              # Entry of the covariance of pose and velocity. [rad^2] (at least 0)
+              covariance_yaw: 0.001
+            # Drives a wheel on the left and one on the right.
+            libgazebo_ros_diff_drive.so:
+              # Before every topic and service.
+              # robotNamespace:
+              # Nobody reads it since Gazebo 1; harmless.
+              # alwaysOn:
+              # The joint of the left wheel.
+              leftJoint: left_joint
+              # The joint of the right wheel.
+              rightJoint: right_joint
+              # Distance between the wheels. [m] (above 0)
+              wheelSeparation: 0.34
+              # Diameter of the wheels. [m] (above 0)
+              wheelDiameter: 0.15
+              # Most torque of a wheel. [N m] (at least 0)
+              wheelTorque: 5.0
+              # Most acceleration at the rim; 0 is without limit. [m/s^2] (at least 0)
+              wheelAcceleration: 0.0
+              # Steps of the controller per second; 0 is each step. [Hz] (at least 0)
+              updateRate: 100.0
+              # Topic of velocity commands.
+              commandTopic: cmd_vel
+              # Topic of the odometry.
+              odometryTopic: odom
+              # Frame of the odometry.
+              odometryFrame: odom
+              # Wheel turns, or the true pose. One of encoder, world.
+              odometrySource: world
+              # Frame that the odometry moves.
+              robotBaseFrame: base_footprint
+              # Whether the transforms of the wheels are published.
+              publishWheelTF: false
+              # Whether the wheels' joint states are published.
+              publishWheelJointState: false
+              # Whether the transform from odometry to base is published.
+              publishOdomTF: true
+              # Whether transforms are published at all.
+              publishTf: true
+              # Whether left and right are swapped, as before Indigo.
+              # legacyMode:
+              # How much the plugin tells.
+              rosDebugLevel: na
+            # Drives wheels on the left and on the right.
+            gz-sim-diff-drive-system:
+              # The joint of a left wheel. (required)
+              # left_joint:
+              # The joint of a right wheel. (required)
+              # right_joint:
+              # Distance between left and right wheels. [m] (above 0)
+              wheel_separation: 1.0
+              # Radius of the wheels. [m] (above 0)
+              wheel_radius: 0.2
+              # Odometry messages per second; 0 is one each step. [Hz] (at least 0)
+              odom_publish_frequency: 50.0
+              # Topic of commands.
+              # topic:
+              # Topic of the odometry.
+              # odom_topic:
+              # Topic of the transform from odometry to base.
+              # tf_topic:
+              # Frame of the odometry; without it `<model>/odom`.
+              # frame_id:
+              # Frame that the odometry moves; without it `<model>/<link>`.
+              # child_frame_id:
+              # Limit of commands; without it none. [m/s]
+              # min_velocity:
+              # Limit of commands; without it none. [m/s]
+              # max_velocity:
+              # Limit of commands; without it none. [m/s^2]
+              # min_acceleration:
+              # Limit of commands; without it none. [m/s^2]
+              # max_acceleration:
+              # Limit of commands; without it none. [m/s^3]
+              # min_jerk:
+              # Limit of commands; without it none. [m/s^3]
+              # max_jerk:
+              # Limit of commands; without it none. [m/s]
+              # min_linear_velocity:
+              # Limit of commands; without it none. [m/s]
+              # max_linear_velocity:
+              # Limit of commands; without it none. [rad/s]
+              # min_angular_velocity:
+              # Limit of commands; without it none. [rad/s]
+              # max_angular_velocity:
+              # Limit of commands; without it none. [m/s^2]
+              # min_linear_acceleration:
+              # Limit of commands; without it none. [m/s^2]
+              # max_linear_acceleration:
+              # Limit of commands; without it none. [rad/s^2]
+              # min_angular_acceleration:
+              # Limit of commands; without it none. [rad/s^2]
+              # max_angular_acceleration:
+              # Limit of commands; without it none. [m/s^3]
+              # min_linear_jerk:
+              # Limit of commands; without it none. [m/s^3]
+              # max_linear_jerk:
+              # Limit of commands; without it none. [rad/s^3]
+              # min_angular_jerk:
+              # Limit of commands; without it none. [rad/s^3]
+              # max_angular_jerk:
+        "#]]
+        .assert_eq(&yaml);
+    }
+}

@@ -1,0 +1,101 @@
+//! Plugins that come with Gazebo Classic 11 itself.
+
+use periplus_params::{Names, Parameter, Table, group, number, text};
+
+use crate::{Family, Known, Role, Support};
+
+const fn classic(
+    id: &'static str,
+    role: Role,
+    doc: &'static str,
+    parameters: &'static [Parameter],
+) -> Known {
+    let table = Table { name: id, doc, parameters };
+    Known::new(Family::Classic, id, role, Support::Kept, table)
+}
+
+const fn joint(name: &'static str) -> Parameter {
+    text(name, "The joint of a wheel.").required().naming(Names::Joint)
+}
+
+pub(super) static PLUGINS: &[Known] = &[
+    classic(
+        "DiffDrivePlugin",
+        Role::Drive,
+        "Drives wheels on the left and on the right by Gazebo topics.",
+        &[
+            joint("left_joint"),
+            joint("right_joint"),
+            number("torque", "N m", "Most torque of a wheel.").min(0.0),
+        ],
+    ),
+    classic(
+        "SkidSteerDrivePlugin",
+        Role::Drive,
+        "Drives two wheels on the left and two on the right by Gazebo topics.",
+        &[
+            joint("left_front"),
+            joint("left_rear"),
+            joint("right_front"),
+            joint("right_rear"),
+            number("MaxForce", "N m", "Most torque of a wheel.").min(0.0),
+        ],
+    ),
+    classic(
+        "JointControlPlugin",
+        Role::Control,
+        "Drives joints by gains and targets.",
+        &[group("controller", "A joint, its target and its gains.").repeated()],
+    ),
+    classic("ContactPlugin", Role::Sensor, "An example that prints contacts.", &[]).open(),
+    classic("RayPlugin", Role::Sensor, "An example that reads a `ray` sensor.", &[]).open(),
+    classic("GpuRayPlugin", Role::Sensor, "An example that reads a `gpu_ray` sensor.", &[]).open(),
+    classic("CameraPlugin", Role::Sensor, "An example that reads a `camera` sensor.", &[]).open(),
+    classic("DepthCameraPlugin", Role::Sensor, "An example that reads a `depth` sensor.", &[])
+        .open(),
+    classic("RaySensorNoisePlugin", Role::Sensor, "Adds noise to a `ray` sensor.", &[]).open(),
+    classic("ImuSensorPlugin", Role::Sensor, "An example that reads an `imu` sensor.", &[]).open(),
+    classic("PressurePlugin", Role::Sensor, "Publishes pressures of contacts.", &[]).open(),
+    classic("ReflectancePlugin", Role::Sensor, "Gives a visual a map of reflectances.", &[]).open(),
+    classic("SonarPlugin", Role::Sensor, "An example that reads a `sonar` sensor.", &[]).open(),
+    classic("TouchPlugin", Role::Sensor, "Publishes when something is touched.", &[]).open(),
+    classic("LinearBatteryPlugin", Role::Effect, "Drains a battery.", &[]).open(),
+    classic("LiftDragPlugin", Role::Effect, "Lifts and drags a link by its speed.", &[]).open(),
+    classic("BuoyancyPlugin", Role::Effect, "Lets links float.", &[]).open(),
+    classic("WindPlugin", Role::Effect, "Blows.", &[]).open(),
+    classic("WheelSlipPlugin", Role::Effect, "Lets wheels slip.", &[]).open(),
+    classic("WheelTrackedVehiclePlugin", Role::Drive, "Drives tracks made of wheels.", &[]).open(),
+    classic("SimpleTrackedVehiclePlugin", Role::Drive, "Drives tracks.", &[]).open(),
+    classic("TrackedVehiclePlugin", Role::Drive, "Drives tracks.", &[]).open(),
+    classic("CartDemoPlugin", Role::Drive, "An example that drives a cart.", &[]).open(),
+    classic("VehiclePlugin", Role::Drive, "Drives a car by Gazebo topics.", &[]).open(),
+    classic("GimbalSmall2dPlugin", Role::Control, "Turns a gimbal.", &[]).open(),
+    classic("JointTrajectoryPlugin", Role::Control, "An example that moves joints.", &[]).open(),
+    classic("InitialVelocityPlugin", Role::Effect, "Starts links in motion.", &[]).open(),
+    classic("PlaneDemoPlugin", Role::Effect, "Flies an example plane.", &[]).open(),
+    classic("CessnaPlugin", Role::Control, "Flies a Cessna.", &[]).open(),
+    classic("ActorPlugin", Role::Effect, "Lets an actor wander.", &[]).open(),
+    classic("FollowerPlugin", Role::Drive, "Follows what a `depth` sensor sees.", &[]).open(),
+    classic("RandomVelocityPlugin", Role::Effect, "Moves a link at random.", &[]).open(),
+    classic("ElevatorPlugin", Role::Effect, "Drives an elevator.", &[]).open(),
+    classic("HarnessPlugin", Role::Effect, "Lowers a model on a rope.", &[]).open(),
+    classic("TransporterPlugin", Role::Effect, "Moves models from pad to pad.", &[]).open(),
+    classic("BreakableJointPlugin", Role::Effect, "Breaks a joint under load.", &[]).open(),
+    classic("AttachLightPlugin", Role::Effect, "Fixes a light to a link.", &[]).open(),
+    classic("BlinkVisualPlugin", Role::Effect, "Lets a visual blink.", &[]).open(),
+    classic("FlashLightPlugin", Role::Effect, "Lets lights flash.", &[]).open(),
+    classic("LedPlugin", Role::Effect, "Lets visuals flash.", &[]).open(),
+    classic("HydraDemoPlugin", Role::Control, "Moves a model by a Razer Hydra.", &[]).open(),
+    classic("KeysToJointsPlugin", Role::Control, "Moves joints by keys.", &[]).open(),
+    classic("KeysToCmdVelPlugin", Role::Control, "Drives by keys.", &[]).open(),
+    classic("SimEventsPlugin", Role::World, "Publishes what happens in regions.", &[]).open(),
+    classic("StopWorldPlugin", Role::World, "Stops the simulation.", &[]).open(),
+    classic("MudPlugin", Role::Effect, "Slows what lies in mud.", &[]).open(),
+    classic("VariableGearboxPlugin", Role::Effect, "Varies a gear's ratio.", &[]).open(),
+    classic("ArduCopterPlugin", Role::Control, "Flies with ArduPilot.", &[]).open(),
+    classic("ArrangePlugin", Role::World, "Arranges models.", &[]).open(),
+    classic("StaticMapPlugin", Role::World, "Shows a map as ground.", &[]).open(),
+    classic("RubblePlugin", Role::World, "Strews rubble.", &[]).open(),
+    classic("MisalignmentPlugin", Role::State, "Publishes how two frames are aligned.", &[]).open(),
+    classic("JointEventSource", Role::World, "Publishes when joints move.", &[]).open(),
+];

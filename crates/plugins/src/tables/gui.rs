@@ -1,0 +1,172 @@
+//! Panels of today's Gazebo's window.
+
+use periplus_params::{Names, Parameter, choice, flag, group, number, numbers, text};
+
+use super::panel;
+use crate::Known;
+use crate::known::{listens, publishes};
+
+const TOPIC: Parameter = text("topic", "The topic.").naming(Names::Topic);
+
+const TOPIC_PICKER: Parameter = flag("topic_picker", "Whether the topic can be chosen.").or("true");
+
+/// What both kinds of 3D view read.
+macro_rules! view {
+    ($id:literal, $doc:literal) => {
+        panel!(
+            $id,
+            Viewer,
+            $doc,
+            [
+                choice("engine", &["ogre", "ogre2", "optix"], "Who draws.").or("ogre2"),
+                text("scene", "Name of the scene.").or("scene"),
+                numbers("ambient_light", "", "Red, green, blue.").or("0.3 0.3 0.3"),
+                numbers("background_color", "", "Red, green, blue of the sky.").or("0.3 0.3 0.3"),
+                numbers("camera_pose", "m", "Where the view starts.").or("0 0 5 0 0 0"),
+                group("camera_clip", "Nearest and farthest."),
+                group("camera_follow", "How the view follows a model."),
+                number("horizontal_fov", "deg", "Angle across.").above(0.0),
+                text("view_controller", "`orbit` or `ortho`."),
+                group("sky", "Whether there is a sky."),
+                text("graphics_api", "`opengl`, `vulkan` or `metal`."),
+                flag("fullscreen", "Whether it fills the screen.").or("false"),
+                flag("visible", "Whether it is shown."),
+            ]
+        )
+        .open()
+    };
+}
+
+pub(super) static PLUGINS: &[Known] = &[
+    view!("MinimalScene", "The 3D view."),
+    view!("GzScene3D", "The 3D view of Fortress and before."),
+    view!("Scene3D", "The 3D view of the first releases."),
+    panel!("GzSceneManager", Viewer, "Fills the 3D view.", []),
+    panel!("TransportSceneManager", Viewer, "Fills the 3D view over topics.", []).open(),
+    panel!("InteractiveViewControl", Viewer, "Turns the view by mouse.", []),
+    panel!(
+        "CameraTracking",
+        Viewer,
+        "Follows models with the view.",
+        [
+            text("follow_target", "Followed from the start."),
+            numbers("follow_offset", "m", "From the model to the view."),
+            number("follow_pgain", "", "How fast it follows."),
+        ]
+    )
+    .open(),
+    panel!("CameraTrackingConfig", Viewer, "Sets how the view follows.", []).open(),
+    panel!("CameraFps", Viewer, "Shows images per second.", []),
+    panel!("EntityContextMenuPlugin", Viewer, "The menu on a right click.", []),
+    panel!("EntityContextMenu", Viewer, "The menu on a right click.", []),
+    panel!("EntityTree", Viewer, "The tree of models.", []),
+    panel!("ComponentInspector", Viewer, "What is known of a model.", []),
+    panel!("ComponentInspectorEditor", Viewer, "Edits a model.", []),
+    panel!("ModelEditor", Viewer, "Edits a model.", []).open(),
+    panel!("SelectEntities", Viewer, "Selects by click.", []),
+    panel!("Spawn", Viewer, "Puts new models where one clicks.", []),
+    panel!("Shapes", Viewer, "Adds shapes.", []),
+    panel!("Lights", Viewer, "Adds lights.", []),
+    panel!("TransformControl", Viewer, "Moves and turns models.", []).open(),
+    panel!("MarkerManager", Viewer, "Draws markers.", []).open(),
+    panel!("Screenshot", Viewer, "Saves a picture.", []).open(),
+    panel!("VideoRecorder", Viewer, "Records a video.", [group("record_video", "How.")]).open(),
+    panel!("VisualizationCapabilities", Viewer, "Draws collisions, joints, masses.", []),
+    panel!("VisualizeContacts", Viewer, "Draws contacts.", []).open(),
+    panel!("VisualizeFrustum", Viewer, "Draws what a camera sees.", []).open(),
+    panel!("VisualizeLidar", Viewer, "Draws what a lidar measures.", []).open(),
+    panel!("GlobalIlluminationVct", Viewer, "Indirect light.", []).open(),
+    panel!("GlobalIlluminationCiVct", Viewer, "Indirect light.", []).open(),
+    panel!("ViewAngle", Viewer, "Views from the sides.", []).open(),
+    panel!("ViewControl", Viewer, "How the view turns.", []).open(),
+    panel!("AlignTool", Viewer, "Aligns models.", []),
+    panel!("Grid3D", Viewer, "Draws a grid.", [group("insert", "A grid.").repeated()]).open(),
+    panel!("GridConfig", Viewer, "Draws a grid.", [group("insert", "A grid.").repeated()]).open(),
+    panel!("CopyPaste", Viewer, "Copies models.", []),
+    panel!("TapeMeasure", Viewer, "Measures distances.", []),
+    panel!("MouseDrag", Viewer, "Drags models by mouse.", []).open(),
+    panel!("ApplyForceTorque", Viewer, "Pushes models.", []),
+    panel!("BananaForScale", Viewer, "A banana for scale.", []),
+    panel!("DropFromFuel", Viewer, "Drops models from Fuel.", []),
+    panel!("ResourceSpawner", Viewer, "Adds models from disk and Fuel.", []),
+    panel!(
+        "JointPositionController",
+        Viewer,
+        "Moves joints by sliders.",
+        [text("model_name", "The model."), text("joint_name", "A joint that is shown.").repeated(),]
+    )
+    .open(),
+    panel!("PlaybackScrubber", Viewer, "Moves through a record.", []),
+    panel!("LogPlaybackStatistics", Viewer, "Tells the state of a playback.", []).open(),
+    panel!("Plotting", Viewer, "Plots over time.", []).open(),
+    panel!("TransportPlotting", Viewer, "Plots topics over time.", []).open(),
+    panel!(
+        "Plot3D",
+        Viewer,
+        "Draws the path of a model.",
+        [
+            text("entity_name", "The model or link."),
+            numbers("color", "", "Red, green, blue."),
+            numbers("offset", "m", "From the model to the pen."),
+            number("minimum_distance", "m", "Between points.").min(0.0),
+            number("maximum_points", "", "Points that are kept.").min(0.0),
+        ]
+    ),
+    panel!(
+        "KeyPublisher",
+        Viewer,
+        "Publishes keys.",
+        [text("topic", "Topic of the keys.").or("keyboard/keypress").naming(Names::Topic)]
+    )
+    .topics(&[publishes("/keyboard/keypress").set_by("topic")]),
+    panel!(
+        "KeyboardPlugin",
+        Kept,
+        "Drives by keys.",
+        [
+            flag("twist_arrows", "Whether the arrows drive."),
+            flag("twist_wasd", "Whether letters drive."),
+            group("scale_linear", "Speeds."),
+            group("scale_angular", "Turn rates."),
+        ]
+    )
+    .open(),
+    panel!("Teleop", Viewer, "Drives by buttons and keys.", [TOPIC]).open(),
+    panel!("ImageDisplay", Viewer, "Shows images.", [TOPIC, TOPIC_PICKER])
+        .topics(&[listens("/image").set_by("topic")]),
+    panel!("PointCloud", Viewer, "Draws points.", [TOPIC]).open(),
+    panel!("NavSatMap", Viewer, "Shows a map of the Earth.", [TOPIC, TOPIC_PICKER]).open(),
+    panel!("Publisher", Viewer, "Publishes a message.", []).open(),
+    panel!("TopicEcho", Viewer, "Shows messages.", []).open(),
+    panel!("TopicViewer", Viewer, "Lists topics.", []).open(),
+    panel!("TopicsStats", Viewer, "Counts messages.", []).open(),
+    panel!("EnvironmentLoader", Kept, "Loads environmental data.", []).open(),
+    panel!("EnvironmentVisualization", Kept, "Draws environmental data.", []).open(),
+    panel!("ExportOccupancy", Viewer, "Saves a map.", []).open(),
+    panel!(
+        "WorldControl",
+        Viewer,
+        "Plays, pauses, steps.",
+        [
+            flag("play_pause", "Whether there is a button.").or("false"),
+            flag("step", "Whether there is a button.").or("false"),
+            flag("reset", "Whether there is a button."),
+            flag("start_paused", "Whether it starts paused.").or("false"),
+            flag("use_event", "Whether it tells the server within the process.").or("false"),
+            text("service", "Service of the world.").naming(Names::Topic),
+            text("stats_topic", "Topic of statistics.").naming(Names::Topic),
+        ]
+    ),
+    panel!(
+        "WorldStats",
+        Viewer,
+        "Shows the time.",
+        [
+            flag("sim_time", "Whether it is shown.").or("false"),
+            flag("real_time", "Whether it is shown.").or("false"),
+            flag("real_time_factor", "Whether it is shown.").or("false"),
+            flag("iterations", "Whether it is shown.").or("false"),
+            TOPIC,
+        ]
+    ),
+];

@@ -1,0 +1,452 @@
+//! Drives and joint controllers of today's Gazebo.
+
+use periplus_params::{Names, Parameter, choice, flag, group, integer, number, numbers, text};
+
+use super::system;
+use crate::Known;
+use crate::known::{listens, publishes};
+
+const fn joint(name: &'static str, doc: &'static str) -> Parameter {
+    text(name, doc).naming(Names::Joint)
+}
+
+const fn wheels(name: &'static str, doc: &'static str) -> Parameter {
+    joint(name, doc).required().repeated()
+}
+
+const TOPIC: Parameter = text("topic", "Topic of commands.").naming(Names::Topic);
+
+const SUB_TOPIC: Parameter = text("sub_topic", "Topic of commands below `/model/<name>/`.");
+
+const ODOM_TOPIC: Parameter = text("odom_topic", "Topic of the odometry.").naming(Names::Topic);
+
+const TF_TOPIC: Parameter =
+    text("tf_topic", "Topic of the transform from odometry to base.").naming(Names::Topic);
+
+const FRAME_ID: Parameter = text("frame_id", "Frame of the odometry; without it `<model>/odom`.");
+
+const CHILD_FRAME_ID: Parameter =
+    text("child_frame_id", "Frame that the odometry moves; without it `<model>/<link>`.");
+
+const ODOM_FREQUENCY: Parameter =
+    number("odom_publish_frequency", "Hz", "Odometry messages per second; 0 is one each step.")
+        .or("50")
+        .min(0.0);
+
+const WHEEL_SEPARATION: Parameter =
+    number("wheel_separation", "m", "Distance between left and right wheels.").or("1").above(0.0);
+
+const WHEEL_RADIUS: Parameter =
+    number("wheel_radius", "m", "Radius of the wheels.").or("0.2").above(0.0);
+
+const fn limit(name: &'static str, unit: &'static str) -> Parameter {
+    number(name, unit, "Limit of commands; without it none.")
+}
+
+/// Gains of a controller of one joint, with the defaults of Gazebo.
+const fn gain(name: &'static str, default: &'static str) -> Parameter {
+    number(name, "", "Of the controller.").or(default)
+}
+
+const JOINT_INDEX: Parameter = integer("joint_index", "Axis of the joint.").or("0").min(0.0);
+
+const USE_ACTUATOR_MSG: Parameter =
+    flag("use_actuator_msg", "Whether commands come as `Actuators` messages.").or("false");
+
+const ACTUATOR_NUMBER: Parameter =
+    integer("actuator_number", "Index in an `Actuators` message.").min(0.0);
+
+const DRIVE_TOPICS: &[crate::Topic] = &[
+    listens("/model/{model}/cmd_vel").set_by("topic"),
+    publishes("/model/{model}/odometry").set_by("odom_topic"),
+    publishes("/model/{model}/tf").set_by("tf_topic"),
+];
+
+pub(super) static PLUGINS: &[Known] = &[
+    system!(
+        "gz-sim-diff-drive-system",
+        ["DiffDrive"],
+        Drive,
+        Simulated,
+        "Drives wheels on the left and on the right.",
+        [
+            wheels("left_joint", "The joint of a left wheel."),
+            wheels("right_joint", "The joint of a right wheel."),
+            WHEEL_SEPARATION,
+            WHEEL_RADIUS,
+            ODOM_FREQUENCY,
+            TOPIC,
+            ODOM_TOPIC,
+            TF_TOPIC,
+            FRAME_ID,
+            CHILD_FRAME_ID,
+            limit("min_velocity", "m/s"),
+            limit("max_velocity", "m/s"),
+            limit("min_acceleration", "m/s^2"),
+            limit("max_acceleration", "m/s^2"),
+            limit("min_jerk", "m/s^3"),
+            limit("max_jerk", "m/s^3"),
+            limit("min_linear_velocity", "m/s"),
+            limit("max_linear_velocity", "m/s"),
+            limit("min_angular_velocity", "rad/s"),
+            limit("max_angular_velocity", "rad/s"),
+            limit("min_linear_acceleration", "m/s^2"),
+            limit("max_linear_acceleration", "m/s^2"),
+            limit("min_angular_acceleration", "rad/s^2"),
+            limit("max_angular_acceleration", "rad/s^2"),
+            limit("min_linear_jerk", "m/s^3"),
+            limit("max_linear_jerk", "m/s^3"),
+            limit("min_angular_jerk", "rad/s^3"),
+            limit("max_angular_jerk", "rad/s^3"),
+        ]
+    )
+    .topics(DRIVE_TOPICS),
+    system!(
+        "gz-sim-mecanum-drive-system",
+        ["MecanumDrive"],
+        Drive,
+        Simulated,
+        "Drives four wheels with slanted rollers.",
+        [
+            wheels("front_left_joint", "The joint of a front left wheel."),
+            wheels("front_right_joint", "The joint of a front right wheel."),
+            wheels("back_left_joint", "The joint of a back left wheel."),
+            wheels("back_right_joint", "The joint of a back right wheel."),
+            number("wheelbase", "m", "Distance between front and back wheels.").or("1").above(0.0),
+            WHEEL_SEPARATION,
+            WHEEL_RADIUS,
+            ODOM_FREQUENCY,
+            TOPIC,
+            ODOM_TOPIC,
+            TF_TOPIC,
+            FRAME_ID,
+            CHILD_FRAME_ID,
+            limit("min_velocity", "m/s"),
+            limit("max_velocity", "m/s"),
+            limit("min_acceleration", "m/s^2"),
+            limit("max_acceleration", "m/s^2"),
+            limit("min_jerk", "m/s^3"),
+            limit("max_jerk", "m/s^3"),
+            limit("min_linear_velocity", "m/s"),
+            limit("max_linear_velocity", "m/s"),
+            limit("min_angular_velocity", "rad/s"),
+            limit("max_angular_velocity", "rad/s"),
+            limit("min_linear_acceleration", "m/s^2"),
+            limit("max_linear_acceleration", "m/s^2"),
+            limit("min_angular_acceleration", "rad/s^2"),
+            limit("max_angular_acceleration", "rad/s^2"),
+            limit("min_linear_jerk", "m/s^3"),
+            limit("max_linear_jerk", "m/s^3"),
+            limit("min_angular_jerk", "rad/s^3"),
+            limit("max_angular_jerk", "rad/s^3"),
+        ]
+    )
+    .topics(DRIVE_TOPICS),
+    system!(
+        "gz-sim-ackermann-steering-system",
+        ["AckermannSteering"],
+        Drive,
+        Simulated,
+        "Drives and steers a car.",
+        [
+            wheels("left_joint", "The joint of a left wheel."),
+            wheels("right_joint", "The joint of a right wheel."),
+            joint("left_steering_joint", "Steers the left wheel.").required(),
+            joint("right_steering_joint", "Steers the right wheel.").required(),
+            WHEEL_SEPARATION,
+            number("kingpin_width", "m", "Distance between the steering axes.")
+                .or("0.8")
+                .above(0.0),
+            number("wheel_base", "m", "Distance between front and back wheels.").or("1").above(0.0),
+            number("steering_limit", "rad", "Most angle of a wheel.").or("0.5").above(0.0),
+            WHEEL_RADIUS,
+            number("steer_p_gain", "1/s", "Steering speed per angle that is missing.").or("1"),
+            flag("steering_only", "Whether commands are steering angles.").or("false"),
+            USE_ACTUATOR_MSG,
+            ACTUATOR_NUMBER,
+            ODOM_FREQUENCY,
+            TOPIC,
+            SUB_TOPIC,
+            ODOM_TOPIC,
+            TF_TOPIC,
+            FRAME_ID,
+            CHILD_FRAME_ID,
+            limit("min_velocity", "m/s"),
+            limit("max_velocity", "m/s"),
+            limit("min_acceleration", "m/s^2"),
+            limit("max_acceleration", "m/s^2"),
+            limit("min_jerk", "m/s^3"),
+            limit("max_jerk", "m/s^3"),
+        ]
+    )
+    .topics(DRIVE_TOPICS),
+    system!(
+        "gz-sim-velocity-control-system",
+        ["VelocityControl"],
+        Drive,
+        Simulated,
+        "Sets the velocity of a model or of links.",
+        [
+            TOPIC,
+            numbers("initial_linear", "m/s", "Velocity at the start.").or("0 0 0"),
+            numbers("initial_angular", "rad/s", "Velocity at the start.").or("0 0 0"),
+            text("link_name", "A link with a topic of its own.").repeated().naming(Names::Link),
+        ]
+    )
+    .topics(&[listens("/model/{model}/cmd_vel").set_by("topic")]),
+    system!(
+        "gz-sim-tracked-vehicle-system",
+        ["TrackedVehicle"],
+        Drive,
+        Kept,
+        "Drives tracks on the left and on the right.",
+        [
+            group("left_track", "Link and settings of a left track.").repeated(),
+            group("right_track", "Link and settings of a right track.").repeated(),
+            number("tracks_separation", "m", "Distance between the tracks.").or("1").above(0.0),
+            number("track_height", "m", "Height of the tracks.").or("0.2").above(0.0),
+            number("steering_efficiency", "", "Share of a turn that is not lost.")
+                .or("0.5")
+                .within(0.0, 1.0),
+            flag("debug", "Whether it draws what it does.").or("false"),
+            group("linear_velocity", "Limits."),
+            group("angular_velocity", "Limits."),
+            ODOM_FREQUENCY,
+            TOPIC,
+            text("steering_efficiency_topic", "Topic of the efficiency.").naming(Names::Topic),
+            ODOM_TOPIC,
+            TF_TOPIC,
+            FRAME_ID,
+            CHILD_FRAME_ID,
+        ]
+    )
+    .topics(DRIVE_TOPICS),
+    system!(
+        "gz-sim-track-controller-system",
+        ["TrackController"],
+        Drive,
+        Kept,
+        "Moves the surface of a track or conveyor.",
+        [
+            text("link", "The link.").required().naming(Names::Link),
+            flag("debug", "Whether it draws what it does.").or("false"),
+            numbers("track_orientation", "rad", "Of the track on the link.").or("0 0 0"),
+            text("velocity_topic", "Topic of speeds.").naming(Names::Topic),
+            text("center_of_rotation_topic", "Topic of turning points.").naming(Names::Topic),
+            text("odometry_topic", "Topic of the distance run.").naming(Names::Topic),
+            number("odometry_publish_frequency", "Hz", "Odometry messages per second.")
+                .or("50")
+                .min(0.0),
+            limit("min_velocity", "m/s"),
+            limit("max_velocity", "m/s"),
+            limit("min_acceleration", "m/s^2"),
+            limit("max_acceleration", "m/s^2"),
+            limit("min_jerk", "m/s^3"),
+            limit("max_jerk", "m/s^3"),
+            number("max_command_age", "s", "After it a command is forgotten; 0 is never.")
+                .or("0")
+                .min(0.0),
+        ]
+    ),
+    system!(
+        "gz-sim-joint-position-controller-system",
+        ["JointPositionController"],
+        Control,
+        Simulated,
+        "Moves a joint to a position.",
+        [
+            joint("joint_name", "The joint.").required().repeated(),
+            JOINT_INDEX,
+            USE_ACTUATOR_MSG,
+            ACTUATOR_NUMBER.also(&["actuatorNumber"]),
+            gain("p_gain", "1"),
+            gain("i_gain", "0.1"),
+            gain("d_gain", "0.01"),
+            gain("i_max", "1"),
+            gain("i_min", "-1"),
+            gain("cmd_max", "1000"),
+            gain("cmd_min", "-1000"),
+            gain("cmd_offset", "0"),
+            flag("use_velocity_commands", "Whether it moves without gains.").or("false"),
+            TOPIC,
+            SUB_TOPIC,
+            number("initial_position", "rad", "Position at the start.").or("0"),
+        ]
+    )
+    .topics(&[listens("/model/{model}/joint/{joint_name}/0/cmd_pos").set_by("topic")]),
+    system!(
+        "gz-sim-joint-controller-system",
+        ["JointController"],
+        Control,
+        Simulated,
+        "Turns a joint at a velocity.",
+        [
+            joint("joint_name", "The joint.").required().repeated(),
+            JOINT_INDEX,
+            flag("use_force_commands", "Whether it uses forces and gains.").or("false"),
+            USE_ACTUATOR_MSG,
+            ACTUATOR_NUMBER.also(&["actuatorNumber"]),
+            TOPIC,
+            SUB_TOPIC,
+            number("initial_velocity", "rad/s", "Velocity at the start.").or("0"),
+            gain("p_gain", "1"),
+            gain("i_gain", "0"),
+            gain("d_gain", "0"),
+            gain("i_max", "1"),
+            gain("i_min", "-1"),
+            gain("cmd_max", "1000"),
+            gain("cmd_min", "-1000"),
+            gain("cmd_offset", "0"),
+            flag("disable_braking", "Whether it never slows the joint.").or("false"),
+        ]
+    )
+    .topics(&[listens("/model/{model}/joint/{joint_name}/cmd_vel").set_by("topic")]),
+    system!(
+        "gz-sim-joint-trajectory-controller-system",
+        ["JointTrajectoryController"],
+        Control,
+        Simulated,
+        "Moves joints along a trajectory.",
+        [
+            TOPIC,
+            flag("use_header_start_time", "Whether it starts at the time of the message.")
+                .or("false"),
+            joint("joint_name", "A joint; without any all with one axis.").repeated(),
+            number("initial_position", "rad", "Position at the start.").repeated(),
+            gain("position_p_gain", "0").repeated(),
+            gain("position_i_gain", "0").repeated(),
+            gain("position_d_gain", "0").repeated(),
+            gain("position_i_min", "0").repeated(),
+            gain("position_i_max", "-1").repeated(),
+            gain("position_cmd_min", "0").repeated(),
+            gain("position_cmd_max", "-1").repeated(),
+            gain("position_cmd_offset", "0").repeated(),
+            gain("velocity_p_gain", "0").repeated(),
+            gain("velocity_i_gain", "0").repeated(),
+            gain("velocity_d_gain", "0").repeated(),
+            gain("velocity_i_min", "0").repeated(),
+            gain("velocity_i_max", "-1").repeated(),
+            gain("velocity_cmd_min", "0").repeated(),
+            gain("velocity_cmd_max", "-1").repeated(),
+            gain("velocity_cmd_offset", "0").repeated(),
+        ]
+    )
+    .topics(&[listens("/model/{model}/joint_trajectory").set_by("topic")]),
+    system!(
+        "gz-sim-apply-joint-force-system",
+        ["ApplyJointForce"],
+        Control,
+        Kept,
+        "Applies a force to a joint.",
+        [joint("joint_name", "The joint.").required()]
+    )
+    .topics(&[listens("/model/{model}/joint/{joint_name}/cmd_force")]),
+    system!(
+        "gz_ros2_control-system",
+        ["GazeboSimROS2ControlPlugin", "IgnitionROS2ControlPlugin"],
+        Control,
+        Simulated,
+        "Runs ros2_control on the model's joints.",
+        [
+            text("parameters", "Path of a parameter file.").repeated(),
+            group("ros", "Namespace and remappings of the controller manager."),
+            text("robot_param", "Parameter that holds the robot description.")
+                .or("robot_description"),
+            text("robot_param_node", "Node that holds it.").or("robot_state_publisher"),
+            text("controller_manager_name", "Name of the controller manager's node.")
+                .or("controller_manager"),
+            flag("hold_joints", "Whether joints hold still without a command.").or("true"),
+            number("position_proportional_gain", "1/s", "Speed per position that is missing.")
+                .or("0.1"),
+            text("controller_manager_prefix_node_name", "Before the node's name."),
+        ]
+    ),
+    system!(
+        "gz-sim-multicopter-control-system",
+        ["MulticopterVelocityControl"],
+        Control,
+        Kept,
+        "Flies a multicopter at a velocity.",
+        [
+            text("robotNamespace", "Before every topic."),
+            text("commandSubTopic", "Topic of velocities.").or("cmd_vel").naming(Names::Topic),
+            text("enableSubTopic", "Topic that switches it.").or("enable").naming(Names::Topic),
+            text("comLinkName", "The link at the centre of mass.").required().naming(Names::Link),
+            numbers("velocityGain", "", "Gains along x, y, z.").required(),
+            numbers("attitudeGain", "", "Gains about x, y, z.").required(),
+            numbers("angularRateGain", "", "Gains about x, y, z.").required(),
+            numbers("maximumLinearVelocity", "m/s", "Along x, y, z."),
+            numbers("maximumLinearAcceleration", "m/s^2", "Along x, y, z.").required(),
+            numbers("maximumAngularVelocity", "rad/s", "About x, y, z."),
+            numbers("linearVelocityNoiseMean", "m/s", "Along x, y, z."),
+            numbers("linearVelocityNoiseStdDev", "m/s", "Along x, y, z."),
+            numbers("angularVelocityNoiseMean", "rad/s", "About x, y, z."),
+            numbers("angularVelocityNoiseStdDev", "rad/s", "About x, y, z."),
+            group("rotorConfiguration", "Joint, force and direction of each rotor.").required(),
+        ]
+    ),
+    system!(
+        "gz-sim-multicopter-motor-model-system",
+        ["MulticopterMotorModel"],
+        Control,
+        Kept,
+        "Turns thrust and drag of a rotor into forces.",
+        [
+            text("robotNamespace", "Before every topic."),
+            joint("jointName", "The rotor's joint.").required(),
+            text("linkName", "The rotor's link.").required().naming(Names::Link),
+            choice("turningDirection", &["cw", "ccw"], "Seen from above."),
+            choice("motorType", &["velocity", "position", "force"], "What commands mean.")
+                .or("velocity"),
+            text("commandSubTopic", "Topic of commands.").naming(Names::Topic),
+            text("motorSpeedPubTopic", "Topic of speeds.").naming(Names::Topic),
+            integer("actuator_number", "Index in an `Actuators` message.")
+                .also(&["motorNumber"])
+                .min(0.0),
+            text("actuatorType", "Which field of an `Actuators` message is read."),
+            number("maxRotVelocity", "rad/s", "Most speed."),
+            number("motorConstant", "N s^2", "Thrust per squared speed."),
+            number("momentConstant", "m", "Torque per thrust."),
+            number("rotorDragCoefficient", "", "Drag per speed."),
+            number("rollingMomentCoefficient", "", "Rolling moment per speed."),
+            number("rotorVelocitySlowdownSim", "", "The shown rotor turns so many times slower.")
+                .or("10"),
+            number("timeConstantUp", "s", "Of gaining speed."),
+            number("timeConstantDown", "s", "Of losing speed."),
+        ]
+    ),
+    system!(
+        "gz-sim-drive-to-pose-controller-system",
+        ["DriveToPoseController"],
+        Control,
+        Kept,
+        "Drives a model to a pose.",
+        [
+            number("linear_p_gain", "1/s", "Speed per distance.").or("1"),
+            number("angular_p_gain", "1/s", "Turn rate per angle.").or("2"),
+            number("linear_deviation", "m", "Within it the place counts as reached.").or("0.1"),
+            number("angular_deviation", "rad", "Within it the direction counts as reached.")
+                .or("0.05"),
+        ]
+    ),
+    system!(
+        "gz-sim-trajectory-follower-system",
+        ["TrajectoryFollower"],
+        Control,
+        Kept,
+        "Drives a model along waypoints.",
+        [
+            text("link_name", "The link that is pushed.").naming(Names::Link),
+            group("waypoints", "Places to visit."),
+            flag("loop", "Whether it starts over.").or("false"),
+            number("force", "N", "Push.").or("60"),
+            number("torque", "N m", "Turn.").or("50"),
+            number("range_tolerance", "m", "Within it a place counts as reached.").or("0.5"),
+            number("bearing_tolerance", "deg", "Within it the direction counts as right.").or("2"),
+            flag("zero_vel_on_bearing_reached", "Whether it stops turning then.").or("false"),
+            group("circle", "A circle instead of waypoints."),
+            group("line", "A line instead of waypoints."),
+            text("topic", "Topic that switches it.").naming(Names::Topic),
+        ]
+    ),
+];

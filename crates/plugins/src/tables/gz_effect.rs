@@ -1,0 +1,324 @@
+//! Systems of today's Gazebo that act on bodies.
+
+use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
+
+use super::system;
+use crate::Known;
+
+const fn link(name: &'static str, doc: &'static str) -> Parameter {
+    text(name, doc).naming(Names::Link)
+}
+
+const fn topic(name: &'static str, doc: &'static str) -> Parameter {
+    text(name, doc).naming(Names::Topic)
+}
+
+const fn damping(name: &'static str) -> Parameter {
+    number(name, "", "Coefficient of added mass or damping, named after the axes.").or("0")
+}
+
+pub(super) static PLUGINS: &[Known] = &[
+    system!(
+        "gz-sim-detachable-joint-system",
+        ["DetachableJoint"],
+        Effect,
+        Simulated,
+        "Holds two models together until it is told to let go.",
+        [
+            link("parent_link", "The link of this model.").required(),
+            text("child_model", "The other model.").required(),
+            text("child_link", "The link of the other model.").required(),
+            topic("topic", "Older name of `detach_topic`."),
+            topic("detach_topic", "Topic that lets go."),
+            topic("attach_topic", "Topic that holds again."),
+            topic("output_topic", "Topic that tells the state."),
+            text("suppress_child_warning", "Whether a missing model is passed over."),
+        ]
+    ),
+    system!(
+        "gz-sim-wheel-slip-system",
+        ["WheelSlip"],
+        Effect,
+        Kept,
+        "Lets wheels slip in proportion to their load.",
+        [group("wheel", "A wheel's link, radius, load and compliances.").repeated()]
+    ),
+    system!(
+        "gz-sim-thruster-system",
+        ["Thruster"],
+        Effect,
+        Kept,
+        "Pushes a boat by a propeller.",
+        [
+            text("namespace", "Before the topics."),
+            topic("topic", "Topic of commands."),
+            text("joint_name", "The propeller's joint.").required().naming(Names::Joint),
+            flag("use_angvel_cmd", "Whether commands are speeds instead of thrusts.").or("false"),
+            number("fluid_density", "kg/m^3", "Of the water.").or("1000").above(0.0),
+            number("propeller_diameter", "m", "Across.").or("0.02").above(0.0),
+            number("thrust_coefficient", "", "Thrust against speed.").or("1"),
+            flag("velocity_control", "Whether the joint turns without gains.").or("false"),
+            number("p_gain", "", "Of the controller.").or("0.1"),
+            number("i_gain", "", "Of the controller.").or("0"),
+            number("d_gain", "", "Of the controller.").or("0"),
+            number("max_thrust_cmd", "N", "Most thrust.").or("1000"),
+            number("min_thrust_cmd", "N", "Least thrust.").or("-1000"),
+            number("wake_fraction", "", "Share of the speed that the hull takes.").or("0.2"),
+            number("alpha_1", "", "Constant part of the thrust coefficient.").or("1"),
+            number("alpha_2", "", "Part that grows with the advance.").or("0"),
+            number("deadband", "N", "Commands below are ignored.").or("0").min(0.0),
+        ]
+    ),
+    system!(
+        "gz-sim-buoyancy-system",
+        ["Buoyancy"],
+        Effect,
+        Kept,
+        "Lets links float.",
+        [
+            number("uniform_fluid_density", "kg/m^3", "Of the water everywhere.").or("1000"),
+            group("graded_buoyancy", "Densities by height."),
+            text("enable", "A model that floats; without any all.").repeated(),
+        ]
+    ),
+    system!(
+        "gz-sim-buoyancy-engine-system",
+        ["BuoyancyEngine"],
+        Effect,
+        Kept,
+        "Pumps a bladder to rise or sink.",
+        [
+            link("link_name", "The bladder's link.").required(),
+            text("namespace", "Before the topics."),
+            number("min_volume", "m^3", "Least.").or("0.00003"),
+            number("neutral_volume", "m^3", "At which it hovers.").or("0.0003"),
+            number("default_volume", "m^3", "At the start.").or("0.0003"),
+            number("max_volume", "m^3", "Most.").or("0.00099"),
+            number("max_inflation_rate", "m^3/s", "Most change.").or("0.000003"),
+            number("fluid_density", "kg/m^3", "Of the water.").or("1000"),
+            number("surface", "m", "Height of the surface."),
+        ]
+    ),
+    system!(
+        "gz-sim-hydrodynamics-system",
+        ["Hydrodynamics"],
+        Effect,
+        Kept,
+        "Slows a link in water.",
+        [
+            link("link_name", "The link.").required(),
+            text("namespace", "Before the topics."),
+            number("water_density", "kg/m^3", "Of the water.").or("998"),
+            numbers("default_current", "m/s", "Current of the water.").or("0 0 0"),
+            flag("disable_coriolis", "Whether Coriolis forces are left out.").or("false"),
+            flag("disable_added_mass", "Whether added mass is left out.").or("false"),
+            text("lookup_current_x", "Column of the current."),
+            text("lookup_current_y", "Column of the current."),
+            text("lookup_current_z", "Column of the current."),
+            damping("xDotU"),
+            damping("yDotV"),
+            damping("zDotW"),
+            damping("kDotP"),
+            damping("mDotQ"),
+            damping("nDotR"),
+            damping("xU"),
+            damping("xUU"),
+            damping("xUabsU"),
+            damping("yV"),
+            damping("yVV"),
+            damping("yVabsV"),
+            damping("zW"),
+            damping("zWW"),
+            damping("zWabsW"),
+            damping("kP"),
+            damping("kPP"),
+            damping("kPabsP"),
+            damping("mQ"),
+            damping("mQQ"),
+            damping("mQabsQ"),
+            damping("nR"),
+            damping("nRR"),
+            damping("nRabsR"),
+        ]
+    )
+    .open(),
+    system!(
+        "gz-sim-lift-drag-system",
+        ["LiftDrag"],
+        Effect,
+        Kept,
+        "Lifts and drags a link by its speed.",
+        [
+            link("link_name", "The link.").required(),
+            number("air_density", "kg/m^3", "Of the air or water.").or("1.2041"),
+            number("area", "m^2", "Of the wing.").or("1"),
+            number("a0", "rad", "Angle without lift.").or("0"),
+            number("cla", "1/rad", "Slope of the lift.").or("1"),
+            number("cda", "1/rad", "Slope of the drag.").or("0.01"),
+            number("cma", "1/rad", "Slope of the moment.").or("0"),
+            number("cla_stall", "1/rad", "Slope of the lift after the stall.").or("0"),
+            number("cda_stall", "1/rad", "Slope of the drag after the stall.").or("1"),
+            number("cma_stall", "1/rad", "Slope of the moment after the stall.").or("0"),
+            number("alpha_stall", "rad", "Angle of the stall.").or("1.570796"),
+            numbers("cp", "m", "Where the forces act.").or("0 0 0"),
+            numbers("forward", "", "Direction of flight.").or("1 0 0"),
+            numbers("upward", "", "Direction of lift.").or("0 0 1"),
+            flag("radial_symmetry", "Whether the upward direction follows the flow.").or("false"),
+            text("control_joint_name", "The joint of the flap.").naming(Names::Joint),
+            number("control_joint_rad_to_cl", "1/rad", "Lift of the flap.").or("1"),
+            number("cm_delta", "", "Moment of the flap.").or("0"),
+        ]
+    ),
+    system!(
+        "gz-sim-advanced-lift-drag-system",
+        ["AdvancedLiftDrag"],
+        Effect,
+        Kept,
+        "Lifts and drags an aircraft by stability derivatives.",
+        []
+    )
+    .open(),
+    system!(
+        "gz-sim-linearbatteryplugin-system",
+        ["LinearBatteryPlugin"],
+        Effect,
+        Kept,
+        "Drains and charges a battery.",
+        [
+            text("battery_name", "Name of the battery.").required(),
+            number("voltage", "V", "At the start.").required(),
+            number("open_circuit_voltage_constant_coef", "V", "Voltage when full."),
+            number("open_circuit_voltage_linear_coef", "V", "Voltage lost until empty."),
+            number("initial_charge", "A h", "At the start; without it full.").min(0.0),
+            number("capacity", "A h", "When full.").min(0.0),
+            number("resistance", "ohm", "Inside.").min(0.0),
+            number("smooth_current_tau", "s", "Of the smoothed current.").above(0.0),
+            flag("fix_issue_225", "Whether charge is counted in hours."),
+            number("power_load", "W", "Drawn all the time.").min(0.0),
+            flag("start_draining", "Whether it drains from the start.").or("false"),
+            flag("start_on_motion", "Whether it drains from the first motion.").or("false"),
+            topic("power_draining_topic", "Topic that starts it.").repeated(),
+            topic("stop_power_draining_topic", "Topic that stops it.").repeated(),
+            flag("enable_recharge", "Whether it can be charged.").or("false"),
+            flag("recharge_by_topic", "Whether charging is by topic instead of service.")
+                .or("false"),
+            number("charging_time", "h", "From empty to full.").above(0.0),
+            number("soc_rate", "Hz", "Messages per second.").min(0.0),
+            number("soc_threshold", "", "Share of charge at which drones come back.")
+                .within(0.0, 1.0),
+            flag("invert_current_sign", "Whether a drawn current is negative.").or("false"),
+        ]
+    ),
+    system!(
+        "gz-sim-wind-effects-system",
+        ["WindEffects"],
+        Effect,
+        Kept,
+        "Lets the wind push links.",
+        [
+            group("horizontal", "Strength and direction of gusts."),
+            group("vertical", "Rising and sinking gusts."),
+            text("force_approximation_scaling_factor", "Force per mass and speed."),
+        ]
+    ),
+    system!(
+        "gz-sim-apply-link-wrench-system",
+        ["ApplyLinkWrench"],
+        Effect,
+        Simulated,
+        "Applies forces to links.",
+        [
+            group("persistent", "A force that acts from the start.").repeated(),
+            flag("verbose", "Whether it tells what it does.").or("true"),
+        ]
+    ),
+    system!(
+        "gz-sim-particle-emitter-system",
+        ["ParticleEmitter"],
+        Effect,
+        Kept,
+        "Runs emitters of smoke and dust.",
+        [flag("allow_renaming", "Whether a taken name is changed.").or("false")]
+    ),
+    system!(
+        "gz-sim-particle-emitter2-system",
+        ["ParticleEmitter2"],
+        Effect,
+        Kept,
+        "Older emitters.",
+        []
+    )
+    .open(),
+    system!(
+        "gz-sim-follow-actor-system",
+        ["FollowActor"],
+        Effect,
+        Kept,
+        "Lets an actor follow a model.",
+        [
+            text("target", "The model.").required(),
+            number("min_distance", "m", "Nearer it stops.").or("1.2"),
+            number("max_distance", "m", "Farther it gives up.").or("4"),
+            number("velocity", "m/s", "Of walking.").or("0.8"),
+            text("animation", "Of walking."),
+            number("animation_x_vel", "m/s", "Speed that fits the animation.").or("2"),
+        ]
+    ),
+    system!(
+        "gz-sim-elevator-system",
+        ["Elevator"],
+        Effect,
+        Kept,
+        "Drives an elevator to a floor.",
+        [
+            number("update_rate", "Hz", "Of the controller.").or("10"),
+            text("floor_link_prefix", "Names of floors start so.").or("floor_"),
+            text("door_joint_prefix", "Names of doors start so.").or("door_"),
+            text("cabin_joint", "The joint that lifts.").or("lift").naming(Names::Joint),
+            topic("cmd_topic", "Topic of commands."),
+            topic("state_topic", "Topic of the state."),
+            number("state_publish_rate", "Hz", "Of the state.").or("5"),
+            number("open_door_wait_duration", "s", "How long doors stay open.").or("5"),
+        ]
+    ),
+    system!(
+        "gz-sim-lookup-wheel-slip-system",
+        ["LookupWheelSlip"],
+        Effect,
+        Kept,
+        "Lets wheels slip by a map of the ground.",
+        []
+    )
+    .open(),
+    system!(
+        "gz-sim-dynamic-detachable-joint-system",
+        ["DynamicDetachableJoint"],
+        Effect,
+        Kept,
+        "Holds models together on command.",
+        []
+    )
+    .open(),
+    system!(
+        "gz-sim-spacecraft-thruster-model-system",
+        ["SpacecraftThrusterModel"],
+        Effect,
+        Kept,
+        "Pushes a spacecraft.",
+        []
+    )
+    .open(),
+    system!(
+        "gz-sim-lens-flare-system",
+        ["LensFlare"],
+        Effect,
+        Kept,
+        "Adds lens flares to a camera.",
+        [
+            number("scale", "", "Size.").or("1"),
+            numbers("color", "", "Red, green, blue.").or("1.4 1.2 1"),
+            integer("occlusion_steps", "How finely cover is tested.").or("10"),
+            text("light_name", "The light."),
+        ]
+    ),
+];

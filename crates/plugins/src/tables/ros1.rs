@@ -1,0 +1,209 @@
+//! Plugins of `gazebo_ros_pkgs`, branch `noetic-devel`, that neither drive nor sense.
+
+use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
+
+use super::of_ros1;
+use crate::Known;
+use crate::known::{listens, publishes};
+
+const UPDATE_RATE: Parameter =
+    number("updateRate", "Hz", "Messages per second; 0 is one each step.").or("0").min(0.0);
+
+const fn link(name: &'static str, doc: &'static str) -> Parameter {
+    text(name, doc).naming(Names::Link)
+}
+
+const fn topic(name: &'static str, doc: &'static str) -> Parameter {
+    text(name, doc).naming(Names::Topic)
+}
+
+pub(super) static PLUGINS: &[Known] = &[
+    of_ros1!(
+        "gazebo_ros_p3d",
+        State,
+        Simulated,
+        "Publishes the true pose of a link as odometry.",
+        [
+            link("bodyName", "The link that is watched.").required(),
+            topic("topicName", "Topic of the odometry.").required(),
+            text("frameName", "The link against which it is measured, or `world` or `map`.")
+                .or("world")
+                .naming(Names::Frame),
+            UPDATE_RATE,
+            numbers("xyzOffset", "m", "Added to the position.").or("0 0 0").also(&["xyzOffsets"]),
+            numbers("rpyOffset", "rad", "Added to the orientation.")
+                .or("0 0 0")
+                .also(&["rpyOffsets"]),
+            number("gaussianNoise", "m/s", "Standard deviation of the noise of the velocity.")
+                .or("0")
+                .min(0.0),
+        ]
+    )
+    .topics(&[publishes("p3d").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_joint_state_publisher",
+        State,
+        Simulated,
+        "Publishes positions of joints.",
+        [
+            text("jointName", "The joints, separated by commas; without it all."),
+            number("updateRate", "Hz", "Messages per second.").or("100").min(0.0),
+        ]
+    )
+    .topics(&[publishes("joint_states")]),
+    of_ros1!(
+        "gazebo_ros_joint_pose_trajectory",
+        Control,
+        Kept,
+        "Sets joints to the positions of a trajectory.",
+        [
+            topic("topicName", "Topic of trajectories.").or("set_joint_trajectory"),
+            topic("serviceName", "Service of trajectories.").or("set_joint_trajectory"),
+            UPDATE_RATE,
+        ]
+    )
+    .topics(&[listens("set_joint_trajectory").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_joint_trajectory",
+        Control,
+        Kept,
+        "Older name of the pose trajectory.",
+        [
+            topic("topicName", "Topic of trajectories."),
+            topic("serviceName", "Service of trajectories."),
+            UPDATE_RATE,
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_force",
+        Effect,
+        Kept,
+        "Applies the force of a message to a link.",
+        [
+            link("bodyName", "The link.").required(),
+            topic("topicName", "Topic of forces.").required(),
+        ]
+    )
+    .topics(&[listens("force").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_control",
+        Control,
+        Simulated,
+        "Runs ros_control on the model's joints.",
+        [
+            text("robotSimType", "Class that connects the joints.")
+                .or("gazebo_ros_control/DefaultRobotHWSim"),
+            text("robotParam", "Parameter that holds the robot description.")
+                .or("robot_description"),
+            number("controlPeriod", "s", "Step of the controllers; without it each step.")
+                .above(0.0),
+            flag("legacyModeNS", "Whether PID gains lie where they did before Kinetic."),
+            topic("eStopTopic", "Topic of an emergency stop."),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_wheel_slip",
+        Effect,
+        Kept,
+        "Lets wheels slip in proportion to their load.",
+        [group("wheel", "A wheel's link and compliances.").repeated()]
+    ),
+    of_ros1!(
+        "gazebo_ros_projector",
+        Effect,
+        Kept,
+        "Switches a projector and its texture.",
+        [
+            text("projector", "The projector, as `link/name`."),
+            text("textureName", "Texture at the start."),
+            text("filterTextureName", "Texture of the filter."),
+            topic("textureTopicName", "Topic of textures."),
+            topic("projectorTopicName", "Topic of the switch."),
+            UPDATE_RATE,
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_harness",
+        Effect,
+        Kept,
+        "Lowers a model on a rope and lets it go.",
+        [
+            number("init_vel", "m/s", "Speed of the rope at the start.").or("0"),
+            group("joint", "A joint that holds the model.").repeated(),
+            group("winch", "Which joint is wound, and its gains."),
+            text("detach", "The joint that lets go."),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_elevator",
+        Effect,
+        Kept,
+        "Drives an elevator to a floor.",
+        [
+            text("lift_joint", "The joint that lifts."),
+            text("door_joint", "The joint of the door."),
+            number("floor_height", "m", "Height of a storey.").or("3").above(0.0),
+            number("door_wait_time", "s", "How long the door stays open.").or("5").min(0.0),
+            number("speed", "m/s", "How fast it lifts."),
+            numbers("force_pid", "", "Gains of the force."),
+            integer("bottomFloor", "Lowest floor."),
+            integer("topFloor", "Highest floor."),
+            topic("topic", "Topic of commands."),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_hand_of_god",
+        Effect,
+        Kept,
+        "Pulls a link to where a frame is.",
+        [
+            link("linkName", "The link.").required(),
+            text("frameId", "The frame's parent.").or("hog"),
+            number("kl", "N/m", "Spring constant of the pull.").or("200"),
+            number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
+            number("cl", "N s/m", "Damping of the pull; without it critical."),
+            number("ca", "N m s/rad", "Damping of the turn; without it critical."),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_vacuum_gripper",
+        Effect,
+        Kept,
+        "Pulls near things to a link.",
+        [
+            link("bodyName", "The link that pulls.").required(),
+            topic("topicName", "Topic that tells whether it holds something.").required(),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_video",
+        Effect,
+        Kept,
+        "Shows images on a visual.",
+        [
+            topic("topicName", "Topic of images.").or("image_raw"),
+            integer("height", "Rows of the texture.").or("240").min(1.0),
+            integer("width", "Columns of the texture.").or("320").min(1.0),
+        ]
+    ),
+    of_ros1!(
+        "gazebo_ros_api_plugin",
+        World,
+        BuiltIn,
+        "Publishes the clock and the states; spawns, deletes, pauses, resets.",
+        [UPDATE_RATE]
+    ),
+    of_ros1!("gazebo_ros_paths_plugin", World, BuiltIn, "Adds ROS packages to the paths.", []),
+    of_ros1!(
+        "gazebo_ros",
+        World,
+        BuiltIn,
+        "Older name of the plugin that publishes the clock and the states.",
+        [UPDATE_RATE]
+    ),
+    of_ros1!("gazebo_ros_template", World, Kept, "An empty example.", []).open(),
+    of_ros1!("gazebo_ros_controller_manager", Control, Kept, "Runs the PR2's controllers.", [])
+        .open(),
+    of_ros1!("gazebo_ros_power_monitor", State, Kept, "Publishes the PR2's battery.", []).open(),
+    of_ros1!("gazebo_ros_srp", State, Kept, "Publishes a point of the PR2's body.", []).open(),
+];

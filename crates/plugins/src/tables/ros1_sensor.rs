@@ -1,0 +1,178 @@
+//! Sensors of `gazebo_ros_pkgs`, branch `noetic-devel`, other than cameras; and those of
+//! `hector_gazebo_plugins`.
+
+use periplus_params::{Names, Parameter, choice, flag, number, numbers, text};
+
+use super::of_ros1;
+use crate::Known;
+use crate::known::publishes;
+
+const UPDATE_RATE: Parameter =
+    number("updateRate", "Hz", "Messages per second; 0 is one each step.").or("0").min(0.0);
+
+const NOISE: Parameter =
+    number("gaussianNoise", "", "Standard deviation of the noise.").or("0").min(0.0);
+
+const XYZ_OFFSET: Parameter =
+    numbers("xyzOffset", "m", "Added to the position.").or("0 0 0").also(&["xyzOffsets"]);
+
+const RPY_OFFSET: Parameter =
+    numbers("rpyOffset", "rad", "Added to the orientation.").or("0 0 0").also(&["rpyOffsets"]);
+
+const BODY_NAME: Parameter = text("bodyName", "The link that is watched.").naming(Names::Link);
+
+const fn frame(default: &'static str) -> Parameter {
+    text("frameName", "Frame of the messages.").or(default).naming(Names::Frame)
+}
+
+const fn topic(default: &'static str) -> Parameter {
+    text("topicName", "Topic of the messages.").or(default).naming(Names::Topic)
+}
+
+const REQUIRED_TOPIC: Parameter =
+    text("topicName", "Topic of the messages.").required().naming(Names::Topic);
+
+pub(super) static PLUGINS: &[Known] = &[
+    of_ros1!(
+        "gazebo_ros_laser",
+        Sensor,
+        Simulated,
+        "Publishes what a `ray` sensor measures.",
+        [
+            topic("/world"),
+            frame("/world"),
+            UPDATE_RATE,
+            NOISE,
+            number("hokuyoMinIntensity", "", "Intensities below are raised to this."),
+        ]
+    )
+    .topics(&[publishes("/world").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_gpu_laser",
+        Sensor,
+        Simulated,
+        "Publishes what a `gpu_ray` sensor measures.",
+        [topic("/world"), frame("/world"), UPDATE_RATE, NOISE]
+    )
+    .topics(&[publishes("/world").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_block_laser",
+        Sensor,
+        Simulated,
+        "Publishes the points of a `ray` sensor with several rows.",
+        [
+            topic("/world"),
+            frame("/world"),
+            UPDATE_RATE,
+            NOISE,
+            number("hokuyoMinIntensity", "", "Intensities below are raised to this.").or("101"),
+        ]
+    )
+    .topics(&[publishes("/world").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_range",
+        Sensor,
+        Simulated,
+        "Publishes the nearest range of a `ray` sensor.",
+        [
+            topic("/range"),
+            frame("/world"),
+            UPDATE_RATE,
+            NOISE,
+            number("fov", "rad", "Field of view in the messages.").or("0.05").above(0.0),
+            choice("radiation", &["ultrasound", "infrared"], "Kind in the messages.")
+                .or("infrared"),
+        ]
+    )
+    .topics(&[publishes("/range").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_imu",
+        Sensor,
+        Simulated,
+        "Publishes how a link turns and accelerates.",
+        [
+            BODY_NAME.required(),
+            topic("/default_imu"),
+            text("serviceName", "Service that calibrates.").naming(Names::Topic),
+            UPDATE_RATE,
+            NOISE,
+            XYZ_OFFSET,
+            RPY_OFFSET,
+        ]
+    )
+    .topics(&[publishes("/default_imu").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_imu_sensor",
+        Sensor,
+        Simulated,
+        "Publishes what an `imu` sensor measures.",
+        [
+            topic("/default_imu"),
+            BODY_NAME,
+            text("frameName", "Frame of the messages; without it the link.").naming(Names::Frame),
+            number("updateRateHZ", "Hz", "Messages per second.").or("1").min(0.0),
+            NOISE,
+            XYZ_OFFSET,
+            RPY_OFFSET,
+            flag(
+                "initialOrientationAsReference",
+                "Whether orientations are against the start; REP 145 wants them against the world.",
+            ),
+        ]
+    )
+    .topics(&[publishes("/default_imu").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_bumper",
+        Sensor,
+        Simulated,
+        "Publishes what a `contact` sensor touches.",
+        [
+            text("bumperTopicName", "Topic of the contacts.")
+                .or("bumper_states")
+                .naming(Names::Topic),
+            frame("world"),
+            UPDATE_RATE,
+        ]
+    )
+    .topics(&[publishes("bumper_states").set_by("bumperTopicName")]),
+    of_ros1!(
+        "gazebo_ros_f3d",
+        Sensor,
+        Simulated,
+        "Publishes the force on a link.",
+        [BODY_NAME.required(), REQUIRED_TOPIC, frame("world"), UPDATE_RATE]
+    )
+    .topics(&[publishes("f3d").set_by("topicName")]),
+    of_ros1!(
+        "gazebo_ros_ft_sensor",
+        Sensor,
+        Simulated,
+        "Publishes forces and torques in a joint.",
+        [
+            text("jointName", "The joint.").required().naming(Names::Joint),
+            REQUIRED_TOPIC,
+            NOISE,
+            UPDATE_RATE,
+        ]
+    )
+    .topics(&[publishes("wrench").set_by("topicName")]),
+    of_ros1!(
+        "hector_gazebo_ros_imu",
+        Sensor,
+        Simulated,
+        "Publishes how a link turns and accelerates, with drift.",
+        []
+    )
+    .open(),
+    of_ros1!(
+        "hector_gazebo_ros_gps",
+        Sensor,
+        Simulated,
+        "Publishes where on Earth a link is, with drift.",
+        []
+    )
+    .open(),
+    of_ros1!("hector_gazebo_ros_magnetic", Sensor, Kept, "Publishes the magnetic field.", [])
+        .open(),
+    of_ros1!("hector_gazebo_ros_sonar", Sensor, Kept, "Publishes the range of a sonar.", []).open(),
+];

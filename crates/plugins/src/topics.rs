@@ -1,0 +1,75 @@
+//! The topics of a plugin on the wire.
+
+use crate::{Context, Family, Flow, Interpreted, Topic};
+
+/// A topic with its full name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Resolved {
+    /// Which way it flows.
+    pub flow: Flow,
+    /// Its name inside the plugin, before remapping.
+    pub inside: String,
+    /// Its full name.
+    pub name: String,
+}
+
+/// The topics of a plugin, remappings, namespaces and parameters applied.
+#[must_use]
+pub fn topics(plugin: &Interpreted, context: &Context<'_>) -> Vec<Resolved> {
+    let on = |topic: &&Topic| {
+        topic.when.is_none_or(|parameter| plugin.values.flag(parameter) == Some(true))
+    };
+    plugin.known.topics.iter().filter(on).map(|topic| resolve(topic, plugin, context)).collect()
+}
+
+fn resolve(topic: &Topic, plugin: &Interpreted, context: &Context<'_>) -> Resolved {
+    let set = topic
+        .set_by
+        .filter(|parameter| plugin.values.is_given(parameter))
+        .and_then(|parameter| plugin.values.text(parameter))
+        .filter(|name| !name.is_empty());
+    // Camera topics of ROS 1 lie below the camera's name even when they are set.
+    let inside = match (set, topic.name.split_once("}/")) {
+        (Some(set), Some((before, _))) if before.starts_with('{') && !set.starts_with('/') => {
+            fill(&format!("{before}}}/{set}"), plugin, context)
+        }
+        (Some(set), _) => set,
+        (None, _) => fill(topic.name, plugin, context),
+    };
+    let name = match plugin.known.family {
+        Family::Gz if inside.starts_with('/') => inside.clone(),
+        Family::Gz => format!("/{inside}"),
+        _ => plugin.ros.resolve(&inside),
+    };
+    Resolved { flow: topic.flow, inside, name }
+}
+
+/// Puts names of the scene and values of parameters in the place of `{...}`.
+fn fill(template: &str, plugin: &Interpreted, context: &Context<'_>) -> String {
+    let mut out = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once('{') {
+        out.push_str(before);
+        let Some((name, behind)) = after.split_once('}') else { break };
+        let value = match name {
+            "model" => context.model.map(|model| model.name.clone()),
+            "world" => context.world.map(|world| world.name.clone()),
+            parameter => {
+                plugin.values.text(parameter).filter(|text| !text.is_empty()).or_else(|| {
+                    let sensor = context.sensor.filter(|_| parameter == "camera_name");
+                    sensor.map(|sensor| sensor.name.clone())
+                })
+            }
+        };
+        match value {
+            Some(value) => {
+                out.push_str(&value);
+                rest = behind;
+            }
+            // An unknown camera name leaves nothing, not even its slash.
+            None => rest = behind.strip_prefix('/').unwrap_or(behind),
+        }
+    }
+    out.push_str(rest);
+    out
+}
