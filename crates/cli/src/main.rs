@@ -1,1 +1,31 @@
-fn main() {}
+//! The `periplus` command.
+
+mod check;
+mod convert;
+mod options;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use options::{Command, Options};
+
+fn main() -> ExitCode {
+    // A usage error ends here with exit code 2, and a message of clap's.
+    let options = Options::parse();
+    options.colour.apply();
+    let outcome = match options.command {
+        Command::Check(options) => check::run(&options),
+        Command::Convert(options) => convert::run(&options),
+    };
+    match outcome {
+        Ok(code) => code,
+        // Whoever read our output has seen enough.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            terminal::complain(&format!("cannot write the output: {error}"));
+            ExitCode::FAILURE
+        }
+    }
+}

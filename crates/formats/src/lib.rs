@@ -1,1 +1,15 @@
-//! One door for every robot and world file: recognise, expand, read, check
+//! One door for every file: recognise, expand, read, check, sum up.
+//!
+//! [`load`] takes a path to whatever a roboticist has and gives a [`Loaded`]: the scene, the
+//! findings, and the texts they point into. It always returns; a broken file gives findings.
+
+mod detect;
+mod includes;
+mod load;
+mod mesh_files;
+mod summary;
+
+pub use detect::Language;
+pub use load::{Loaded, Setting, load};
+pub use mesh_files::MeshSummary;
+pub use summary::{ModelSummary, SensorSummary, Summary, WorldSummary, describe, summarise};

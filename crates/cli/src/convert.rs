@@ -1,0 +1,82 @@
+//! `periplus convert`.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_formats::{Language, Loaded, load};
+use periplus_xml::write_document;
+
+use crate::options::{ConvertOptions, Format, split};
+use crate::terminal::{self, with_setting};
+
+pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
+    let (files, arguments) = split(&options.words);
+    let [file] = files.as_slice() else {
+        terminal::complain("convert takes one file; see `periplus convert --help`");
+        return Ok(ExitCode::from(2));
+    };
+    let mut loaded =
+        with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
+    // Half a file must not pass for a whole one.
+    let text =
+        if loaded.diagnostics.has_errors() { None } else { convert(&mut loaded, options.to) };
+    terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
+    let Some(text) = text.filter(|_| !loaded.diagnostics.has_errors()) else {
+        terminal::complain(&format!("{} is not converted", file.display()));
+        return Ok(ExitCode::FAILURE);
+    };
+    write(&text, options.output.as_deref())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
+    let mut diagnostics = Diagnostics::new();
+    let text = match (to, &loaded.scene) {
+        // The expansion itself: what a robot's other readers are given.
+        (Format::Urdf, _) if matches!(loaded.language, Language::Xacro | Language::Urdf) => {
+            loaded.document.as_ref().map(write_document)
+        }
+        (_, None) => {
+            let told = format!("a {} describes no scene to convert", loaded.language.name());
+            diagnostics.push(Diagnostic::error("nothing-to-convert", told));
+            None
+        }
+        (Format::Sdf, Some(_scene)) => None,
+        (Format::Json, Some(scene)) => {
+            serde_json::to_string_pretty(scene).ok().map(|text| text + "\n")
+        }
+        (Format::Urdf, Some(scene)) => match scene.models.as_slice() {
+            [_model] => None::<periplus_urdf::Robot>
+                .map(|robot| write_document(&periplus_urdf::write(&robot))),
+            models => {
+                let holds = match models.len() {
+                    0 => "a world".to_owned(),
+                    count => format!("{count} models"),
+                };
+                diagnostics.push(
+                    Diagnostic::error(
+                        "not-one-robot",
+                        format!("a URDF holds one robot, this file {holds}"),
+                    )
+                    .help("convert the model's own file, or convert to sdf or json"),
+                );
+                None
+            }
+        },
+    };
+    loaded.diagnostics.append(diagnostics);
+    text
+}
+
+fn write(text: &str, output: Option<&Path>) -> io::Result<()> {
+    match output {
+        Some(path) => std::fs::write(path, text),
+        None => {
+            let mut out = io::stdout().lock();
+            out.write_all(text.as_bytes())?;
+            out.flush()
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use anstream::ColorChoice;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, and converts
+/// between them.
+#[derive(Debug, Parser)]
+#[command(name = "periplus", version, max_term_width = 100)]
+pub(crate) struct Options {
+    /// When to use colours
+    #[arg(long = "color", value_enum, default_value_t = Colour::Auto, global = true, value_name = "WHEN")]
+    pub(crate) colour: Colour,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Check(CheckOptions),
+    Convert(ConvertOptions),
+}
+
+/// Tell what files hold and what is wrong with them
+///
+/// Reads URDF, xacro (expanded with `name:=value`), SDF and worlds of every version, launch files,
+/// and meshes (STL, OBJ, COLLADA, glTF). Exit code 1 when a file has an error.
+#[derive(Debug, Args)]
+pub(crate) struct CheckOptions {
+    /// Files, and `name:=value` for xacro
+    #[arg(required = true, value_name = "FILE|NAME:=VALUE")]
+    pub(crate) words: Vec<String>,
+    /// Print findings and contents as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print findings only, not what the files hold
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Exit with 1 for warnings too
+    #[arg(long)]
+    pub(crate) strict: bool,
+    #[command(flatten)]
+    pub(crate) search: SearchOptions,
+}
+
+/// Convert a file: expand xacro, turn URDF into SDF, upgrade old SDF, resolve every pose
+///
+/// The result goes to stdout or to `--output`, findings to stderr.
+#[derive(Debug, Args)]
+pub(crate) struct ConvertOptions {
+    /// The file, and `name:=value` for xacro
+    #[arg(required = true, value_name = "FILE|NAME:=VALUE")]
+    pub(crate) words: Vec<String>,
+    /// What to write
+    #[arg(long, value_enum)]
+    pub(crate) to: Format,
+    /// Where to write it
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) search: SearchOptions,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SearchOptions {
+    /// A folder to look in for packages, models and meshes, before GZ_SIM_RESOURCE_PATH,
+    /// GAZEBO_MODEL_PATH, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and the folders around the file;
+    /// may be given several times
+    #[arg(long, value_name = "DIR")]
+    pub(crate) resource_path: Vec<PathBuf>,
+}
+
+/// What a file is converted to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A robot description; of a xacro file its expansion
+    Urdf,
+    /// A world or model
+    Sdf,
+    /// The resolved scene as JSON
+    Json,
+}
+
+/// When to use colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Colour {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+impl Colour {
+    /// Makes this the choice of all output.
+    pub(crate) fn apply(self) {
+        match self {
+            Self::Auto => ColorChoice::Auto,
+            Self::Always => ColorChoice::Always,
+            Self::Never => ColorChoice::Never,
+        }
+        .write_global();
+    }
+}
+
+/// Files and `name:=value`, told apart.
+pub(crate) fn split(words: &[String]) -> (Vec<PathBuf>, Vec<(String, String)>) {
+    let mut files = Vec::new();
+    let mut arguments = Vec::new();
+    for word in words {
+        match word.split_once(":=") {
+            Some((name, value)) => arguments.push((name.to_owned(), value.to_owned())),
+            None => files.push(PathBuf::from(word)),
+        }
+    }
+    (files, arguments)
+}

@@ -1,0 +1,53 @@
+//! What a person reads.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use periplus_diagnostics::{Diagnostic, Severity, Style, render};
+use periplus_formats::{Loaded, Setting};
+use periplus_host::Machine;
+use periplus_resources::Resolver;
+
+/// Writes one line about the command itself to stderr.
+pub(crate) fn complain(words: &str) {
+    let _ = writeln!(anstream::stderr(), "error: {words}");
+}
+
+/// Writes the findings of a file; colours are taken out on the way where nobody can see them.
+pub(crate) fn findings(out: &mut dyn Write, loaded: &Loaded) -> io::Result<()> {
+    for diagnostic in loaded.diagnostics.iter() {
+        writeln!(out, "{}", render(diagnostic, &loaded.sources, Style::Colour))?;
+    }
+    let unkept = loaded.diagnostics.unkept();
+    if unkept > 0 {
+        let more = Diagnostic::hint("more", format!("{unkept} more findings are not shown"));
+        writeln!(out, "{}", render(&more, &loaded.sources, Style::Colour))?;
+    }
+    Ok(())
+}
+
+/// `2 errors, 1 warning`, or `no findings`.
+pub(crate) fn counts(loaded: &Loaded) -> String {
+    let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
+    let parts: Vec<String> = kinds
+        .into_iter()
+        .map(|severity| (loaded.diagnostics.count(severity), severity.name()))
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
+        .collect();
+    if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
+}
+
+/// Runs something with the machine as readers see it.
+pub(crate) fn with_setting<T>(
+    resource_path: &[PathBuf],
+    arguments: Vec<(String, String)>,
+    run: impl FnOnce(&Setting<'_>) -> T,
+) -> T {
+    let host = Machine;
+    let working_folder = std::env::current_dir().unwrap_or_default();
+    let folders: Vec<PathBuf> =
+        resource_path.iter().map(|folder| working_folder.join(folder)).collect();
+    let resolver = Resolver::new(&host, &folders);
+    run(&Setting { host: &host, resolver: &resolver, working_folder, arguments, open_meshes: true })
+}

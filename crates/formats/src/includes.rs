@@ -1,0 +1,103 @@
+//! Files that SDF includes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_resources::Kind;
+use periplus_sdf::{Includes, Opened};
+
+use crate::load::{Setting, model_of, read_xml, shown};
+
+/// Opens files as `<include>` names them, each once.
+pub(crate) struct Files<'s, 'a> {
+    setting: &'s Setting<'a>,
+    opened: BTreeMap<PathBuf, Opened>,
+    order: Vec<PathBuf>,
+}
+
+impl<'s, 'a> Files<'s, 'a> {
+    pub(crate) fn new(setting: &'s Setting<'a>) -> Self {
+        Self { setting, opened: BTreeMap::new(), order: Vec::new() }
+    }
+
+    /// The files that were opened, in order.
+    pub(crate) fn into_paths(self) -> Vec<PathBuf> {
+        self.order
+    }
+
+    fn read(
+        &self,
+        path: &Path,
+        from: Origin,
+        sources: &mut SourceMap,
+        diagnostics: &mut Diagnostics,
+    ) -> Opened {
+        let bytes = match self.setting.host.read(path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let name = shown(path, &self.setting.working_folder);
+                diagnostics.push(
+                    Diagnostic::error(
+                        "unreadable-file",
+                        format!("`{name}` cannot be read: {error}"),
+                    )
+                    .at(from),
+                );
+                return Opened::Broken;
+            }
+        };
+        let Some(document) = read_xml(path, &bytes, self.setting, sources, diagnostics) else {
+            return Opened::Broken;
+        };
+        let key = path.to_string_lossy().into_owned();
+        if document.root.local_name() != "robot" {
+            return Opened::Sdf { document: Arc::new(document), key };
+        }
+        match periplus_urdf::read(&document, diagnostics) {
+            Some(robot) => {
+                let model = Box::new(model_of(&robot, sources, diagnostics));
+                Opened::Model { model, key }
+            }
+            None => Opened::Broken,
+        }
+    }
+}
+
+impl Includes for Files<'_, '_> {
+    fn open(
+        &mut self,
+        uri: &str,
+        from: Origin,
+        sources: &mut SourceMap,
+        diagnostics: &mut Diagnostics,
+    ) -> Opened {
+        let mentioned_in = match from.0 {
+            Some(span) => self.setting.working_folder.join(&sources.file(span.file).name),
+            None => self.setting.working_folder.clone(),
+        };
+        let resolver = self.setting.resolver;
+        let found = resolver.resolve(uri, &mentioned_in).and_then(|path| {
+            match self.setting.host.kind(&path) {
+                Some(Kind::Folder) => resolver.model_file(&path),
+                _ => Ok(path),
+            }
+        });
+        let path = match found {
+            Ok(path) => path,
+            Err(miss) => {
+                let tried = miss.tried.iter();
+                let tried = tried.map(|place| shown(place, &self.setting.working_folder)).collect();
+                return Opened::Missing { tried };
+            }
+        };
+        if let Some(opened) = self.opened.get(&path) {
+            return opened.clone();
+        }
+        let opened = self.read(&path, from, sources, diagnostics);
+        self.opened.insert(path.clone(), opened.clone());
+        self.order.push(path);
+        opened
+    }
+}

@@ -1,0 +1,206 @@
+//! Mesh files: those that a scene names, and those that are asked about themselves.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
+use periplus_meshes::{MeshFormat, read};
+use periplus_resources::Host;
+use periplus_scene::{Link, Mesh, Model, Scene, Shape};
+use serde::Serialize;
+
+use crate::load::{Setting, shown};
+
+/// What a mesh file holds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshSummary {
+    /// `Stl`, `Obj`, `Collada` or `Gltf`.
+    pub format: String,
+    /// Names of its parts, in order.
+    pub submeshes: Vec<String>,
+    /// How many triangles.
+    pub triangles: usize,
+    /// How many vertices.
+    pub vertices: usize,
+    /// Extent along x, y, z [m].
+    pub size_m: [f64; 3],
+}
+
+/// Whether a path has the extension of a mesh file.
+pub(crate) fn is_mesh(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    ["stl", "obj", "dae", "gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known))
+}
+
+/// Reads a mesh file that was asked about itself.
+pub(crate) fn summarise(
+    path: &Path,
+    bytes: &[u8],
+    setting: &Setting<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<MeshSummary> {
+    let name = shown(path, &setting.working_folder);
+    match open(path, bytes, setting.host) {
+        Ok((summary, notes)) => {
+            for note in notes {
+                diagnostics.push(Diagnostic::hint("mesh", format!("`{name}`: {note}")));
+            }
+            Some(summary)
+        }
+        Err((message, help)) => {
+            diagnostics.push(Diagnostic::error("mesh", format!("`{name}`: {message}")).help(help));
+            None
+        }
+    }
+}
+
+/// Finds the files that meshes and heightmaps of a scene name, and looks into them. One that is
+/// missing or broken is a warning: the rest of the scene is still of use.
+pub(crate) fn resolve(
+    scene: &mut Scene,
+    setting: &Setting<'_>,
+    sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+) {
+    let mut look = Look { setting, sources, diagnostics, seen: BTreeMap::new() };
+    let worlds = scene.worlds.iter_mut().flat_map(|world| &mut world.models);
+    for model in worlds.chain(&mut scene.models) {
+        look.model(model);
+    }
+    let actors = scene.worlds.iter_mut().flat_map(|world| &mut world.actors);
+    for actor in actors.chain(&mut scene.actors) {
+        actor.links.iter_mut().for_each(|link| look.link(link));
+    }
+}
+
+type Parts = Result<Vec<String>, ()>;
+
+struct Look<'l, 'a> {
+    setting: &'l Setting<'a>,
+    sources: &'l SourceMap,
+    diagnostics: &'l mut Diagnostics,
+    /// What each file holds; a broken one has been told about.
+    seen: BTreeMap<PathBuf, Parts>,
+}
+
+impl Look<'_, '_> {
+    fn model(&mut self, model: &mut Model) {
+        model.links.iter_mut().for_each(|link| self.link(link));
+        model.models.iter_mut().for_each(|inner| self.model(inner));
+    }
+
+    fn link(&mut self, link: &mut Link) {
+        for collision in &mut link.collisions {
+            self.shape(&mut collision.shape, collision.origin);
+        }
+        for visual in &mut link.visuals {
+            self.shape(&mut visual.shape, visual.origin);
+        }
+    }
+
+    fn shape(&mut self, shape: &mut Shape, origin: Origin) {
+        match shape {
+            Shape::Mesh(mesh) => self.mesh(mesh),
+            Shape::Heightmap(heightmap) => heightmap.path = self.find(&heightmap.uri, origin),
+            Shape::Image(image) => image.path = self.find(&image.uri, origin),
+            _ => {}
+        }
+    }
+
+    fn mesh(&mut self, mesh: &mut Mesh) {
+        mesh.path = self.find(&mesh.uri, mesh.origin);
+        let Some(path) = mesh.path.clone().filter(|_| self.setting.open_meshes) else { return };
+        if !self.seen.contains_key(&path) {
+            let parts = self.open(&path, mesh.origin);
+            self.seen.insert(path.clone(), parts);
+        }
+        let (Some(Ok(parts)), Some(part)) = (self.seen.get(&path), &mesh.submesh) else { return };
+        if !parts.contains(part) {
+            let mut diagnostic = Diagnostic::warning(
+                "unknown-submesh",
+                format!("`{}` has no part named `{part}`", mesh.uri),
+            )
+            .at(mesh.origin)
+            .note(format!("its parts are: {}", parts.join(", ")));
+            if let Some(near) = closest(part, parts.iter().map(String::as_str)) {
+                diagnostic = diagnostic.help(format!("did you mean `{near}`?"));
+            }
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn open(&mut self, path: &Path, origin: Origin) -> Parts {
+        let name = shown(path, &self.setting.working_folder);
+        let opened = match self.setting.host.read(path) {
+            Ok(bytes) => open(path, &bytes, self.setting.host),
+            Err(error) => Err((error.to_string(), "check the file".to_owned())),
+        };
+        match opened {
+            Ok((summary, notes)) => {
+                for note in notes {
+                    let hint = Diagnostic::hint("mesh", format!("`{name}`: {note}"));
+                    self.diagnostics.push(hint.at(origin));
+                }
+                Ok(summary.submeshes)
+            }
+            Err((message, help)) => {
+                let diagnostic = Diagnostic::warning("mesh", format!("`{name}`: {message}"));
+                self.diagnostics.push(diagnostic.at(origin).help(help));
+                Err(())
+            }
+        }
+    }
+
+    fn find(&mut self, uri: &str, origin: Origin) -> Option<PathBuf> {
+        if uri.is_empty() {
+            return None;
+        }
+        let from = match origin.0 {
+            Some(span) => self.setting.working_folder.join(&self.sources.file(span.file).name),
+            None => self.setting.working_folder.clone(),
+        };
+        match self.setting.resolver.resolve(uri, &from) {
+            Ok(path) => Some(path),
+            Err(miss) => {
+                let mut diagnostic = miss.into_diagnostic(origin);
+                // The model works without it, only less of it is seen or touched.
+                diagnostic.severity = periplus_diagnostics::Severity::Warning;
+                self.diagnostics.push(diagnostic);
+                None
+            }
+        }
+    }
+}
+
+type OpenedMesh = Result<(MeshSummary, Vec<String>), (String, String)>;
+
+fn open(path: &Path, bytes: &[u8], host: &dyn Host) -> OpenedMesh {
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    // A mesh may only name files beside it or below: a downloaded one is not to be trusted.
+    let mut side_files = |name: &str| {
+        let plain = Path::new(name).components().all(|part| {
+            matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir)
+        });
+        if plain { host.read(&folder.join(name)).ok() } else { None }
+    };
+    let format = MeshFormat::from_path_and_bytes(&path.to_string_lossy(), bytes);
+    let mesh = format
+        .and_then(|format| read(bytes, format, &mut side_files).map(|mesh| (format, mesh)))
+        .map_err(|error| {
+            let place = error.place.map(|place| format!("{place}: ")).unwrap_or_default();
+            (format!("{place}{}", error.message), error.help)
+        });
+    let (format, mesh) = mesh?;
+    let summary = MeshSummary {
+        format: format!("{format:?}"),
+        submeshes: mesh.submeshes.iter().map(|part| part.name.clone()).collect(),
+        triangles: mesh.triangle_count(),
+        vertices: mesh.vertex_count(),
+        size_m: mesh.bounds().map(|bounds| bounds.size_m()).unwrap_or_default(),
+    };
+    let notes = mesh.notes.iter().map(|note| match note.count {
+        1 => note.message.clone(),
+        count => format!("{} ({count} times)", note.message),
+    });
+    Ok((summary, notes.collect()))
+}
