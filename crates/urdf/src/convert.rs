@@ -43,7 +43,16 @@ pub fn to_model(robot: &Robot, options: Options, context: &mut Context<'_>) -> M
     let element = situation.model_element(context.diagnostics);
     let sdf = Element::new("sdf").with_attribute("version", VERSION).with_child(element);
     let document = Document { before: Vec::new(), root: sdf, after: Vec::new() };
-    let scene = read_document(&document, context);
+    let mut found = Diagnostics::new();
+    let scene = {
+        let mut inner = Context {
+            sources: &mut *context.sources,
+            diagnostics: &mut found,
+            includes: &mut *context.includes,
+        };
+        read_document(&document, &mut inner)
+    };
+    context.diagnostics.append(situation.without_repetitions(found));
     let mut model = scene.models.into_iter().next().unwrap_or_else(|| Model::new(situation.name()));
     situation.complete(&mut model);
     model

@@ -20,6 +20,7 @@ impl Situation<'_> {
         self.check_losses(diagnostics);
         self.check_joint_kinds(diagnostics);
         let mut to = element("model", self.robot.origin).with_attribute("name", self.name());
+        let brought = self.brought();
         for &link in &self.plan.order {
             match self.plan.fate[link] {
                 Fate::Body => {
@@ -28,7 +29,7 @@ impl Situation<'_> {
                     }
                     to.push(self.link_element(link, diagnostics));
                 }
-                Fate::Merged { .. } | Fate::Lost => self.frames(link, &mut to),
+                Fate::Merged { .. } | Fate::Lost => self.frames(link, &brought, &mut to),
                 Fate::World => {}
             }
         }
@@ -65,7 +66,7 @@ impl Situation<'_> {
 
     /// The frames that stand for a link that carries no body and for the joint above it: the
     /// joint's on the parent, the link's on the joint (libsdformat 14, `ReduceFixedJoints`).
-    fn frames(&self, link: usize, to: &mut Element) {
+    fn frames(&self, link: usize, brought: &BTreeSet<&str>, to: &mut Element) {
         let data = self.link(link);
         let mut on_model = element("frame", data.origin).with_attribute("name", &*data.name);
         if let Some(joint) = self.joint_above(link) {
@@ -78,10 +79,24 @@ impl Situation<'_> {
                 .with_attribute("name", name)
                 .with_attribute("attached_to", parent);
             push_pose(&mut frame, joint.parent_from_joint.pose(), joint.origin);
-            to.push(frame);
+            if !brought.contains(name) {
+                to.push(frame);
+            }
             on_model = on_model.with_attribute("attached_to", name);
         }
-        to.push(on_model);
+        if !brought.contains(&*data.name) {
+            to.push(on_model);
+        }
+    }
+
+    /// The names of links, joints and frames of SDF that the robot brings in <gazebo> blocks. The
+    /// PR2 does so for joints that Gazebo leaves out of its URDF.
+    fn brought(&self) -> BTreeSet<&str> {
+        self.extensions
+            .settings("")
+            .filter(|part| ["link", "joint", "frame", "model"].contains(&&*part.name))
+            .filter_map(|part| part.value("name"))
+            .collect()
     }
 
     /// The definition of a visual's material: by name, or else its own.
@@ -91,6 +106,27 @@ impl Situation<'_> {
             return Some(own);
         }
         self.materials.get(&*own.name).copied().or_else(|| own.is_definition().then_some(own))
+    }
+
+    /// Leaves out of the findings about the SDF what has been said about the URDF.
+    pub(super) fn without_repetitions(&self, found: Diagnostics) -> Diagnostics {
+        let inertials: BTreeSet<_> = self
+            .robot
+            .links
+            .iter()
+            .flat_map(|link| [link.inertial.as_ref().and_then(|one| one.origin.0), link.origin.0])
+            .flatten()
+            .collect();
+        let said = |one: &Diagnostic| match one.code {
+            "bad-inertia" => one.span.is_some_and(|span| inertials.contains(&span)),
+            "no-links" => !self.plan.massless.is_empty() || self.robot.links.is_empty(),
+            _ => false,
+        };
+        let mut rest = Diagnostics::new();
+        for one in found.iter().filter(|one| !said(one)) {
+            rest.push(one.clone());
+        }
+        rest
     }
 
     /// Adds to a model what SDF cannot say.

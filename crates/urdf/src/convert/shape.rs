@@ -133,6 +133,8 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
         })
     };
     let shape = match geometry {
+        // The reader has said what is wrong; a wrong size must not become SDF's default of 1 m.
+        shape if !has_extent(shape) => element("empty", origin),
         Geometry::Box { size_m } => {
             element("box", origin).with_child(numbers("size", size_m, origin))
         }
@@ -154,4 +156,15 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
         Geometry::Unknown(shape) => shape.clone(),
     };
     element("geometry", origin).with_child(shape)
+}
+
+fn has_extent(geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Box { size_m } => size_m.iter().all(|size| *size > 0.0),
+        // A capsule without cylinder is a sphere.
+        Geometry::Capsule { radius_m, length_m } => *radius_m > 0.0 && *length_m >= 0.0,
+        Geometry::Cylinder { radius_m, length_m } => *radius_m > 0.0 && *length_m > 0.0,
+        Geometry::Sphere { radius_m } => *radius_m > 0.0,
+        Geometry::Mesh { .. } | Geometry::Unknown(_) => true,
+    }
 }

@@ -204,12 +204,14 @@ fn check_size(sizes: &[f64], shape: &Element, name: &str, diagnostics: &mut Diag
         diagnostics.push(
             Diagnostic::error("bad-size", format!("a {} of negative {name}", shape.name))
                 .at(place)
+                .label("left empty")
                 .help("sizes are positive"),
         );
     } else if sizes.contains(&0.0) {
         diagnostics.push(
             Diagnostic::warning("flat-shape", format!("a {} without extent", shape.name))
                 .at(place)
+                .label("left empty")
                 .help("sizes are in metres, and positive"),
         );
     }
