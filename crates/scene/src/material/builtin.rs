@@ -1,99 +1,137 @@
 //! The materials that Gazebo brings along under `Gazebo/...`, as colours.
 //!
-//! Numbers after the names in Gazebo Classic's `gazebo.material`; those with a texture there get
-//! the mean colour that the texture is known for.
+//! The numbers are those behind the names in `gazebo.material` (gz-sim, `MaterialParser`, and
+//! before it Gazebo Classic). A material with a picture there is given one colour here, chosen by
+//! eye to resemble the picture from afar.
 
 use super::{Colour, Material};
 
 /// Name, ambient, diffuse, specular, emissive.
 type Row = (&'static str, [f64; 4], [f64; 4], [f64; 4], [f64; 3]);
 
-const NONE: [f64; 3] = [0.0; 3];
-const DULL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
-const FAINT: [f64; 4] = [0.01, 0.01, 0.01, 1.0];
-const SHINY: [f64; 4] = [0.1, 0.1, 0.1, 1.0];
+const DARK: [f64; 3] = [0.0; 3];
+/// How most of them shine.
+const SHEEN: [f64; 3] = [0.1; 3];
+
+const fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
+    [r, g, b, 1.0]
+}
 
 /// The same colour in the shade and in the light.
-const fn plain(name: &'static str, rgb: [f64; 3], specular: [f64; 4]) -> Row {
-    let [r, g, b] = rgb;
-    (name, [r, g, b, 1.0], [r, g, b, 1.0], specular, NONE)
+const fn plain(name: &'static str, rgb: [f64; 3], specular: [f64; 3]) -> Row {
+    (name, opaque(rgb), opaque(rgb), opaque(specular), DARK)
 }
 
 /// A colour that shines by itself.
-const fn glowing(name: &'static str, rgb: [f64; 3]) -> Row {
-    let [r, g, b] = rgb;
-    (name, [r, g, b, 1.0], [r, g, b, 1.0], DULL, rgb)
+const fn glowing(name: &'static str, rgb: [f64; 3], specular: [f64; 3]) -> Row {
+    (name, opaque(rgb), opaque(rgb), opaque(specular), rgb)
 }
 
-const fn clear(name: &'static str, rgb: [f64; 3], alpha: f64) -> Row {
-    let [r, g, b] = rgb;
-    (name, [r, g, b, alpha], [r, g, b, alpha], DULL, NONE)
+/// A colour through which one sees.
+const fn clear(name: &'static str, [r, g, b]: [f64; 3], alpha: f64) -> Row {
+    (name, [r, g, b, alpha], [r, g, b, alpha], opaque(DARK), DARK)
+}
+
+/// A picture, by the colour that resembles it.
+const fn picture(name: &'static str, rgb: [f64; 3]) -> Row {
+    plain(name, rgb, [0.01; 3])
 }
 
 const TABLE: &[Row] = &[
-    plain("Gazebo/Black", [0.0, 0.0, 0.0], SHINY),
-    clear("Gazebo/BlackTransparent", [0.0, 0.0, 0.0], 0.5),
-    plain("Gazebo/Blue", [0.0, 0.0, 1.0], SHINY),
-    plain("Gazebo/BlueLaser", [0.0, 0.0, 1.0], DULL),
-    glowing("Gazebo/BlueGlow", [0.0, 0.0, 1.0]),
+    plain("Gazebo/Black", [0.0; 3], SHEEN),
+    clear("Gazebo/BlackTransparent", [0.0; 3], 0.5),
+    plain("Gazebo/Blue", [0.0, 0.0, 1.0], SHEEN),
+    glowing("Gazebo/BlueGlow", [0.0, 0.0, 1.0], SHEEN),
+    clear("Gazebo/BlueLaser", [0.0, 0.0, 1.0], 0.4),
     clear("Gazebo/BlueTransparent", [0.0, 0.0, 1.0], 0.5),
-    glowing("Gazebo/BlueTransparentOverlay", [0.0, 0.0, 1.0]),
-    plain("Gazebo/Bricks", [0.53, 0.33, 0.27], DULL),
-    plain("Gazebo/CardboardBox", [0.62, 0.48, 0.33], DULL),
-    plain("Gazebo/CeilingTiled", [0.8, 0.8, 0.78], DULL),
-    plain("Gazebo/CloudySky", [0.62, 0.7, 0.8], DULL),
-    plain("Gazebo/DarkGray", [0.175, 0.175, 0.175], SHINY),
-    plain("Gazebo/DarkGrey", [0.175, 0.175, 0.175], SHINY),
-    plain("Gazebo/DarkMagentaTransparent", [0.6, 0.0, 0.6], DULL),
-    plain("Gazebo/DarkOrangeTransparent", [1.0, 0.55, 0.0], DULL),
-    plain("Gazebo/DarkYellow", [0.7, 0.7, 0.0], DULL),
-    plain("Gazebo/FlatBlack", [0.1, 0.1, 0.1], FAINT),
-    plain("Gazebo/Fish", [0.75, 0.45, 0.2], DULL),
-    plain("Gazebo/Gold", [0.8, 0.648_48, 0.120_04], SHINY),
-    plain("Gazebo/Grass", [0.3, 0.42, 0.18], DULL),
-    plain("Gazebo/Gray", [0.7, 0.7, 0.7], SHINY),
-    plain("Gazebo/Green", [0.0, 1.0, 0.0], SHINY),
-    glowing("Gazebo/GreenGlow", [0.0, 1.0, 0.0]),
+    clear("Gazebo/BlueTransparentOverlay", [0.0, 0.0, 1.0], 0.5),
+    picture("Gazebo/Bricks", [0.53, 0.33, 0.27]),
+    picture("Gazebo/BuildingFrame", [0.6, 0.6, 0.6]),
+    picture("Gazebo/CeilingTiled", [0.8, 0.8, 0.78]),
+    picture("Gazebo/CloudySky", [0.62, 0.7, 0.8]),
+    picture("Gazebo/CoM", [0.5, 0.5, 0.5]),
+    plain("Gazebo/DarkGray", [0.175; 3], [0.175; 3]),
+    plain("Gazebo/DarkGrey", [0.175; 3], [0.175; 3]),
+    clear("Gazebo/DarkMagentaTransparent", [0.6, 0.0, 0.6], 0.5),
+    clear("Gazebo/DarkOrangeTransparentOverlay", [0.6, 0.305, 0.028], 0.8),
+    plain("Gazebo/DarkYellow", [0.7, 0.7, 0.0], DARK),
+    plain("Gazebo/Editor", [1.0; 3], SHEEN),
+    plain("Gazebo/FlatBlack", [0.1; 3], [0.01; 3]),
+    picture("Gazebo/Footway", [0.6, 0.6, 0.58]),
+    picture("Gazebo/Grass", [0.3, 0.42, 0.18]),
+    plain("Gazebo/Green", [0.0, 1.0, 0.0], SHEEN),
+    glowing("Gazebo/GreenGlow", [0.0, 1.0, 0.0], SHEEN),
     clear("Gazebo/GreenTransparent", [0.0, 1.0, 0.0], 0.5),
-    plain("Gazebo/Grey", [0.7, 0.7, 0.7], FAINT),
-    clear("Gazebo/GreyGradientSky", [0.7, 0.7, 0.7], 1.0),
-    clear("Gazebo/GreyTransparent", [0.5, 0.5, 0.5], 0.5),
-    plain("Gazebo/Indigo", [0.33, 0.0, 0.5], SHINY),
-    plain("Gazebo/LightBlueLaser", [0.5, 0.5, 1.0], DULL),
-    plain("Gazebo/LightOn", [0.0, 1.0, 0.0], DULL),
-    plain("Gazebo/LightOff", [1.0, 0.0, 0.0], DULL),
-    plain("Gazebo/Motorway", [0.3, 0.3, 0.3], DULL),
-    clear("Gazebo/OrangeTransparent", [1.0, 0.44, 0.0], 0.6),
-    glowing("Gazebo/OrangeTransparentOverlay", [1.0, 0.44, 0.0]),
-    plain("Gazebo/Orange", [1.0, 0.5088, 0.0468], [0.5, 0.5, 0.5, 1.0]),
-    plain("Gazebo/PaintedWall", [0.82, 0.8, 0.74], DULL),
-    plain("Gazebo/Pedestrian", [0.6, 0.6, 0.58], DULL),
-    plain("Gazebo/PioneerBody", [0.5, 0.0, 0.0], DULL),
-    plain("Gazebo/Primary", [0.6, 0.6, 0.55], DULL),
-    plain("Gazebo/Purple", [1.0, 0.0, 1.0], SHINY),
-    glowing("Gazebo/PurpleGlow", [1.0, 0.0, 1.0]),
-    plain("Gazebo/Red", [1.0, 0.0, 0.0], SHINY),
-    plain("Gazebo/RedBright", [0.87, 0.26, 0.07], SHINY),
-    glowing("Gazebo/RedGlow", [1.0, 0.0, 0.0]),
+    clear("Gazebo/GreenTransparentOverlay", [0.0, 1.0, 0.0], 0.5),
+    picture("Gazebo/GreyGradientSky", [0.7, 0.7, 0.7]),
+    clear("Gazebo/GreyTransparent", [0.5; 3], 0.5),
+    plain("Gazebo/Indigo", [0.33, 0.0, 0.5], SHEEN),
+    glowing("Gazebo/JointAnchor", [1.0; 3], [1.0; 3]),
+    picture("Gazebo/Lane_1", [0.42, 0.41, 0.4]),
+    picture("Gazebo/Lanes_2", [0.4, 0.4, 0.38]),
+    picture("Gazebo/Lanes_4", [0.35, 0.35, 0.34]),
+    picture("Gazebo/Lanes_6", [0.3, 0.3, 0.3]),
+    clear("Gazebo/LightBlueLaser", [0.5, 0.5, 1.0], 0.4),
+    glowing("Gazebo/LightOff", [1.0, 0.0, 0.0], DARK),
+    glowing("Gazebo/LightOn", [0.0, 1.0, 0.0], DARK),
+    picture("Gazebo/Motorway", [0.3, 0.3, 0.3]),
+    plain("Gazebo/Orange", [1.0, 0.5088, 0.0468], [0.5; 3]),
+    clear("Gazebo/OrangeTransparent", [1.0, 0.44, 0.0], 0.4),
+    clear("Gazebo/OrangeTransparentOverlay", [1.0, 0.5088, 0.0468], 0.8),
+    picture("Gazebo/PaintedWall", [0.82, 0.8, 0.74]),
+    picture("Gazebo/Pedestrian", [0.6, 0.6, 0.58]),
+    picture("Gazebo/Primary", [0.4, 0.4, 0.38]),
+    plain("Gazebo/Purple", [1.0, 0.0, 1.0], SHEEN),
+    glowing("Gazebo/PurpleGlow", [1.0, 0.0, 1.0], SHEEN),
+    plain("Gazebo/Red", [1.0, 0.0, 0.0], SHEEN),
+    plain("Gazebo/RedBright", [0.87, 0.26, 0.07], [0.87, 0.26, 0.07]),
+    glowing("Gazebo/RedGlow", [1.0, 0.0, 0.0], DARK),
     clear("Gazebo/RedTransparent", [1.0, 0.0, 0.0], 0.5),
-    glowing("Gazebo/RedTransparentOverlay", [1.0, 0.0, 0.0]),
-    plain("Gazebo/Residential", [0.42, 0.41, 0.4], DULL),
-    plain("Gazebo/Road", [0.3, 0.3, 0.3], DULL),
-    plain("Gazebo/SkyBlue", [0.13, 0.44, 0.7], SHINY),
-    plain("Gazebo/Shell", [0.8, 0.7, 0.6], DULL),
-    plain("Gazebo/Turquoise", [0.0, 1.0, 1.0], SHINY),
-    glowing("Gazebo/TurquoiseGlow", [0.0, 1.0, 1.0]),
-    clear("Gazebo/TurquoiseGlowOutline", [0.0, 1.0, 1.0], 1.0),
-    plain("Gazebo/White", [1.0, 1.0, 1.0], SHINY),
-    glowing("Gazebo/WhiteGlow", [1.0, 1.0, 1.0]),
-    plain("Gazebo/Wood", [0.58, 0.42, 0.26], DULL),
-    plain("Gazebo/WoodFloor", [0.6, 0.44, 0.28], DULL),
-    plain("Gazebo/WoodPallet", [0.62, 0.5, 0.34], DULL),
-    plain("Gazebo/Yellow", [1.0, 1.0, 0.0], SHINY),
-    glowing("Gazebo/YellowGlow", [1.0, 1.0, 0.0]),
+    clear("Gazebo/RedTransparentOverlay", [1.0, 0.0, 0.0], 0.5),
+    picture("Gazebo/Residential", [0.42, 0.41, 0.4]),
+    picture("Gazebo/Road", [0.3, 0.3, 0.3]),
+    picture("Gazebo/Runway", [0.33, 0.33, 0.33]),
+    picture("Gazebo/Secondary", [0.42, 0.41, 0.4]),
+    picture("Gazebo/Steps", [0.55, 0.53, 0.5]),
+    picture("Gazebo/Tertiary", [0.42, 0.41, 0.4]),
+    picture("Gazebo/Trunk", [0.35, 0.35, 0.34]),
+    plain("Gazebo/Turquoise", [0.0, 1.0, 1.0], SHEEN),
+    glowing("Gazebo/TurquoiseGlow", [0.0, 1.0, 1.0], SHEEN),
+    glowing("Gazebo/TurquoiseGlowOutline", [0.0, 1.0, 1.0], SHEEN),
+    plain("Gazebo/White", [1.0; 3], SHEEN),
+    glowing("Gazebo/WhiteGlow", [1.0; 3], SHEEN),
+    picture("Gazebo/Wood", [0.58, 0.42, 0.26]),
+    picture("Gazebo/WoodFloor", [0.6, 0.44, 0.28]),
+    picture("Gazebo/WoodPallet", [0.62, 0.5, 0.34]),
+    plain("Gazebo/Yellow", [1.0, 1.0, 0.0], DARK),
+    glowing("Gazebo/YellowGlow", [1.0, 1.0, 0.0], DARK),
     clear("Gazebo/YellowTransparent", [1.0, 1.0, 0.0], 0.5),
-    glowing("Gazebo/YellowTransparentOverlay", [1.0, 1.0, 0.0]),
-    plain("Gazebo/ZincYellow", [0.9725, 0.9529, 0.2078], SHINY),
+    plain("Gazebo/ZincYellow", [0.9725, 0.9529, 0.2078], [0.9725, 0.9529, 0.2078]),
+    ("Gazebo/Grey", opaque([0.3; 3]), opaque([0.7; 3]), opaque([0.01; 3]), DARK),
+    ("Gazebo/Gray", opaque([0.3; 3]), opaque([0.7; 3]), opaque([0.01; 3]), DARK),
+    ("Gazebo/EditorPlane", opaque([0.3; 3]), opaque([0.7; 3]), opaque([0.01; 3]), DARK),
+    (
+        "Gazebo/Gold",
+        opaque([0.4, 0.248_69, 0.020_759]),
+        opaque([0.8, 0.648_69, 0.120_759]),
+        opaque([0.4; 3]),
+        DARK,
+    ),
+    (
+        "Gazebo/Pioneer2Body",
+        opaque([0.481_193, 0.000_123, 0.000_123]),
+        opaque([0.681_193, 0.000_923, 0.000_923]),
+        opaque([0.5; 3]),
+        DARK,
+    ),
+    (
+        "Gazebo/PioneerBody",
+        opaque([0.5, 0.0, 0.0]),
+        opaque([1.0, 0.0, 0.0]),
+        opaque([0.5, 0.0, 0.0]),
+        DARK,
+    ),
+    ("Gazebo/SkyBlue", opaque([0.13, 0.44, 0.7]), opaque([0.0, 0.0, 1.0]), opaque(SHEEN), DARK),
 ];
 
 /// The colours of one of Gazebo's built-in materials, by its full name, such as `Gazebo/Grey`.

@@ -30,16 +30,22 @@ impl Names {
             return;
         };
         if lenient && *first_kind != kind {
-            diagnostics.push(
-                Diagnostic::warning(
-                    "duplicate-name",
-                    format!("{kind} `{name}` has the name of a {first_kind}"),
-                )
-                .at(origin)
-                .related(*first, format!("the {first_kind}"))
-                .note("since SDF 1.7 this is an error"),
-            );
-            return;
+            // As libsdformat does with old files.
+            let fresh = format!("{name}_{kind}");
+            if !self.taken.contains_key(&fresh) {
+                diagnostics.push(
+                    Diagnostic::warning(
+                        "duplicate-name",
+                        format!("this {kind} has the name of a {first_kind}, `{name}`"),
+                    )
+                    .at(origin)
+                    .related(*first, format!("the {first_kind}"))
+                    .note(format!("it is called `{fresh}`; since SDF 1.7 this is an error")),
+                );
+                self.taken.insert(fresh.clone(), (kind, origin));
+                *name = fresh;
+                return;
+            }
         }
         let number = self.numbers.entry(name.clone()).or_default();
         let fresh = loop {

@@ -179,6 +179,16 @@ fn read_overrides(element: &Element, diagnostics: &mut Diagnostics) -> Option<Ov
     let plugins = plugins(&mut fields);
     fields.verbatim(&["static", "pose"]);
     let extra = fields.finish();
+    if let Some(parameters) = extra.iter().find(|it| it.name == "experimental:params") {
+        diagnostics.push(
+            Diagnostic::warning(
+                "unsupported",
+                "changes to an included model by `<experimental:params>` are not made",
+            )
+            .at(parameters.origin)
+            .help("change a copy of the model's file instead"),
+        );
+    }
     let Some(uri) = uri else {
         diagnostics.push(
             Diagnostic::error("missing-uri", "`<include>` lacks its `<uri>`")
@@ -433,7 +443,11 @@ pub(crate) fn merge_into_world(
         into.models.push(included);
         return;
     }
-    let included = rebased(included, reader);
+    let mut included = rebased(included, reader);
+    if let Some(root) = included.frames[0].relative_to.as_mut().filter(|it| it.name == "__model__")
+    {
+        root.name = "world".into();
+    }
     into.frames.extend(included.frames);
     into.joints.extend(included.joints);
     into.models.extend(included.models);

@@ -7,7 +7,7 @@ use periplus_scene::Scene;
 use periplus_xml::{Document, Element};
 
 use super::actor::read_actor;
-use super::include::{Includes, Loaded};
+use super::include::{Entity, Includes, Loaded, read_include};
 use super::light::read_light;
 use super::model::read_model;
 use super::world::read_world;
@@ -71,10 +71,8 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
     for child in root.elements() {
         match &*child.name {
             "world" => {
-                let world = read_world(child, &mut reader);
-                let names = &mut scene.worlds;
-                let world = resolve_world(world, reader.diagnostics);
-                names.push(world);
+                let draft = read_world(child, &mut reader);
+                scene.worlds.push(resolve_world(draft, reader.diagnostics));
             }
             "model" => {
                 if let Some(draft) = read_model(child, &mut reader) {
@@ -91,6 +89,19 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
                 let draft = read_actor(child, reader.diagnostics);
                 scene.actors.push(resolve_actor(draft, reader.diagnostics));
             }
+            "include" => match read_include(child, &mut reader) {
+                Some((Entity::Model(draft), _)) => {
+                    let placed = resolve_model(*draft, reader.diagnostics);
+                    scene.models.push(placed.stand_alone(reader.diagnostics));
+                }
+                Some((Entity::Light(draft), _)) => {
+                    scene.lights.push(resolve_light(*draft, reader.diagnostics));
+                }
+                Some((Entity::Actor(draft), _)) => {
+                    scene.actors.push(resolve_actor(*draft, reader.diagnostics));
+                }
+                None => {}
+            },
             _ => unknown_in_root(child, reader.diagnostics),
         }
     }

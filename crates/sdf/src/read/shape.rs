@@ -161,6 +161,18 @@ pub(crate) fn unit(vector: DVec3) -> Option<DVec3> {
 
 fn required_uri(fields: &mut Fields<'_, '_>) -> String {
     let written = fields.text("uri");
+    if written.is_none()
+        && let Some(old) = fields.element.child("filename")
+        && let Some(name) = fields.text("filename")
+    {
+        fields.diagnostics.push(
+            Diagnostic::warning("old-spelling", "`<filename>` is called `<uri>` since SDF 1.3")
+                .at(old.name_origin())
+                .note("Gazebo does not find this file")
+                .replace(old.name_origin(), "uri", "write `<uri>`"),
+        );
+        return name;
+    }
     written.unwrap_or_else(|| {
         let told = Diagnostic::error(
             "missing-uri",
@@ -187,7 +199,6 @@ fn mesh(mut fields: Fields<'_, '_>) -> Shape {
         fields.diagnostics.push(told.at(fields.origin()));
     }
     fields.verbatim(&["convex_decomposition", "simplification"]);
-    fields.ignore_attributes(&[]);
     let origin = fields.origin();
     let optimization = fields.attribute("optimization");
     let mut extra = Vec::new();
