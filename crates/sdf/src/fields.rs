@@ -7,6 +7,7 @@ use periplus_scene::Colour;
 use periplus_xml::{Attribute, Element, Node};
 
 use crate::value::{self, leaf};
+use crate::verbatim::keep;
 
 /// An element that is being read. Each question marks what it found as used; [`Self::finish`]
 /// settles the rest.
@@ -138,7 +139,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         let verbatim_from = rest.len();
         for (node, used) in self.element.children.iter().zip(&self.used) {
             match node {
-                Node::Element(child) if !used => rest.push(child.clone()),
+                Node::Element(child) if !used => rest.push(keep(child)),
                 Node::Text(text) if !text.text.trim().is_empty() => self.diagnostics.push(
                     Diagnostic::warning(
                         "stray-text",

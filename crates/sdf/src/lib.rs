@@ -14,7 +14,9 @@ mod pose;
 mod read;
 mod upgrade;
 mod value;
+mod verbatim;
 mod version;
+mod write;
 
 pub use inertia::check as check_inertia;
 pub use pose::{Placed, Reference, read_pose};
@@ -24,3 +26,4 @@ pub use read::{
     read_surface, read_visual,
 };
 pub use version::Version;
+pub use write::write;

@@ -65,6 +65,48 @@ fn read(answer: &Value) -> (Scene, Diagnostics, SourceMap, files::Recorded) {
     (scene.unwrap_or_default(), diagnostics, sources, includes)
 }
 
+/// Writes and reads again.
+fn rewritten(scene: &Scene) -> (Scene, String) {
+    let mut diagnostics = Diagnostics::new();
+    let text = periplus_xml::write_document(&periplus_sdf::write(scene, &mut diagnostics));
+    let mut sources = SourceMap::new();
+    let file = sources.add("again.sdf", text.as_str());
+    let document = periplus_xml::parse(file, &sources, &mut diagnostics).expect("XML");
+    let mut context = periplus_sdf::Context {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut periplus_sdf::NoIncludes,
+    };
+    let again = periplus_sdf::read_document(&document, &mut context);
+    (again, text)
+}
+
+#[test]
+fn real_files_survive_writing() {
+    let Some(answers) = answers() else { return };
+    let keep = std::env::var("PERIPLUS_WRITTEN").ok();
+    let mut count = 0;
+    for (index, answer) in answers.iter().filter(|it| it["kind"] == "sdf").enumerate() {
+        let (scene, ..) = read(answer);
+        let (again, text) = rewritten(&scene);
+        let path = answer["file"].as_str().unwrap();
+        if let Some(folder) = &keep {
+            std::fs::write(format!("{folder}/{index}.sdf"), &text).expect("written");
+        }
+        if again != scene {
+            let (ours, theirs) = (format!("{scene:#?}"), format!("{again:#?}"));
+            let line = |text: &str| text.lines().map(|it| it.trim().to_owned()).collect::<Vec<_>>();
+            let origins = |it: &String| !it.starts_with("start:") && !it.starts_with("end:");
+            let pairs = line(&ours).into_iter().filter(origins);
+            let pairs = pairs.zip(line(&theirs).into_iter().filter(origins));
+            let first = pairs.filter(|(a, b)| a != b && !a.contains("Origin")).take(3);
+            panic!("{path} changed: {:#?}", first.collect::<Vec<_>>());
+        }
+        count += 1;
+    }
+    println!("{count} files survive writing");
+}
+
 #[test]
 fn real_files_mean_what_libsdformat_says() {
     let Some(answers) = answers() else { return };

@@ -5,12 +5,13 @@ use periplus_scene::{Material, Pbr, Script, builtin_material, builtin_material_n
 use periplus_xml::Element;
 
 use crate::fields::Fields;
+use crate::verbatim::keep;
 
 /// Reads a `<material>`. What the file leaves out stays `None`.
 pub fn read_material(element: &Element, diagnostics: &mut Diagnostics) -> Material {
     let mut fields = Fields::new(element, diagnostics);
     let mut material = Material {
-        name: None,
+        name: fields.attribute("periplus:name").map(|it| it.value.to_string()),
         ambient: fields.colour("ambient"),
         diffuse: fields.colour("diffuse"),
         specular: fields.colour("specular"),
@@ -83,7 +84,7 @@ fn check_name(name: &str, fields: &mut Fields<'_, '_>) {
 
 /// Only a few values are looked at, so the whole element is kept.
 fn read_pbr(element: &Element, diagnostics: &mut Diagnostics) -> Pbr {
-    let mut pbr = Pbr { element: Some(element.clone()), ..Pbr::default() };
+    let mut pbr = Pbr { element: Some(keep(element)), ..Pbr::default() };
     let Some(metal) = element.child("metal") else { return pbr };
     let mut fields = Fields::new(metal, diagnostics);
     pbr.roughness = fields.optional_number("roughness");

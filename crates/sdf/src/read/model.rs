@@ -58,6 +58,8 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> ModelDraft {
     model.origin = element.origin;
     let canonical_link = reference(&mut fields, "canonical_link");
     let placement_frame = reference(&mut fields, "placement_frame");
+    // What the writer here keeps beside SDF.
+    model.included_from = fields.attribute("periplus:included_from").map(|it| it.value.to_string());
     let (pose, relative_to) = fields.pose();
     model.parent_from_model = pose;
     model.is_static = fields.boolean("static", false);
@@ -99,13 +101,18 @@ pub(crate) fn read_frame(element: &Element, diagnostics: &mut Diagnostics) -> Fr
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let attached_to = reference(&mut fields, "attached_to");
+    let role = match fields.attribute("periplus:role").map(|it| &*it.value) {
+        Some("merged_link") => FrameRole::MergedLink,
+        Some("merged_joint") => FrameRole::MergedJoint,
+        _ => FrameRole::Declared,
+    };
     let (pose, relative_to) = fields.pose();
     fields.finish();
     let frame = Frame {
         name: name.unwrap_or_else(|| "frame".into()),
         parent_from_frame: pose,
         attached_to: String::new(),
-        role: FrameRole::Declared,
+        role,
         origin: element.origin,
     };
     FrameDraft { frame, relative_to, attached_to }

@@ -5,6 +5,7 @@ use periplus_scene::Plugin;
 use periplus_xml::{Element, Node};
 
 use crate::fields::Fields;
+use crate::verbatim::keep;
 
 /// Reads a `<plugin>`; its children are kept word for word.
 pub fn read_plugin(element: &Element, diagnostics: &mut Diagnostics) -> Plugin {
@@ -20,7 +21,7 @@ pub fn read_plugin(element: &Element, diagnostics: &mut Diagnostics) -> Plugin {
     Plugin {
         name: name.unwrap_or_default(),
         filename: filename.unwrap_or_default(),
-        content: element.children.iter().filter_map(Node::as_element).cloned().collect(),
+        content: element.children.iter().filter_map(Node::as_element).map(keep).collect(),
         origin: element.origin,
     }
 }

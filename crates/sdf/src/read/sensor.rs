@@ -8,6 +8,7 @@ use super::plugin::plugins;
 use super::{camera, lidar, noise};
 use crate::fields::Fields;
 use crate::pose::{Placed, Reference};
+use crate::verbatim::keep;
 
 /// Types, and the elements that hold their settings.
 const TYPES: [(&str, &[&str]); 35] = [
@@ -219,7 +220,7 @@ fn read_kind(
         },
         _ => {
             if present.is_some() {
-                sensor.extra.push(element.clone());
+                sensor.extra.push(keep(element));
             }
             return;
         }

@@ -7,6 +7,7 @@ use periplus_xml::Element;
 
 use crate::fields::Fields;
 use crate::value;
+use crate::verbatim::keep;
 
 const SHAPES: [&str; 12] = [
     "empty",
@@ -69,7 +70,7 @@ fn unknown(element: &Element, diagnostics: &mut Diagnostics) -> Shape {
     if child.prefix().is_none() {
         diagnostics.push(told);
     }
-    Shape::Unknown(child.clone())
+    Shape::Unknown(keep(child))
 }
 
 fn read_shape(element: &Element, diagnostics: &mut Diagnostics) -> Shape {

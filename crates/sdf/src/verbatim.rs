@@ -1,0 +1,49 @@
+//! Elements that are kept word for word.
+
+use periplus_xml::{Element, Node, Text};
+
+/// The element without the white space around its texts, which only lays the file out. So a kept
+/// element is the same after it was written and read again.
+pub(crate) fn keep(element: &Element) -> Element {
+    let mut children: Vec<Node> = Vec::with_capacity(element.children.len());
+    for node in &element.children {
+        match node {
+            Node::Element(child) => children.push(Node::Element(keep(child))),
+            Node::Text(text) => match children.last_mut() {
+                // Text and CDATA side by side are one text.
+                Some(Node::Text(before)) => {
+                    before.text = format!("{}{}", before.text, text.text).into();
+                }
+                _ => children.push(Node::Text(text.clone())),
+            },
+            other => children.push(other.clone()),
+        }
+    }
+    children.retain_mut(|node| match node {
+        Node::Text(text) => {
+            trim(text);
+            !text.text.is_empty()
+        }
+        _ => true,
+    });
+    Element {
+        name: element.name.clone(),
+        attributes: element.attributes.clone(),
+        children,
+        origin: element.origin,
+    }
+}
+
+fn trim(text: &mut Text) {
+    let trimmed = text.text.trim();
+    if trimmed.len() != text.text.len() {
+        let start = text.text.len() - text.text.trim_start().len();
+        // With entities or CDATA in it the text is shorter than its source.
+        if let Some(span) = text.origin.0
+            && (span.end - span.start) as usize == text.text.len()
+        {
+            text.origin = span.part(start, start + trimmed.len()).into();
+        }
+        text.text = trimmed.into();
+    }
+}

@@ -1,0 +1,77 @@
+//! A scene as SDF.
+//!
+//! Poses are written in the frame of their fixed parent, so reading them back resolves nothing.
+//! The version is 1.9, which most of today's Gazebo reads, unless something needs a newer one.
+
+mod light;
+mod link;
+mod material;
+mod model;
+mod out;
+mod sensor;
+mod shape;
+mod surface;
+mod world;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_scene::Scene;
+use periplus_xml::{Document, Element};
+
+use crate::version::Version;
+use out::Out;
+
+/// What is gathered while a scene is written.
+struct Writer<'a> {
+    version: Version,
+    /// Whether anything is written that only Periplus reads.
+    own_names: bool,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Writer<'_> {
+    fn needs(&mut self, version: Version) {
+        self.version = self.version.max(version);
+    }
+}
+
+/// Writes a scene as SDF. Reading the document gives an equal scene, but for what SDF cannot say:
+/// joints that float or slide in a plane are left out with a warning, and paths of files that
+/// were found are not written.
+pub fn write(scene: &Scene, diagnostics: &mut Diagnostics) -> Document {
+    let mut writer = Writer { version: Version::new(9), own_names: false, diagnostics };
+    let mut content = Vec::new();
+    for world in &scene.worlds {
+        content.push(world::write_world(world, &mut writer));
+    }
+    for model in &scene.models {
+        content.push(model::write_model(model, &mut writer));
+    }
+    for light in &scene.lights {
+        content.push(light::write_light(light));
+    }
+    for actor in &scene.actors {
+        content.push(world::write_actor(actor, &mut writer));
+    }
+    let mut root = Out::new("sdf");
+    root.attribute("version", writer.version.to_string());
+    if writer.own_names {
+        root.attribute("xmlns:periplus", "urn:periplus:scene");
+    }
+    let mut root = root.finish(&[]);
+    for element in content {
+        root.push(element);
+    }
+    Document { before: Vec::new(), root, after: Vec::new() }
+}
+
+/// Writes one element of a plugin.
+fn write_plugin(plugin: &periplus_scene::Plugin) -> Element {
+    let mut out = Out::new("plugin");
+    out.attribute("name", &plugin.name);
+    out.attribute("filename", &plugin.filename);
+    let mut element = out.finish(&[]);
+    for child in &plugin.content {
+        element.push(child.clone());
+    }
+    element
+}
