@@ -2,6 +2,9 @@
 
 use periplus_scene::{Link, Model, Plugin, Scene, Sensor, World};
 
+use crate::Family;
+use crate::recognise::{Sign, ros_sign};
+
 /// What a plugin is attached to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -34,8 +37,8 @@ pub struct Context<'a> {
     pub link: Option<&'a Link>,
     /// The sensor around it.
     pub sensor: Option<&'a Sensor>,
-    /// Whether the rest of the file speaks ROS 1, for plugins that do not tell by themselves.
-    pub ros1: bool,
+    /// The ROS version that the plugins of the file tell, for those that do not tell by themselves.
+    pub ros: Option<Family>,
 }
 
 /// A plugin and where it stands.
@@ -56,7 +59,7 @@ impl Context<'_> {
         model: None,
         link: None,
         sensor: None,
-        ros1: false,
+        ros: None,
     };
 }
 
@@ -133,17 +136,16 @@ fn add_sensor<'a>(sensor: &'a Sensor, context: Context<'a>, sites: &mut Vec<Site
 
 /// Files hold plugins of one ROS version: those that tell decide for those that do not.
 fn settle_ros_version(sites: &mut [Site<'_>]) {
-    use crate::Family;
-    let mut ros1 = 0_usize;
-    let mut ros2 = 0_usize;
-    for site in &*sites {
-        match crate::recognise::certain_family(site.plugin) {
-            Some(Family::ClassicRos1) => ros1 += 1,
-            Some(Family::ClassicRos2) => ros2 += 1,
-            _ => {}
-        }
-    }
+    let signs = |sign: Sign| sites.iter().filter(|site| ros_sign(site.plugin) == sign).count();
+    let (ros1, ros2) = (signs(Sign::Ros1), signs(Sign::Ros2));
+    let ros = if ros1 > ros2 || ros2 == 0 && signs(Sign::PerhapsRos1) > 0 {
+        Some(Family::ClassicRos1)
+    } else if ros2 > 0 {
+        Some(Family::ClassicRos2)
+    } else {
+        None
+    };
     for site in sites {
-        site.context.ros1 = ros1 > ros2;
+        site.context.ros = ros;
     }
 }

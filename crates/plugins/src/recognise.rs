@@ -8,58 +8,59 @@ use crate::{Context, Family, Known, known};
 /// The plugin that a `<plugin>` means, if we know it.
 ///
 /// The library decides. ROS 1 and ROS 2 share library names such as `libgazebo_ros_diff_drive.so`;
-/// there a `<ros>` element means ROS 2, then parameters that only one of the two reads, then the
-/// other plugins of the file, and without any sign ROS 2.
+/// there a `<ros>` element or a parameter that only ROS 2 reads means ROS 2; otherwise the other
+/// plugins of the file tell; then parameters that only ROS 1 reads; and without any sign ROS 2.
 #[must_use]
 pub fn recognise(plugin: &Plugin, context: &Context<'_>) -> Option<&'static Known> {
-    let id = library_id(&plugin.filename);
-    let candidates: Vec<&'static Known> = known().filter(|known| known.id == id).collect();
-    match candidates[..] {
-        [] => None,
-        [only] => Some(only),
-        _ => {
-            let family = family_by_parameters(plugin, &candidates).unwrap_or(if context.ros1 {
-                Family::ClassicRos1
-            } else {
-                Family::ClassicRos2
-            });
-            candidates.iter().copied().find(|known| known.family == family).or(Some(candidates[0]))
-        }
-    }
+    let candidates = candidates(plugin);
+    let [_, _, ..] = candidates[..] else { return candidates.first().copied() };
+    let family = match (ros_sign(plugin), context.ros) {
+        (Sign::Ros2, _) => Family::ClassicRos2,
+        (_, Some(family)) => family,
+        (Sign::Ros1 | Sign::PerhapsRos1, None) => Family::ClassicRos1,
+        (Sign::None, None) => Family::ClassicRos2,
+    };
+    candidates.iter().copied().find(|known| known.family == family).or(candidates.first().copied())
 }
 
-/// The family of a plugin as far as it tells by itself.
-pub(crate) fn certain_family(plugin: &Plugin) -> Option<Family> {
-    let id = library_id(&plugin.filename);
-    let candidates: Vec<&'static Known> = known().filter(|known| known.id == id).collect();
-    match candidates[..] {
-        [] => None,
-        [only] => Some(only.family),
-        _ => family_by_parameters(plugin, &candidates),
-    }
+/// What a plugin tells by itself of the ROS version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sign {
+    /// Nothing, or it is not of ROS.
+    None,
+    /// Only ROS 1 has this library.
+    Ros1,
+    /// Parameters of ROS 1 in a library of both. They are often carried along into ROS 2.
+    PerhapsRos1,
+    /// Only ROS 2 has this library or reads this.
+    Ros2,
 }
 
-fn family_by_parameters(plugin: &Plugin, candidates: &[&'static Known]) -> Option<Family> {
-    if plugin.content.iter().any(|element| element.name == "ros") {
-        return Some(Family::ClassicRos2);
+pub(crate) fn ros_sign(plugin: &Plugin) -> Sign {
+    let candidates = candidates(plugin);
+    if let [only] = candidates[..] {
+        return match only.family {
+            Family::ClassicRos1 => Sign::Ros1,
+            Family::ClassicRos2 => Sign::Ros2,
+            Family::Classic | Family::Gz => Sign::None,
+        };
     }
     let reads = |family: Family, name: &str| {
         candidates.iter().any(|known| known.family == family && known.table.find(name).is_some())
     };
-    let mut ros1_only = false;
-    let mut ros2_only = false;
+    let mut sign = Sign::None;
     for element in &plugin.content {
         let name = element.name.as_str();
         match (reads(Family::ClassicRos1, name), reads(Family::ClassicRos2, name)) {
-            (true, false) => ros1_only = true,
-            (false, true) => ros2_only = true,
+            (false, true) => return Sign::Ros2,
+            (true, false) => sign = Sign::PerhapsRos1,
             _ => {}
         }
     }
-    // With both, ROS 2: old parameters are often carried along, new ones never carried back.
-    match (ros1_only, ros2_only) {
-        (_, true) => Some(Family::ClassicRos2),
-        (true, false) => Some(Family::ClassicRos1),
-        (false, false) => None,
-    }
+    sign
+}
+
+fn candidates(plugin: &Plugin) -> Vec<&'static Known> {
+    let id = library_id(&plugin.filename);
+    known().filter(|known| known.id == id).collect()
 }

@@ -21,10 +21,13 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
             _ => None,
         };
         let (Some(left), Some(right)) = (wheel(&left), wheel(&right)) else { continue };
-        let measured_m = left.distance_along_axle_m(&right);
-        let truth = format!("the wheels are {} m apart", short(measured_m));
-        let claim = Claim { parameter: names.separation, index, measured_m, truth };
-        if let Some(finding) = contradiction(plugin, site, claim) {
+        // Joints of one axle are sometimes placed alike and the wheels shifted, or the other way
+        // round; only when neither fits is it a contradiction.
+        let by_wheels = separation(&names, index, between(&left, &right, |w| w.centre_in_model_m));
+        let by_joints = separation(&names, index, between(&left, &right, |w| w.joint_in_model_m));
+        if let Some(finding) = contradiction(plugin, site, by_wheels)
+            && contradiction(plugin, site, by_joints).is_some()
+        {
             diagnostics.push(finding);
         }
         if let Some(radius_m) = left.radius_m {
@@ -81,6 +84,7 @@ impl Parameters {
 
 struct Wheel {
     centre_in_model_m: DVec3,
+    joint_in_model_m: DVec3,
     axle_in_model: Option<DVec3>,
     radius_m: Option<f64>,
 }
@@ -92,7 +96,6 @@ impl Wheel {
         let model_from_joint = link.model_from_link * joint.child_from_joint;
         let axle_in_model =
             joint.axis.as_ref().map(|axis| model_from_joint.rotation * axis.direction_in_joint);
-        // Joints of one axle are sometimes placed alike and the wheels shifted.
         let (centre_in_model_m, radius_m) = match &link.collisions[..] {
             [collision] => {
                 let model_from_collision = link.model_from_link * collision.link_from_collision;
@@ -104,16 +107,24 @@ impl Wheel {
             }
             _ => (model_from_joint.translation, None),
         };
-        Some(Self { centre_in_model_m, axle_in_model, radius_m })
+        Some(Self {
+            centre_in_model_m,
+            joint_in_model_m: model_from_joint.translation,
+            axle_in_model,
+            radius_m,
+        })
     }
+}
 
-    fn distance_along_axle_m(&self, other: &Self) -> f64 {
-        let between = other.centre_in_model_m - self.centre_in_model_m;
-        match self.axle_in_model {
-            Some(axle) => between.dot(axle).abs(),
-            None => between.length(),
-        }
-    }
+/// How far two wheels are apart along the axle of the first [m].
+fn between(left: &Wheel, right: &Wheel, place: impl Fn(&Wheel) -> DVec3) -> f64 {
+    let between_m = place(right) - place(left);
+    left.axle_in_model.map_or(between_m.length(), |axle| between_m.dot(axle).abs())
+}
+
+fn separation(names: &Parameters, index: usize, measured_m: f64) -> Claim {
+    let truth = format!("the wheels are {} m apart", short(measured_m));
+    Claim { parameter: names.separation, index, measured_m, truth }
 }
 
 /// What a parameter should say.

@@ -87,6 +87,12 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
             let camera = site.plugin.value("camera_name").map(std::borrow::Cow::into_owned);
             let camera = camera.or_else(|| site.context.sensor.map(|sensor| sensor.name.clone()));
             let topic = topic.replace("{camera_name}", &camera.unwrap_or("camera".into()));
+            if name.contains("_topic") {
+                diagnostic = diagnostic.note("old documentation names it, but the code never did");
+            }
+            if value == topic {
+                return diagnostic.help(format!("delete it: the topic is `{topic}` anyway"));
+            }
             diagnostic.help(format!("write `<remapping>{topic}:={value}</remapping>` in `<ros>`"))
         }
         Instead::Namespace => {
@@ -245,6 +251,7 @@ mod tests {
                 3 |   <command_topic>cmd</command_topic>
                   |    ^^^^^^^^^^^^^ nobody reads this
                   |
+                  = note: old documentation names it, but the code never did
                   = help: write `<remapping>cmd_vel:=cmd</remapping>` in `<ros>`
                 warning[ros1-parameter]: `robotNamespace` is a parameter of ROS 1; libgazebo_ros_planar_move.so of ROS 2 never reads it
                  --> test.sdf:4:4

@@ -87,7 +87,9 @@ fn has(names: &[String], name: &str) -> bool {
 }
 
 fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
-    if has(&things.joints, name) {
+    // A joint may be named with its model before it.
+    let last = name.rsplit("::").next().unwrap_or(name);
+    if has(&things.joints, name) || has(&things.joints, last) {
         return None;
     }
     if has(&things.merged_joints, name) {

@@ -2,15 +2,14 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use crate::recognise::certain_family;
-use crate::{Family, Interpreted, Site};
+use crate::recognise::{Sign, ros_sign};
+use crate::{Interpreted, Site};
 
 pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagnostics) {
-    let of = |family: Family| -> Vec<&Site<'_>> {
-        let certain = |site: &&Site<'_>| certain_family(site.plugin) == Some(family);
-        plugins.iter().map(|(site, _)| site).filter(certain).collect()
+    let with = |sign: Sign| -> Vec<&Site<'_>> {
+        plugins.iter().map(|(site, _)| site).filter(|site| ros_sign(site.plugin) == sign).collect()
     };
-    let (ros1, ros2) = (of(Family::ClassicRos1), of(Family::ClassicRos2));
+    let (ros1, ros2) = (with(Sign::Ros1), with(Sign::Ros2));
     let (Some(first1), Some(first2)) = (ros1.first(), ros2.first()) else { return };
     let (odd, odd_version, usual, usual_version) =
         if ros1.len() > ros2.len() { (first2, 2, first1, 1) } else { (first1, 1, first2, 2) };
@@ -30,6 +29,29 @@ mod tests {
     use expect_test::expect;
 
     use crate::fixture::check;
+
+    #[test]
+    fn old_parameters_in_a_ros2_file_are_not_ros1() {
+        check(
+            "<model name='m'>
+<plugin name='a' filename='libgazebo_ros_ray_sensor.so'/>
+<plugin name='b' filename='libgazebo_ros_camera.so'><hackBaseline>0.2</hackBaseline></plugin>
+</model>",
+            expect![[r#"
+                warning[ros1-parameter]: `hackBaseline` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                 --> test.sdf:3:54
+                  |
+                3 | <plugin name='b' filename='libgazebo_ros_camera.so'><hackBaseline>0.2</hackBaseline></plugin>
+                  |                                                      ^^^^^^^^^^^^ nobody reads this
+                  |
+                help: ROS 2 calls it `hack_baseline`
+                  |
+                3 - <plugin name='b' filename='libgazebo_ros_camera.so'><hackBaseline>0.2</hackBaseline></plugin>
+                3 + <plugin name='b' filename='libgazebo_ros_camera.so'><hack_baseline>0.2</hack_baseline></plugin>
+                  |
+            "#]],
+        );
+    }
 
     #[test]
     fn one_file_one_ros() {

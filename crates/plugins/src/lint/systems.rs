@@ -84,6 +84,19 @@ pub(super) fn check(
                 .help("for Gazebo write `type=\"gpu_lidar\"`"),
             );
         }
+        if matches!(kind, "navsat" | "gps") && world.spherical_coordinates.is_none() {
+            let message =
+                format!("the sensor `{}` does not know where on Earth it is", sensor.name);
+            diagnostics.push(
+                Diagnostic::warning("no-place-on-earth", message)
+                    .at(sensor.origin)
+                    .related(world.origin, "this world has no `<spherical_coordinates>`")
+                    .help(
+                        "add `<spherical_coordinates>` with `<latitude_deg>` and \
+                         `<longitude_deg>` to the world",
+                    ),
+            );
+        }
         let Some((part, class)) = system_for(kind) else { continue };
         let id = format!("gz-sim-{part}-system");
         if !running.contains(&*id) && told.insert(part) {
@@ -245,6 +258,27 @@ mod tests {
             "<world name='w'><model name='m'><link name='l'>
 <sensor name='eye' type='camera'/><sensor name='imu' type='imu'/></link></model></world>",
             expect![[""]],
+        );
+    }
+
+    #[test]
+    fn satellites_need_an_earth() {
+        check(
+            "<world name='w'>
+<plugin filename='gz-sim-navsat-system' name='gz::sim::systems::NavSat'/>
+<model name='m'><link name='l'><sensor name='gps' type='navsat'/></link></model></world>",
+            expect![[r#"
+                warning[no-place-on-earth]: the sensor `gps` does not know where on Earth it is
+                 --> test.sdf:3:32
+                  |
+                1 | <world name='w'>
+                  | ---------------- this world has no `<spherical_coordinates>`
+                2 | <plugin filename='gz-sim-navsat-system' name='gz::sim::systems::NavSat'/>
+                3 | <model name='m'><link name='l'><sensor name='gps' type='navsat'/></link></model></world>
+                  |                                ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: add `<spherical_coordinates>` with `<latitude_deg>` and `<longitude_deg>` to the world
+            "#]],
         );
     }
 

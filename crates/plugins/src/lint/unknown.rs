@@ -34,8 +34,17 @@ fn unknown(site: &Site<'_>, filename: &str) -> Diagnostic {
         .find(|known| site.plugin.name.contains("::systems::") && known.classes.contains(&class));
     let meant = by_class.map(|known| known.id).or_else(|| {
         let id = library_id(filename);
-        let core = closest(distinctive(&id), known().map(|known| distinctive(known.id)))?;
-        known().map(|known| known.id).find(|id| distinctive(id) == core)
+        let (kind, core) = distinctive(&id);
+        let alike = || known().map(|known| known.id).filter(|id| distinctive(id).0 == kind);
+        if core.len() < 3 {
+            return None;
+        }
+        // The same core with other trimmings: `gz-sim-imu` for `gz-sim-imu-system`.
+        let same = alike().find(|id| distinctive(id).1 == core);
+        same.or_else(|| {
+            let near = closest(core, alike().map(|id| distinctive(id).1))?;
+            alike().find(|id| distinctive(id).1 == near)
+        })
     });
     match meant.and_then(|id| known().find(|known| known.id == id)) {
         Some(known) => diagnostic.help(format!("did you mean `{}`?", known.filename())),
@@ -43,10 +52,16 @@ fn unknown(site: &Site<'_>, filename: &str) -> Diagnostic {
     }
 }
 
-/// The part of a library's name that tells it from others.
-fn distinctive(id: &str) -> &str {
-    let id = id.strip_prefix("gazebo_ros_").or_else(|| id.strip_prefix("gz-sim-")).unwrap_or(id);
-    id.strip_suffix("-system").unwrap_or(id)
+/// What kind of name a library has, and the part that tells it from others of its kind.
+fn distinctive(id: &str) -> (u8, &str) {
+    if let Some(core) = id.strip_prefix("gazebo_ros_") {
+        return (1, core);
+    }
+    if id.starts_with("gz-sim-") || id.ends_with("-system") {
+        let core = id.strip_prefix("gz-sim-").unwrap_or(id);
+        return (2, core.strip_suffix("-system").unwrap_or(core));
+    }
+    (3, id.strip_suffix("Plugin").unwrap_or(id))
 }
 
 fn check_class(site: &Site<'_>, known: &crate::Known, diagnostics: &mut Diagnostics) {

@@ -124,13 +124,27 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives by keys.",
         [
-            flag("twist_arrows", "Whether the arrows drive."),
-            flag("twist_wasd", "Whether letters drive."),
+            text("twist_arrows", "Topic that the arrows drive.").naming(Names::Topic),
+            text("twist_wasd", "Topic that letters drive.").naming(Names::Topic),
             group("scale_linear", "Speeds."),
             group("scale_angular", "Turn rates."),
         ]
     )
     .open(),
+    panel!(
+        "JoyPlugin",
+        Kept,
+        "Publishes a joystick.",
+        [
+            text("dev", "The device.").or("/dev/input/js0"),
+            flag("sticky_buttons", "Whether a button stays down.").or("false"),
+            number("dead_zone", "", "Deflections below are ignored.").or("0.05").min(0.0),
+            number("rate", "Hz", "Messages per second.").or("1").min(0.0),
+            number("accumulation_rate", "Hz", "How often deflections are gathered.")
+                .or("1000")
+                .min(0.0),
+        ]
+    ),
     panel!("Teleop", Viewer, "Drives by buttons and keys.", [TOPIC]).open(),
     panel!("ImageDisplay", Viewer, "Shows images.", [TOPIC, TOPIC_PICKER])
         .topics(&[listens("/image").set_by("topic")]),
