@@ -136,9 +136,10 @@ fn add_sensor<'a>(sensor: &'a Sensor, context: Context<'a>, sites: &mut Vec<Site
 
 /// Files hold plugins of one ROS version: those that tell decide for those that do not.
 fn settle_ros_version(sites: &mut [Site<'_>]) {
-    let signs = |sign: Sign| sites.iter().filter(|site| ros_sign(site.plugin) == sign).count();
-    let (ros1, ros2) = (signs(Sign::Ros1), signs(Sign::Ros2));
-    let ros = if ros1 > ros2 || ros2 == 0 && signs(Sign::PerhapsRos1) > 0 {
+    let signs: Vec<Sign> = sites.iter().map(|site| ros_sign(site.plugin)).collect();
+    let count = |sign: Sign| signs.iter().filter(|other| **other == sign).count();
+    let (ros1, ros2) = (count(Sign::Ros1), count(Sign::Ros2));
+    let ros = if ros1 > ros2 || ros2 == 0 && count(Sign::PerhapsRos1) > 0 {
         Some(Family::ClassicRos1)
     } else if ros2 > 0 {
         Some(Family::ClassicRos2)

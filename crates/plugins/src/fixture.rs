@@ -26,6 +26,13 @@ pub(crate) fn check(text: &str, expected: Expect) {
     expected.assert_eq(&said);
 }
 
+/// Reads a scene.
+pub(crate) fn scene(text: &str) -> Scene {
+    let mut sources = SourceMap::new();
+    let file = sources.add("test.sdf", text);
+    read(&parse(file, &sources, &mut Diagnostics::new()).unwrap().root)
+}
+
 fn read(root: &Element) -> Scene {
     match &*root.name {
         "world" => Scene { worlds: vec![read_world(root)], ..Scene::default() },

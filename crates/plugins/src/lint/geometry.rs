@@ -8,6 +8,9 @@ use crate::{Family, Interpreted, Site};
 /// A plugin's number may differ from the model's by this share.
 const TOLERANCE: f64 = 0.2;
 
+/// Pairs of wheels that are measured.
+const MOST_PAIRS: usize = 16;
+
 pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
     if plugin.known.id == "gazebo_ros_diff_drive" && plugin.known.family == Family::ClassicRos2 {
         check_pairs(site, plugin, diagnostics);
@@ -15,7 +18,7 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
     let Some(names) = Parameters::of(plugin.known.id, plugin.known.family) else { return };
     let Some(model) = site.context.model else { return };
     let (left, right) = (plugin.values.all(names.left), plugin.values.all(names.right));
-    for index in 0..left.len().min(right.len()) {
+    for index in 0..left.len().min(right.len()).min(MOST_PAIRS) {
         let wheel = |all: &[(periplus_params::Value, Origin)]| match &all[index].0 {
             periplus_params::Value::Text(joint) => Wheel::of(model, joint),
             _ => None,

@@ -1,6 +1,8 @@
 //! Joints, links and frames that plugins name.
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use std::collections::BTreeSet;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity};
 use periplus_params::{Names, Value};
 use periplus_scene::{FrameRole, Model};
 
@@ -9,13 +11,42 @@ use crate::{Family, Interpreted, Site};
 /// Frames that are no part of a robot.
 const GLOBAL: [&str; 5] = ["", "world", "map", "odom", "earth"];
 
-pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+/// Names compared for suggestions in one scene: beyond it findings come without, so that a hostile
+/// file with a slip in every line costs no quadratic time.
+const MOST_COMPARED: usize = 1_000_000;
+
+/// The names of the model that was looked at last; plugins of one model come one after another.
+#[derive(Default)]
+pub(super) struct Cache<'a> {
+    root: Option<(&'a Model, Things)>,
+    compared: usize,
+}
+
+pub(super) fn check<'a>(
+    site: &Site<'a>,
+    plugin: &Interpreted,
+    cache: &mut Cache<'a>,
+    diagnostics: &mut Diagnostics,
+) {
     let Some(root) = site.context.root else { return };
-    let things = Things::of(root);
+    if plugin.known.table.parameters.iter().all(|parameter| parameter.names.is_none()) {
+        return;
+    }
+    if !cache.root.as_ref().is_some_and(|(known, _)| std::ptr::eq(*known, root)) {
+        cache.root = Some((root, Things::of(root)));
+    }
+    let Some((_, things)) = &mut cache.root else { return };
     // A file that holds only a robot's plugins, to be included by another, has no links.
     if things.links.is_empty() {
         return;
     }
+    things.suggest = cache.compared < MOST_COMPARED;
+    let before = findings(diagnostics);
+    check_names(plugin, things, diagnostics);
+    cache.compared += (findings(diagnostics) - before) * things.count();
+}
+
+fn check_names(plugin: &Interpreted, things: &Things, diagnostics: &mut Diagnostics) {
     for parameter in plugin.known.table.parameters {
         let Some(names) = parameter.names else { continue };
         if !plugin.values.is_given(parameter.name) {
@@ -27,9 +58,9 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
                 continue;
             }
             let finding = match names {
-                Names::Joint => joint(&name, origin, &things),
-                Names::Link => link(&name, origin, &things, plugin),
-                Names::Frame => frame(&name, origin, &things),
+                Names::Joint => joint(&name, origin, things),
+                Names::Link => link(&name, origin, things, plugin),
+                Names::Frame => frame(&name, origin, things),
                 Names::Topic => None,
             };
             if let Some(finding) = finding {
@@ -39,14 +70,22 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
     }
 }
 
+fn findings(diagnostics: &Diagnostics) -> usize {
+    [Severity::Error, Severity::Warning, Severity::Hint]
+        .into_iter()
+        .map(|severity| diagnostics.count(severity))
+        .sum()
+}
+
 /// The names in a model and the models inside it, plain and scoped.
 #[derive(Default)]
 struct Things {
-    links: Vec<String>,
-    joints: Vec<String>,
-    frames: Vec<String>,
-    merged_links: Vec<String>,
-    merged_joints: Vec<String>,
+    links: BTreeSet<String>,
+    joints: BTreeSet<String>,
+    frames: BTreeSet<String>,
+    merged_links: BTreeSet<String>,
+    merged_joints: BTreeSet<String>,
+    suggest: bool,
 }
 
 impl Things {
@@ -56,11 +95,23 @@ impl Things {
         things
     }
 
+    fn count(&self) -> usize {
+        self.links.len() + self.joints.len() + self.frames.len() + self.merged_links.len()
+    }
+
+    /// The names to suggest from.
+    fn offered<'s>(&'s self, sets: &[&'s BTreeSet<String>]) -> Vec<&'s str> {
+        if !self.suggest {
+            return Vec::new();
+        }
+        sets.iter().copied().flatten().map(String::as_str).collect()
+    }
+
     fn add(&mut self, model: &Model, scope: &str) {
-        let both = |names: &mut Vec<String>, name: &str| {
-            names.push(name.to_owned());
+        let both = |names: &mut BTreeSet<String>, name: &str| {
+            names.insert(name.to_owned());
             if !scope.is_empty() {
-                names.push(format!("{scope}{name}"));
+                names.insert(format!("{scope}{name}"));
             }
         };
         for link in &model.links {
@@ -82,8 +133,8 @@ impl Things {
     }
 }
 
-fn has(names: &[String], name: &str) -> bool {
-    names.iter().any(|known| known == name)
+fn has(names: &BTreeSet<String>, name: &str) -> bool {
+    names.contains(name)
 }
 
 fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
@@ -107,7 +158,7 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     Some(
         Diagnostic::error("unknown-joint", format!("the model has no joint `{name}`"))
             .at(origin)
-            .did_you_mean(origin, name, things.joints.iter().map(String::as_str)),
+            .did_you_mean(origin, name, things.offered(&[&things.joints])),
     )
 }
 
@@ -128,7 +179,7 @@ fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Op
             .help("name the parent link, or keep the joint with `<preserveFixedJoint>`")
         });
     }
-    let links = things.links.iter().chain(&things.merged_links).map(String::as_str);
+    let links = things.offered(&[&things.links, &things.merged_links]);
     Some(
         Diagnostic::error("unknown-link", format!("the model has no link `{name}`"))
             .at(origin)
@@ -149,14 +200,14 @@ fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     if GLOBAL.contains(&bare) || all.iter().any(|names| has(names, bare)) {
         return None;
     }
-    let frames = || all[..3].iter().copied().flatten().map(String::as_str);
-    if periplus_diagnostics::closest(name, frames()).is_some() {
+    let frames = things.offered(&all[..3]);
+    if periplus_diagnostics::closest(name, frames.iter().copied()).is_some() {
         let message = format!("the model has no link or frame `{name}`");
-        return Some(Diagnostic::warning("unknown-frame", message).at(origin).did_you_mean(
-            origin,
-            name,
-            frames(),
-        ));
+        return Some(
+            Diagnostic::warning("unknown-frame", message)
+                .at(origin)
+                .did_you_mean(origin, name, frames),
+        );
     }
     Some(
         Diagnostic::hint(

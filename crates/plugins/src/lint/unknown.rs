@@ -7,6 +7,9 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use crate::library::{class_id, library_id};
 use crate::{Family, Place, Role, Site, known, recognise};
 
+/// Unknown plugins for which a known name is searched.
+const MOST_SUGGESTED: usize = 200;
+
 pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
     let mut told = BTreeSet::new();
     for site in sites {
@@ -20,13 +23,15 @@ pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
                 check_class(site, known, diagnostics);
             }
             Some(_) => {}
-            None if told.insert(filename) => diagnostics.push(unknown(site, filename)),
+            None if told.insert(filename) => {
+                diagnostics.push(unknown(site, filename, told.len() <= MOST_SUGGESTED));
+            }
             None => {}
         }
     }
 }
 
-fn unknown(site: &Site<'_>, filename: &str) -> Diagnostic {
+fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
     let message = format!("nothing is known of the plugin `{filename}`; it is kept, not run");
     let diagnostic = Diagnostic::warning("unknown-plugin", message).at(site.plugin.origin);
     let class = class_id(&site.plugin.name);
@@ -36,7 +41,7 @@ fn unknown(site: &Site<'_>, filename: &str) -> Diagnostic {
         let id = library_id(filename);
         let (kind, core) = distinctive(&id);
         let alike = || known().map(|known| known.id).filter(|id| distinctive(id).0 == kind);
-        if core.len() < 3 {
+        if core.len() < 3 || !suggest {
             return None;
         }
         // The same core with other trimmings: `gz-sim-imu` for `gz-sim-imu-system`.
