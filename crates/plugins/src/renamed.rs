@@ -33,6 +33,18 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
     let camera = known.id == "gazebo_ros_camera";
     let instead = match name {
         "robotNamespace" => Namespace,
+        "distortionK1" | "distortion_k1" | "distortionK2" | "distortion_k2" | "distortionK3"
+        | "distortion_k3" | "distortionT1" | "distortion_t1" | "distortionT2" | "distortion_t2"
+            if zero =>
+        {
+            Nothing("0 is what holds without it; others go into the sensor's `<distortion>`")
+        }
+        "xyzOffset" | "xyzOffsets" | "rpyOffset" | "rpyOffsets" if sensor => {
+            Nothing("the sensor's `<pose>` says where it is")
+        }
+        "updateRate" | "updateRateHZ" if sensor && zero => {
+            Nothing("the sensor's `<update_rate>` decides")
+        }
         "alwaysOn" if sensor => Sensor("always_on"),
         "alwaysOn" => Nothing("plugins always run"),
         "updateRate" | "updateRateHZ" if sensor => Sensor("update_rate"),

@@ -155,7 +155,7 @@ fn contradiction(plugin: &Interpreted, site: &Site<'_>, claim: Claim) -> Option<
     Some(
         Diagnostic::hint("wheel-geometry", message)
             .at(origin)
-            .note("odometry and turns are off by the same share"),
+            .note("odometry and turns are off by the same share, unless it is tuned against slip"),
     )
 }
 
@@ -208,14 +208,14 @@ mod tests {
                 7 |   <wheel_separation>0.3</wheel_separation>
                   |                     ^^^
                   |
-                  = note: odometry and turns are off by the same share
+                  = note: odometry and turns are off by the same share, unless it is tuned against slip
                 hint[wheel-geometry]: `wheel_diameter` defaults to 0.15 m, but in the model the diameter of the wheel is 0.2 m
                  --> test.sdf:4:1
                   |
                 4 | <plugin name='p' filename='libgazebo_ros_diff_drive.so'>
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
-                  = note: odometry and turns are off by the same share
+                  = note: odometry and turns are off by the same share, unless it is tuned against slip
             "#]],
         );
     }
@@ -239,7 +239,7 @@ mod tests {
                 8 |   <wheel_radius>0.2</wheel_radius>
                   |                 ^^^
                   |
-                  = note: odometry and turns are off by the same share
+                  = note: odometry and turns are off by the same share, unless it is tuned against slip
             "#]],
         );
     }

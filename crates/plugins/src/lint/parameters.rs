@@ -1,6 +1,7 @@
 //! Parameters that the plugin does not have.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Span};
+use periplus_params::{Default, Value};
 use periplus_scene::Element;
 
 use crate::interpret::given_by;
@@ -69,6 +70,11 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
     let Some(instead) = renamed(known, name, &value) else { return diagnostic };
     diagnostic.replacement = None;
     match instead {
+        Instead::Parameter(parameter) if is_default(known, parameter, &value) => {
+            diagnostic.help(format!(
+                "delete it: ROS 2 calls it `{parameter}`, and {value} is what holds without it"
+            ))
+        }
         Instead::Parameter(parameter) => rename(diagnostic, element, parameter, &value),
         Instead::Translated(parameter, words) => {
             let value = words.iter().find(|(old, _)| old.eq_ignore_ascii_case(&value));
@@ -76,6 +82,9 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
         }
         Instead::Sensor("noise") => {
             diagnostic.help("give the sensor a `<noise>`; its standard deviation is `<stddev>`")
+        }
+        Instead::Sensor("always_on") if site.context.sensor.is_some_and(|it| it.always_on) => {
+            diagnostic.help("delete it: the sensor's `<always_on>` says it already")
         }
         Instead::Sensor(path) => {
             let open: Vec<&str> = path.split("><").collect();
@@ -99,6 +108,15 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
             diagnostic.help(format!("write `<ros><namespace>{value}</namespace></ros>`"))
         }
         Instead::Nothing(because) => diagnostic.help(format!("delete it: {because}")),
+    }
+}
+
+fn is_default(known: &Known, parameter: &str, value: &str) -> bool {
+    let Some(parameter) = known.table.find(parameter) else { return false };
+    let read = |text: &str| Value::read(parameter, text).ok();
+    match parameter.default {
+        Default::Value(default) => read(value).is_some_and(|value| read(default) == Some(value)),
+        Default::Required | Default::None => false,
     }
 }
 
