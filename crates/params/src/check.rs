@@ -174,59 +174,61 @@ mod tests {
 
     #[test]
     fn each_slip_says_what_to_do() {
-        check("wheelDiameter 0.2\nside lefft\ncount 9\npowered 1\npowered 0", expect![[r#"
-            warning[unknown-parameter]: the wheel has no parameter `wheelDiameter`
-             --> wheel.txt:1:1
-              |
-            1 | wheelDiameter 0.2
-              | ^^^^^^^^^^^^^ nobody reads this
-              |
-            help: did you mean `wheel_diameter`?
-              |
-            1 - wheelDiameter 0.2
-            1 + wheel_diameter 0.2
-              |
-            error[bad-value]: `side`: the value `lefft` is none of `left`, `right`
-             --> wheel.txt:2:6
-              |
-            2 | side lefft
-              |      ^^^^^
-              |
-            help: did you mean `left`?
-              |
-            2 - side lefft
-            2 + side left
-              |
-            error[out-of-range]: `count`: the value `9` is out of range: 9 must be 1 to 8
-             --> wheel.txt:3:7
-              |
-            3 | count 9
-              |       ^
-              |
-              = note: the default stands in for it: 1
-            warning[repeated-parameter]: `powered` is set twice; only the first counts
-             --> wheel.txt:5:1
-              |
-            5 | powered 0
-              | ^^^^^^^
-              |
-             ::: wheel.txt:4:1
-              |
-            4 | powered 1
-              | ------- first set here
-            error[missing-parameter]: the wheel needs `joint`
-             --> wheel.txt:1:1
-              |
-            1 | wheelDiameter 0.2
-              | ^^^^^^^^^^^^^^^^^
-              |
-              = note: joint: What turns it.
-        "#]]);
+        check(
+            "wheelDiameter 0.2\nside lefft\ncount 9\npowered 1\npowered 0",
+            expect![[r#"
+                warning[unknown-parameter]: the wheel has no parameter `wheelDiameter`
+                 --> wheel.txt:1:1
+                  |
+                1 | wheelDiameter 0.2
+                  | ^^^^^^^^^^^^^ nobody reads this
+                  |
+                help: did you mean `wheel_diameter`?
+                  |
+                1 - wheelDiameter 0.2
+                1 + wheel_diameter 0.2
+                  |
+                error[bad-value]: `side`: the value `lefft` is none of `left`, `right`
+                 --> wheel.txt:2:6
+                  |
+                2 | side lefft
+                  |      ^^^^^
+                  |
+                help: did you mean `left`?
+                  |
+                2 - side lefft
+                2 + side left
+                  |
+                error[out-of-range]: `count`: the value `9` is out of range: 9 must be 1 to 8
+                 --> wheel.txt:3:7
+                  |
+                3 | count 9
+                  |       ^
+                  |
+                  = note: the default stands in for it: 1
+                warning[repeated-parameter]: `powered` is set twice; only the first counts
+                 --> wheel.txt:5:1
+                  |
+                4 | powered 1
+                  | ------- first set here
+                5 | powered 0
+                  | ^^^^^^^
+                error[missing-parameter]: the wheel needs `joint`
+                 --> wheel.txt:1:1
+                  |
+                1 | wheelDiameter 0.2
+                  | ^^^^^^^^^^^^^^^^^
+                  |
+                  = note: joint: What turns it.
+            "#]],
+        );
     }
 
     #[test]
     fn an_unexpanded_expression_is_explained() {
-        check("joint a\nwheel_diameter ${2*r}", expect![[r#"
+        check(
+            "joint a\nwheel_diameter ${2*r}",
+            expect![[r#"
             error[bad-value]: `wheel_diameter`: the value `${2*r}` is not a number
              --> wheel.txt:2:16
               |
@@ -235,6 +237,7 @@ mod tests {
               |
               = note: the default stands in for it: 0.15 m
               = help: this is a xacro expression: name the file `.xacro` so that it is evaluated
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -152,7 +152,8 @@ mod tests {
               pose: [0.0, 0.0, 1.0]
               # Its sticker.
               label: "on"
-        "##]].assert_eq(&LAMP.to_yaml());
+        "##]]
+        .assert_eq(&LAMP.to_yaml());
     }
 
     #[test]
@@ -170,6 +171,7 @@ mod tests {
             | `reach` | number, repeatable | m | `inf` |  | How far one sees it. |
             | `pose` | numbers | m | `0 0 1` |  | Where it stands. |
             | `label` | text |  | `on` |  | Its sticker. |
-        "#]].assert_eq(&LAMP.to_markdown());
+        "#]]
+        .assert_eq(&LAMP.to_markdown());
     }
 }

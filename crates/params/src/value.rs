@@ -173,8 +173,43 @@ fn yaml_text(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
-    use crate::{choice, flag, integer, number, numbers, texts};
+    use crate::{choice, flag, integer, number, numbers, text, texts};
+
+    proptest! {
+        #[test]
+        fn any_text_gives_a_value_or_a_reason(written: String) {
+            for parameter in [
+                flag("p", ""),
+                integer("p", "").within(0.0, 5.0),
+                number("p", "m", "").above(0.0),
+                text("p", ""),
+                numbers("p", "m", ""),
+                texts("p", ""),
+                choice("p", &["a", "b"], ""),
+            ] {
+                if let Err(reason) = Value::read(&parameter, &written) {
+                    prop_assert!(reason.starts_with("is "), "{reason}");
+                }
+            }
+        }
+
+        #[test]
+        fn numbers_come_back_bit_for_bit(number in prop::num::f64::NORMAL) {
+            let written = Value::Number(number).to_string();
+            let parameter = crate::number("p", "m", "");
+            prop_assert_eq!(Value::read(&parameter, &written), Ok(Value::Number(number)));
+        }
+
+        #[test]
+        fn lists_come_back(list in prop::collection::vec(-1e9..1e9f64, 0..5)) {
+            let written = Value::Numbers(list.clone()).to_string();
+            let parameter = numbers("p", "m", "");
+            prop_assert_eq!(Value::read(&parameter, &written), Ok(Value::Numbers(list)));
+        }
+    }
 
     #[test]
     fn numbers_are_read_or_the_reason_is_said() {

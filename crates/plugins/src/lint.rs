@@ -50,9 +50,62 @@ pub fn lint(scene: &Scene, diagnostics: &mut Diagnostics) {
 mod tests {
     use std::fmt::Write as _;
 
+    use periplus_diagnostics::Diagnostics;
+    use periplus_params::Default;
+    use proptest::prelude::*;
+
     use super::lint;
     use crate::fixture::scene;
-    use periplus_diagnostics::Diagnostics;
+    use crate::{Context, interpret, known, topics};
+
+    /// Every parameter of a plugin, each with the text that `value` gives.
+    fn written(
+        known: &crate::Known,
+        value: impl Fn(&periplus_params::Parameter) -> String,
+    ) -> String {
+        let mut text = format!("<plugin name='p' filename='{}'>", known.filename());
+        for parameter in known.table.parameters {
+            let name = parameter.name;
+            let _ = write!(text, "<{name}>{}</{name}>", value(parameter));
+        }
+        text + "</plugin>"
+    }
+
+    #[test]
+    fn every_plugin_reads_its_own_defaults() {
+        for known in known() {
+            let text = written(known, |parameter| match parameter.default {
+                Default::Value(default) => default.to_owned(),
+                Default::Required | Default::None => match parameter.kind {
+                    periplus_params::Kind::Bool => "true".into(),
+                    periplus_params::Kind::Choice(words) => words[0].into(),
+                    _ => "1".into(),
+                },
+            });
+            let plugin = crate::fixture::plugin(&text);
+            let mut diagnostics = Diagnostics::new();
+            let context = Context { ros: Some(known.family), ..Context::NOWHERE };
+            let Some(read) = interpret(&plugin, &context, &mut diagnostics) else {
+                panic!("{} is not recognised", known.id);
+            };
+            assert_eq!((read.known.id, read.known.family), (known.id, known.family));
+            assert!(diagnostics.is_empty(), "{}: {diagnostics:?}", known.id);
+            for topic in topics(&read, &context) {
+                assert!(topic.name.starts_with('/') && !topic.name.contains('{'), "{topic:?}");
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+        #[test]
+        fn no_value_makes_a_lint_panic(value in "[^<>&]{0,12}", which in 0..1_000_usize) {
+            let known: Vec<_> = known().collect();
+            let plugin = written(known[which % known.len()], |_| value.clone());
+            let text = format!("<world name='w'><model name='m'><link name='l'/>{plugin}</model></world>");
+            lint(&scene(&text), &mut Diagnostics::new());
+        }
+    }
 
     /// With quadratic searches this takes minutes.
     #[test]

@@ -68,13 +68,13 @@ pub struct Qos {
     pub history: Option<String>,
     /// Messages that are kept with `keep_last`.
     pub depth: Option<u32>,
-    /// Most time between messages [ms].
+    /// Most time between messages, in milliseconds.
     pub deadline_ms: Option<u64>,
-    /// Time after which a message is stale [ms].
+    /// Time after which a message is stale, in milliseconds.
     pub lifespan_ms: Option<u64>,
     /// `system`, `automatic` or `manual_by_topic`.
     pub liveliness: Option<String>,
-    /// Time after which a silent publisher is dead [ms].
+    /// Time after which a silent publisher is dead, in milliseconds.
     pub liveliness_lease_ms: Option<u64>,
 }
 

@@ -143,6 +143,10 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     if has(&things.joints, name) || has(&things.joints, last) {
         return None;
     }
+    // Before SDF 1.7 a joint might bear the name of a link; then it is read as `<name>_joint`.
+    if has(&things.links, last) && has(&things.joints, &format!("{last}_joint")) {
+        return None;
+    }
     if has(&things.merged_joints, name) {
         return Some(
             Diagnostic::warning(
@@ -317,6 +321,17 @@ mod tests {
                   |
                   = note: Gazebo runs with one of the two and fails to load the other's plugins
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_joint_that_was_named_like_a_link_is_found() {
+        check(
+            "<model name='m'><link name='door'/><joint name='door_joint'/>
+<plugin name='p' filename='libgazebo_ros_elevator.so'>
+  <ros/><door_joint>elevator::door</door_joint>
+</plugin></model>",
+            expect![[""]],
         );
     }
 
