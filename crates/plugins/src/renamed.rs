@@ -56,6 +56,11 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
         "commandTopic" | "command_topic" | "cmd_vel_topic" => Remapping("cmd_vel"),
         "odometryTopic" | "odometry_topic" | "odom_topic" => Remapping("odom"),
         "bumperTopicName" => Remapping("bumper_states"),
+        "wheel_radius" | "wheel_base" | "track_width"
+            if known.id == "gazebo_ros_ackermann_drive" =>
+        {
+            Nothing("the plugin measures it in the model")
+        }
         "wheelTorque" | "torque" => Parameter("max_wheel_torque"),
         "wheelAcceleration" => Parameter("max_wheel_acceleration"),
         "wheelDeceleration" => Parameter("max_wheel_deceleration"),

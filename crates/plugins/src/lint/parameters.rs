@@ -283,6 +283,24 @@ mod tests {
     }
 
     #[test]
+    fn what_only_the_documentation_names_is_told() {
+        check(
+            "<model name='m'><plugin name='car' filename='libgazebo_ros_ackermann_drive.so'>
+  <wheel_base>2</wheel_base>
+</plugin></model>",
+            expect![[r#"
+                warning[unknown-parameter]: libgazebo_ros_ackermann_drive.so has no parameter `wheel_base`
+                 --> test.sdf:2:4
+                  |
+                2 |   <wheel_base>2</wheel_base>
+                  |    ^^^^^^^^^^ nobody reads this
+                  |
+                  = help: delete it: the plugin measures it in the model
+            "#]],
+        );
+    }
+
+    #[test]
     fn ros2_names_in_a_ros1_plugin_are_seen() {
         check(
             "<model name='m'><plugin name='scan' filename='libgazebo_ros_laser.so'>

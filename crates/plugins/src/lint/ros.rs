@@ -3,12 +3,13 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Element;
 
-use crate::{Family, Flow, Interpreted, Site, topics};
+use crate::{Flow, Interpreted, Site, topics};
 
 const CHILDREN: [&str; 5] = ["namespace", "remapping", "argument", "parameter", "qos"];
 
 pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
-    if plugin.known.family == Family::ClassicRos2 {
+    let has_node = plugin.known.table.find("ros").is_some();
+    if has_node {
         for ros in site.plugin.content.iter().filter(|element| element.name == "ros") {
             for child in ros.elements() {
                 check_child(child, site, plugin, diagnostics);

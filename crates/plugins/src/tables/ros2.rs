@@ -210,8 +210,8 @@ pub(super) static PLUGINS: &[Known] = &[
             number("door_wait_time", "s", "How long the door stays open.").or("5").min(0.0),
             number("speed", "m/s", "How fast it lifts."),
             numbers("force_pid", "", "Gains of the force."),
-            integer("bottom_floor", "Lowest floor.").or("0"),
-            integer("top_floor", "Highest floor.").or("10"),
+            integer("bottom_floor", "Lowest floor."),
+            integer("top_floor", "Highest floor."),
             text("topic", "Gazebo topic of commands.").naming(Names::Topic),
         ]
     )

@@ -109,9 +109,6 @@ pub(super) static PLUGINS: &[Known] = &[
         "Drives and steers a car.",
         [
             UPDATE_RATE,
-            number("wheel_radius", "m", "Not read: the radius is that of the collision."),
-            number("wheel_base", "m", "Not read: it is measured between the axles."),
-            number("track_width", "m", "Not read: it is measured between the wheels."),
             joint("front_left_joint", "Turns the front left wheel.").or("front_left_joint"),
             joint("front_right_joint", "Turns the front right wheel.").or("front_right_joint"),
             joint("rear_left_joint", "Turns the rear left wheel.").or("rear_left_joint"),
