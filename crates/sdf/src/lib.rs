@@ -25,5 +25,6 @@ pub use read::{
     read_geometry, read_inertial, read_light, read_material, read_plugin, read_sensor,
     read_surface, read_visual,
 };
+pub use verbatim::keep;
 pub use version::Version;
 pub use write::write;

@@ -4,7 +4,7 @@ use periplus_xml::{Element, Node, Text};
 
 /// The element without the white space around its texts, which only lays the file out. So a kept
 /// element is the same after it was written and read again.
-pub(crate) fn keep(element: &Element) -> Element {
+pub fn keep(element: &Element) -> Element {
     let mut children: Vec<Node> = Vec::with_capacity(element.children.len());
     for node in &element.children {
         match node {
