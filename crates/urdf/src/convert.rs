@@ -20,12 +20,14 @@ mod names;
 mod shape;
 mod situation;
 
+pub(crate) use link::LUMP;
 use periplus_diagnostics::Diagnostics;
 use periplus_scene::Model;
 use periplus_sdf::{Context, read_document};
 use periplus_xml::{Document, Element};
 
 use crate::robot::Robot;
+pub(crate) use shape::BUILTIN_MATERIALS;
 use situation::Situation;
 
 /// How a robot becomes a model.

@@ -5,6 +5,7 @@
 
 mod check;
 mod convert;
+mod export;
 mod lump;
 mod read;
 mod robot;
@@ -12,6 +13,7 @@ mod tree;
 mod write;
 
 pub use convert::{Options, to_model, to_sdf};
+pub use export::from_model;
 pub use read::read;
 pub use robot::{
     Calibration, Collision, ColourAsWritten, Dynamics, Extra, GazeboBlock, Geometry, Inertial,

@@ -7,6 +7,7 @@ mod material;
 mod xacro;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_sdf::keep;
 use periplus_xml::{Document, Element};
 
 use crate::robot::{GazeboBlock, Placement, Robot, Rotation};
@@ -45,9 +46,9 @@ fn robot(root: &Element, diagnostics: &mut Diagnostics) -> Robot {
     let name = required_text(root, "name", diagnostics);
     let mut extra = extra(root, &["name", "version"], &["origin"], &MANY, diagnostics);
     for name in ["mujoco", "isaac_sim"] {
-        extra.elements.extend(root.named(name).cloned());
+        extra.elements.extend(root.named(name).map(keep));
     }
-    let verbatim = |name| root.named(name).cloned().collect();
+    let verbatim = |name| root.named(name).map(keep).collect();
     Robot {
         name: name.map(|name| name.value.to_string()).unwrap_or_default(),
         version: version(root, diagnostics),
@@ -112,7 +113,7 @@ fn gazebo(element: &Element, diagnostics: &mut Diagnostics) -> GazeboBlock {
     }
     GazeboBlock {
         reference: reference.map(|reference| reference.value.to_string()),
-        content: element.elements().cloned().collect(),
+        content: element.elements().map(keep).collect(),
         extra: crate::robot::Extra {
             attributes: attributes.into_iter().cloned().collect(),
             elements: Vec::new(),

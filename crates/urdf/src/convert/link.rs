@@ -16,7 +16,7 @@ const SINGLE: [&str; 6] =
     ["gravity", "enable_wind", "self_collide", "kinematic", "velocity_decay", "must_be_base_link"];
 
 /// Between the name of a body's link and that of a shape that was merged into it.
-pub(super) const LUMP: &str = "_fixed_joint_lump__";
+pub(crate) const LUMP: &str = "_fixed_joint_lump__";
 
 /// The name of the shape at `index` of a body (libsdformat, `CreateCollisions`).
 pub(super) fn shape_name(

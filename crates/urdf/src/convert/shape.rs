@@ -8,7 +8,7 @@ use super::element::{child_mut, element, leaf, numbers, push_pose, renamed, set,
 use crate::robot::{Collision, GazeboBlock, Geometry, Material, Visual};
 
 /// Where Classic keeps the materials named `Gazebo/...`.
-pub(super) const BUILTIN_MATERIALS: &str = "file://media/materials/scripts/gazebo.material";
+pub(crate) const BUILTIN_MATERIALS: &str = "file://media/materials/scripts/gazebo.material";
 
 /// A `<collision>` with what the blocks about its link say.
 pub(super) fn collision(

@@ -2,6 +2,7 @@
 
 use periplus_base::{parse_number, parse_numbers};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_sdf::keep;
 use periplus_xml::{Attribute, Element};
 
 use crate::robot::Extra;
@@ -148,7 +149,7 @@ pub(super) fn extra(
         }
         if single.contains(&name) {
             if met.contains(&name) {
-                extra.elements.push(child.clone());
+                extra.elements.push(keep(child));
             }
             met.push(name);
             continue;
@@ -156,7 +157,7 @@ pub(super) fn extra(
         if child.prefix().is_none() {
             diagnostics.push(unknown_element(element, child, single.iter().chain(many).copied()));
         }
-        extra.elements.push(child.clone());
+        extra.elements.push(keep(child));
     }
     extra
 }

@@ -69,7 +69,7 @@ fn inertial(element: &Element, diagnostics: &mut Diagnostics) -> Inertial {
 /// ignore.
 fn keep_nested(element: &Element, found: crate::robot::Extra, rest: &mut crate::robot::Extra) {
     if !found.is_empty() {
-        rest.elements.push(element.clone());
+        rest.elements.push(periplus_sdf::keep(element));
     }
 }
 
@@ -170,7 +170,7 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
                 error.severity = periplus_diagnostics::Severity::Error;
                 diagnostics.push(error.note(format!("the shapes are {}", SHAPES.join(", "))));
             }
-            Geometry::Unknown(shape.clone())
+            Geometry::Unknown(periplus_sdf::keep(shape))
         }
     };
     if !known.is_empty() {
