@@ -180,7 +180,18 @@ fn hexadecimal(text: &str) -> Option<i64> {
 
 /// Red, green, blue and perhaps alpha.
 pub(crate) fn colour(element: &Element, diagnostics: &mut Diagnostics) -> Option<Colour> {
-    let found = all_numbers(element, diagnostics)?;
+    let mut found = all_numbers(element, diagnostics)?;
+    if found.iter().any(|part| !(0.0..=1.0).contains(part)) {
+        diagnostics.push(
+            Diagnostic::warning(
+                "out-of-range",
+                format!("the parts of `<{}>` lie between 0 and 1", element.name),
+            )
+            .at(element.text_origin())
+            .note("what lies outside is cut off; newer Gazebo refuses the whole file"),
+        );
+        found.iter_mut().for_each(|part| *part = part.clamp(0.0, 1.0));
+    }
     match found.as_slice() {
         [r, g, b] => Some(Colour([*r, *g, *b, 1.0])),
         [r, g, b, a] => Some(Colour([*r, *g, *b, *a])),
@@ -239,8 +250,17 @@ fn parse_word(
     element: &Element,
     diagnostics: &mut Diagnostics,
 ) -> Option<f64> {
-    if let Some(number) = parse_number(word).filter(|number| !number.is_nan()) {
-        return Some(number);
+    match parse_number(word) {
+        Some(number) if number.is_nan() => {
+            diagnostics.push(
+                Diagnostic::error("not-finite", format!("`<{}>` must not be NaN", element.name))
+                    .at(origin)
+                    .note("whatever wrote this file divided by zero"),
+            );
+            return None;
+        }
+        Some(number) => return Some(number),
+        None => {}
     }
     let mut told = Diagnostic::error(
         "not-a-number",

@@ -135,7 +135,8 @@ fn tell_cycle(
     if let Some(Base::Frame(last)) = chain.last().map(|at| vertices[*at].base) {
         told = told.at(last.origin);
     }
-    for at in circle.iter().take(10) {
+    // The last of the circle is where the finding stands.
+    for at in circle.iter().take(circle.len() - 1).take(10) {
         if let Base::Frame(frame) = vertices[*at].base {
             told = told.related(frame.origin, format!("`{}` hangs on this", vertices[*at].name));
         }

@@ -69,8 +69,8 @@ impl Includes for NoIncludes {
 /// Includes in all that are followed for one file. Large worlds hold a few thousand.
 pub(crate) const MOST_INCLUDES: usize = 20_000;
 
-/// Links, joints, frames, shapes and sensors in all that includes may bring in.
-pub(crate) const MOST_PARTS: usize = 2_000_000;
+/// Elements in all that includes may bring in.
+pub(crate) const MOST_PARTS: usize = 1_000_000;
 
 /// What a file held.
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ pub(crate) fn read_include(element: &Element, reader: &mut Reader<'_>) -> Option
     let loaded = load(&overrides.uri, overrides.uri_origin, reader)?;
     if loaded.parts > reader.parts_left {
         if reader.parts_left > 0 {
-            too_many("parts in included models", MOST_PARTS, element.origin, reader);
+            too_many("elements in included files", MOST_PARTS, element.origin, reader);
         }
         reader.parts_left = 0;
         return None;
@@ -306,6 +306,7 @@ fn load_document(
         return None;
     }
     reader.chain.push((key.clone(), from));
+    let parts_left = reader.parts_left;
     let version = reader.version;
     // Findings in the file are told once, with the first include that led to it.
     let mut findings = Diagnostics::new();
@@ -333,6 +334,9 @@ fn load_document(
     };
     reader.chain.pop();
     reader.diagnostics.append(findings);
+    // What it includes itself comes along at every use.
+    let nested = parts_left - reader.parts_left;
+    let loaded = loaded.map(|it| Loaded { parts: nested + elements_in(root), ..it });
     reader.loaded.insert(key, loaded.clone());
     loaded
 }
@@ -396,13 +400,23 @@ impl Loaded {
     }
 }
 
-/// How many parts a model has, and how many models are in each other.
+fn elements_in(element: &Element) -> usize {
+    1 + element.elements().map(elements_in).sum::<usize>()
+}
+
+/// About how many elements a model was made of, and how many models are in each other.
 fn measure(draft: &ModelDraft) -> (usize, usize) {
-    let on_links: usize = draft
-        .links
-        .iter()
-        .map(|it| it.link.collisions.len() + it.link.visuals.len() + it.link.sensors.len())
-        .sum();
+    let kept = |elements: &[Element]| elements.iter().map(elements_in).sum::<usize>();
+    let plugins = |plugins: &[periplus_scene::Plugin]| {
+        plugins.iter().map(|it| 1 + kept(&it.content)).sum::<usize>()
+    };
+    let on_link = |link: &periplus_scene::Link| {
+        let sensors = link.sensors.iter().map(|it| 1 + kept(&it.extra) + plugins(&it.plugins));
+        link.collisions.len() + link.visuals.len() + kept(&link.extra) + sensors.sum::<usize>()
+    };
+    let on_links = draft.links.iter().map(|it| on_link(&it.link)).sum::<usize>()
+        + plugins(&draft.model.plugins)
+        + kept(&draft.model.extra);
     let own = 1 + draft.links.len() + on_links + draft.joints.len() + draft.frames.len();
     let nested = draft.models.iter().map(measure);
     let (parts, depth) = nested.fold((own, 0), |(parts, depth), (more, deep)| {
