@@ -70,3 +70,6 @@ pub fn to_sdf(robot: &Robot, options: Options, diagnostics: &mut Diagnostics) ->
 
 /// What is written here needs nothing newer, and libsdformat 12 reads it.
 const VERSION: &str = "1.9";
+
+#[cfg(test)]
+mod tests;
