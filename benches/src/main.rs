@@ -1,3 +1,65 @@
-//! Speed, side by side with the peers.
+//! Speed, side by side with the peers, in one run.
+//!
+//! `cargo xtask bench` builds the peers and runs this. Figures mean something only beside each
+//! other: both sides run in turns on the same machine, and of each the fastest turn counts.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program that measures"
+)]
 
-fn main() {}
+mod files;
+mod loading;
+mod peers;
+mod world;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use serde_json::json;
+
+fn main() -> ExitCode {
+    let Some(oracles) = std::env::args_os().nth(1).map(PathBuf::from) else {
+        eprintln!(
+            "usage: periplus-benches ORACLES [RESULT.json]; `cargo xtask bench` knows the folder"
+        );
+        return ExitCode::from(2);
+    };
+    let turns = 3;
+    match loading::compare(&oracles, turns) {
+        Ok(rows) => {
+            let large = world::large(turns);
+            println!("{}", loading::table(&rows));
+            println!(
+                "a world of {:.1} MB with {} models: {:.0} ms (limit 1000 ms)",
+                large.megabytes,
+                large.models,
+                large.seconds * 1e3
+            );
+            if let Some(path) = std::env::args_os().nth(2) {
+                let result = json!({ "loading": rows_json(&rows), "large_world": {
+                    "megabytes": large.megabytes, "models": large.models, "seconds": large.seconds } });
+                if let Err(error) = std::fs::write(&path, format!("{result:#}\n")) {
+                    eprintln!("cannot write {}: {error}", PathBuf::from(path).display());
+                    return ExitCode::FAILURE;
+                }
+            }
+            ExitCode::SUCCESS
+        }
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn rows_json(rows: &[loading::Row]) -> serde_json::Value {
+    rows.iter()
+        .map(|row| {
+            json!({ "work": row.work, "peer": row.peer, "files": row.files, "megabytes": row.megabytes,
+                "peer_seconds": row.peer_seconds, "our_seconds": row.our_seconds,
+                "ratio": row.peer_seconds / row.our_seconds })
+        })
+        .collect()
+}

@@ -6,9 +6,11 @@
     reason = "a tool that runs other programs, reads the source tree and says how it went"
 )]
 
+mod corpus;
 mod docs;
 mod fuzz;
 mod layers;
+mod pictures;
 mod step;
 #[cfg(test)]
 mod tidy;
@@ -47,6 +49,12 @@ enum Task {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         rest: Vec<String>,
     },
+    /// The corpus of real files, against libsdformat, liburdfdom and PyPI's xacro
+    Corpus,
+    /// Speed, side by side with the peers; run `corpus` first
+    Bench,
+    /// The pictures in the documentation, from the program itself
+    Pictures,
     /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
     Fuzz {
         /// For how long each target runs
@@ -76,6 +84,9 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Deny => deny(),
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
+        Task::Corpus => corpus::run_all(),
+        Task::Bench => corpus::bench(),
+        Task::Pictures => pictures::draw(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

@@ -10,6 +10,8 @@ use serde_json::{Value, json};
 use crate::options::{CheckOptions, split};
 use crate::terminal::{self, counts, with_setting};
 
+const BOLD: clap::builder::styling::Style = clap::builder::styling::Style::new().bold();
+
 pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
     let (files, arguments) = split(&options.words);
     if files.is_empty() {
@@ -20,7 +22,7 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
     with_setting(&options.search.resource_path, arguments, |setting| {
         let mut failed = false;
         let mut reports = Vec::new();
-        for file in &files {
+        for (index, file) in files.iter().enumerate() {
             let loaded = load(file, setting);
             let severities: &[Severity] = if options.strict {
                 &[Severity::Error, Severity::Warning]
@@ -32,6 +34,9 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
             if options.json {
                 reports.push(report(&name, &loaded));
             } else {
+                if index > 0 && !options.quiet {
+                    writeln!(out)?;
+                }
                 show(&mut out, &name, &loaded, options.quiet)?;
             }
         }
@@ -48,7 +53,7 @@ fn show(out: &mut dyn Write, name: &str, loaded: &Loaded, quiet: bool) -> io::Re
     if quiet {
         return Ok(());
     }
-    writeln!(out, "{name}: {}, {}", loaded.language.name(), counts(loaded))?;
+    writeln!(out, "{BOLD}{name}{BOLD:#}: {}, {}", loaded.language.name(), counts(loaded))?;
     if let Some(scene) = &loaded.scene {
         write!(out, "{}", describe(&summarise(scene)))?;
     }

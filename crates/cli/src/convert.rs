@@ -43,12 +43,14 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
             diagnostics.push(Diagnostic::error("nothing-to-convert", told));
             None
         }
-        (Format::Sdf, Some(_scene)) => None,
+        (Format::Sdf, Some(scene)) => {
+            Some(write_document(&periplus_sdf::write(scene, &mut diagnostics)))
+        }
         (Format::Json, Some(scene)) => {
             serde_json::to_string_pretty(scene).ok().map(|text| text + "\n")
         }
         (Format::Urdf, Some(scene)) => match scene.models.as_slice() {
-            [_model] => None::<periplus_urdf::Robot>
+            [model] => periplus_urdf::from_model(model, &mut diagnostics)
                 .map(|robot| write_document(&periplus_urdf::write(&robot))),
             models => {
                 let holds = match models.len() {

@@ -35,3 +35,8 @@ fn a_tag_that_ends_like_a_comment() {
 fn a_lidar_in_a_world_without_the_sensors_system() {
     check("silent_lidar.sdf");
 }
+
+#[test]
+fn a_property_misspelt_in_a_macro() {
+    check("misspelt_property.urdf.xacro");
+}

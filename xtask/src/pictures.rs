@@ -1,0 +1,37 @@
+//! Pictures of the terminal, drawn from what the program really prints.
+
+use anstyle_svg::Term;
+
+use crate::step::{Failed, cargo, root};
+
+/// Each picture, and the words after `periplus` that it shows.
+const PICTURES: &[(&str, &[&str])] = &[(
+    "check",
+    &["check", "misspelt_property.urdf.xacro", "remap_in_ros_element.urdf", "silent_lidar.sdf"],
+)];
+
+/// Draws all pictures into `docs/pictures`.
+///
+/// # Errors
+/// When the program cannot be run or a picture not be written.
+pub(crate) fn draw() -> Result<(), Failed> {
+    for (name, words) in PICTURES {
+        let output = cargo()
+            .args(["run", "--quiet", "--manifest-path"])
+            .arg(root().join("Cargo.toml"))
+            .args(["--package", "periplus-cli", "--", "--color", "always"])
+            .args(*words)
+            .current_dir(root().join("crates/formats/tests/broken"))
+            .output()
+            .map_err(|error| Failed(format!("cannot run periplus: {error}")))?;
+        let printed = String::from_utf8_lossy(&output.stdout);
+        let shown =
+            format!("\u{1b}[1m$ periplus {}\u{1b}[0m\n\n{}", words.join(" "), printed.trim_end());
+        let picture = Term::new().render_svg(&shown);
+        let path = root().join("docs/pictures").join(format!("{name}.svg"));
+        std::fs::write(&path, picture)
+            .map_err(|error| Failed(format!("cannot write {}: {error}", path.display())))?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}
