@@ -11,7 +11,7 @@ mod normal;
 mod shape;
 mod structure;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Model, Scene, TfEdge, tf_tree};
@@ -36,7 +36,8 @@ pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot>
         document.root.child("model").cloned().unwrap_or_else(|| Element::new("model"));
     plain(&mut written);
     let tree = tf_tree(&model);
-    let export = Export { model: &model, written: &written, tree: &tree };
+    let joint_above = joint::names(&model, &tree);
+    let export = Export { model: &model, written: &written, tree: &tree, joint_above };
     Some(export.robot(diagnostics))
 }
 
@@ -55,6 +56,8 @@ struct Export<'a> {
     model: &'a Model,
     written: &'a Element,
     tree: &'a [TfEdge],
+    /// The name of the joint above each link and frame.
+    joint_above: BTreeMap<&'a str, String>,
 }
 
 impl Export<'_> {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_scene::{Axis, FrameRole, Joint as SceneJoint, JointKind};
+use periplus_scene::{Axis, Frame, FrameRole, Joint as SceneJoint, JointKind, Model, TfEdge};
 use periplus_xml::Element;
 
 use super::{Export, lost, push_block};
@@ -17,6 +17,34 @@ use crate::robot::{
 /// What stands for a free limit, which URDF cannot say; libsdformat's own number for it.
 const FREE: f64 = 1e16;
 
+/// The names of the joints above all links and frames: their own, those of merged joints, or new
+/// ones.
+pub(super) fn names<'a>(model: &'a Model, tree: &'a [TfEdge]) -> BTreeMap<&'a str, String> {
+    let mut names: BTreeMap<&str, String> =
+        model.joints.iter().map(|joint| (&*joint.child, joint.name.clone())).collect();
+    let mut taken: BTreeSet<String> = names.values().cloned().collect();
+    let frames: BTreeMap<&str, &Frame> =
+        model.frames.iter().map(|frame| (&*frame.name, frame)).collect();
+    for edge in tree {
+        if names.contains_key(&*edge.child) {
+            continue;
+        }
+        let above = frames
+            .get(&*edge.child)
+            .and_then(|frame| frames.get(&*frame.attached_to))
+            .filter(|above| above.role == FrameRole::MergedJoint);
+        let mut name = match above {
+            Some(above) => above.name.clone(),
+            None => format!("{}_joint", edge.child),
+        };
+        while !taken.insert(name.clone()) {
+            name.push('_');
+        }
+        names.insert(&edge.child, name);
+    }
+    names
+}
+
 impl Export<'_> {
     /// One joint for each edge of the tree.
     pub(super) fn joints(&self, robot: &mut Robot, diagnostics: &mut Diagnostics) {
@@ -27,8 +55,6 @@ impl Export<'_> {
             .named("joint")
             .filter_map(|joint| Some((joint.value("name")?, joint)))
             .collect();
-        let mut taken: BTreeSet<String> =
-            self.model.joints.iter().map(|joint| joint.name.clone()).collect();
         let poses = self.poses();
         let pose = |name: &str| poses.get(name).copied().unwrap_or_default();
         for edge in self.tree {
@@ -46,7 +72,10 @@ impl Export<'_> {
                     self.settings_of_joint(joint, element.copied(), robot);
                     of_scene(base, joint, diagnostics)
                 }
-                None => Joint { name: self.frame_joint(&edge.child, &mut taken), ..base },
+                None => {
+                    let name = self.joint_above.get(&*edge.child).cloned().unwrap_or_default();
+                    Joint { name, ..base }
+                }
             };
             robot.joints.push(joint);
         }
@@ -57,24 +86,6 @@ impl Export<'_> {
         let links = self.model.links.iter().map(|link| (&*link.name, link.model_from_link));
         let frames = self.model.frames.iter().map(|frame| (&*frame.name, frame.parent_from_frame));
         links.chain(frames).collect()
-    }
-
-    /// The name of the joint that holds a frame: that of the merged joint, or a new one.
-    fn frame_joint(&self, frame: &str, taken: &mut BTreeSet<String>) -> String {
-        let frames = &self.model.frames;
-        let above = frames
-            .iter()
-            .find(|one| one.name == frame)
-            .and_then(|one| frames.iter().find(|above| above.name == one.attached_to))
-            .filter(|above| above.role == FrameRole::MergedJoint);
-        let mut name = match above {
-            Some(above) => above.name.clone(),
-            None => format!("{frame}_joint"),
-        };
-        while !taken.insert(name.clone()) {
-            name.push('_');
-        }
-        name
     }
 
     /// What SDF says about a joint beyond URDF.

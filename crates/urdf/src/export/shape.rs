@@ -25,7 +25,7 @@ pub(super) struct Source {
 }
 
 impl Source {
-    pub(super) fn of(head: &str, name: &str, kind: &str, index: usize) -> Self {
+    fn of(head: &str, name: &str, kind: &str, index: usize) -> Self {
         let number = if index > 0 { format!("_{index}") } else { String::new() };
         let ending = format!("_{kind}{number}");
         match name.strip_suffix(&*ending) {
@@ -44,13 +44,25 @@ impl Source {
     }
 }
 
+/// Where all shapes of a body came from.
+pub(super) fn sources<'a>(
+    head: &str,
+    names: impl Iterator<Item = &'a str>,
+    kind: &str,
+) -> Vec<Source> {
+    names.enumerate().map(|(index, name)| Source::of(head, name, kind, index)).collect()
+}
+
 /// What SDF says about a shape beyond URDF.
 pub(super) type Rest = Vec<Element>;
 
 /// The parts of a shape beyond pose and geometry.
-pub(super) fn rest(written: Option<&Element>) -> Rest {
-    let parts = written.into_iter().flat_map(Element::elements);
-    parts.filter(|part| !["pose", "geometry"].contains(&&*part.name)).cloned().collect()
+pub(super) fn rest(written: &Element) -> Rest {
+    written
+        .elements()
+        .filter(|part| !["pose", "geometry"].contains(&&*part.name))
+        .cloned()
+        .collect()
 }
 
 /// The block about all shapes of a link: what they all have. What differs is lost.
