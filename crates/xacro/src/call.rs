@@ -3,23 +3,23 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use periplus_diagnostics::{ContextId, Diagnostic, Expansion};
-use periplus_xml::{Element, Node};
+use periplus_diagnostics::{Diagnostic, Expansion, Origin};
+use periplus_xml::{Attribute, Element, Node};
 use smol_str::SmolStr;
 
-use crate::evaluate::{Failed, State};
-use crate::expand::Output;
+use crate::evaluate::{Failed, State, part};
+use crate::expand::{Frame, Output, value_origin};
 use crate::expression::Value;
-use crate::literal::literal;
+use crate::literal::typed;
 use crate::parameters::{Parameter, parse};
-use crate::scopes::{Block, Macro, ScopeId, Symbol};
+use crate::scopes::{Block, Macro, Symbol};
 
 impl State<'_> {
     /// Reads `<xacro:macro>`.
-    pub(crate) fn define_macro(&self, element: &Element, scope: ScopeId) -> Result<(), Failed> {
-        self.check_attributes(element, &["name"], &["name", "params"])?;
+    pub(crate) fn define_macro(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
+        self.check_attributes(element, &["name"], &["name", "params"], frame)?;
         let name = element.value("name").unwrap_or_default();
-        let origin = self.value_origin(element, "name");
+        let origin = value_origin(element, "name", frame);
         let name = match name.strip_prefix("xacro:") {
             Some(rest) => {
                 self.report(
@@ -47,13 +47,14 @@ impl State<'_> {
                         "repeated-parameter",
                         format!("the macro `{name}` has the parameter `{}` twice", parameter.name),
                     )
-                    .at(self.value_origin(element, "params"))
+                    .at(value_origin(element, "params", frame))
                     .help("remove one of them"),
                 );
             }
         }
+        self.count_copy(element)?;
         let definition = Macro { name: name.into(), parameters, definition: element.clone() };
-        self.scopes.borrow_mut().define(scope, definition);
+        self.scopes.borrow_mut().define(frame.scope, definition);
         Ok(())
     }
 
@@ -61,15 +62,12 @@ impl State<'_> {
     pub(crate) fn call_by_value(
         &self,
         element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        self.require(element, "macro")?;
-        let name = self.attribute(element, "macro", scope)?.unwrap_or_default();
-        let mut call = element.clone();
-        call.attributes.retain(|attribute| attribute.name != "macro");
-        self.call(&name, &call, scope, context, out)
+        self.require(element, "macro", frame)?;
+        let name = self.attribute(element, "macro", frame)?.unwrap_or_default();
+        self.call(&name, element, frame, out)
     }
 
     /// Expands a macro in the place of its call.
@@ -77,44 +75,45 @@ impl State<'_> {
         &self,
         name: &str,
         call: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        let found = self.scopes.borrow().find_macro(scope, name);
+        let found = self.scopes.borrow().find_macro(frame.scope, name);
         let Some((seen_from, callee)) = found else {
-            return Err(self.unknown_macro(name, call, scope));
+            return Err(self.unknown_macro(name, call, frame));
         };
-        let inner_context = call.origin.0.map(|span| {
-            let span = context.map_or(span, |context| span.within(context));
+        let context = frame.seen(call.origin).0.map(|span| {
             let expansion = Expansion::Macro { name: callee.name.to_string(), call: span };
             self.sources.borrow_mut().expand(expansion)
         });
-        let symbols = self.bind(&callee, call, scope, context)?;
+        let context = context.or(frame.context);
+        let symbols = self.bind(&callee, call, frame, Frame { context, ..frame })?;
         let inner = self.scopes.borrow_mut().open(seen_from);
         for (name, symbol) in symbols {
             self.scopes.borrow_mut().set(inner, name, symbol);
         }
-        out.adopt_namespaces(&callee.definition);
+        self.adopt_namespaces(&callee.definition, frame, out);
         let body = &callee.definition.children;
-        let result = self.expand_nodes(body, inner, inner_context.or(context), out);
+        let result = self.expand_nodes(body, Frame { scope: inner, context }, out);
         self.scopes.borrow_mut().close(inner);
         result
     }
 
-    /// The values of a macro's parameters in a call.
+    /// The values of a macro's parameters in a call. Defaults are written in the macro, but see the
+    /// caller's names: `defaults` stands there.
     fn bind(
         &self,
         callee: &Macro,
         call: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
+        defaults: Frame,
     ) -> Result<Vec<(SmolStr, Symbol)>, Failed> {
         let mut symbols = Vec::new();
         let mut open: Vec<&Parameter> = callee.parameters.iter().collect();
         let mut failed = false;
         for attribute in &call.attributes {
-            if attribute.name.starts_with("xmlns") {
+            let chooses_macro = call.name == "xacro:call" && attribute.name == "macro";
+            if attribute.name.starts_with("xmlns") || chooses_macro {
                 continue;
             }
             let Some(index) = open.iter().position(|parameter| parameter.name == attribute.name)
@@ -128,7 +127,7 @@ impl State<'_> {
                             callee.name, attribute.name
                         ),
                     )
-                    .at(self.seen(attribute.origin, context))
+                    .at(frame.seen(attribute.origin))
                     .related(callee.definition.origin, "the macro")
                     .did_you_mean(
                         attribute_name(attribute),
@@ -140,20 +139,20 @@ impl State<'_> {
                 continue;
             };
             open.remove(index);
-            let origin = self.seen(attribute.value_origin, context);
-            match self.text_value(&attribute.value, origin, scope) {
+            let origin = frame.seen(attribute.value_origin);
+            match self.text_value(&attribute.value, origin, frame.scope) {
                 Ok(value) => symbols.push((attribute.name.clone(), Symbol::Value(typed(value)))),
                 Err(Failed) => failed = true,
             }
         }
-        symbols.extend(self.bind_blocks(callee, call, scope, context, &mut open)?);
+        symbols.extend(self.bind_blocks(callee, call, frame, &mut open)?);
         let mut missing = Vec::new();
         for parameter in open {
             if parameter.is_required() {
                 missing.push(parameter.name.as_str());
                 continue;
             }
-            match self.default_value(parameter, call, scope, context) {
+            match self.default_value(parameter, callee, call, defaults) {
                 Ok(value) => symbols.push((parameter.name.clone(), Symbol::Value(typed(value)))),
                 Err(Failed) => failed = true,
             }
@@ -164,7 +163,7 @@ impl State<'_> {
                     "missing-parameter",
                     format!("the call of `{}` leaves out `{}`", callee.name, missing.join("`, `")),
                 )
-                .at(self.seen(call.origin, context))
+                .at(frame.seen(call.origin))
                 .related(callee.definition.origin, "the macro")
                 .help(format!(
                     "add {}",
@@ -182,26 +181,33 @@ impl State<'_> {
     fn default_value(
         &self,
         parameter: &Parameter,
+        callee: &Macro,
         call: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
     ) -> Result<Value, Failed> {
-        if parameter.forward {
-            if let Some(value) = self.property(scope, &parameter.name)? {
-                return Ok(value);
-            }
+        if parameter.forward
+            && let Some(value) = self.property(frame.scope, &parameter.name)?
+        {
+            return Ok(value);
         }
-        let origin = self.seen(call.origin, context);
+        let params = callee.definition.value("params").unwrap_or_default();
+        let params_origin = value_origin(&callee.definition, "params", frame);
+        let origin = part(params_origin, params, &parameter.default_range());
         match &parameter.default {
-            Some(default) => self.text_value(default, origin, scope),
+            Some(default) => self.text_value(default, origin, frame.scope),
             None => Err(self.fail(
                 Diagnostic::error(
                     "missing-parameter",
-                    format!("there is no property `{}` to pass on", parameter.name),
+                    format!(
+                        "the call of `{}` leaves out `{name}`, and there is no property `{name}` to pass on",
+                        callee.name,
+                        name = parameter.name
+                    ),
                 )
-                .at(origin)
+                .at(call.origin)
+                .related(callee.definition.origin, "the macro")
                 .help(format!(
-                    "give the call {}=\"...\", or define the property before it",
+                    "add {}=\"...\", or define the property before the call",
                     parameter.name
                 )),
             )),
@@ -213,12 +219,12 @@ impl State<'_> {
         &self,
         callee: &Macro,
         call: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         open: &mut Vec<&Parameter>,
     ) -> Result<Vec<(SmolStr, Symbol)>, Failed> {
         let mut expanded = Element::new(call.name.clone());
-        self.expand_nodes(&call.children, scope, context, &mut Output::new(&mut expanded))?;
+        self.expand_nodes(&call.children, frame, &mut Output::new(&mut expanded))?;
+        self.check_loose_text(callee, &expanded, frame);
         let mut blocks = expanded.children.into_iter().filter_map(|node| match node {
             Node::Element(element) => Some(element),
             _ => None,
@@ -234,7 +240,7 @@ impl State<'_> {
                             callee.name, parameter.name
                         ),
                     )
-                    .at(self.seen(call.origin, context))
+                    .at(frame.seen(call.origin))
                     .related(callee.definition.origin, "the macro")
                     .help("put the element between the start and the end of the call"),
                 ));
@@ -263,14 +269,33 @@ impl State<'_> {
         Ok(symbols)
     }
 
-    fn unknown_macro(&self, name: &str, call: &Element, scope: ScopeId) -> Failed {
+    /// Text between the blocks of a call goes nowhere.
+    fn check_loose_text(&self, callee: &Macro, call: &Element, frame: Frame) {
+        let loose = call.children.iter().find_map(|node| match node {
+            Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
+            _ => None,
+        });
+        if let Some(origin) = loose {
+            self.report(
+                Diagnostic::warning(
+                    "unread-content",
+                    format!("the macro `{}` takes elements, this text is not read", callee.name),
+                )
+                .at(origin)
+                .related(frame.seen(callee.definition.origin), "the macro")
+                .help("pass text as a parameter, or put it into an element"),
+            );
+        }
+    }
+
+    fn unknown_macro(&self, name: &str, call: &Element, frame: Frame) -> Failed {
         let scopes = self.scopes.borrow();
-        let names = scopes.macro_names(scope);
+        let names = scopes.macro_names(frame.scope);
         let directives = crate::expand::DIRECTIVES;
         let known = names.iter().map(String::as_str).chain(directives);
         let mut diagnostic =
             Diagnostic::error("unknown-macro", format!("there is no macro `{name}`"))
-                .at(call.origin);
+                .at(frame.seen(call.origin));
         diagnostic = match periplus_diagnostics::closest(name, known) {
             Some(near) => diagnostic.replace(
                 call.name_origin(),
@@ -284,14 +309,6 @@ impl State<'_> {
     }
 }
 
-/// Text that is a number or a truth value counts as one.
-fn typed(value: Value) -> Value {
-    match value {
-        Value::Str(text) => literal(&text),
-        other => other,
-    }
-}
-
-fn attribute_name(attribute: &periplus_xml::Attribute) -> periplus_diagnostics::Origin {
-    periplus_diagnostics::Origin(attribute.origin.0.map(|span| span.part(0, attribute.name.len())))
+fn attribute_name(attribute: &Attribute) -> Origin {
+    Origin(attribute.origin.0.map(|span| span.part(0, attribute.name.len())))
 }

@@ -7,10 +7,11 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, Span};
+use smol_str::SmolStr;
 
-use crate::expand::Setting;
+use crate::expand::{MOST_ERRORS, Setting};
 use crate::expression::{Budget, Dialect, Expression, ExpressionError, Scope, Value, evaluate};
-use crate::literal::literal;
+use crate::literal::{automatic, typed};
 use crate::scopes::{LazyText, ScopeId, Scopes, Symbol};
 use crate::text::{Piece, pieces};
 
@@ -27,6 +28,9 @@ const MOST_BYTES: u64 = 256 << 20;
 /// How long a text may become [bytes].
 const LONGEST: usize = 16 << 20;
 
+/// How much text an expansion may put together [bytes].
+const MOST_TEXT: usize = 128 << 20;
+
 /// What is shared by all of an expansion.
 pub(crate) struct State<'a> {
     pub(crate) setting: Setting<'a>,
@@ -38,16 +42,34 @@ pub(crate) struct State<'a> {
     pub(crate) files: RefCell<Vec<PathBuf>>,
     pub(crate) includes: RefCell<Vec<PathBuf>>,
     /// Lazy properties being evaluated, outermost first.
-    resolving: RefCell<Vec<(ScopeId, String)>>,
+    resolving: RefCell<Vec<Resolving>>,
     depth: Cell<usize>,
-    budget: RefCell<Budget>,
-    /// Nodes handled so far.
-    pub(crate) nodes: Cell<usize>,
+    pub(crate) budget: RefCell<Budget>,
+    /// Nodes looked at so far.
+    pub(crate) parts: Cell<usize>,
     /// Elements, macros and includes that are open.
     pub(crate) nesting: Cell<usize>,
+    /// Bytes of text put together so far.
+    written: Cell<usize>,
+    /// Bytes of files read so far.
+    pub(crate) read: Cell<usize>,
+    /// YAML files read so far.
+    pub(crate) yaml: RefCell<BTreeMap<PathBuf, Value>>,
+    /// Whether going on makes no sense: a limit was reached.
+    given_up: Cell<bool>,
     /// The place of the text being evaluated: where warnings from within expressions belong.
     place: Cell<Origin>,
 }
+
+/// A lazy property that is being evaluated.
+struct Resolving {
+    holder: ScopeId,
+    name: SmolStr,
+    origin: Origin,
+}
+
+/// Of the properties that define each other in a circle, so many are shown.
+const MOST_SHOWN_IN_CIRCLE: usize = 5;
 
 /// An evaluation failed, and a diagnostic says so.
 #[derive(Debug)]
@@ -72,8 +94,12 @@ impl<'a> State<'a> {
             resolving: RefCell::default(),
             depth: Cell::new(0),
             budget: RefCell::new(Budget::new(MOST_STEPS, MOST_BYTES)),
-            nodes: Cell::new(0),
+            parts: Cell::new(0),
             nesting: Cell::new(0),
+            written: Cell::new(0),
+            read: Cell::new(0),
+            yaml: RefCell::default(),
+            given_up: Cell::new(false),
             place: Cell::new(Origin::default()),
         }
     }
@@ -88,6 +114,18 @@ impl<'a> State<'a> {
         Failed
     }
 
+    /// Reports an error after which the whole expansion ends: a limit was reached, and what comes
+    /// next would reach it again.
+    pub(crate) fn give_up(&self, diagnostic: Diagnostic) -> Failed {
+        self.given_up.set(true);
+        self.fail(diagnostic)
+    }
+
+    /// Whether the expansion shall end here.
+    pub(crate) fn has_given_up(&self) -> bool {
+        self.given_up.get() || self.diagnostics.borrow().errors() >= MOST_ERRORS
+    }
+
     /// The value of a text: that of its one expression or extension, or else all pieces put
     /// together.
     pub(crate) fn text_value(
@@ -100,7 +138,7 @@ impl<'a> State<'a> {
             return Ok(Value::text(text));
         }
         if self.depth.get() >= DEEPEST {
-            return Err(self.fail(
+            return Err(self.give_up(
                 Diagnostic::error(
                     "too-deep",
                     format!("properties and texts refer to each other more than {DEEPEST} deep"),
@@ -123,23 +161,38 @@ impl<'a> State<'a> {
         text: &str,
         origin: Origin,
         scope: ScopeId,
-    ) -> Result<String, Failed> {
+    ) -> Result<Rc<str>, Failed> {
         if !text.contains('$') {
-            return Ok(text.to_owned());
+            return Ok(text.into());
         }
         let value = self.text_value(text, origin, scope)?;
         self.characters(&value, origin)
     }
 
+    /// The same of a text that stands in the tree, which most often needs no copy.
+    pub(crate) fn tree_text(
+        &self,
+        text: &SmolStr,
+        origin: Origin,
+        scope: ScopeId,
+    ) -> Result<SmolStr, Failed> {
+        if !text.contains('$') {
+            return Ok(text.clone());
+        }
+        let characters = self.text(text, origin, scope)?;
+        self.written.set(self.written.get() + characters.len());
+        Ok(SmolStr::new(characters))
+    }
+
     /// A value as characters, as Python's `str` gives them.
-    pub(crate) fn characters(&self, value: &Value, origin: Origin) -> Result<String, Failed> {
+    pub(crate) fn characters(&self, value: &Value, origin: Origin) -> Result<Rc<str>, Failed> {
         if let Value::Str(text) = value {
-            return Ok(text.to_string());
+            return Ok(text.clone());
         }
         let mut budget = self.budget.take();
         let text = value.to_text(&mut budget);
         self.budget.replace(budget);
-        text.map_err(|error| self.expression_failed(error, origin, ""))
+        text.map(Rc::from).map_err(|error| self.expression_failed(error, origin, ""))
     }
 
     fn pieces_value(&self, text: &str, origin: Origin, scope: ScopeId) -> Result<Value, Failed> {
@@ -174,12 +227,16 @@ impl<'a> State<'a> {
             if alone {
                 return Ok(value);
             }
-            joined.push_str(&self.characters(&value, origin)?);
-            if joined.len() > LONGEST {
-                let diagnostic =
-                    Diagnostic::error("too-long", "this text becomes longer than 16 MiB");
-                return Err(self.fail(diagnostic.at(origin)));
+            let characters = self.characters(&value, origin)?;
+            self.written.set(self.written.get() + characters.len());
+            if joined.len() + characters.len() > LONGEST || self.written.get() > MOST_TEXT {
+                let message = "this text becomes longer than 16 MiB, or all texts than 128 MiB";
+                let diagnostic = Diagnostic::error("too-long", message).at(origin);
+                return Err(self.give_up(
+                    diagnostic.help("does a property repeat another that repeats another?"),
+                ));
             }
+            joined.push_str(&characters);
         }
         Ok(Value::text(joined))
     }
@@ -202,7 +259,7 @@ impl<'a> State<'a> {
             value
         });
         outcome.map_err(|error| {
-            let place = if replaced == text { part(origin, text, &error.range) } else { origin };
+            let place = if *replaced == *text { part(origin, text, &error.range) } else { origin };
             self.expression_failed(error, place, &replaced)
         })
     }
@@ -211,6 +268,10 @@ impl<'a> State<'a> {
         // A property that failed inside has said so itself.
         if error.message == ALREADY_SAID {
             return Failed;
+        }
+        // Nothing that costs a step can succeed any more.
+        if self.budget.borrow().steps_left() == 0 {
+            self.given_up.set(true);
         }
         let mut diagnostic = Diagnostic::error("expression", error.message).at(place);
         if !text.is_empty() {
@@ -244,25 +305,29 @@ impl<'a> State<'a> {
     }
 
     fn resolve(&self, holder: ScopeId, name: &str, lazy: &LazyText) -> Result<Value, Failed> {
-        let key = (holder, name.to_owned());
-        if self.resolving.borrow().contains(&key) {
+        let is_this = |other: &Resolving| other.holder == holder && other.name == name;
+        let first = self.resolving.borrow().iter().position(is_this);
+        if let Some(first) = first {
             let resolving = self.resolving.borrow();
-            let chain = resolving.iter().map(|(_, name)| name.as_str()).chain([name]);
-            let chain = chain.collect::<Vec<_>>().join("` -> `");
-            return Err(self.fail(
+            let mut diagnostic =
                 Diagnostic::error("circular-property", format!("`{name}` is defined by itself"))
-                    .at(lazy.origin)
-                    .note(format!("`{chain}`"))
-                    .help("give one of them a value, or set lazy_eval=\"false\" to use the value so far"),
-            ));
+                    .at(lazy.origin);
+            for other in resolving[first + 1..].iter().take(MOST_SHOWN_IN_CIRCLE) {
+                diagnostic =
+                    diagnostic.related(other.origin, format!("by way of `{}`", other.name));
+            }
+            return Err(self.fail(diagnostic.help(
+                "give one of them a value, or set lazy_eval=\"false\" to use the value so far",
+            )));
         }
-        self.resolving.borrow_mut().push(key);
+        self.resolving.borrow_mut().push(Resolving {
+            holder,
+            name: name.into(),
+            origin: lazy.origin,
+        });
         let value = self.text_value(&lazy.text, lazy.origin, holder);
         self.resolving.borrow_mut().pop();
-        let value = match value? {
-            Value::Str(text) => literal(&text),
-            other => other,
-        };
+        let value = typed(value?);
         let symbol = Symbol::Value(value.clone());
         self.scopes.borrow_mut().set(holder, name.into(), symbol);
         Ok(value)
@@ -306,6 +371,10 @@ pub(crate) fn part(origin: Origin, text: &str, range: &Range<usize>) -> Origin {
     Origin(origin.0.map(narrowed))
 }
 
+/// Functions that `$(eval ...)` has besides Python's.
+const EVAL_FUNCTIONS: [&str; 5] =
+    ["eval.arg", "eval.env", "eval.optenv", "eval.find", "eval.dirname"];
+
 /// The names an expression sees.
 struct Names<'s, 'a> {
     state: &'s State<'a>,
@@ -316,9 +385,16 @@ struct Names<'s, 'a> {
 impl Scope for Names<'_, '_> {
     fn lookup(&self, name: &str, budget: &mut Budget) -> Result<Option<Value>, ExpressionError> {
         if self.dialect == Dialect::SubstitutionArgs {
-            // `$(eval ...)` sees arguments, not properties.
+            // `$(eval ...)` sees arguments and functions of its own, not properties.
+            if let Some(function) = EVAL_FUNCTIONS.iter().find(|full| full[5..] == *name) {
+                return Ok(Some(Value::host_function(*function)));
+            }
+            // In the reference all of its own names win; these would change results silently.
+            if matches!(name, "e" | "pi" | "tau" | "inf" | "nan" | "true" | "false") {
+                return Ok(None);
+            }
             let argument = self.state.arguments.borrow().get(name).cloned();
-            return Ok(argument.map(|text| literal(&text)));
+            return Ok(argument.map(|text| automatic(&text)));
         }
         let find = || self.state.property(self.scope, name);
         self.state.with_budget(budget, find).map_err(already_said)
@@ -345,6 +421,9 @@ impl Scope for Names<'_, '_> {
     }
 
     fn names(&self) -> Vec<String> {
+        if self.dialect == Dialect::SubstitutionArgs {
+            return self.state.arguments.borrow().keys().cloned().collect();
+        }
         self.state.scopes.borrow().names(self.scope)
     }
 
@@ -360,7 +439,7 @@ impl Scope for Names<'_, '_> {
         _keywords: &[(Rc<str>, Value)],
         budget: &mut Budget,
     ) -> Option<Result<Value, ExpressionError>> {
-        let call = || self.state.host_function(function, arguments, self.scope);
+        let call = || self.state.host_function(function, arguments);
         self.state.with_budget(budget, call)
     }
 
@@ -399,12 +478,11 @@ impl State<'_> {
         &self,
         function: &str,
         arguments: &[Value],
-        scope: ScopeId,
     ) -> Option<Result<Value, ExpressionError>> {
         let name = function.strip_prefix("xacro.").unwrap_or(function);
         let place = self.place.get();
         let plain = |message: String| ExpressionError { message, range: 0..0, help: None };
-        let words: Result<Vec<String>, Failed> =
+        let words: Result<Vec<Rc<str>>, Failed> =
             arguments.iter().map(|argument| self.characters(argument, place)).collect();
         let words = match words {
             Ok(words) => words,
@@ -412,8 +490,18 @@ impl State<'_> {
         };
         let said = || words.join(" ");
         Some(match (name, words.as_slice()) {
-            ("load_yaml", [file]) => self.load_yaml(file, place, scope).map_err(already_said),
-            ("abs_filename", [file]) => Ok(Value::text(self.folder().join(file).to_string_lossy())),
+            ("load_yaml", [file]) => self.load_yaml(file, place).map_err(already_said),
+            ("abs_filename", [file]) => {
+                Ok(Value::text(self.folder().join(&**file).to_string_lossy()))
+            }
+            ("eval.arg", [name]) => {
+                self.argument(name, place).map(|text| automatic(&text)).map_err(already_said)
+            }
+            ("eval.env" | "eval.optenv" | "eval.find" | "eval.dirname", words) => {
+                let command = [&name[5..]].into_iter().chain(words.iter().map(|word| &**word));
+                let words = command.collect::<Vec<_>>();
+                self.substitution(&words, place).map(Value::text).map_err(already_said)
+            }
             ("arg", [name]) => self.argument(name, place).map(Value::text).map_err(already_said),
             ("message" | "print_location", _) => {
                 self.report(Diagnostic::hint("message", said()).at(place));
@@ -430,8 +518,8 @@ impl State<'_> {
             ("fatal", _) => {
                 Err(already_said(self.fail(Diagnostic::error("fatal", said()).at(place))))
             }
-            ("load_yaml" | "abs_filename" | "arg", _) => {
-                Err(plain(format!("`xacro.{name}` takes one argument, not {}", arguments.len())))
+            ("load_yaml" | "abs_filename" | "arg" | "eval.arg", _) => {
+                Err(plain(format!("`{function}` takes one argument, not {}", arguments.len())))
             }
             _ => return None,
         })

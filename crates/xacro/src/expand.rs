@@ -1,6 +1,7 @@
 //! The walk through a document.
 
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use periplus_diagnostics::{ContextId, Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_resources::{Host, Resolver};
@@ -8,6 +9,25 @@ use periplus_xml::{Attribute, Document, Element, Node, SmolStr, Text};
 
 use crate::evaluate::{Failed, State};
 use crate::scopes::{ScopeId, Symbol, TOP};
+
+/// Where an expansion stands: the names it sees, and how it came there.
+#[derive(Clone, Copy)]
+pub(crate) struct Frame {
+    /// Where names are looked up.
+    pub(crate) scope: ScopeId,
+    /// The macro call or include; none keeps what places say of theirs.
+    pub(crate) context: Option<ContextId>,
+}
+
+impl Frame {
+    /// A place as seen from here.
+    pub(crate) fn seen(self, origin: Origin) -> Origin {
+        match self.context {
+            Some(context) => Origin(origin.0.map(|span| span.within(context))),
+            None => origin,
+        }
+    }
+}
 
 /// The elements that xacro itself knows.
 pub(crate) const DIRECTIVES: [&str; 10] = [
@@ -26,11 +46,11 @@ pub(crate) const DIRECTIVES: [&str; 10] = [
 /// How deep elements, macros and includes may nest together.
 const DEEPEST: usize = 300;
 
-/// How many nodes an expansion may produce or look at.
-const MOST_NODES: usize = 3_000_000;
+/// How many nodes an expansion may look at, those it copies included.
+const MOST_PARTS: usize = 1_000_000;
 
 /// Errors after which an expansion gives up: what follows is mostly echo.
-const MOST_ERRORS: usize = 30;
+pub(crate) const MOST_ERRORS: usize = 30;
 
 /// What an expansion needs to know.
 #[derive(Clone)]
@@ -95,18 +115,20 @@ pub fn expand(
 /// inherited namespaces may extend.
 pub(crate) struct Output<'e> {
     parent: &'e mut Element,
+    /// How many children no directive that follows takes comments from.
+    settled: usize,
 }
 
 impl<'e> Output<'e> {
     pub(crate) fn new(parent: &'e mut Element) -> Self {
-        Self { parent }
+        Self { parent, settled: 0 }
     }
 
     fn push(&mut self, node: Node) {
         self.parent.children.push(node);
     }
 
-    fn set_attribute(&mut self, name: &str, value: String, origin: Origin) {
+    fn set_attribute(&mut self, name: &str, value: &str, origin: Origin) {
         let value = SmolStr::new(value);
         match self.parent.attributes.iter_mut().find(|attribute| attribute.name == name) {
             Some(attribute) => attribute.value = value,
@@ -119,69 +141,89 @@ impl<'e> Output<'e> {
         }
     }
 
-    /// Namespaces declared by an included file or a macro are declared around its content.
-    pub(crate) fn adopt_namespaces(&mut self, element: &Element) {
-        for attribute in &element.attributes {
-            let declares = attribute.name.starts_with("xmlns:") && attribute.name != "xmlns:xacro";
-            if declares && self.parent.attribute(&attribute.name).is_none() {
-                self.parent.attributes.push(attribute.clone());
-            }
-        }
+    /// What was put out so far keeps its comments.
+    fn settle(&mut self) {
+        self.settled = self.parent.children.len();
     }
 
     /// Comments right before something of xacro's speak of it, and go with it.
     fn drop_comments(&mut self) {
+        let children = &mut self.parent.children;
+        let blank = |node: &Node| {
+            matches!(node, Node::Text(text)
+                if text.text.trim().is_empty() && text.text.matches('\n').count() <= 1)
+        };
+        let mut before = children.len();
         loop {
-            let children = &mut self.parent.children;
-            let blank = |node: &Node| {
-                matches!(node, Node::Text(text)
-                    if text.text.trim().is_empty() && text.text.matches('\n').count() <= 1)
-            };
-            let skip = usize::from(children.last().is_some_and(blank));
-            let Some(index) = children.len().checked_sub(1 + skip) else { return };
-            if !matches!(children[index], Node::Comment(_)) {
+            if before > self.settled && blank(&children[before - 1]) {
+                before -= 1;
+            }
+            if before <= self.settled || !matches!(children[before - 1], Node::Comment(_)) {
                 return;
             }
-            children.remove(index);
+            before -= 1;
+            children.remove(before);
         }
     }
 }
 
 impl State<'_> {
+    /// Namespaces declared by an included file or a macro are declared around its content.
+    pub(crate) fn adopt_namespaces(&self, element: &Element, frame: Frame, out: &mut Output<'_>) {
+        for attribute in &element.attributes {
+            if !attribute.name.starts_with("xmlns:") || attribute.name == "xmlns:xacro" {
+                continue;
+            }
+            match out.parent.attribute(&attribute.name) {
+                None => out.parent.attributes.push(attribute.clone()),
+                Some(earlier) if earlier.value != attribute.value => self.report(
+                    Diagnostic::warning(
+                        "namespace-conflict",
+                        format!("`{}` is declared as something else already", attribute.name),
+                    )
+                    .at(frame.seen(attribute.origin))
+                    .related(earlier.origin, "this declaration holds")
+                    .help("use another prefix in one of the files"),
+                ),
+                Some(_) => {}
+            }
+        }
+    }
+
     fn expand_root(&self, root: &Element, out: &mut Element) -> Result<(), Failed> {
-        self.expand_attributes(root, TOP, None, out);
+        let frame = Frame { scope: TOP, context: None };
+        self.expand_attributes(root, frame, out);
         if let Some(target) = out.attributes.iter().position(|a| a.name == "xacro:targetNamespace")
         {
             let mut attribute = out.attributes.remove(target);
             attribute.name = "xmlns".into();
             out.attributes.push(attribute);
         }
-        self.expand_nodes(&root.children, TOP, None, &mut Output::new(out))
+        self.expand_nodes(&root.children, frame, &mut Output::new(out))
     }
 
-    /// Expands nodes into `out`. `context` is how their places are seen; none keeps what they say.
+    /// Expands nodes into `out`.
     pub(crate) fn expand_nodes(
         &self,
         nodes: &[Node],
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         let mut comments_live = false;
         let mut failed = false;
         for node in nodes {
-            self.count_node(node)?;
+            self.count_node(node, frame)?;
             match node {
                 Node::Element(element) => {
                     comments_live = false;
-                    failed |= self.expand_element(element, scope, context, out).is_err();
+                    failed |= self.expand_element(element, frame, out).is_err();
                 }
                 Node::Text(text) => {
-                    let origin = self.seen(text.origin, context);
-                    match self.text(&text.text, origin, scope) {
-                        Ok(value) => {
-                            comments_live &= value.trim().is_empty();
-                            out.push(Node::Text(Text { text: value.into(), origin }));
+                    let origin = frame.seen(text.origin);
+                    match self.tree_text(&text.text, origin, frame.scope) {
+                        Ok(text) => {
+                            comments_live &= text.trim().is_empty();
+                            out.push(Node::Text(Text { text, origin }));
                         }
                         Err(Failed) => failed = true,
                     }
@@ -190,31 +232,47 @@ impl State<'_> {
                     comments_live = !comment.text.contains("xacro:eval-comments:off");
                 }
                 Node::Comment(comment) if comments_live => {
-                    let origin = self.seen(comment.origin, context);
-                    match self.text(&comment.text, origin, scope) {
-                        Ok(text) => out.push(Node::Comment(Text { text: text.into(), origin })),
+                    let origin = frame.seen(comment.origin);
+                    match self.tree_text(&comment.text, origin, frame.scope) {
+                        Ok(text) => out.push(Node::Comment(Text { text, origin })),
                         Err(Failed) => failed = true,
                     }
                 }
                 Node::Comment(_) | Node::Instruction(_) => out.push(node.clone()),
             }
-            if self.diagnostics.borrow().errors() >= MOST_ERRORS {
+            if self.has_given_up() {
                 return Err(Failed);
             }
         }
         if failed { Err(Failed) } else { Ok(()) }
     }
 
-    fn count_node(&self, node: &Node) -> Result<(), Failed> {
-        self.nodes.set(self.nodes.get() + 1);
-        if self.nodes.get() <= MOST_NODES {
+    fn count_node(&self, node: &Node, frame: Frame) -> Result<(), Failed> {
+        let origin = match node {
+            Node::Element(element) => element.origin,
+            Node::Text(text) | Node::Comment(text) | Node::Instruction(text) => text.origin,
+        };
+        self.count(1, frame.seen(origin))
+    }
+
+    /// Counts what a copy of an element costs.
+    pub(crate) fn count_copy(&self, element: &Element) -> Result<(), Failed> {
+        fn parts(element: &Element) -> usize {
+            let attributes = element.attributes.len();
+            1 + attributes + element.children.len() + element.elements().map(parts).sum::<usize>()
+        }
+        self.count(parts(element), element.origin)
+    }
+
+    fn count(&self, parts: usize, origin: Origin) -> Result<(), Failed> {
+        self.parts.set(self.parts.get() + parts);
+        if self.parts.get() <= MOST_PARTS {
             return Ok(());
         }
-        let origin = node.as_element().map(|element| element.origin).unwrap_or_default();
-        Err(self.fail(
+        Err(self.give_up(
             Diagnostic::error(
                 "too-large",
-                format!("the file expands to more than {MOST_NODES} parts"),
+                format!("the file expands to more than {MOST_PARTS} parts"),
             )
             .at(origin)
             .help("does a macro call itself more and more often?"),
@@ -224,24 +282,23 @@ impl State<'_> {
     fn expand_element(
         &self,
         element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         if self.nesting.get() >= DEEPEST {
-            return Err(self.fail(
+            return Err(self.give_up(
                 Diagnostic::error(
                     "too-deep",
                     format!("elements, macros and includes are nested more than {DEEPEST} deep"),
                 )
-                .at(self.seen(element.origin, context))
+                .at(frame.seen(element.origin))
                 .help("does a macro call itself without an end? stop it with <xacro:if>"),
             ));
         }
         self.nesting.set(self.nesting.get() + 1);
         let result = match element.name.strip_prefix("xacro:") {
-            Some(directive) => self.directive(directive, element, scope, context, out),
-            None => self.plain_element(element, element.name.clone(), scope, context, out),
+            Some(directive) => self.directive(directive, element, frame, out),
+            None => self.plain_element(element, element.name.clone(), frame, out),
         };
         self.nesting.set(self.nesting.get() - 1);
         result
@@ -251,101 +308,109 @@ impl State<'_> {
         &self,
         directive: &str,
         element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         match directive {
             "element" | "attribute" | "insert_block" => {}
             _ => out.drop_comments(),
         }
-        match directive {
-            "property" => self.define_property(element, scope, context),
-            "macro" => self.define_macro(element, scope),
-            "include" => self.include(element, scope, context, out),
-            "arg" => self.declare_argument(element, scope),
-            "if" | "unless" => {
-                self.check_attributes(element, &["value"], &["value"])?;
-                let wanted = directive == "if";
-                if self.flag(element, "value", scope)? == Some(wanted) {
-                    self.expand_nodes(&element.children, scope, context, out)
-                } else {
-                    Ok(())
-                }
-            }
-            "insert_block" => self.insert_block(element, scope, out),
-            "element" => {
-                self.require(element, "xacro:name")?;
-                let name = self.attribute(element, "xacro:name", scope)?.unwrap_or_default();
-                self.named_element(element, &name, scope, context, out)
-            }
-            "attribute" => {
-                self.check_attributes(element, &["name", "value"], &["name", "value"])?;
-                let name = self.attribute(element, "name", scope)?.unwrap_or_default();
-                let value = self.attribute(element, "value", scope)?.unwrap_or_default();
-                let origin = self.seen(element.origin, context);
-                self.check_name(&name, origin)?;
-                out.set_attribute(&name, value, origin);
-                Ok(())
-            }
-            "call" => self.call_by_value(element, scope, context, out),
-            name => self.call(name, element, scope, context, out),
+        out.settle();
+        let result = match directive {
+            "property" => self.define_property(element, frame),
+            "macro" => self.define_macro(element, frame),
+            "include" => self.include(element, frame, out),
+            "arg" => self.declare_argument(element, frame),
+            "if" | "unless" => self.conditional(element, directive == "if", frame, out),
+            "insert_block" => self.insert_block(element, frame, out),
+            "element" => self.named_element(element, frame, out),
+            "attribute" => self.set_attribute(element, frame, out),
+            "call" => self.call_by_value(element, frame, out),
+            name => self.call(name, element, frame, out),
+        };
+        out.settle();
+        result
+    }
+
+    fn conditional(
+        &self,
+        element: &Element,
+        wanted: bool,
+        frame: Frame,
+        out: &mut Output<'_>,
+    ) -> Result<(), Failed> {
+        self.check_attributes(element, &["value"], &["value"], frame)?;
+        if self.flag(element, "value", frame)? == Some(wanted) {
+            self.expand_nodes(&element.children, frame, out)
+        } else {
+            Ok(())
         }
+    }
+
+    /// `<xacro:attribute>`: an attribute of the element around it.
+    fn set_attribute(
+        &self,
+        element: &Element,
+        frame: Frame,
+        out: &mut Output<'_>,
+    ) -> Result<(), Failed> {
+        self.check_attributes(element, &["name", "value"], &["name", "value"], frame)?;
+        self.check_childless(element, frame);
+        let name = self.attribute(element, "name", frame)?.unwrap_or_default();
+        let value = self.attribute(element, "value", frame)?.unwrap_or_default();
+        self.check_name(&name, value_origin(element, "name", frame))?;
+        out.set_attribute(&name, &value, frame.seen(element.origin));
+        Ok(())
     }
 
     /// An element whose name is a value; it may turn out to be one of xacro's own.
     fn named_element(
         &self,
         element: &Element,
-        name: &str,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        self.check_name(name, self.value_origin(element, "xacro:name"))?;
+        self.require(element, "xacro:name", frame)?;
+        let name = self.attribute(element, "xacro:name", frame)?.unwrap_or_default();
+        self.check_name(&name, value_origin(element, "xacro:name", frame))?;
+        if !name.starts_with("xacro:") {
+            return self.plain_element(element, SmolStr::new(name), frame, out);
+        }
+        self.count_copy(element)?;
         let mut renamed = element.clone();
-        renamed.name = name.into();
+        renamed.name = SmolStr::new(name);
         renamed.attributes.retain(|attribute| attribute.name != "xacro:name");
-        self.expand_element(&renamed, scope, context, out)
+        self.expand_element(&renamed, frame, out)
     }
 
     fn plain_element(
         &self,
         element: &Element,
         name: SmolStr,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         let mut expanded = Element::new(name);
-        expanded.origin = self.seen(element.origin, context);
-        self.expand_attributes(element, scope, context, &mut expanded);
-        let result =
-            self.expand_nodes(&element.children, scope, context, &mut Output::new(&mut expanded));
+        expanded.origin = frame.seen(element.origin);
+        self.expand_attributes(element, frame, &mut expanded);
+        let result = self.expand_nodes(&element.children, frame, &mut Output::new(&mut expanded));
         out.push(Node::Element(expanded));
         result
     }
 
     /// Attributes of a plain element. One that fails has been reported and keeps its text.
-    fn expand_attributes(
-        &self,
-        element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
-        out: &mut Element,
-    ) {
+    fn expand_attributes(&self, element: &Element, frame: Frame, out: &mut Element) {
         for attribute in &element.attributes {
             let own =
                 attribute.name.starts_with("xacro:") && attribute.name != "xacro:targetNamespace";
             if own || attribute.name == "xmlns:xacro" {
                 continue;
             }
-            let value_origin = self.seen(attribute.value_origin, context);
-            let value = match self.text(&attribute.value, value_origin, scope) {
-                Ok(value) => SmolStr::new(value),
-                Err(Failed) => attribute.value.clone(),
-            };
-            let origin = self.seen(attribute.origin, context);
+            let value_origin = frame.seen(attribute.value_origin);
+            let value = self
+                .tree_text(&attribute.value, value_origin, frame.scope)
+                .unwrap_or_else(|Failed| attribute.value.clone());
+            let origin = frame.seen(attribute.origin);
             out.attributes.push(Attribute {
                 name: attribute.name.clone(),
                 value,
@@ -358,23 +423,24 @@ impl State<'_> {
     fn insert_block(
         &self,
         element: &Element,
-        scope: ScopeId,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        self.check_attributes(element, &["name"], &["name"])?;
-        let name = self.attribute(element, "name", scope)?.unwrap_or_default();
+        self.check_attributes(element, &["name"], &["name"], frame)?;
+        self.check_childless(element, frame);
+        let name = self.attribute(element, "name", frame)?.unwrap_or_default();
         let block = {
             let scopes = self.scopes.borrow();
-            let content = scopes.find(scope, &format!("**{name}"));
-            let found = content.or_else(|| scopes.find(scope, &format!("*{name}")));
+            let content = scopes.find(frame.scope, &format!("**{name}"));
+            let found = content.or_else(|| scopes.find(frame.scope, &format!("*{name}")));
             match found {
                 Some((_, Symbol::Block(block))) => Some(block.clone()),
                 _ => None,
             }
         };
         let Some(block) = block else {
-            let names = self.scopes.borrow().block_names(scope);
-            let origin = self.value_origin(element, "name");
+            let names = self.scopes.borrow().block_names(frame.scope);
+            let origin = value_origin(element, "name", frame);
             return Err(self.fail(
                 Diagnostic::error("unknown-block", format!("there is no block `{name}`"))
                     .at(origin)
@@ -382,20 +448,21 @@ impl State<'_> {
                     .help("a block is a macro's parameter `*name` or `**name`, or a property with elements in it"),
             ));
         };
-        self.expand_nodes(&block.nodes, scope, block.context, out)
+        self.expand_nodes(&block.nodes, Frame { context: block.context, ..frame }, out)
     }
 
-    fn declare_argument(&self, element: &Element, scope: ScopeId) -> Result<(), Failed> {
-        self.check_attributes(element, &["name"], &["name", "default"])?;
+    fn declare_argument(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
+        self.check_attributes(element, &["name"], &["name", "default"], frame)?;
+        self.check_childless(element, frame);
         let name = element.value("name").unwrap_or_default().to_owned();
         if self.arguments.borrow().contains_key(&name) {
             return Ok(());
         }
-        if let Some(default) = self.attribute(element, "default", scope)? {
-            self.arguments.borrow_mut().insert(name, default);
+        if let Some(default) = self.attribute(element, "default", frame)? {
+            self.arguments.borrow_mut().insert(name, default.to_string());
             return Ok(());
         }
-        self.argument(&name, self.value_origin(element, "name")).map(drop)
+        self.argument(&name, value_origin(element, "name", frame)).map(drop)
     }
 
     fn check_name(&self, name: &str, origin: Origin) -> Result<(), Failed> {
@@ -418,28 +485,38 @@ impl State<'_> {
         &self,
         element: &Element,
         name: &str,
-        scope: ScopeId,
-    ) -> Result<Option<String>, Failed> {
-        match element.attribute(name) {
-            Some(attribute) => self.text(&attribute.value, attribute.value_origin, scope).map(Some),
-            None => Ok(None),
+        frame: Frame,
+    ) -> Result<Option<Rc<str>>, Failed> {
+        let Some(attribute) = element.attribute(name) else { return Ok(None) };
+        self.text(&attribute.value, frame.seen(attribute.value_origin), frame.scope).map(Some)
+    }
+
+    /// Warns of what stands in an element whose content nobody reads.
+    pub(crate) fn check_childless(&self, element: &Element, frame: Frame) {
+        let unread = element.children.iter().find_map(|node| match node {
+            Node::Element(child) => Some(child.origin),
+            Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
+            _ => None,
+        });
+        if let Some(origin) = unread {
+            self.report(
+                Diagnostic::warning(
+                    "unread-content",
+                    format!("the content of `{}` is not read", element.name),
+                )
+                .at(frame.seen(origin))
+                .related(frame.seen(element.origin), "the element")
+                .help("remove it, or move it outside"),
+            );
         }
     }
 
-    /// Where the value of an attribute stands.
-    pub(crate) fn value_origin(&self, element: &Element, name: &str) -> Origin {
-        element.attribute(name).map_or(element.origin, |attribute| attribute.value_origin)
-    }
-
-    /// A place as seen in a context.
-    pub(crate) fn seen(&self, origin: Origin, context: Option<ContextId>) -> Origin {
-        match context {
-            Some(context) => Origin(origin.0.map(|span| span.within(context))),
-            None => origin,
-        }
-    }
-
-    pub(crate) fn require(&self, element: &Element, name: &str) -> Result<(), Failed> {
+    pub(crate) fn require(
+        &self,
+        element: &Element,
+        name: &str,
+        frame: Frame,
+    ) -> Result<(), Failed> {
         if element.attribute(name).is_some() {
             return Ok(());
         }
@@ -448,7 +525,7 @@ impl State<'_> {
                 "missing-attribute",
                 format!("`{}` needs the attribute `{name}`", element.name),
             )
-            .at(element.origin)
+            .at(frame.seen(element.origin))
             .help(format!("add {name}=\"...\"")),
         ))
     }
@@ -459,16 +536,18 @@ impl State<'_> {
         element: &Element,
         required: &[&str],
         known: &[&str],
+        frame: Frame,
     ) -> Result<(), Failed> {
         for name in required {
-            self.require(element, name)?;
+            self.require(element, name, frame)?;
         }
         for attribute in &element.attributes {
             let name = attribute.name.as_str();
             if known.contains(&name) || name.starts_with("xmlns:") {
                 continue;
             }
-            let origin = Origin(attribute.origin.0.map(|span| span.part(0, name.len())));
+            let origin = frame.seen(attribute.origin);
+            let origin = Origin(origin.0.map(|span| span.part(0, name.len())));
             self.report(
                 Diagnostic::warning(
                     "unknown-attribute",
@@ -481,4 +560,10 @@ impl State<'_> {
         }
         Ok(())
     }
+}
+
+/// Where the value of an attribute stands.
+pub(crate) fn value_origin(element: &Element, name: &str, frame: Frame) -> Origin {
+    let origin = element.attribute(name).map(|attribute| attribute.value_origin);
+    frame.seen(origin.unwrap_or(element.origin))
 }

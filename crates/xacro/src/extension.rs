@@ -23,14 +23,19 @@ impl State<'_> {
             let place = part(origin, text, &(5..text.len()));
             let value =
                 self.expression_value(expression, place, scope, Dialect::SubstitutionArgs)?;
-            return self.characters(&value, origin).map(Rc::from);
+            return self.characters(&value, origin);
         }
         let text = self.text(text, origin, scope)?;
-        let mut words = text.split(' ').filter(|word| !word.is_empty());
-        let command = words.next().unwrap_or_default();
-        let words: Vec<&str> = words.collect();
+        let words: Vec<&str> = text.split(' ').filter(|word| !word.is_empty()).collect();
+        self.substitution(&words, origin)
+    }
+
+    /// The text that a command and its words stand for.
+    pub(crate) fn substitution(&self, words: &[&str], origin: Origin) -> Result<Rc<str>, Failed> {
+        let (command, words) = words.split_first().unwrap_or((&"", &[]));
+        let command = *command;
         let file_name = |path: &std::path::Path| Rc::from(path.to_string_lossy());
-        match (command, words.as_slice()) {
+        match (command, words) {
             ("arg", [name]) => self.argument(name, origin).map(Rc::from),
             ("find", [package]) => self.package(package, origin).map(|path| file_name(&path)),
             ("env", [name]) => self.setting.host.variable(name).map(Rc::from).ok_or_else(|| {

@@ -2,42 +2,44 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{ContextId, Diagnostic, Diagnostics, Expansion, Origin};
-use periplus_resources::Kind;
+use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin};
+use periplus_resources::{Kind, MissKind};
 use periplus_xml::{Element, decode, parse};
 
 use crate::evaluate::{Failed, State};
-use crate::expand::Output;
-use crate::expression::{Dialect, Value};
-use crate::scopes::{ScopeId, TOP};
+use crate::expand::{Frame, Output, value_origin};
+use crate::expression::{EmptyScope, Expression, Value, evaluate};
 use crate::yaml;
 
 /// How deep files may include files.
 const DEEPEST: usize = 40;
 
-/// How many files an expansion may include.
+/// How many files a pattern may match.
 const MOST_FILES: usize = 2_000;
+
+/// How much an expansion may read, files that are included twice counted twice [bytes].
+const MOST_READ: usize = 64 << 20;
 
 impl State<'_> {
     /// Puts the content of the included files into `out`.
     pub(crate) fn include(
         &self,
         element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        self.check_attributes(element, &["filename"], &["filename", "ns", "optional"])?;
-        let file_origin = self.value_origin(element, "filename");
-        let name = self.attribute(element, "filename", scope)?.unwrap_or_default();
-        let optional = self.flag(element, "optional", scope)?.unwrap_or(false);
-        let scope = match self.attribute(element, "ns", scope)? {
-            Some(namespace) => self.scopes.borrow_mut().open_namespace(scope, &namespace),
-            None => scope,
+        self.check_attributes(element, &["filename"], &["filename", "ns", "optional"], frame)?;
+        let file_origin = value_origin(element, "filename", frame);
+        let name = self.attribute(element, "filename", frame)?.unwrap_or_default();
+        let optional = self.flag(element, "optional", frame)?.unwrap_or(false);
+        self.check_childless(element, frame);
+        let scope = match self.attribute(element, "ns", frame)? {
+            Some(namespace) => self.scopes.borrow_mut().open_namespace(frame.scope, &namespace),
+            None => frame.scope,
         };
         let path = self.absolute(&name);
         let paths = if name.contains(['*', '?', '[']) {
-            let found = self.glob(&path);
+            let found = self.glob(&path, file_origin)?;
             if found.is_empty() {
                 self.report(
                     Diagnostic::warning("no-match", format!("no file matches `{name}`"))
@@ -52,7 +54,7 @@ impl State<'_> {
             vec![path]
         };
         for path in paths {
-            self.include_file(&path, element, file_origin, scope, context, out)?;
+            self.include_file(&path, element, file_origin, Frame { scope, ..frame }, out)?;
         }
         Ok(())
     }
@@ -62,37 +64,27 @@ impl State<'_> {
         path: &Path,
         element: &Element,
         file_origin: Origin,
-        scope: ScopeId,
-        context: Option<ContextId>,
+        frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         let open = self.files.borrow().len();
         let repeated = self.files.borrow().iter().filter(|file| *file == path).count();
         // A file may include itself under a condition, so a few rounds are allowed.
-        if repeated > 3 || open > DEEPEST || self.includes.borrow().len() >= MOST_FILES {
-            let chain: Vec<String> = self
-                .files
-                .borrow()
-                .iter()
-                .rev()
-                .take(5)
-                .map(|file| file.display().to_string())
-                .collect();
-            return Err(self.fail(
-                Diagnostic::error(
-                    "include-cycle",
-                    format!(
-                        "`{}` is included by itself, or too many files include each other",
-                        path.display()
-                    ),
-                )
-                .at(file_origin)
-                .note(format!("included from {}", chain.join(", from ")))
-                .help("move what both need into a third file"),
+        if repeated > 3 || open > DEEPEST {
+            let shown = self.setting.shown(path);
+            let message = if repeated > 3 {
+                format!("`{shown}` includes itself without end")
+            } else {
+                format!("files include each other more than {DEEPEST} deep")
+            };
+            return Err(self.give_up(
+                Diagnostic::error("include-cycle", message)
+                    .at(file_origin)
+                    .help("move what both files need into a third, or include under <xacro:if>"),
             ));
         }
         let text = self.read(path, file_origin)?;
-        let at = element.origin.0.map(|span| context.map_or(span, |context| span.within(context)));
+        let at = frame.seen(element.origin).0;
         let (document, inner) = {
             let mut sources = self.sources.borrow_mut();
             let file = sources.add(self.setting.shown(path), text);
@@ -102,44 +94,57 @@ impl State<'_> {
             self.diagnostics.borrow_mut().append(found);
             (document.ok_or(Failed)?, inner)
         };
-        self.includes.borrow_mut().push(path.to_owned());
+        self.note_file(path);
         self.files.borrow_mut().push(path.to_owned());
-        out.adopt_namespaces(&document.root);
-        let result = self.expand_nodes(&document.root.children, scope, inner.or(context), out);
+        let frame = Frame { context: inner.or(frame.context), ..frame };
+        self.adopt_namespaces(&document.root, frame, out);
+        let result = self.expand_nodes(&document.root.children, frame, out);
         self.files.borrow_mut().pop();
         result
     }
 
     /// The value of a YAML file.
-    pub(crate) fn load_yaml(
-        &self,
-        name: &str,
-        origin: Origin,
-        _scope: ScopeId,
-    ) -> Result<Value, Failed> {
+    pub(crate) fn load_yaml(&self, name: &str, origin: Origin) -> Result<Value, Failed> {
         let path = self.absolute(name);
+        if let Some(value) = self.yaml.borrow().get(&path) {
+            return Ok(value.clone());
+        }
         let text = self.read(&path, origin)?;
-        self.includes.borrow_mut().push(path.clone());
-        let mut evaluate = |expression: &str| {
-            let value = self.expression_value(expression, origin, TOP, Dialect::Xacro);
+        self.note_file(&path);
+        let mut evaluate = |text: &str| {
+            // As in the reference, units see xacro's own names (`!degrees 90/2`, `pi`), no properties.
+            let mut budget = self.budget.take();
+            let value = Expression::parse(text)
+                .and_then(|expression| evaluate(&expression, &EmptyScope, &mut budget));
+            self.budget.replace(budget);
             match value {
                 Ok(Value::Float(float)) => Ok(float),
                 #[expect(clippy::cast_precision_loss, reason = "as Python's float() does")]
                 Ok(Value::Int(int)) => Ok(int as f64),
-                _ => Err(format!("`{expression}` is not a number")),
+                Ok(_) => Err(format!("`{text}` is not a number")),
+                Err(error) => Err(format!("`{text}` is not a number: {}", error.message)),
             }
         };
-        yaml::load(&text, &mut evaluate).map(Value::dotted).map_err(|error| {
-            let mut sources = self.sources.borrow_mut();
-            let file = sources.add(self.setting.shown(&path), text.as_str());
-            let start: usize =
-                text.lines().take(error.line.saturating_sub(1)).map(|line| line.len() + 1).sum();
-            let place = sources.whole(file).part(start + error.column - 1, start + error.column);
-            drop(sources);
-            self.fail(
-                Diagnostic::error("yaml", error.message).at(place).related(origin, "loaded here"),
-            )
-        })
+        let value = yaml::load(&text, &mut evaluate).map(Value::dotted).map_err(|error| {
+            let place = {
+                let mut sources = self.sources.borrow_mut();
+                let byte = byte_at(&text, error.line, error.column);
+                let file = sources.add(self.setting.shown(&path), text);
+                sources.whole(file).part(byte, byte + 1)
+            };
+            let diagnostic = Diagnostic::error("yaml", error.message).at(place);
+            self.fail(diagnostic.related(origin, "loaded here"))
+        })?;
+        self.yaml.borrow_mut().insert(path, value.clone());
+        Ok(value)
+    }
+
+    /// Remembers a file for [`crate::Expanded::includes`].
+    fn note_file(&self, path: &Path) {
+        let mut includes = self.includes.borrow_mut();
+        if !includes.iter().any(|known| known == path) {
+            includes.push(path.to_owned());
+        }
     }
 
     /// The folder of a package.
@@ -158,28 +163,65 @@ impl State<'_> {
 
     fn read(&self, path: &Path, origin: Origin) -> Result<String, Failed> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
-        let name = path.to_string_lossy();
-        let found = self
-            .setting
-            .resolver
-            .resolve(&name, &from)
-            .map_err(|miss| self.fail(miss.into_diagnostic(origin)))?;
+        let found =
+            self.setting.resolver.resolve(&path.to_string_lossy(), &from).map_err(|miss| {
+                let missing = miss.kind == MissKind::Missing;
+                let mut diagnostic = miss.into_diagnostic(origin);
+                if missing {
+                    // The file wrote a relative name, or one of `$(find ...)`: it is not to blame for
+                    // being absolute.
+                    let shown = self.setting.shown(path);
+                    diagnostic.message = format!("`{shown}` cannot be found: nothing stands there");
+                    diagnostic.help.retain(|help| help.starts_with("did you mean"));
+                }
+                self.fail(diagnostic)
+            })?;
         let cannot = |why: String| {
             let message = format!("`{}` cannot be read: {why}", self.setting.shown(path));
             self.fail(Diagnostic::error("unreadable-file", message).at(origin))
         };
         let bytes = self.setting.host.read(&found).map_err(|error| cannot(error.to_string()))?;
+        self.read.set(self.read.get() + bytes.len());
+        if self.read.get() > MOST_READ {
+            return Err(self.give_up(
+                Diagnostic::error(
+                    "too-large",
+                    format!("included files come to more than {} MiB", MOST_READ >> 20),
+                )
+                .at(origin)
+                .help("is one of them included again and again?"),
+            ));
+        }
         decode(&bytes).map(std::borrow::Cow::into_owned).map_err(cannot)
     }
 
     /// Files whose path matches a pattern of `*`, `?` and `[...]`, sorted.
-    fn glob(&self, pattern: &Path) -> Vec<PathBuf> {
+    ///
+    /// Folders outside the resource paths are not even listed.
+    fn glob(&self, pattern: &Path, origin: Origin) -> Result<Vec<PathBuf>, Failed> {
+        let from = self.files.borrow().first().cloned().unwrap_or_default();
+        let open =
+            |folder: &PathBuf| self.setting.resolver.resolve(&folder.to_string_lossy(), &from);
         let mut found = vec![PathBuf::new()];
+        let mut is_certain = true;
         for component in pattern.components() {
             let name = component.as_os_str().to_string_lossy();
+            let is_pattern = name.contains(['*', '?', '[']);
+            if is_pattern && is_certain {
+                is_certain = false;
+                // The user named this folder, so they shall know why nothing in it is found.
+                if let Some(Err(miss)) = found.first().map(&open)
+                    && miss.kind == MissKind::Outside
+                {
+                    return Err(self.fail(miss.into_diagnostic(origin)));
+                }
+            }
             let mut next = Vec::new();
             for folder in &found {
-                if name.contains(['*', '?', '[']) {
+                if is_pattern {
+                    if open(folder).is_err() {
+                        continue;
+                    }
                     let names = self.setting.host.list(folder);
                     let hidden = |name: &str| name.starts_with('.');
                     next.extend(
@@ -199,8 +241,16 @@ impl State<'_> {
         }
         found.retain(|path| self.setting.host.kind(path) == Some(Kind::File));
         found.sort();
-        found
+        Ok(found)
     }
+}
+
+/// The byte at a line and a column, both from 1, columns in characters.
+fn byte_at(text: &str, line: usize, column: usize) -> usize {
+    let before = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let line: &str = &text[before..];
+    let offset = line.char_indices().nth(column.saturating_sub(1)).map(|(at, _)| at);
+    before + offset.unwrap_or(line.len())
 }
 
 /// Whether a name matches a shell pattern.

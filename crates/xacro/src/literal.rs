@@ -26,6 +26,34 @@ pub(crate) fn literal(text: &str) -> Value {
     }
 }
 
+/// The same of a value: text that is a number or a truth value counts as one.
+pub(crate) fn typed(value: Value) -> Value {
+    match value {
+        Value::Str(text) => literal(&text),
+        other => other,
+    }
+}
+
+/// The value of an argument in `$(eval ...)`, which has rules of its own: a number with a point is a
+/// float, without one an integer or (`1e3`) a text.
+pub(crate) fn automatic(text: &str) -> Value {
+    let trimmed = text.trim();
+    let number = if text.contains('.') {
+        trimmed.parse().ok().map(Value::Float)
+    } else {
+        trimmed.parse().ok().map(Value::Int)
+    };
+    number.unwrap_or_else(|| {
+        if text.eq_ignore_ascii_case("true") {
+            Value::Bool(true)
+        } else if text.eq_ignore_ascii_case("false") {
+            Value::Bool(false)
+        } else {
+            Value::text(text)
+        }
+    })
+}
+
 /// Whether a condition holds: `true`, `True`, `false`, `False`, an integer, or for values other
 /// than text Python's idea of truth. None when it is none of these.
 pub(crate) fn condition(value: &Value) -> Option<bool> {

@@ -1,5 +1,7 @@
 //! The `params` of a macro.
 
+use std::ops::Range;
+
 use smol_str::SmolStr;
 
 /// One parameter of a macro.
@@ -11,11 +13,19 @@ pub(crate) struct Parameter {
     pub(crate) forward: bool,
     /// What it is when the call leaves it out (and nothing is forwarded).
     pub(crate) default: Option<SmolStr>,
+    /// The byte in `params` where the default starts.
+    pub(crate) default_start: usize,
 }
 
 impl Parameter {
     pub(crate) fn is_block(&self) -> bool {
         self.name.starts_with('*')
+    }
+
+    /// The bytes of the default in `params`.
+    pub(crate) fn default_range(&self) -> Range<usize> {
+        let length = self.default.as_ref().map_or(0, SmolStr::len);
+        self.default_start..self.default_start + length
     }
 
     pub(crate) fn is_required(&self) -> bool {
@@ -44,13 +54,19 @@ pub(crate) fn parse(text: &str) -> Vec<Parameter> {
                 let default = &value[..length];
                 // `a:=` is an empty default, `a:=^` none.
                 let default = (!default.is_empty() || !forward).then(|| SmolStr::new(default));
-                parameters.push(Parameter { name, forward, default });
+                let default_start = text.len() - value.len();
+                parameters.push(Parameter { name, forward, default, default_start });
                 rest = value[length..].trim_start();
             }
             _ => {
                 let end = rest.find(char::is_whitespace).unwrap_or(rest.len());
                 let name = SmolStr::new(&rest[..end]);
-                parameters.push(Parameter { name, forward: false, default: None });
+                parameters.push(Parameter {
+                    name,
+                    forward: false,
+                    default: None,
+                    default_start: 0,
+                });
                 rest = rest[end..].trim_start();
             }
         }

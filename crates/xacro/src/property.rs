@@ -2,28 +2,24 @@
 
 use std::rc::Rc;
 
-use periplus_diagnostics::{ContextId, Diagnostic};
-use periplus_xml::Element;
+use periplus_diagnostics::Diagnostic;
+use periplus_xml::{Attribute, Element};
 use smol_str::SmolStr;
 
 use crate::evaluate::{Failed, State};
+use crate::expand::{Frame, value_origin};
 use crate::expression::{Budget, EmptyScope, Expression, Value, evaluate};
-use crate::literal::{condition, is_name, literal};
-use crate::scopes::{Block, LazyText, ScopeId, Symbol};
+use crate::literal::{condition, is_name, literal, typed};
+use crate::scopes::{Block, LazyText, ScopeId, Symbol, TOP};
 
 const ATTRIBUTES: [&str; 6] = ["name", "value", "default", "remove", "scope", "lazy_eval"];
 
 impl State<'_> {
     /// Defines, redefines or removes a property, or a block of elements.
-    pub(crate) fn define_property(
-        &self,
-        element: &Element,
-        scope: ScopeId,
-        context: Option<ContextId>,
-    ) -> Result<(), Failed> {
-        self.check_attributes(element, &["name"], &ATTRIBUTES)?;
-        let name_origin = self.value_origin(element, "name");
-        let name = self.attribute(element, "name", scope)?.unwrap_or_default();
+    pub(crate) fn define_property(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
+        self.check_attributes(element, &["name"], &ATTRIBUTES, frame)?;
+        let name_origin = value_origin(element, "name", frame);
+        let name = self.attribute(element, "name", frame)?.unwrap_or_default();
         if !is_name(&name) || name.starts_with("__") {
             return Err(self.fail(
                 Diagnostic::error(
@@ -34,7 +30,7 @@ impl State<'_> {
                 .help("a name is letters, digits and `_`, starts with a letter, and is no word of Python's"),
             ));
         }
-        let remove = self.flag(element, "remove", scope)?.unwrap_or(false);
+        let remove = self.flag(element, "remove", frame)?.unwrap_or(false);
         let value = element.attribute("value");
         let default = element.attribute("default");
         if usize::from(value.is_some()) + usize::from(default.is_some()) + usize::from(remove) > 1 {
@@ -43,23 +39,21 @@ impl State<'_> {
                     "property-attributes",
                     format!("`{name}` has more than one of value, default and remove"),
                 )
-                .at(element.origin)
+                .at(frame.seen(element.origin))
                 .help("keep one of them"),
             ));
         }
-        if remove && self.scopes.borrow().find(scope, &name).is_some() {
-            self.scopes.borrow_mut().remove(scope, &name);
+        if remove && self.scopes.borrow().find(frame.scope, &name).is_some() {
+            self.scopes.borrow_mut().remove(frame.scope, &name);
             return Ok(());
         }
-        if default.is_some() && self.is_defined(scope, &name) {
+        if default.is_some() && self.is_defined(frame.scope, &name) {
             return Ok(());
         }
-        let Some(given) = value.or(default) else {
-            let nodes = Rc::new(element.children.clone());
-            let block = Symbol::Block(Block { nodes, context });
-            self.scopes.borrow_mut().set(scope, SmolStr::new(format!("**{name}")), block);
-            return Ok(());
-        };
+        let given = value.or(default);
+        if given.is_some() {
+            self.check_childless(element, frame);
+        }
         if is_built_in(&name) {
             self.report(
                 Diagnostic::warning(
@@ -70,52 +64,74 @@ impl State<'_> {
                 .help("choose another name"),
             );
         }
-        let lazy = self.flag(element, "lazy_eval", scope)?.unwrap_or(true);
-        let target = match self.attribute(element, "scope", scope)?.as_deref() {
-            None | Some("local") => None,
-            Some("global") => Some(crate::scopes::TOP),
-            Some("parent") => match self.scopes.borrow().parent(scope) {
-                Some(parent) => Some(parent),
-                None => {
+        let target = self.property_scope(element, &name, frame)?;
+        let is_local = element.value("scope").is_none_or(|scope| scope == "local");
+        let Some(target) = target else { return Ok(()) };
+        let Some(given) = given else {
+            self.count_copy(element)?;
+            let nodes = Rc::new(element.children.clone());
+            let block = Symbol::Block(Block { nodes, context: frame.context });
+            self.scopes.borrow_mut().set(target, SmolStr::new(format!("**{name}")), block);
+            return Ok(());
+        };
+        let is_lazy = self.flag(element, "lazy_eval", frame)?.unwrap_or(true) && is_local;
+        let symbol = self.property_symbol(given, is_lazy, frame)?;
+        self.scopes.borrow_mut().set(target, SmolStr::new(name), symbol);
+        Ok(())
+    }
+
+    /// The scope that a property is defined in; none, with a warning, when there is none such.
+    fn property_scope(
+        &self,
+        element: &Element,
+        name: &str,
+        frame: Frame,
+    ) -> Result<Option<ScopeId>, Failed> {
+        let origin = value_origin(element, "scope", frame);
+        match self.attribute(element, "scope", frame)?.as_deref() {
+            None | Some("local") => Ok(Some(frame.scope)),
+            Some("global") => Ok(Some(TOP)),
+            Some("parent") => {
+                let parent = self.scopes.borrow().parent(frame.scope);
+                if parent.is_none() {
                     self.report(
                         Diagnostic::warning(
                             "no-parent-scope",
                             format!("`{name}` is not defined: outside of macros there is no parent scope"),
                         )
-                        .at(self.value_origin(element, "scope"))
-                        .help("remove the attribute"),
+                        .at(origin)
+                        .help("remove the attribute `scope`"),
                     );
-                    return Ok(());
                 }
-            },
-            Some(other) => {
-                return Err(self.fail(
-                    Diagnostic::error("property-scope", format!("`{other}` is not a scope"))
-                        .at(self.value_origin(element, "scope"))
-                        .help("write `parent` or `global`, or leave it out"),
-                ));
+                Ok(parent)
             }
-        };
-        let symbol = match literal(&given.value) {
-            // Text may hold expressions: those of this scope are evaluated when someone asks.
-            Value::Str(text) if lazy && target.is_none() && text.contains('$') => {
-                let text = SmolStr::new(&*text);
-                Symbol::Lazy(Rc::new(LazyText {
-                    text,
-                    origin: self.seen(given.value_origin, context),
-                }))
+            Some(other) => Err(self.fail(
+                Diagnostic::error("property-scope", format!("`{other}` is not a scope"))
+                    .at(origin)
+                    .help("write `parent` or `global`, or leave it out"),
+            )),
+        }
+    }
+
+    fn property_symbol(
+        &self,
+        given: &Attribute,
+        is_lazy: bool,
+        frame: Frame,
+    ) -> Result<Symbol, Failed> {
+        let origin = frame.seen(given.value_origin);
+        Ok(match literal(&given.value) {
+            // Text may hold expressions; those are evaluated when someone asks.
+            Value::Str(text) if is_lazy && text.contains('$') => {
+                Symbol::Lazy(Rc::new(LazyText { text: SmolStr::new(text), origin }))
             }
             Value::Str(_) if given.value.contains('$') => {
-                let origin = self.seen(given.value_origin, context);
-                Symbol::Value(match self.text_value(&given.value, origin, scope)? {
-                    Value::Str(text) => literal(&text),
-                    other => other,
-                })
+                Symbol::Value(typed(self.text_value(&given.value, origin, frame.scope)?))
             }
+            // The reference reads such a text twice, so that a lazy '007' in quotes is a number after all.
+            value if is_lazy => Symbol::Value(typed(value)),
             value => Symbol::Value(value),
-        };
-        self.scopes.borrow_mut().set(target.unwrap_or(scope), name.into(), symbol);
-        Ok(())
+        })
     }
 
     fn is_defined(&self, scope: ScopeId, name: &str) -> bool {
@@ -127,21 +143,19 @@ impl State<'_> {
         &self,
         element: &Element,
         name: &str,
-        scope: ScopeId,
+        frame: Frame,
     ) -> Result<Option<bool>, Failed> {
         let Some(attribute) = element.attribute(name) else { return Ok(None) };
-        let value = self.text_value(&attribute.value, attribute.value_origin, scope)?;
+        let origin = frame.seen(attribute.value_origin);
+        let value = self.text_value(&attribute.value, origin, frame.scope)?;
         match condition(&value) {
             Some(truth) => Ok(Some(truth)),
             None => Err(self.fail(
                 Diagnostic::error(
                     "condition",
-                    format!(
-                        "`{}` is neither true nor false",
-                        self.characters(&value, attribute.value_origin)?
-                    ),
+                    format!("`{}` is neither true nor false", self.characters(&value, origin)?),
                 )
-                .at(attribute.value_origin)
+                .at(origin)
                 .help("write true, false, 1 or 0, or compare: ${x == 'a'}"),
             )),
         }

@@ -19,6 +19,7 @@ pub(crate) enum Piece {
 pub(crate) fn pieces(text: &str) -> Vec<Piece> {
     let bytes = text.as_bytes();
     let mut pieces = Vec::new();
+    let mut paired = Paired { is_hopeless: false };
     let mut plain_from = 0;
     let mut at = 0;
     while let Some(dollar) = text[at..].find('$').map(|offset| at + offset) {
@@ -39,8 +40,10 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece> {
             pieces.push(Piece::Plain(plain_from..dollar));
         }
         let inner = bracket + 1;
-        let end =
-            if open == b'{' { closing_brace(text, inner) } else { closing_paren(text, inner) };
+        let end = match open {
+            b'{' => closing_brace(text, inner, &mut paired),
+            _ => closing_paren(text, inner, &mut paired),
+        };
         let Some(end) = end else {
             pieces.push(Piece::Unclosed(dollar..text.len()));
             return pieces;
@@ -60,17 +63,17 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece> {
 
 /// The brace that closes an expression. The reference ends at the first `}`; braces of dicts and
 /// those in strings are passed over here, so that `${{'a': 1}['a']}` works too.
-fn closing_brace(text: &str, from: usize) -> Option<usize> {
-    balanced(text, from, b'{', b'}').or_else(|| text[from..].find('}').map(|end| from + end))
+fn closing_brace(text: &str, from: usize, paired: &mut Paired) -> Option<usize> {
+    paired.end(text, from, b'{', b'}').or_else(|| text[from..].find('}').map(|end| from + end))
 }
 
 /// The parenthesis that closes an extension: for `$(eval ...)` the one that matches, for the
 /// others, whose words may hold anything, the first.
-fn closing_paren(text: &str, from: usize) -> Option<usize> {
-    if text[from..].starts_with("eval ") {
-        if let Some(end) = balanced(text, from, b'(', b')') {
-            return Some(end);
-        }
+fn closing_paren(text: &str, from: usize, paired: &mut Paired) -> Option<usize> {
+    if text[from..].starts_with("eval ")
+        && let Some(end) = paired.end(text, from, b'(', b')')
+    {
+        return Some(end);
     }
     // An expression inside, as in `$(find ${pkg(1)})`, may hold parentheses of its own.
     let mut at = from;
@@ -81,10 +84,27 @@ fn closing_paren(text: &str, from: usize) -> Option<usize> {
             return Some(stop);
         }
         at = if text[stop..].starts_with("${") {
-            closing_brace(text, stop + 2)? + 1
+            closing_brace(text, stop + 2, paired)? + 1
         } else {
             stop + 1
         };
+    }
+}
+
+/// Looks for closing brackets. A text in which one was sought in vain up to the end is broken, and
+/// is not read to its end again and again: a hostile one has a million opening brackets.
+struct Paired {
+    is_hopeless: bool,
+}
+
+impl Paired {
+    fn end(&mut self, text: &str, from: usize, open: u8, close: u8) -> Option<usize> {
+        if self.is_hopeless {
+            return None;
+        }
+        let end = balanced(text, from, open, close);
+        self.is_hopeless = end.is_none();
+        end
     }
 }
 

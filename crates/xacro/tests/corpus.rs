@@ -2,7 +2,12 @@
 //!
 //! `cargo xtask corpus` runs the reference and then this test, with the file of its answers in
 //! PERIPLUS_XACRO_ORACLE.
-#![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a test at the edge")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "a test at the edge"
+)]
 
 use std::path::{Path, PathBuf};
 

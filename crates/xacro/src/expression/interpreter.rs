@@ -157,9 +157,19 @@ impl<'a> Interpreter<'a> {
             Some(found) => {
                 ExpressionError::new(format!("`{name}` is not defined; did you mean `{found}`?"))
             }
-            None => ExpressionError::new(format!("`{name}` is not defined")).with_help(format!(
-                "define it with a property, or write '{name}' if it is meant as text"
-            )),
+            None => {
+                let help = match dialect {
+                    globals::Dialect::Xacro => {
+                        format!(
+                            "define it with a property, or write '{name}' if it is meant as text"
+                        )
+                    }
+                    globals::Dialect::SubstitutionArgs => format!(
+                        "`$(eval ...)` sees arguments only: declare it with <xacro:arg>, or put a property in as ${{{name}}}"
+                    ),
+                };
+                ExpressionError::new(format!("`{name}` is not defined")).with_help(help)
+            }
         }
     }
 

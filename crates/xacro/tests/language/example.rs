@@ -12,10 +12,6 @@ use periplus_xml::{Node, canonical, decode, parse};
 pub(crate) struct Example {
     host: MemoryHost,
     arguments: Vec<(String, String)>,
-    #[cfg(xt_dump)]
-    dump: Vec<(String, String)>,
-    #[cfg(xt_dump)]
-    vars: Vec<(String, String)>,
 }
 
 /// A file with this content in its root.
@@ -27,14 +23,7 @@ pub(crate) fn example(content: &str) -> Example {
 pub(crate) fn whole(text: impl Into<Vec<u8>>) -> Example {
     let host = MemoryHost::new().with_file("/robot/.git/HEAD", "");
     let text = text.into();
-    let example = Example {
-        host,
-        arguments: Vec::new(),
-        #[cfg(xt_dump)]
-        dump: Vec::new(),
-        #[cfg(xt_dump)]
-        vars: Vec::new(),
-    };
+    let example = Example { host, arguments: Vec::new() };
     example.file("main.xacro", text)
 }
 
@@ -57,8 +46,6 @@ impl Example {
     /// Adds a file in `/robot`.
     pub(crate) fn file(mut self, name: &str, content: impl Into<Vec<u8>>) -> Self {
         let content = content.into();
-        #[cfg(xt_dump)]
-        self.dump.push((format!("/robot/{name}"), String::from_utf8_lossy(&content).into_owned()));
         self.host = self.host.with_file(PathBuf::from("/robot").join(name), content);
         self
     }
@@ -75,8 +62,6 @@ impl Example {
     }
 
     pub(crate) fn variable(mut self, name: &str, value: &str) -> Self {
-        #[cfg(xt_dump)]
-        self.vars.push((name.into(), value.into()));
         self.host = self.host.with_variable(name, value);
         self
     }
@@ -111,14 +96,10 @@ impl Example {
     }
 
     pub(crate) fn check(self, expected: Expect) {
-        #[cfg(xt_dump)]
-        self.dump_case("same");
         self.expanded(expected);
     }
 
     pub(crate) fn check_lenient(self, expected: Expect) {
-        #[cfg(xt_dump)]
-        self.dump_case("lenient");
         self.expanded(expected);
     }
 
@@ -131,41 +112,17 @@ impl Example {
     }
 
     pub(crate) fn check_messages(self, expected: Expect) {
-        #[cfg(xt_dump)]
-        self.dump_case("messages");
         expected.assert_eq(&self.messages());
     }
 
     /// The content of the root with its comments.
     pub(crate) fn check_with_comments(self, expected: Expect) {
-        #[cfg(xt_dump)]
-        self.dump_case("comments");
         let (expanded, ..) = self.run();
         let Some(mut expanded) = expanded else {
             panic!("it does not expand:\n{}", self.messages());
         };
         show_comments(&mut expanded.document.root.children);
         expected.assert_eq(&inside(&canonical(&expanded.document.root)));
-    }
-
-    #[cfg(xt_dump)]
-    fn dump_case(&self, kind: &str) {
-        use std::io::Write;
-        let (expanded, ..) = self.run();
-        let ours = expanded.map(|mut e| {
-            if kind == "comments" {
-                show_comments(&mut e.document.root.children);
-            }
-            canonical(&e.document.root)
-        });
-        let line = serde_json::json!({"kind": kind, "files": self.dump, "args": self.arguments,
-            "vars": self.vars, "ours": ours, "test": std::thread::current().name()});
-        let mut f = std::fs::OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open("/tmp/xt/cases.jsonl")
-            .unwrap();
-        f.write_all(format!("{line}\n").as_bytes()).unwrap();
     }
 }
 
