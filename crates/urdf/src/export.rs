@@ -126,3 +126,6 @@ fn push_block(robot: &mut Robot, reference: Option<&str>, content: Vec<Element>)
 fn lost(what: String) -> Diagnostic {
     Diagnostic::error("not-in-urdf", what).label("lost")
 }
+
+#[cfg(test)]
+mod tests;

@@ -267,7 +267,9 @@ proptest! {
         let poses = model_from_links(&robot);
         let carried = |link: &&Link| carrying_link(&model, &link.name).is_some();
         let lost = robot.links.iter().filter(|link| !carried(link)).count();
-        prop_assume!(lost == 0 || robot.links[0].name == "world" && lost == 1);
+        if lost > usize::from(robot.links[0].name == "world") {
+            return Ok(());
+        }
         let mut mass_kg = 0.0;
         let mut moment = DVec3::ZERO;
         let mut balls = 0;
