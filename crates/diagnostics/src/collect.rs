@@ -21,7 +21,8 @@ impl Diagnostics {
     }
 
     /// Adds a finding. The same finding at the same place counts once.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+        shorten(&mut diagnostic);
         let repeated = |earlier: &Diagnostic| {
             earlier.code == diagnostic.code
                 && earlier.span == diagnostic.span
@@ -88,6 +89,24 @@ impl Diagnostics {
     }
 }
 
+/// A name in a hostile file may be as long as the file; a message that quotes it need not be.
+const LONGEST: usize = 2_000;
+
+fn shorten(diagnostic: &mut Diagnostic) {
+    let related = diagnostic.related.iter_mut().map(|(_, label)| label);
+    let texts = std::iter::once(&mut diagnostic.message)
+        .chain(&mut diagnostic.label)
+        .chain(related)
+        .chain(&mut diagnostic.notes)
+        .chain(&mut diagnostic.help)
+        .chain(diagnostic.replacement.iter_mut().flat_map(|r| [&mut r.text, &mut r.message]));
+    for text in texts.filter(|text| text.len() > LONGEST) {
+        let cut = (0..=LONGEST).rev().find(|&cut| text.is_char_boundary(cut)).unwrap_or(0);
+        text.truncate(cut);
+        text.push_str(" ...");
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,6 +121,15 @@ mod tests {
         assert_eq!(diagnostics.count(Severity::Warning), 1_000_000);
         assert_eq!(diagnostics.iter().count(), MOST_KEPT + 1);
         assert!(diagnostics.iter().any(|d| d.code == "end"));
+    }
+
+    #[test]
+    fn a_name_of_a_megabyte_is_not_quoted_in_full() {
+        let mut diagnostics = Diagnostics::new();
+        let name = "é".repeat(500_000);
+        diagnostics.push(Diagnostic::error("long", &name).help(&name));
+        let kept = diagnostics.iter().next().unwrap();
+        assert!(kept.message.len() < 2_100 && kept.help[0].len() < 2_100);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What a scene holds, in a few lines.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -162,6 +163,19 @@ fn detail(kind: &SensorKind) -> String {
     }
 }
 
+/// A name as it is shown: one of a megabyte is cut.
+fn shown(name: &str) -> Cow<'_, str> {
+    const LONGEST: usize = 80;
+    match name.char_indices().nth(LONGEST) {
+        Some((cut, _)) => format!("{}...", &name[..cut]).into(),
+        None => name.into(),
+    }
+}
+
+fn list(names: &[String]) -> String {
+    names.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ")
+}
+
 /// Writes a summary as an indented list.
 #[must_use]
 pub fn describe(summary: &Summary) -> String {
@@ -170,7 +184,7 @@ pub fn describe(summary: &Summary) -> String {
         let _ = writeln!(
             out,
             "  world {}: {}, {}{}, step {} s",
-            world.name,
+            shown(&world.name),
             count(world.models.len(), "model"),
             count(world.lights.len(), "light"),
             if world.actors.is_empty() {
@@ -181,16 +195,16 @@ pub fn describe(summary: &Summary) -> String {
             world.step_s
         );
         if !world.plugins.is_empty() {
-            let _ = writeln!(out, "    plugins {}", world.plugins.join(", "));
+            let _ = writeln!(out, "    plugins {}", list(&world.plugins));
         }
         // A warehouse holds a hundred pallets: models that are alike share a line.
-        let mut alike: BTreeMap<String, (usize, Vec<&str>, String)> = BTreeMap::new();
+        let mut alike: BTreeMap<String, (usize, Vec<Cow<'_, str>>, String)> = BTreeMap::new();
         for (index, model) in world.models.iter().enumerate() {
             let mut anonymous = model.clone();
             anonymous.name = String::new();
             let text = describe_model(&anonymous, "    ");
             let entry = alike.entry(text.clone()).or_insert((index, Vec::new(), text));
-            entry.1.push(&model.name);
+            entry.1.push(shown(&model.name));
         }
         let mut groups: Vec<_> = alike.into_values().collect();
         groups.sort_by_key(|(index, ..)| *index);
@@ -222,7 +236,7 @@ fn describe_model(model: &ModelSummary, indent: &str) -> String {
     } else {
         format!("{} kg", (model.mass_kg * 1e3).round() / 1e3)
     });
-    let _ = writeln!(out, "{indent}model {}: {}", model.name, parts.join(", "));
+    let _ = writeln!(out, "{indent}model {}: {}", shown(&model.name), parts.join(", "));
     for sensor in &model.sensors {
         let rate = if sensor.update_rate_hz > 0.0 {
             format!(" at {} Hz", sensor.update_rate_hz)
@@ -234,11 +248,13 @@ fn describe_model(model: &ModelSummary, indent: &str) -> String {
         let _ = writeln!(
             out,
             "{indent}  {} {} on {}{rate}{detail}",
-            sensor.type_name, sensor.name, sensor.link
+            shown(&sensor.type_name),
+            shown(&sensor.name),
+            shown(&sensor.link)
         );
     }
     if !model.plugins.is_empty() {
-        let _ = writeln!(out, "{indent}  plugins {}", model.plugins.join(", "));
+        let _ = writeln!(out, "{indent}  plugins {}", list(&model.plugins));
     }
     out
 }

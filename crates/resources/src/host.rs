@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// The largest file that is read [bytes].
-pub const LARGEST_FILE: u64 = 512 << 20;
+pub const LARGEST_FILE: u64 = 256 << 20;
 
 /// What stands at a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
