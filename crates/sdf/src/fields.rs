@@ -28,7 +28,8 @@ impl<'a, 'd> Fields<'a, 'd> {
             diagnostics,
             used: vec![false; element.children.len()],
             used_attributes: vec![false; element.attributes.len()],
-            known: Vec::new(),
+            // Most elements have about so many kinds of children.
+            known: Vec::with_capacity(16),
             known_attributes: Vec::new(),
             kept: Vec::new(),
         }

@@ -16,7 +16,7 @@ use crate::version::Version;
 
 /// The root of a document of some version, as SDF 1.9 would spell it.
 pub(crate) fn upgrade(root: &Element, version: Version) -> Cow<'_, Element> {
-    if version >= Version::new(8) {
+    if version >= Version::new(8) || version >= Version::new(6) && is_up_to_date(root) {
         return Cow::Borrowed(root);
     }
     let mut root = root.clone();
@@ -55,6 +55,17 @@ pub(crate) fn upgrade(root: &Element, version: Version) -> Cow<'_, Element> {
         }
     }
     Cow::Owned(root)
+}
+
+/// Whether nothing changes from 1.6 on. Large worlds are spared a copy by this.
+fn is_up_to_date(element: &Element) -> bool {
+    let changes = match &*element.name {
+        "pose" => element.value("frame").is_some_and(|frame| !frame.is_empty()),
+        "use_parent_model_frame" => true,
+        "frame" => element.value("name").is_some_and(|name| name.ends_with(unflatten::MARK)),
+        _ => false,
+    };
+    !changes && element.elements().all(|it| it.name == "plugin" || is_up_to_date(it))
 }
 
 /// Visits every element, outer ones first, but for what is inside plugins: that is not SDF.

@@ -59,7 +59,7 @@ fn axis_of(version: &str, flag: &str) -> DVec3 {
           <joint name="j" type="revolute"><parent>a</parent><child>b</child>
             <axis><xyz>1 0 0</xyz>{flag}</axis></joint></model></sdf>"#
     ));
-    scene.models[0].joints[0].axis.as_ref().unwrap().direction_in_joint
+    scene.models[0].joints[0].axis.as_ref().expect("an axis").direction_in_joint
 }
 
 #[test]

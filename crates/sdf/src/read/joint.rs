@@ -109,7 +109,6 @@ fn read_axis(
     expressed_in: &mut Option<Reference>,
 ) -> Option<Axis> {
     let joint_origin = fields.origin();
-    let needs_limits = kind == JointKind::Prismatic || kind == JointKind::Revolute;
     let Some(mut child) = fields.open(name) else {
         let wanted = match kind {
             JointKind::Fixed | JointKind::Ball => false,
@@ -128,15 +127,13 @@ fn read_axis(
         }
         return wanted.then(Axis::default);
     };
-    let mut axis = Axis::default();
-    axis.direction_in_joint = direction(&mut child, expressed_in);
+    let mut axis =
+        Axis { direction_in_joint: direction(&mut child, expressed_in), ..Axis::default() };
     if let Some(mut limit) = child.open("limit") {
         read_limits(&mut limit, &mut axis);
         limit.verbatim(&["stiffness", "dissipation"]);
         let rest = limit.finish();
         child.close("limit", rest);
-    } else if needs_limits {
-        // Without limits it is free; that is well defined and common.
     }
     if let Some(mut dynamics) = child.open("dynamics") {
         axis.damping = dynamics.number("damping", 0.0);

@@ -5,7 +5,7 @@ use periplus_xml::{Attribute, Element, Node, SmolStr};
 
 use super::{take_attribute, take_child};
 
-const MARK: &str = "::__model__";
+pub(super) const MARK: &str = "::__model__";
 
 pub(super) fn unflatten(model: &mut Element) {
     // Outermost first: `a::__model__` before `a::b::__model__`, which `a` then takes along.
