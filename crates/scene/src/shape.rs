@@ -70,7 +70,7 @@ pub enum Shape {
 /// Triangles from a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mesh {
-    /// The URI as written, with the folder of a relative one resolved.
+    /// The URI as written; a relative one counts from the file in which [`Self::origin`] lies.
     pub uri: String,
     /// The file the URI was found to name.
     pub path: Option<std::path::PathBuf>,

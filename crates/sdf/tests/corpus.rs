@@ -1,6 +1,7 @@
 //! Real files against libsdformat: `PERIPLUS_SDF_ORACLE` names the answers of
 //! `benches/oracles/sdf_oracle` (README there). Without it nothing is compared.
 #![allow(clippy::disallowed_methods, reason = "this test reads real files")]
+#![allow(clippy::print_stdout, reason = "what is skipped or differs is told")]
 
 #[path = "corpus/compare.rs"]
 mod compare;

@@ -1,4 +1,5 @@
 //! Includes.
+#![allow(clippy::disallowed_methods, reason = "one test measures time")]
 
 mod common;
 
@@ -16,8 +17,8 @@ fn world(content: &str) -> String {
     format!("<sdf version=\"1.9\"><world name=\"w\">{content}</world></sdf>")
 }
 
-fn check(content: &str, files: Files, expected: Expect) {
-    let (scene, diagnostics, sources) = read_with(&world(content), &mut files.clone());
+fn check(content: &str, mut files: Files, expected: Expect) {
+    let (scene, diagnostics, sources) = read_with(&world(content), &mut files);
     expected.assert_eq(&format!("{}{}", show(&scene), told(&diagnostics, &sources)));
 }
 
@@ -171,4 +172,59 @@ fn findings_in_an_included_file_are_told_once() {
     let (scene, diagnostics, _) = read_with(&text, &mut Files::default().with("odd", odd));
     assert_eq!(scene.worlds[0].models.len(), 2);
     assert_eq!(diagnostics.iter().count(), 1);
+}
+
+/// A host that turns other formats into models.
+struct Robots;
+
+impl periplus_sdf::Includes for Robots {
+    fn open(
+        &mut self,
+        uri: &str,
+        _: periplus_diagnostics::Origin,
+        _: &mut periplus_diagnostics::SourceMap,
+        _: &mut periplus_diagnostics::Diagnostics,
+    ) -> periplus_sdf::Opened {
+        let mut model = periplus_scene::Model::new("robot");
+        model.links = vec![periplus_scene::Link::new("base"), periplus_scene::Link::new("hand")];
+        model.links[1].model_from_link = periplus_base::Pose::from_xyz(1.0, 0.0, 0.0);
+        let mut joint =
+            periplus_scene::Joint::new("wrist", periplus_scene::JointKind::Fixed, "base", "hand");
+        joint.child_from_joint = periplus_base::Pose::from_xyz(0.0, 0.0, 2.0);
+        model.joints = vec![joint];
+        model.frames = vec![periplus_scene::Frame {
+            name: "tool".into(),
+            parent_from_frame: periplus_base::Pose::from_xyz(1.0, 0.0, 3.0),
+            attached_to: "hand".into(),
+            role: periplus_scene::FrameRole::MergedLink,
+            origin: periplus_diagnostics::Origin::default(),
+        }];
+        periplus_sdf::Opened::Model { model: Box::new(model), key: uri.into() }
+    }
+}
+
+#[test]
+fn a_model_of_another_format_keeps_its_frames() {
+    let mut sources = periplus_diagnostics::SourceMap::new();
+    let mut diagnostics = periplus_diagnostics::Diagnostics::new();
+    let text = world(
+        r#"<include><uri>robot.urdf</uri><name>r</name><pose>0 0 1 0 0 0</pose>
+             <placement_frame>tool</placement_frame></include>"#,
+    );
+    let file = sources.add("test.sdf", text);
+    let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
+    let mut context = periplus_sdf::Context {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut Robots,
+    };
+    let scene = periplus_sdf::read_document(&document, &mut context);
+    expect![[r#"
+        model r (-1 0 -2) yaw 0
+          link base (0 0 0) yaw 0
+          link hand (1 0 0) yaw 0
+          joint wrist base -> hand (0 0 2) yaw 0
+          frame tool on hand (1 0 3) yaw 0
+    "#]]
+    .assert_eq(&format!("{}{}", show(&scene), told(&diagnostics, &sources)));
 }
