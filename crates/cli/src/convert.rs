@@ -4,8 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use periplus_formats::{Language, Loaded, load};
+use periplus_scene::Scene;
 use periplus_xml::write_document;
 
 use crate::options::{ConvertOptions, Format, split};
@@ -19,6 +20,9 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     };
     let mut loaded =
         with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
+    if let Some(name) = &options.model {
+        keep_model(&mut loaded, name);
+    }
     // Half a file must not pass for a whole one.
     let text =
         if loaded.diagnostics.has_errors() { None } else { convert(&mut loaded, options.to) };
@@ -29,6 +33,25 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     };
     write(&text, options.output.as_deref())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Leaves only one model of the scene.
+fn keep_model(loaded: &mut Loaded, name: &str) {
+    let Some(scene) = loaded.scene.take() else { return };
+    let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);
+    let (kept, others): (Vec<_>, Vec<_>) = models.partition(|model| model.name == name);
+    if kept.is_empty() {
+        let names = others.iter().map(|model| model.name.as_str());
+        let mut diagnostic =
+            Diagnostic::error("unknown-model", format!("the file holds no model `{name}`"));
+        diagnostic = match closest(name, names.clone()) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None => diagnostic.note(format!("it holds {}", names.collect::<Vec<_>>().join(", "))),
+        };
+        loaded.diagnostics.push(diagnostic);
+    }
+    // A xacro or URDF document stands for its one robot and needs no choice.
+    loaded.scene = Some(Scene { models: kept, ..Scene::default() });
 }
 
 fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {

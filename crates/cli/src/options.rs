@@ -56,6 +56,9 @@ pub(crate) struct ConvertOptions {
     /// What to write
     #[arg(long, value_enum)]
     pub(crate) to: Format,
+    /// Convert only this model of the file
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<String>,
     /// Where to write it
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

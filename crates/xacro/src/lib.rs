@@ -26,13 +26,13 @@ pub use expand::{Expanded, Setting, expand};
 /// The namespace that marks a file as xacro.
 pub const NAMESPACE: &str = "http://www.ros.org/wiki/xacro";
 
-/// Whether a document uses xacro: it declares the namespace, or uses its prefix.
+/// Whether a document uses xacro: its root declares the prefix, or the root or one of its children
+/// uses it. (Not looked for deeper: worlds of megabytes are asked too.)
 #[must_use]
 pub fn is_xacro(document: &periplus_xml::Document) -> bool {
-    fn uses(element: &periplus_xml::Element) -> bool {
-        element.prefix() == Some("xacro")
-            || element.attributes.iter().any(|attribute| attribute.name.starts_with("xmlns:xacro"))
-            || element.elements().any(uses)
-    }
-    uses(&document.root)
+    let root = &document.root;
+    let declares = |name: &str| name == "xmlns:xacro" || name.starts_with("xmlns:xacro:");
+    root.attributes.iter().any(|attribute| declares(&attribute.name))
+        || root.prefix() == Some("xacro")
+        || root.elements().any(|child| child.prefix() == Some("xacro"))
 }
