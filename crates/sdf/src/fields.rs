@@ -2,7 +2,7 @@
 //! kept word for word and, if nobody knows its name, told.
 
 use periplus_base::DVec3;
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_diagnostics::{Diagnostic, Diagnostics, MOST_KEPT, Origin, Severity};
 use periplus_scene::Colour;
 use periplus_xml::{Attribute, Element, Node};
 
@@ -155,12 +155,14 @@ impl<'a, 'd> Fields<'a, 'd> {
             if child.prefix().is_none() && !self.known.contains(&&*child.name) {
                 let parent = &self.element.name;
                 let message = format!("`<{}>` is not known inside `<{parent}>`", child.name);
-                self.diagnostics.push(
-                    Diagnostic::warning("unknown-element", message)
-                        .at(child.name_origin())
-                        .note("it is kept, but nothing here reads it")
-                        .did_you_mean(child.name_origin(), &child.name, self.known.iter().copied()),
-                );
+                let place = child.name_origin();
+                let told = Diagnostic::warning("unknown-element", message)
+                    .at(place)
+                    .note("it is kept, but nothing here reads it");
+                // Looking for near names takes a while, and more findings are only counted.
+                let suggest = self.diagnostics.count(Severity::Warning) < MOST_KEPT;
+                let known = self.known.iter().copied().filter(|_| suggest);
+                self.diagnostics.push(told.did_you_mean(place, &child.name, known));
             }
         }
         self.settle_attributes();

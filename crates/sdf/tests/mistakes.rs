@@ -1,4 +1,5 @@
 //! Mistakes, and what is said about them.
+#![allow(clippy::disallowed_methods, reason = "one test measures time")]
 
 mod common;
 
@@ -282,4 +283,30 @@ fn other_formats_are_recognised() {
           = note: Gazebo refuses a model without links unless it is static
     "#]]
     .assert_eq(&findings("<sdf version=\"2.0\"><model name=\"m\"/></sdf>"));
+}
+
+#[test]
+fn deep_files_need_no_deep_stack() {
+    let nested = |name: &str| {
+        let open = format!("<{name} name=\"x\">").repeat(190);
+        findings(&format!(
+            "<sdf version=\"1.7\"><model name=\"m\"><link name=\"l\"/>{open}{}</model></sdf>",
+            format!("</{name}>").repeat(190)
+        ))
+    };
+    assert!(nested("model").contains("too-deep"));
+    for name in ["gz:x", "plugin", "unknown", "joint", "link"] {
+        nested(name);
+    }
+}
+
+#[test]
+fn a_hundred_thousand_mistakes_take_no_time() {
+    let mut content = String::from("<link name=\"l\"/>");
+    for index in 0..20_000 {
+        content.push_str(&format!("<frame name=\"f{index}\" attached_to=\"g{index}\"/><fram/>"));
+    }
+    let started = std::time::Instant::now();
+    findings(&model(&content));
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
 }

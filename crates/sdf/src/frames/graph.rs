@@ -61,6 +61,7 @@ pub(super) fn resolve(
     let mut poses: Vec<Pose> = vertices.iter().map(|vertex| vertex.local).collect();
     let mut states = vec![State::New; vertices.len()];
     let mut chain = Vec::new();
+    let mut named = None;
     for start in 0..vertices.len() {
         if states[start] == State::New {
             states[start] = State::Open;
@@ -81,9 +82,12 @@ pub(super) fn resolve(
                 Found::Root => {}
                 Found::Nothing(frame) => {
                     // The names are not in the scope yet; they serve as candidates only.
-                    let mut named = Scope::new(scope.root);
-                    named.fill(vertices, &poses);
-                    tell_unknown(frame, &named, diagnostics);
+                    let named = named.get_or_insert_with(|| {
+                        let mut named = Scope::new(scope.root);
+                        named.fill(vertices, &poses);
+                        named
+                    });
+                    tell_unknown(frame, named, diagnostics);
                 }
             }
             states[at] = State::Done;

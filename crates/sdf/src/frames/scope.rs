@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use periplus_base::Pose;
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::{Diagnostic, Diagnostics, MOST_KEPT};
 
 use super::graph::Vertex;
 use crate::pose::Reference;
@@ -68,14 +68,18 @@ impl Scope {
 
 /// `a::b::c` as `(a, b::c)`, then `(a::b, c)`.
 pub(super) fn splits(name: &str) -> impl Iterator<Item = (&str, &str)> {
-    name.match_indices("::").map(|(at, _)| (&name[..at], &name[at + 2..]))
+    // Models are never deeper in each other than this.
+    name.match_indices("::").take(64).map(|(at, _)| (&name[..at], &name[at + 2..]))
 }
 
 pub(super) fn tell_unknown(frame: &Reference, scope: &Scope, diagnostics: &mut Diagnostics) {
     let told =
         Diagnostic::error("unknown-frame", format!("there is no frame `{}` here", frame.name))
             .at(frame.origin);
-    diagnostics.push(with_candidates(told, frame, scope));
+    // Looking for near names takes a while, and more than so many findings are only counted.
+    let told =
+        if diagnostics.errors() < MOST_KEPT { with_candidates(told, frame, scope) } else { told };
+    diagnostics.push(told);
 }
 
 /// Names at most so many frames in a message.

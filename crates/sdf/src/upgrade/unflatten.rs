@@ -1,53 +1,71 @@
 //! 1.7 to 1.8: models that were flattened into the model around them, their names prefixed with
 //! `name::`, become nested models again. The frame `name::__model__` tells that there was one.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use periplus_xml::{Attribute, Element, Node, SmolStr};
 
 use super::{take_attribute, take_child};
 
 pub(super) const MARK: &str = "::__model__";
 
+/// Makes nested models of what was flattened into a model.
 pub(super) fn unflatten(model: &mut Element) {
-    // Outermost first: `a::__model__` before `a::b::__model__`, which `a` then takes along.
-    while let Some(name) = outermost(model) {
-        let prefix = format!("{name}::");
-        let mut inner = Element { origin: model.origin, ..Element::new("model") }
-            .with_attribute("name", name.as_str());
-        let mut kept = Vec::new();
-        let mut at = None;
-        for node in std::mem::take(&mut model.children) {
-            match node {
-                Node::Element(child) if belongs(&child, &prefix) => {
-                    at.get_or_insert(kept.len());
-                    adopt(child, &prefix, &mut inner);
+    let marks: BTreeSet<SmolStr> = model.elements().filter_map(marked).collect();
+    if marks.is_empty() {
+        return;
+    }
+    // Every child goes to the outermost model that its name names, at the place of the first.
+    let mut inner: BTreeMap<SmolStr, Element> = BTreeMap::new();
+    let mut kept = Vec::new();
+    for node in std::mem::take(&mut model.children) {
+        let home = node.as_element().and_then(|child| home(child, &marks));
+        match (node, home) {
+            (Node::Element(child), Some(name)) => {
+                if !inner.contains_key(&name) {
+                    kept.push(Err(name.clone()));
                 }
-                other => kept.push(other),
+                let new = || {
+                    Element { origin: child.origin, ..Element::new("model") }
+                        .with_attribute("name", name.clone())
+                };
+                let into = inner.entry(name.clone()).or_insert_with(new);
+                adopt(child, &format!("{name}::"), into);
+            }
+            (other, _) => kept.push(Ok(other)),
+        }
+    }
+    for place in kept {
+        match place {
+            Ok(node) => model.children.push(node),
+            Err(name) => {
+                if let Some(mut nested) = inner.remove(&name) {
+                    unflatten(&mut nested);
+                    model.push(nested);
+                }
             }
         }
-        unflatten(&mut inner);
-        kept.insert(at.unwrap_or(0).min(kept.len()), Node::Element(inner));
-        model.children = kept;
     }
 }
 
-/// The name of the outermost flattened model.
-fn outermost(model: &Element) -> Option<SmolStr> {
-    model
-        .elements()
-        .filter(|child| child.name == "frame")
-        .filter_map(|frame| frame.value("name")?.strip_suffix(MARK))
-        .filter(|name| !name.is_empty())
-        .min_by_key(|name| name.matches("::").count())
-        .map(SmolStr::new)
+/// The name of the flattened model that a frame stands for.
+fn marked(frame: &Element) -> Option<SmolStr> {
+    let name = frame.value("name")?.strip_suffix(MARK)?;
+    (frame.name == "frame" && !name.is_empty()).then(|| name.into())
 }
 
-fn belongs(child: &Element, prefix: &str) -> bool {
-    ["link", "joint", "frame", "model", "gripper"].contains(&&*child.name)
-        && child.value("name").is_some_and(|name| name.starts_with(prefix))
+/// The outermost flattened model to which a child belongs.
+fn home(child: &Element, marks: &BTreeSet<SmolStr>) -> Option<SmolStr> {
+    if !["link", "joint", "frame", "model", "gripper"].contains(&&*child.name) {
+        return None;
+    }
+    let name = child.value("name")?;
+    let mut prefixes = name.match_indices("::").map(|(at, _)| &name[..at]).take(64);
+    prefixes.find_map(|prefix| marks.get(prefix)).cloned()
 }
 
 fn adopt(mut child: Element, prefix: &str, inner: &mut Element) {
-    if child.name == "frame" && child.value("name") == Some(&format!("{}__model__", prefix)) {
+    if child.name == "frame" && child.value("name") == Some(&format!("{prefix}__model__")) {
         // The frame's pose is the model's, and what it is attached to the canonical link.
         if let Some(mut attached) = take_attribute(&mut child, "attached_to") {
             strip(&mut attached.value, prefix);
