@@ -2,21 +2,17 @@
 
 use std::sync::Arc;
 
-use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_scene::Model;
 use periplus_xml::{Document, Element};
 
 use super::actor::read_actor;
 use super::light::read_light;
-use super::model::{read_model, reference};
-use super::plugin::plugins;
+use super::model::read_model;
+use super::overrides::read_overrides;
 use super::root::{DEEPEST_MODELS, Reader, open_root};
 use crate::builtin;
-use crate::draft::{ActorDraft, FrameDraft, LightDraft, ModelDraft, Part, WorldDraft};
-use crate::fields::Fields;
-use crate::frames::resolve_model;
-use crate::pose::Reference;
+use crate::draft::{ActorDraft, LightDraft, ModelDraft};
 
 /// Who opens the files that an `<include>` names. This crate knows no files.
 pub trait Includes {
@@ -142,121 +138,6 @@ fn too_deep(origin: Origin, reader: &mut Reader<'_>) {
         )
         .at(origin),
     );
-}
-
-/// What stands in an `<include>`.
-struct Overrides {
-    uri: String,
-    uri_origin: Origin,
-    origin: Origin,
-    merge: bool,
-    name: Option<String>,
-    is_static: Option<bool>,
-    pose: Option<(Pose, Option<Reference>)>,
-    placement_frame: Option<Reference>,
-    plugins: Vec<periplus_scene::Plugin>,
-    extra: Vec<Element>,
-}
-
-fn read_overrides(element: &Element, diagnostics: &mut Diagnostics) -> Option<Overrides> {
-    let mut fields = Fields::new(element, diagnostics);
-    let uri = fields.text("uri");
-    let name = fields.text("name");
-    let merge = fields.attribute("merge").is_some_and(|it| {
-        crate::value::boolean_word(&it.value, it.value_origin, fields.diagnostics).unwrap_or(false)
-    });
-    let is_static = element.child("static").is_some().then(|| fields.boolean("static", false));
-    let pose = element.child("pose").is_some().then(|| fields.pose());
-    let placement_frame = match fields.child("placement_frame") {
-        Some(child) => {
-            crate::value::leaf(child, &[], fields.diagnostics);
-            let name = child.text();
-            (!name.is_empty())
-                .then(|| Reference { name: name.as_ref().into(), origin: child.text_origin() })
-        }
-        None => reference(&mut fields, "placement_frame"),
-    };
-    let plugins = plugins(&mut fields);
-    fields.verbatim(&["static", "pose"]);
-    let extra = fields.finish();
-    if let Some(parameters) = extra.iter().find(|it| it.name == "experimental:params") {
-        diagnostics.push(
-            Diagnostic::warning(
-                "unsupported",
-                "changes to an included model by `<experimental:params>` are not made",
-            )
-            .at(parameters.origin)
-            .help("change a copy of the model's file instead"),
-        );
-    }
-    let Some(uri) = uri else {
-        diagnostics.push(
-            Diagnostic::error("missing-uri", "`<include>` lacks its `<uri>`")
-                .at(element.origin)
-                .help("write `<include><uri>model://name</uri></include>`"),
-        );
-        return None;
-    };
-    if placement_frame.is_some() && pose.is_none() {
-        diagnostics.push(
-            Diagnostic::error("missing-element", "a `<placement_frame>` needs a `<pose>`")
-                .at(element.origin)
-                .help("say where the frame is to be: add `<pose>0 0 0 0 0 0</pose>`"),
-        );
-    }
-    let uri_origin = element.child("uri").map(Element::text_origin).unwrap_or_default();
-    Some(Overrides {
-        uri,
-        uri_origin,
-        origin: element.origin,
-        merge,
-        name,
-        is_static,
-        pose,
-        placement_frame,
-        plugins,
-        extra,
-    })
-}
-
-impl Overrides {
-    fn apply(self, entity: &mut Entity) {
-        match entity {
-            Entity::Model(draft) => {
-                let model = &mut draft.model;
-                model.name = self.name.unwrap_or_else(|| std::mem::take(&mut model.name));
-                model.is_static = self.is_static.unwrap_or(model.is_static);
-                model.included_from = Some(self.uri);
-                model.plugins.extend(self.plugins);
-                model.extra.extend(self.extra);
-                model.origin = self.origin;
-                if let Some((pose, relative_to)) = self.pose {
-                    model.parent_from_model = pose;
-                    draft.relative_to = relative_to;
-                    draft.placement_frame = self.placement_frame;
-                }
-            }
-            Entity::Light(draft) => {
-                let light = &mut draft.light;
-                light.name = self.name.unwrap_or_else(|| std::mem::take(&mut light.name));
-                light.origin = self.origin;
-                if let Some((pose, relative_to)) = self.pose {
-                    light.parent_from_light = pose;
-                    draft.relative_to = relative_to;
-                }
-            }
-            Entity::Actor(draft) => {
-                let actor = &mut draft.actor;
-                actor.name = self.name.unwrap_or_else(|| std::mem::take(&mut actor.name));
-                actor.plugins.extend(self.plugins);
-                actor.origin = self.origin;
-                if let Some((pose, relative_to)) = self.pose {
-                    actor.world_from_actor = pose;
-                    draft.relative_to = relative_to;
-                }
-            }
-        }
-    }
 }
 
 fn load(uri: &str, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
@@ -423,112 +304,4 @@ fn measure(draft: &ModelDraft) -> (usize, usize) {
         (parts.saturating_add(more), depth.max(deep))
     });
     (parts, depth + 1)
-}
-
-/// Puts the content of an included model into the model around it. A frame
-/// `_merged__NAME__model__` stands for the frame of the model that is gone (SDF 1.9, merge
-/// include).
-pub(crate) fn merge(included: ModelDraft, into: &mut ModelDraft, reader: &mut Reader<'_>) {
-    let included = rebased(included, reader);
-    into.frames.extend(included.frames);
-    into.links.extend(included.links);
-    into.joints.extend(included.joints);
-    into.models.extend(included.models);
-    into.model.plugins.extend(included.model.plugins);
-    into.model.extra.extend(included.model.extra);
-}
-
-/// The same for a world (SDF 1.10), where there can be no links.
-pub(crate) fn merge_into_world(
-    included: ModelDraft,
-    into: &mut WorldDraft,
-    reader: &mut Reader<'_>,
-) {
-    if let Some(link) = included.links.first() {
-        reader.diagnostics.push(
-            Diagnostic::error(
-                "misplaced-include",
-                "a model with links cannot be merged into a world",
-            )
-            .at(included.model.origin)
-            .related(link.link.origin, "a world has no place for this link")
-            .help("leave out `merge=\"true\"`"),
-        );
-        into.models.push(included);
-        return;
-    }
-    let mut included = rebased(included, reader);
-    if let Some(root) = included.frames[0].relative_to.as_mut().filter(|it| it.name == "__model__")
-    {
-        root.name = "world".into();
-    }
-    into.frames.extend(included.frames);
-    into.joints.extend(included.joints);
-    into.models.extend(included.models);
-    into.world.plugins.extend(included.model.plugins);
-    into.world.extra.extend(included.model.extra);
-}
-
-/// The model with everything in it relative to a frame of its own instead of `__model__`.
-fn rebased(mut included: ModelDraft, reader: &mut Reader<'_>) -> ModelDraft {
-    let origin = included.model.origin;
-    let proxy =
-        Reference { name: format!("_merged__{}__model__", included.model.name).into(), origin };
-    let mut pose = included.model.parent_from_model;
-    if included.placement_frame.is_some() {
-        // Where the model's frame must lie for the placement frame to lie at the pose.
-        let mut found = Diagnostics::new();
-        let placed = resolve_model(included.clone(), &mut found);
-        pose = pose * placed.model_from_placement(reader.diagnostics).inverse();
-    }
-    let canonical = included.canonical_link.take().or_else(|| {
-        included.links.first().map(|it| Reference { name: it.link.name.as_str().into(), origin })
-    });
-    let to_proxy = |reference: &mut Option<Reference>| {
-        if reference.as_ref().is_none_or(|it| it.name == "__model__") {
-            *reference = Some(proxy.clone());
-        }
-    };
-    let rename = |reference: &mut Reference| {
-        if reference.name == "__model__" {
-            reference.name = proxy.name.clone();
-        }
-    };
-    let rename_parts = |parts: &mut Vec<(Part, Reference)>| {
-        parts.iter_mut().for_each(|(_, reference)| rename(reference));
-    };
-    for link in &mut included.links {
-        to_proxy(&mut link.relative_to);
-        rename_parts(&mut link.parts);
-    }
-    for frame in &mut included.frames {
-        to_proxy(&mut frame.attached_to);
-        frame.relative_to.iter_mut().for_each(rename);
-    }
-    for joint in &mut included.joints {
-        rename(&mut joint.parent);
-        rename(&mut joint.child);
-        joint.relative_to.iter_mut().for_each(rename);
-        joint.expressed_in.iter_mut().flatten().for_each(rename);
-        rename_parts(&mut joint.parts);
-    }
-    for model in &mut included.models {
-        to_proxy(&mut model.relative_to);
-    }
-    let frame = FrameDraft {
-        frame: periplus_scene::Frame {
-            name: proxy.name.to_string(),
-            parent_from_frame: pose,
-            attached_to: String::new(),
-            role: periplus_scene::FrameRole::Declared,
-            origin,
-        },
-        relative_to: included
-            .relative_to
-            .take()
-            .or(Some(Reference { name: "__model__".into(), origin })),
-        attached_to: canonical,
-    };
-    included.frames.insert(0, frame);
-    included
 }

@@ -4,9 +4,10 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Frame, FrameRole, Model};
 use periplus_xml::Element;
 
-use super::include::{Entity, merge, read_include};
+use super::include::{Entity, read_include};
 use super::joint::read_joint;
 use super::link::read_link;
+use super::merge::merge;
 use super::plugin::plugins;
 use super::root::{DEEPEST_MODELS, Reader};
 use crate::draft::{FrameDraft, ModelDraft};

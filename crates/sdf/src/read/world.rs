@@ -6,9 +6,10 @@ use periplus_scene::{Colour, Gui, SphericalCoordinates, World};
 use periplus_xml::Element;
 
 use super::actor::read_actor;
-use super::include::{Entity, merge_into_world, read_include};
+use super::include::{Entity, read_include};
 use super::joint::read_joint;
 use super::light::read_light;
+use super::merge::merge_into_world;
 use super::model::{read_frame, read_model};
 use super::physics::read_physics;
 use super::plugin::plugins;
