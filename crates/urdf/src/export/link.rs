@@ -1,6 +1,6 @@
 //! Links, and the links that were merged into them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
@@ -94,11 +94,12 @@ impl Export<'_> {
     fn members<'p>(&'p self, places: &BTreeMap<String, usize>) -> BTreeMap<&'p str, Vec<Home<'p>>> {
         let above: BTreeMap<&str, &str> =
             self.tree.iter().map(|edge| (&*edge.child, &*edge.parent)).collect();
+        let links: BTreeSet<&str> = self.model.links.iter().map(|link| &*link.name).collect();
         let mut bodies: BTreeMap<&str, &str> = BTreeMap::new();
         let mut members: BTreeMap<&str, Vec<Home<'_>>> = BTreeMap::new();
         for name in self.order() {
             let body = match above.get(name).and_then(|above| bodies.get(above)) {
-                Some(&body) if self.model.link(name).is_none() => body,
+                Some(&body) if !links.contains(name) => body,
                 _ => name,
             };
             bodies.insert(name, body);

@@ -13,9 +13,13 @@ pub(super) fn joints_at_links(model: &Model, diagnostics: &mut Diagnostics) -> M
         model.links.iter().enumerate().map(|(place, link)| (link.name.clone(), place)).collect();
     for place in 0..model.joints.len() {
         let joint = &model.joints[place];
-        let Some(carrier) = carrying_link(&model, &joint.child) else { continue };
+        let own = places.contains_key(&joint.child).then(|| joint.child.clone());
+        let carrier = own.or_else(|| carrying_link(&model, &joint.child));
+        let Some(carrier) = carrier else { continue };
         let Some(&link) = places.get(&carrier) else { continue };
-        let frames = model.frames.iter().find(|frame| frame.name == joint.child);
+        let frame =
+            |model: &Model| model.frames.iter().find(|one| one.name == joint.child).cloned();
+        let frames = if carrier == joint.child { None } else { frame(&model) };
         let model_from_link = model.links[link].model_from_link;
         let link_from_child = match frames {
             Some(frame) => model_from_link.inverse() * frame.parent_from_frame,

@@ -54,10 +54,11 @@ pub(super) fn check(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostic
 fn closed_loops(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
     let mut held: BTreeSet<&str> = BTreeSet::new();
     let children: BTreeSet<&str> = tree.iter().map(|edge| &*edge.child).collect();
+    let links: BTreeSet<&str> = model.links.iter().map(|link| &*link.name).collect();
     for joint in &model.joints {
         let child = joint.child.as_str();
         let first = held.insert(child);
-        if !first || model.link(child).is_some() && !children.contains(child) {
+        if !first || links.contains(child) && !children.contains(child) {
             diagnostics.push(
                 Diagnostic::error(
                     "not-in-urdf",

@@ -1,0 +1,39 @@
+//! Any text as a URDF: findings with places, a robot that reads back as it was written, and a
+//! model that can be shown as a tree, written as SDF, and made a URDF again.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_scene::{Scene, tf_tree};
+use periplus_sdf::{Context, NoIncludes};
+use periplus_urdf::{Options, from_model, read, to_model, write};
+
+fuzz_target!(|text: &str| {
+    let mut sources = SourceMap::new();
+    let mut diagnostics = Diagnostics::new();
+    let file = sources.add("fuzz.urdf", text);
+    let Some(document) = periplus_xml::parse(file, &sources, &mut diagnostics) else { return };
+    let Some(robot) = read(&document, &mut diagnostics) else { return };
+    if !diagnostics.has_errors() {
+        let written = periplus_xml::write_document(&write(&robot));
+        let file = sources.add("again.urdf", written);
+        let again = periplus_xml::parse(file, &sources, &mut Diagnostics::new())
+            .and_then(|document| read(&document, &mut Diagnostics::new()));
+        assert_eq!(again.as_ref(), Some(&robot));
+    }
+    let mut context = Context {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    let model = to_model(&robot, Options::default(), &mut context);
+    for one in diagnostics.iter().take(20) {
+        assert!(one.span.is_some(), "{one:?} has no place");
+        render(one, &sources, Style::Plain);
+    }
+    let tree = tf_tree(&model);
+    assert!(tree.iter().all(|edge| edge.parent != edge.child));
+    from_model(&model, &mut Diagnostics::new());
+    let scene = Scene { models: vec![model], ..Scene::default() };
+    periplus_sdf::write(&scene, &mut Diagnostics::new());
+});
