@@ -8,7 +8,8 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_resources::Kind;
 use periplus_sdf::{Includes, Opened};
 
-use crate::load::{Setting, model_of, read_xml, shown};
+use crate::documents::{model_of, read_xml};
+use crate::setting::{Setting, shown};
 
 /// Opens files as `<include>` names them, each once.
 pub(crate) struct Files<'s, 'a> {

@@ -4,12 +4,15 @@
 //! findings, and the texts they point into. It always returns; a broken file gives findings.
 
 mod detect;
+mod documents;
 mod includes;
 mod load;
 mod mesh_files;
+mod setting;
 mod summary;
 
 pub use detect::Language;
-pub use load::{Loaded, Setting, load};
+pub use load::{Loaded, load};
 pub use mesh_files::MeshSummary;
+pub use setting::Setting;
 pub use summary::{ModelSummary, SensorSummary, Summary, WorldSummary, describe, summarise};

@@ -2,30 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
-use periplus_resources::{Host, Resolver};
-use periplus_scene::{Model, Scene};
+use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_scene::Scene;
 use periplus_urdf::Robot;
-use periplus_xml::{Document, decode, parse};
+use periplus_xml::Document;
 
 use crate::detect::{Language, language, promised};
+use crate::documents::{model_of, read_xml};
 use crate::includes::Files;
 use crate::mesh_files::{self, MeshSummary};
-
-/// What a reading needs to know.
-#[derive(Clone)]
-pub struct Setting<'a> {
-    /// Files and environment.
-    pub host: &'a dyn Host,
-    /// Packages, models and paths.
-    pub resolver: &'a Resolver<'a>,
-    /// Where the user stands: paths below it are shown without it.
-    pub working_folder: PathBuf,
-    /// `name:=value` for xacro.
-    pub arguments: Vec<(String, String)>,
-    /// Whether mesh files are opened to see if they can be used.
-    pub open_meshes: bool,
-}
+use crate::setting::{Setting, shown};
 
 /// What a file gave.
 #[derive(Clone, Debug)]
@@ -152,42 +138,4 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
         periplus_plugins::lint(scene, &mut loaded.diagnostics);
     }
     loaded.document = Some(document);
-}
-
-/// The model of a robot.
-pub(crate) fn model_of(
-    robot: &Robot,
-    sources: &mut SourceMap,
-    diagnostics: &mut Diagnostics,
-) -> Model {
-    // A robot includes nothing: it is one file once its xacro is expanded.
-    let mut includes = periplus_sdf::NoIncludes;
-    let mut context = periplus_sdf::Context { sources, diagnostics, includes: &mut includes };
-    periplus_urdf::to_model(robot, periplus_urdf::Options::default(), &mut context)
-}
-
-/// Decodes and parses a file.
-pub(crate) fn read_xml(
-    path: &Path,
-    bytes: &[u8],
-    setting: &Setting<'_>,
-    sources: &mut SourceMap,
-    diagnostics: &mut Diagnostics,
-) -> Option<Document> {
-    let name = shown(path, &setting.working_folder);
-    let text = match decode(bytes) {
-        Ok(text) => text,
-        Err(words) => {
-            // Readers of old files never looked at the encoding, so the rest is still of use.
-            diagnostics.push(Diagnostic::warning("encoding", format!("`{name}`: {words}")));
-            String::from_utf8_lossy(bytes)
-        }
-    };
-    let file: FileId = sources.add(name, text);
-    parse(file, sources, diagnostics)
-}
-
-/// A path as messages show it.
-pub(crate) fn shown(path: &Path, working_folder: &Path) -> String {
-    path.strip_prefix(working_folder).unwrap_or(path).display().to_string()
 }

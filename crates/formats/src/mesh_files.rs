@@ -9,7 +9,7 @@ use periplus_resources::Host;
 use periplus_scene::{Link, Mesh, Model, Scene, Shape};
 use serde::Serialize;
 
-use crate::load::{Setting, shown};
+use crate::setting::{Setting, shown};
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]

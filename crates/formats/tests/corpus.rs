@@ -62,7 +62,7 @@ fn every_file_loads_or_says_where_it_cannot() {
 }
 
 fn collect(folder: &Path, into: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap().flatten() {
+    for entry in std::fs::read_dir(folder).expect("the corpus can be listed").flatten() {
         let path = entry.path();
         if path.is_dir() {
             collect(&path, into);
