@@ -1,4 +1,5 @@
 //! Large and hostile robots cost time in proportion to their size.
+#![allow(clippy::unwrap_used, reason = "helpers of a test")]
 
 use std::fmt::Write as _;
 
