@@ -14,8 +14,12 @@ use crate::literal::typed;
 use crate::parameters::{Parameter, parse};
 use crate::scopes::{Block, Macro, Symbol};
 
+/// A call costs more than an element.
+const PARTS_OF_CALL: usize = 4;
+
 impl State<'_> {
     /// Reads `<xacro:macro>`.
+    #[inline(never)]
     pub(crate) fn define_macro(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
         self.check_attributes(element, &["name"], &["name", "params"], frame)?;
         let name = element.value("name").unwrap_or_default();
@@ -59,6 +63,7 @@ impl State<'_> {
     }
 
     /// `<xacro:call macro="${name}" .../>`: a call whose macro is chosen by a value.
+    #[inline(never)]
     pub(crate) fn call_by_value(
         &self,
         element: &Element,
@@ -71,6 +76,7 @@ impl State<'_> {
     }
 
     /// Expands a macro in the place of its call.
+    #[inline(never)]
     pub(crate) fn call(
         &self,
         name: &str,
@@ -78,6 +84,7 @@ impl State<'_> {
         frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
+        self.count(PARTS_OF_CALL, frame.seen(call.origin))?;
         let found = self.scopes.borrow().find_macro(frame.scope, name);
         let Some((seen_from, callee)) = found else {
             return Err(self.unknown_macro(name, call, frame));
@@ -101,6 +108,7 @@ impl State<'_> {
 
     /// The values of a macro's parameters in a call. Defaults are written in the macro, but see the
     /// caller's names: `defaults` stands there.
+    #[inline(never)]
     fn bind(
         &self,
         callee: &Macro,
@@ -178,6 +186,7 @@ impl State<'_> {
         if failed { Err(Failed) } else { Ok(symbols) }
     }
 
+    #[inline(never)]
     fn default_value(
         &self,
         parameter: &Parameter,
@@ -215,6 +224,7 @@ impl State<'_> {
     }
 
     /// The child elements of a call, for the macro's block parameters in order.
+    #[inline(never)]
     fn bind_blocks(
         &self,
         callee: &Macro,
@@ -270,6 +280,7 @@ impl State<'_> {
     }
 
     /// Text between the blocks of a call goes nowhere.
+    #[inline(never)]
     fn check_loose_text(&self, callee: &Macro, call: &Element, frame: Frame) {
         let loose = call.children.iter().find_map(|node| match node {
             Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
@@ -288,6 +299,7 @@ impl State<'_> {
         }
     }
 
+    #[inline(never)]
     fn unknown_macro(&self, name: &str, call: &Element, frame: Frame) -> Failed {
         let scopes = self.scopes.borrow();
         let names = scopes.macro_names(frame.scope);
@@ -302,8 +314,9 @@ impl State<'_> {
                 format!("xacro:{near}"),
                 format!("did you mean `xacro:{near}`?"),
             ),
-            None => diagnostic.help("define it before the call, or include the file that does"),
-        };
+            None => diagnostic,
+        }
+        .help("define it before the call, or include the file that does");
         drop(scopes);
         self.fail(diagnostic)
     }

@@ -20,7 +20,7 @@ const DEEPEST: usize = 100;
 
 /// Steps that all expressions of a file may take together; the PR2, as large as robots get, takes
 /// some ten thousand.
-const MOST_STEPS: u64 = 3_000_000;
+const MOST_STEPS: u64 = 1_000_000;
 
 /// Bytes of values that all expressions of a file may make together.
 const MOST_BYTES: u64 = 256 << 20;
@@ -109,6 +109,7 @@ impl<'a> State<'a> {
     }
 
     /// Reports an error and gives the token of failure.
+    #[inline(never)]
     pub(crate) fn fail(&self, diagnostic: Diagnostic) -> Failed {
         self.report(diagnostic);
         Failed
@@ -116,6 +117,7 @@ impl<'a> State<'a> {
 
     /// Reports an error after which the whole expansion ends: a limit was reached, and what comes
     /// next would reach it again.
+    #[inline(never)]
     pub(crate) fn give_up(&self, diagnostic: Diagnostic) -> Failed {
         self.given_up.set(true);
         self.fail(diagnostic)
@@ -128,6 +130,7 @@ impl<'a> State<'a> {
 
     /// The value of a text: that of its one expression or extension, or else all pieces put
     /// together.
+    #[inline(never)]
     pub(crate) fn text_value(
         &self,
         text: &str,
@@ -156,6 +159,7 @@ impl<'a> State<'a> {
     }
 
     /// The value of a text as characters.
+    #[inline(never)]
     pub(crate) fn text(
         &self,
         text: &str,
@@ -170,6 +174,7 @@ impl<'a> State<'a> {
     }
 
     /// The same of a text that stands in the tree, which most often needs no copy.
+    #[inline(never)]
     pub(crate) fn tree_text(
         &self,
         text: &SmolStr,
@@ -180,11 +185,24 @@ impl<'a> State<'a> {
             return Ok(text.clone());
         }
         let characters = self.text(text, origin, scope)?;
-        self.written.set(self.written.get() + characters.len());
+        self.write(0, characters.len(), origin)?;
         Ok(SmolStr::new(characters))
     }
 
+    /// Counts bytes that are added to a text of `so_far` bytes.
+    #[inline(never)]
+    fn write(&self, so_far: usize, bytes: usize, origin: Origin) -> Result<(), Failed> {
+        self.written.set(self.written.get() + bytes);
+        if so_far + bytes <= LONGEST && self.written.get() <= MOST_TEXT {
+            return Ok(());
+        }
+        let message = "this text becomes longer than 16 MiB, or all texts than 128 MiB";
+        let help = "does a property repeat another that repeats another?";
+        Err(self.give_up(Diagnostic::error("too-long", message).at(origin).help(help)))
+    }
+
     /// A value as characters, as Python's `str` gives them.
+    #[inline(never)]
     pub(crate) fn characters(&self, value: &Value, origin: Origin) -> Result<Rc<str>, Failed> {
         if let Value::Str(text) = value {
             return Ok(text.clone());
@@ -195,6 +213,7 @@ impl<'a> State<'a> {
         text.map(Rc::from).map_err(|error| self.expression_failed(error, origin, ""))
     }
 
+    #[inline(never)]
     fn pieces_value(&self, text: &str, origin: Origin, scope: ScopeId) -> Result<Value, Failed> {
         let cut = pieces(text);
         let mut joined = String::new();
@@ -228,20 +247,14 @@ impl<'a> State<'a> {
                 return Ok(value);
             }
             let characters = self.characters(&value, origin)?;
-            self.written.set(self.written.get() + characters.len());
-            if joined.len() + characters.len() > LONGEST || self.written.get() > MOST_TEXT {
-                let message = "this text becomes longer than 16 MiB, or all texts than 128 MiB";
-                let diagnostic = Diagnostic::error("too-long", message).at(origin);
-                return Err(self.give_up(
-                    diagnostic.help("does a property repeat another that repeats another?"),
-                ));
-            }
+            self.write(joined.len(), characters.len(), origin)?;
             joined.push_str(&characters);
         }
         Ok(Value::text(joined))
     }
 
     /// The value of what stands in `${` and `}`.
+    #[inline(never)]
     pub(crate) fn expression_value(
         &self,
         text: &str,
@@ -264,6 +277,7 @@ impl<'a> State<'a> {
         })
     }
 
+    #[inline(never)]
     fn expression_failed(&self, error: ExpressionError, place: Origin, text: &str) -> Failed {
         // A property that failed inside has said so itself.
         if error.message == ALREADY_SAID {

@@ -44,6 +44,9 @@ pub(crate) const DIRECTIVES: [&str; 10] = [
 ];
 
 /// How deep elements, macros and includes may nest together.
+///
+/// What takes part in the recursion, and what that calls, is `#[inline(never)]`: else the locals of
+/// all of it would stand on the stack once a level. A thread with 1 MiB must do.
 const DEEPEST: usize = 300;
 
 /// How many nodes an expansion may look at, those it copies included.
@@ -70,7 +73,11 @@ pub struct Setting<'a> {
 impl Setting<'_> {
     /// A path as messages show it.
     pub(crate) fn shown(&self, path: &Path) -> String {
-        path.strip_prefix(&self.working_folder).unwrap_or(path).display().to_string()
+        match path.strip_prefix(&self.working_folder) {
+            Ok(rest) if rest.as_os_str().is_empty() => ".".into(),
+            Ok(rest) => rest.display().to_string(),
+            Err(_) => path.display().to_string(),
+        }
     }
 }
 
@@ -128,6 +135,7 @@ impl<'e> Output<'e> {
         self.parent.children.push(node);
     }
 
+    #[inline(never)]
     fn set_attribute(&mut self, name: &str, value: &str, origin: Origin) {
         let value = SmolStr::new(value);
         match self.parent.attributes.iter_mut().find(|attribute| attribute.name == name) {
@@ -147,6 +155,7 @@ impl<'e> Output<'e> {
     }
 
     /// Comments right before something of xacro's speak of it, and go with it.
+    #[inline(never)]
     fn drop_comments(&mut self) {
         let children = &mut self.parent.children;
         let blank = |node: &Node| {
@@ -169,6 +178,7 @@ impl<'e> Output<'e> {
 
 impl State<'_> {
     /// Namespaces declared by an included file or a macro are declared around its content.
+    #[inline(never)]
     pub(crate) fn adopt_namespaces(&self, element: &Element, frame: Frame, out: &mut Output<'_>) {
         for attribute in &element.attributes {
             if !attribute.name.starts_with("xmlns:") || attribute.name == "xmlns:xacro" {
@@ -203,6 +213,7 @@ impl State<'_> {
     }
 
     /// Expands nodes into `out`.
+    #[inline(never)]
     pub(crate) fn expand_nodes(
         &self,
         nodes: &[Node],
@@ -264,7 +275,8 @@ impl State<'_> {
         self.count(parts(element), element.origin)
     }
 
-    fn count(&self, parts: usize, origin: Origin) -> Result<(), Failed> {
+    #[inline(never)]
+    pub(crate) fn count(&self, parts: usize, origin: Origin) -> Result<(), Failed> {
         self.parts.set(self.parts.get() + parts);
         if self.parts.get() <= MOST_PARTS {
             return Ok(());
@@ -286,14 +298,7 @@ impl State<'_> {
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
         if self.nesting.get() >= DEEPEST {
-            return Err(self.give_up(
-                Diagnostic::error(
-                    "too-deep",
-                    format!("elements, macros and includes are nested more than {DEEPEST} deep"),
-                )
-                .at(frame.seen(element.origin))
-                .help("does a macro call itself without an end? stop it with <xacro:if>"),
-            ));
+            return Err(self.too_deep(frame.seen(element.origin)));
         }
         self.nesting.set(self.nesting.get() + 1);
         let result = match element.name.strip_prefix("xacro:") {
@@ -304,6 +309,20 @@ impl State<'_> {
         result
     }
 
+    #[cold]
+    #[inline(never)]
+    fn too_deep(&self, origin: Origin) -> Failed {
+        self.give_up(
+            Diagnostic::error(
+                "too-deep",
+                format!("elements, macros and includes are nested more than {DEEPEST} deep"),
+            )
+            .at(origin)
+            .help("does a macro call itself without an end? stop it with <xacro:if>"),
+        )
+    }
+
+    #[inline(never)]
     fn directive(
         &self,
         directive: &str,
@@ -332,6 +351,7 @@ impl State<'_> {
         result
     }
 
+    #[inline(never)]
     fn conditional(
         &self,
         element: &Element,
@@ -364,6 +384,7 @@ impl State<'_> {
     }
 
     /// An element whose name is a value; it may turn out to be one of xacro's own.
+    #[inline(never)]
     fn named_element(
         &self,
         element: &Element,
@@ -383,6 +404,7 @@ impl State<'_> {
         self.expand_element(&renamed, frame, out)
     }
 
+    #[inline(never)]
     fn plain_element(
         &self,
         element: &Element,
@@ -399,6 +421,7 @@ impl State<'_> {
     }
 
     /// Attributes of a plain element. One that fails has been reported and keeps its text.
+    #[inline(never)]
     fn expand_attributes(&self, element: &Element, frame: Frame, out: &mut Element) {
         for attribute in &element.attributes {
             let own =
@@ -420,6 +443,7 @@ impl State<'_> {
         }
     }
 
+    #[inline(never)]
     fn insert_block(
         &self,
         element: &Element,
@@ -451,6 +475,7 @@ impl State<'_> {
         self.expand_nodes(&block.nodes, Frame { context: block.context, ..frame }, out)
     }
 
+    #[inline(never)]
     fn declare_argument(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
         self.check_attributes(element, &["name"], &["name", "default"], frame)?;
         self.check_childless(element, frame);
@@ -465,6 +490,7 @@ impl State<'_> {
         self.argument(&name, value_origin(element, "name", frame)).map(drop)
     }
 
+    #[inline(never)]
     fn check_name(&self, name: &str, origin: Origin) -> Result<(), Failed> {
         let good = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ':'));
         let starts = name.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -481,6 +507,7 @@ impl State<'_> {
     }
 
     /// The value of an attribute as characters.
+    #[inline(never)]
     pub(crate) fn attribute(
         &self,
         element: &Element,
@@ -492,6 +519,7 @@ impl State<'_> {
     }
 
     /// Warns of what stands in an element whose content nobody reads.
+    #[inline(never)]
     pub(crate) fn check_childless(&self, element: &Element, frame: Frame) {
         let unread = element.children.iter().find_map(|node| match node {
             Node::Element(child) => Some(child.origin),
@@ -511,6 +539,7 @@ impl State<'_> {
         }
     }
 
+    #[inline(never)]
     pub(crate) fn require(
         &self,
         element: &Element,
@@ -531,6 +560,7 @@ impl State<'_> {
     }
 
     /// Reports attributes that are missing (and fails) or unknown (and goes on).
+    #[inline(never)]
     pub(crate) fn check_attributes(
         &self,
         element: &Element,

@@ -125,6 +125,11 @@ pub trait Scope {
     fn deprecated(&self, _name: &str, _replacement: &str, _range: Range<usize>) {}
 }
 
+/// Whether a name has a meaning in `${...}` that nobody gave it: `pi`, `sin`, `len`.
+pub fn is_built_in(name: &str) -> bool {
+    matches!(name, "True" | "False" | "None") || globals::lookup(Dialect::Xacro, name).is_some()
+}
+
 /// A scope without names.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct EmptyScope;

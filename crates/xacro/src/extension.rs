@@ -13,6 +13,7 @@ const COMMANDS: [&str; 7] = ["find", "arg", "env", "optenv", "dirname", "cwd", "
 
 impl State<'_> {
     /// The text that `$(...)` stands for.
+    #[inline(never)]
     pub(crate) fn extension(
         &self,
         text: &str,
@@ -31,6 +32,7 @@ impl State<'_> {
     }
 
     /// The text that a command and its words stand for.
+    #[inline(never)]
     pub(crate) fn substitution(&self, words: &[&str], origin: Origin) -> Result<Rc<str>, Failed> {
         let (command, words) = words.split_first().unwrap_or((&"", &[]));
         let command = *command;
@@ -74,6 +76,7 @@ impl State<'_> {
     }
 
     /// The value of an argument of the file.
+    #[inline(never)]
     pub(crate) fn argument(&self, name: &str, origin: Origin) -> Result<String, Failed> {
         if let Some(value) = self.arguments.borrow().get(name) {
             return Ok(value.clone());

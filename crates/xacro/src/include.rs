@@ -14,6 +14,9 @@ use crate::yaml;
 /// How deep files may include files.
 const DEEPEST: usize = 40;
 
+/// A file costs more than an element.
+const PARTS_OF_FILE: usize = 100;
+
 /// How many files a pattern may match.
 const MOST_FILES: usize = 2_000;
 
@@ -22,6 +25,7 @@ const MOST_READ: usize = 64 << 20;
 
 impl State<'_> {
     /// Puts the content of the included files into `out`.
+    #[inline(never)]
     pub(crate) fn include(
         &self,
         element: &Element,
@@ -59,6 +63,7 @@ impl State<'_> {
         Ok(())
     }
 
+    #[inline(never)]
     fn include_file(
         &self,
         path: &Path,
@@ -83,6 +88,7 @@ impl State<'_> {
                     .help("move what both files need into a third, or include under <xacro:if>"),
             ));
         }
+        self.count(PARTS_OF_FILE, file_origin)?;
         let text = self.read(path, file_origin)?;
         let at = frame.seen(element.origin).0;
         let (document, inner) = {
@@ -91,7 +97,11 @@ impl State<'_> {
             let inner = at.map(|at| sources.expand(Expansion::Include { at }));
             let mut found = Diagnostics::new();
             let document = parse(file, &sources, &mut found);
-            self.diagnostics.borrow_mut().append(found);
+            for mut diagnostic in found.iter().cloned() {
+                diagnostic.span =
+                    diagnostic.span.map(|span| inner.map_or(span, |inner| span.within(inner)));
+                self.report(diagnostic);
+            }
             (document.ok_or(Failed)?, inner)
         };
         self.note_file(path);
@@ -104,6 +114,7 @@ impl State<'_> {
     }
 
     /// The value of a YAML file.
+    #[inline(never)]
     pub(crate) fn load_yaml(&self, name: &str, origin: Origin) -> Result<Value, Failed> {
         let path = self.absolute(name);
         if let Some(value) = self.yaml.borrow().get(&path) {
@@ -148,6 +159,7 @@ impl State<'_> {
     }
 
     /// The folder of a package.
+    #[inline(never)]
     pub(crate) fn package(&self, name: &str, origin: Origin) -> Result<PathBuf, Failed> {
         let from = self.files.borrow().last().cloned().unwrap_or_default();
         self.setting
@@ -161,6 +173,7 @@ impl State<'_> {
         self.folder().join(name)
     }
 
+    #[inline(never)]
     fn read(&self, path: &Path, origin: Origin) -> Result<String, Failed> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
         let found =
@@ -198,6 +211,7 @@ impl State<'_> {
     /// Files whose path matches a pattern of `*`, `?` and `[...]`, sorted.
     ///
     /// Folders outside the resource paths are not even listed.
+    #[inline(never)]
     fn glob(&self, pattern: &Path, origin: Origin) -> Result<Vec<PathBuf>, Failed> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
         let open =

@@ -8,7 +8,7 @@ use smol_str::SmolStr;
 
 use crate::evaluate::{Failed, State};
 use crate::expand::{Frame, value_origin};
-use crate::expression::{Budget, EmptyScope, Expression, Value, evaluate};
+use crate::expression::{Value, is_built_in};
 use crate::literal::{condition, is_name, literal, typed};
 use crate::scopes::{Block, LazyText, ScopeId, Symbol, TOP};
 
@@ -16,19 +16,24 @@ const ATTRIBUTES: [&str; 6] = ["name", "value", "default", "remove", "scope", "l
 
 impl State<'_> {
     /// Defines, redefines or removes a property, or a block of elements.
+    #[inline(never)]
     pub(crate) fn define_property(&self, element: &Element, frame: Frame) -> Result<(), Failed> {
         self.check_attributes(element, &["name"], &ATTRIBUTES, frame)?;
         let name_origin = value_origin(element, "name", frame);
         let name = self.attribute(element, "name", frame)?.unwrap_or_default();
         if !is_name(&name) || name.starts_with("__") {
-            return Err(self.fail(
-                Diagnostic::error(
-                    "property-name",
-                    format!("`{name}` cannot be the name of a property"),
-                )
-                .at(name_origin)
-                .help("a name is letters, digits and `_`, starts with a letter, and is no word of Python's"),
-            ));
+            let mut diagnostic = Diagnostic::error(
+                "property-name",
+                format!("`{name}` cannot be the name of a property"),
+            )
+            .at(name_origin)
+            .help("a name is letters, digits and `_`, starts with a letter, and is no word of Python's");
+            let repaired = name.replace(['-', '.', ' '], "_");
+            let is_written = element.value("name") == Some(&name);
+            if is_written && is_name(&repaired) && !repaired.starts_with("__") {
+                diagnostic = diagnostic.replace(name_origin, repaired, "this would do");
+            }
+            return Err(self.fail(diagnostic));
         }
         let remove = self.flag(element, "remove", frame)?.unwrap_or(false);
         let value = element.attribute("value");
@@ -81,6 +86,7 @@ impl State<'_> {
     }
 
     /// The scope that a property is defined in; none, with a warning, when there is none such.
+    #[inline(never)]
     fn property_scope(
         &self,
         element: &Element,
@@ -113,6 +119,7 @@ impl State<'_> {
         }
     }
 
+    #[inline(never)]
     fn property_symbol(
         &self,
         given: &Attribute,
@@ -139,6 +146,7 @@ impl State<'_> {
     }
 
     /// A truth value in an attribute.
+    #[inline(never)]
     pub(crate) fn flag(
         &self,
         element: &Element,
@@ -160,10 +168,4 @@ impl State<'_> {
             )),
         }
     }
-}
-
-/// Whether xacro itself gives a name a meaning: `pi`, `sin`, `len`.
-fn is_built_in(name: &str) -> bool {
-    let Ok(expression) = Expression::parse(name) else { return false };
-    evaluate(&expression, &EmptyScope, &mut Budget::new(10, 1_000)).is_ok()
 }

@@ -50,6 +50,11 @@ impl Example {
         self
     }
 
+    /// Adds a file anywhere.
+    pub(crate) fn secret(&mut self, path: &str, content: &str) {
+        self.host = std::mem::take(&mut self.host).with_file(path, content);
+    }
+
     /// Adds a file whose root holds this content.
     pub(crate) fn include(self, name: &str, content: &str) -> Self {
         let head = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">";

@@ -240,14 +240,19 @@ fn names_that_cannot_be() {
     check_messages(
         r#"<xacro:property name="wheel-radius" value="1"/>"#,
         expect![[r#"
-        error[property-name]: `wheel-radius` cannot be the name of a property
-         --> main.xacro:1:70
-          |
-        1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel-radius" value="1"/></r>
-          |                                                                      ^^^^^^^^^^^^
-          |
-          = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
-    "#]],
+            error[property-name]: `wheel-radius` cannot be the name of a property
+             --> main.xacro:1:70
+              |
+            1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel-radius" value="1"/></r>
+              |                                                                      ^^^^^^^^^^^^
+              |
+              = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
+            help: this would do
+              |
+            1 - <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel-radius" value="1"/></r>
+            1 + <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel_radius" value="1"/></r>
+              |
+        "#]],
     );
     check_messages(
         r#"<xacro:property name="lambda" value="1"/>"#,
