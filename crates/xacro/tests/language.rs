@@ -1,7 +1,7 @@
 //! The xacro language, one file a theme.
 //!
-//! Every result was compared with what PyPI's xacro 2.1.1 gives; where we differ on purpose, a test
-//! calls `check_lenient` or `check_strict` and says why.
+//! Every result was compared with what PyPI's xacro 2.1.1 gives. Where we take more than it does, a
+//! test calls `check_lenient` and says why; where we refuse more, a comment says so.
 #![allow(clippy::unwrap_used, reason = "a test that panics is a test that fails")]
 
 #[path = "language/blocks.rs"]

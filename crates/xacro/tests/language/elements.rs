@@ -99,6 +99,7 @@ fn instructions_and_sections_stay() {
         .check(expect!["a &lt; b"]);
 }
 
+// The reference writes them, and no parser reads the result.
 #[test]
 fn names_that_xml_cannot_hold() {
     check_messages(

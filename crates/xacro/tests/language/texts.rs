@@ -124,6 +124,7 @@ fn an_expression_that_nothing_closes() {
     );
 }
 
+// The reference leaves `$()` as it is.
 #[test]
 fn an_empty_expression() {
     check_messages(
