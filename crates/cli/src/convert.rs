@@ -1,16 +1,16 @@
 //! `periplus convert`.
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
-use periplus_formats::{Language, Loaded, load};
+use periplus_formats::{Language, Loaded, load, rebase};
 use periplus_scene::Scene;
 use periplus_xml::write_document;
 
 use crate::options::{ConvertOptions, Format, split};
-use crate::terminal::{self, with_setting};
+use crate::terminal::{self, with_setting, working_folder};
 
 pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     let (files, arguments) = split(&options.words);
@@ -23,6 +23,10 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     if let Some(name) = &options.model {
         keep_model(&mut loaded, name);
     }
+    let target = folder_of(options.output.as_deref().unwrap_or(file));
+    if let Some(scene) = &mut loaded.scene {
+        rebase(scene, &loaded.sources, &working_folder(), &target);
+    }
     // Half a file must not pass for a whole one.
     let text =
         if loaded.diagnostics.has_errors() { None } else { convert(&mut loaded, options.to) };
@@ -33,6 +37,12 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     };
     write(&text, options.output.as_deref())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The folder of a file; what goes to stdout counts as lying beside the file it came from.
+fn folder_of(file: &Path) -> PathBuf {
+    let path = working_folder().join(file);
+    path.parent().map(Path::to_owned).unwrap_or_default()
 }
 
 /// Leaves only one model of the scene.
@@ -66,6 +76,16 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
             diagnostics.push(Diagnostic::error("nothing-to-convert", told));
             None
         }
+        (Format::Sdf | Format::Json, Some(scene)) if is_only_shown(loaded, scene) => {
+            diagnostics.push(
+                Diagnostic::error(
+                    "massless-robot",
+                    "no link of the robot has a mass, so nothing of it can be simulated",
+                )
+                .help("give at least the root link an <inertial>"),
+            );
+            None
+        }
         (Format::Sdf, Some(scene)) => {
             Some(write_document(&periplus_sdf::write(scene, &mut diagnostics)))
         }
@@ -93,6 +113,13 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
     };
     loaded.diagnostics.append(diagnostics);
     text
+}
+
+/// Whether a robot has lost all its links on the way to a scene.
+fn is_only_shown(loaded: &Loaded, scene: &Scene) -> bool {
+    let has_links = |robot: &periplus_urdf::Robot| !robot.links.is_empty();
+    loaded.robot.as_ref().is_some_and(has_links)
+        && scene.models.iter().all(|model| model.links.is_empty())
 }
 
 fn write(text: &str, output: Option<&Path>) -> io::Result<()> {

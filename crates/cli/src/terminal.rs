@@ -38,6 +38,11 @@ pub(crate) fn counts(loaded: &Loaded) -> String {
     if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
 }
 
+/// Where the user stands.
+pub(crate) fn working_folder() -> PathBuf {
+    std::env::current_dir().unwrap_or_default()
+}
+
 /// Runs something with the machine as readers see it.
 pub(crate) fn with_setting<T>(
     resource_path: &[PathBuf],
@@ -45,7 +50,7 @@ pub(crate) fn with_setting<T>(
     run: impl FnOnce(&Setting<'_>) -> T,
 ) -> T {
     let host = Machine;
-    let working_folder = std::env::current_dir().unwrap_or_default();
+    let working_folder = working_folder();
     let folders: Vec<PathBuf> =
         resource_path.iter().map(|folder| working_folder.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);

@@ -8,11 +8,13 @@ mod documents;
 mod includes;
 mod load;
 mod mesh_files;
+mod rebase;
 mod setting;
 mod summary;
 
 pub use detect::Language;
 pub use load::{Loaded, load};
 pub use mesh_files::MeshSummary;
+pub use rebase::rebase;
 pub use setting::Setting;
 pub use summary::{ModelSummary, SensorSummary, Summary, WorldSummary, describe, summarise};

@@ -50,7 +50,10 @@ impl Situation<'_> {
         count(total(&|link| usize::from(self.link(link).inertial.is_some())), "mass", "masses");
         let settings = |link: usize| self.extensions.settings(&self.link(link).name).count();
         count(total(&settings), "setting of Gazebo", "settings of Gazebo");
-        let severity = if lost.is_empty() { Severity::Warning } else { Severity::Error };
+        // A robot without any mass was written to be looked at, and can be.
+        let only_shown = self.plan.massless.len() == 1 && self.is_only_shown();
+        let severity =
+            if lost.is_empty() || only_shown { Severity::Warning } else { Severity::Error };
         let what = match self.joint_above(link) {
             Some(joint) => format!(
                 "the link `{name}` has no mass, and its joint `{}` does not merge it into another",
@@ -76,6 +79,12 @@ impl Situation<'_> {
             "give it an <inertial> with a mass; 0.001 kg and 1e-6 kg m² about each axis are \
              customary for a link that only marks a place",
         )
+    }
+
+    /// Whether no link of the robot has a mass.
+    fn is_only_shown(&self) -> bool {
+        let order = &self.plan.order;
+        order.iter().all(|&link| self.link(link).inertial.is_none())
     }
 
     /// The link `world` is no body: what is on it has no place.

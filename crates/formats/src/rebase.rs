@@ -1,0 +1,98 @@
+//! Relative URIs, as seen from another folder.
+
+use std::path::{Component, Path, PathBuf};
+
+use periplus_diagnostics::{Origin, SourceMap};
+use periplus_scene::{Link, Model, Scene, Shape};
+
+/// Rewrites the relative URIs of meshes and images for a file that will lie in `folder`. Each is
+/// relative to the file that mentions it, and after a conversion all stand in one file.
+pub fn rebase(scene: &mut Scene, sources: &SourceMap, working_folder: &Path, folder: &Path) {
+    let rebase = Rebase { sources, working_folder, folder };
+    let worlds = scene.worlds.iter_mut();
+    for world in worlds {
+        world.models.iter_mut().for_each(|model| rebase.model(model));
+        world
+            .actors
+            .iter_mut()
+            .flat_map(|actor| &mut actor.links)
+            .for_each(|link| rebase.link(link));
+    }
+    scene.models.iter_mut().for_each(|model| rebase.model(model));
+    scene.actors.iter_mut().flat_map(|actor| &mut actor.links).for_each(|link| rebase.link(link));
+}
+
+struct Rebase<'a> {
+    sources: &'a SourceMap,
+    working_folder: &'a Path,
+    folder: &'a Path,
+}
+
+impl Rebase<'_> {
+    fn model(&self, model: &mut Model) {
+        model.links.iter_mut().for_each(|link| self.link(link));
+        model.models.iter_mut().for_each(|inner| self.model(inner));
+    }
+
+    fn link(&self, link: &mut Link) {
+        let collisions = link.collisions.iter_mut().map(|collision| &mut collision.shape);
+        let visuals = link.visuals.iter_mut().map(|visual| &mut visual.shape);
+        for shape in collisions.chain(visuals) {
+            match shape {
+                Shape::Mesh(mesh) => self.uri(&mut mesh.uri, mesh.origin),
+                Shape::Heightmap(heightmap) => self.uri(&mut heightmap.uri, heightmap.origin),
+                Shape::Image(image) => self.uri(&mut image.uri, image.origin),
+                _ => {}
+            }
+        }
+    }
+
+    fn uri(&self, uri: &mut String, origin: Origin) {
+        let Some(span) = origin.0 else { return };
+        if uri.is_empty() || uri.contains("://") || Path::new(uri.as_str()).is_absolute() {
+            return;
+        }
+        let mentioned_in = self.working_folder.join(&self.sources.file(span.file).name);
+        let Some(from) = mentioned_in.parent() else { return };
+        if plain(from) == plain(self.folder) {
+            return;
+        }
+        let target = plain(&from.join(uri.as_str()));
+        *uri = relative(&target, &plain(self.folder)).display().to_string();
+    }
+}
+
+/// The path without `.` and `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                out.pop();
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+/// The way from a folder to a file.
+fn relative(file: &Path, folder: &Path) -> PathBuf {
+    let shared = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    up.chain(file.components().skip(shared)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_from_one_folder_to_another() {
+        let way = |file: &str, folder: &str| relative(Path::new(file), Path::new(folder));
+        assert_eq!(way("/a/b/m.stl", "/a/b"), PathBuf::from("m.stl"));
+        assert_eq!(way("/a/models/cup/m.stl", "/a/worlds"), PathBuf::from("../models/cup/m.stl"));
+        assert_eq!(plain(Path::new("/a/b/../c/./d")), PathBuf::from("/a/c/d"));
+    }
+}
