@@ -7,12 +7,15 @@ use periplus_diagnostics::{Diagnostic, Expansion, Origin};
 use periplus_xml::{Attribute, Element, Node};
 use smol_str::SmolStr;
 
-use crate::evaluate::{Failed, State, part};
-use crate::expand::{Frame, Output, value_origin};
+use crate::attributes::value_origin;
+use crate::evaluate::part;
 use crate::expression::Value;
+use crate::frame::Frame;
 use crate::literal::typed;
+use crate::output::Output;
 use crate::parameters::{Parameter, parse};
 use crate::scopes::{Block, Macro, Symbol};
+use crate::state::{Failed, State};
 
 /// A call costs more than an element.
 const PARTS_OF_CALL: usize = 4;

@@ -1,33 +1,16 @@
 //! The walk through a document.
 
-use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::path::PathBuf;
 
-use periplus_diagnostics::{ContextId, Diagnostic, Diagnostics, Origin, SourceMap};
-use periplus_resources::{Host, Resolver};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_xml::{Attribute, Document, Element, Node, SmolStr, Text};
 
-use crate::evaluate::{Failed, State};
-use crate::scopes::{ScopeId, Symbol, TOP};
-
-/// Where an expansion stands: the names it sees, and how it came there.
-#[derive(Clone, Copy)]
-pub(crate) struct Frame {
-    /// Where names are looked up.
-    pub(crate) scope: ScopeId,
-    /// The macro call or include; none keeps what places say of theirs.
-    pub(crate) context: Option<ContextId>,
-}
-
-impl Frame {
-    /// A place as seen from here.
-    pub(crate) fn seen(self, origin: Origin) -> Origin {
-        match self.context {
-            Some(context) => Origin(origin.0.map(|span| span.within(context))),
-            None => origin,
-        }
-    }
-}
+use crate::attributes::value_origin;
+use crate::frame::Frame;
+use crate::output::Output;
+use crate::scopes::{Symbol, TOP};
+use crate::setting::Setting;
+use crate::state::{Failed, State};
 
 /// The elements that xacro itself knows.
 pub(crate) const DIRECTIVES: [&str; 10] = [
@@ -51,35 +34,6 @@ const DEEPEST: usize = 300;
 
 /// How many nodes an expansion may look at, those it copies included.
 const MOST_PARTS: usize = 1_000_000;
-
-/// Errors after which an expansion gives up: what follows is mostly echo.
-pub(crate) const MOST_ERRORS: usize = 30;
-
-/// What an expansion needs to know.
-#[derive(Clone)]
-pub struct Setting<'a> {
-    /// The file that is expanded.
-    pub path: PathBuf,
-    /// Where the user stands, for `$(cwd)`, and to show paths shorter.
-    pub working_folder: PathBuf,
-    /// `name:=value` of the command line.
-    pub arguments: Vec<(String, String)>,
-    /// Files and environment.
-    pub host: &'a dyn Host,
-    /// Packages and paths.
-    pub resolver: &'a Resolver<'a>,
-}
-
-impl Setting<'_> {
-    /// A path as messages show it.
-    pub(crate) fn shown(&self, path: &Path) -> String {
-        match path.strip_prefix(&self.working_folder) {
-            Ok(rest) if rest.as_os_str().is_empty() => ".".into(),
-            Ok(rest) => rest.display().to_string(),
-            Err(_) => path.display().to_string(),
-        }
-    }
-}
 
 /// What an expansion gives.
 #[derive(Clone, Debug)]
@@ -116,64 +70,6 @@ pub fn expand(
     let document =
         Document { before: document.before.clone(), root, after: document.after.clone() };
     Some(Expanded { document, includes, arguments })
-}
-
-/// Where expanded nodes go: the content of an element, whose attributes `xacro:attribute` and
-/// inherited namespaces may extend.
-pub(crate) struct Output<'e> {
-    parent: &'e mut Element,
-    /// How many children no directive that follows takes comments from.
-    settled: usize,
-}
-
-impl<'e> Output<'e> {
-    pub(crate) fn new(parent: &'e mut Element) -> Self {
-        Self { parent, settled: 0 }
-    }
-
-    fn push(&mut self, node: Node) {
-        self.parent.children.push(node);
-    }
-
-    #[inline(never)]
-    fn set_attribute(&mut self, name: &str, value: &str, origin: Origin) {
-        let value = SmolStr::new(value);
-        match self.parent.attributes.iter_mut().find(|attribute| attribute.name == name) {
-            Some(attribute) => attribute.value = value,
-            None => self.parent.attributes.push(Attribute {
-                name: name.into(),
-                value,
-                origin,
-                value_origin: origin,
-            }),
-        }
-    }
-
-    /// What was put out so far keeps its comments.
-    fn settle(&mut self) {
-        self.settled = self.parent.children.len();
-    }
-
-    /// Comments right before something of xacro's speak of it, and go with it.
-    #[inline(never)]
-    fn drop_comments(&mut self) {
-        let children = &mut self.parent.children;
-        let blank = |node: &Node| {
-            matches!(node, Node::Text(text)
-                if text.text.trim().is_empty() && text.text.matches('\n').count() <= 1)
-        };
-        let mut before = children.len();
-        loop {
-            if before > self.settled && blank(&children[before - 1]) {
-                before -= 1;
-            }
-            if before <= self.settled || !matches!(children[before - 1], Node::Comment(_)) {
-                return;
-            }
-            before -= 1;
-            children.remove(before);
-        }
-    }
 }
 
 impl State<'_> {
@@ -505,95 +401,4 @@ impl State<'_> {
                 ),
         ))
     }
-
-    /// The value of an attribute as characters.
-    #[inline(never)]
-    pub(crate) fn attribute(
-        &self,
-        element: &Element,
-        name: &str,
-        frame: Frame,
-    ) -> Result<Option<Rc<str>>, Failed> {
-        let Some(attribute) = element.attribute(name) else { return Ok(None) };
-        self.text(&attribute.value, frame.seen(attribute.value_origin), frame.scope).map(Some)
-    }
-
-    /// Warns of what stands in an element whose content nobody reads.
-    #[inline(never)]
-    pub(crate) fn check_childless(&self, element: &Element, frame: Frame) {
-        let unread = element.children.iter().find_map(|node| match node {
-            Node::Element(child) => Some(child.origin),
-            Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
-            _ => None,
-        });
-        if let Some(origin) = unread {
-            self.report(
-                Diagnostic::warning(
-                    "unread-content",
-                    format!("the content of `{}` is not read", element.name),
-                )
-                .at(frame.seen(origin))
-                .related(frame.seen(element.origin), "the element")
-                .help("remove it, or move it outside"),
-            );
-        }
-    }
-
-    #[inline(never)]
-    pub(crate) fn require(
-        &self,
-        element: &Element,
-        name: &str,
-        frame: Frame,
-    ) -> Result<(), Failed> {
-        if element.attribute(name).is_some() {
-            return Ok(());
-        }
-        Err(self.fail(
-            Diagnostic::error(
-                "missing-attribute",
-                format!("`{}` needs the attribute `{name}`", element.name),
-            )
-            .at(frame.seen(element.origin))
-            .help(format!("add {name}=\"...\"")),
-        ))
-    }
-
-    /// Reports attributes that are missing (and fails) or unknown (and goes on).
-    #[inline(never)]
-    pub(crate) fn check_attributes(
-        &self,
-        element: &Element,
-        required: &[&str],
-        known: &[&str],
-        frame: Frame,
-    ) -> Result<(), Failed> {
-        for name in required {
-            self.require(element, name, frame)?;
-        }
-        for attribute in &element.attributes {
-            let name = attribute.name.as_str();
-            if known.contains(&name) || name.starts_with("xmlns:") {
-                continue;
-            }
-            let origin = frame.seen(attribute.origin);
-            let origin = Origin(origin.0.map(|span| span.part(0, name.len())));
-            self.report(
-                Diagnostic::warning(
-                    "unknown-attribute",
-                    format!("`{}` has no attribute `{name}`", element.name),
-                )
-                .at(origin)
-                .label("not read")
-                .did_you_mean(origin, name, known.iter().copied()),
-            );
-        }
-        Ok(())
-    }
-}
-
-/// Where the value of an attribute stands.
-pub(crate) fn value_origin(element: &Element, name: &str, frame: Frame) -> Origin {
-    let origin = element.attribute(name).map(|attribute| attribute.value_origin);
-    frame.seen(origin.unwrap_or(element.origin))
 }

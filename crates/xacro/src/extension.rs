@@ -5,9 +5,10 @@ use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Origin, closest};
 
-use crate::evaluate::{Failed, State, part};
+use crate::evaluate::part;
 use crate::expression::Dialect;
 use crate::scopes::ScopeId;
+use crate::state::{Failed, State};
 
 const COMMANDS: [&str; 7] = ["find", "arg", "env", "optenv", "dirname", "cwd", "eval"];
 

@@ -6,9 +6,11 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin};
 use periplus_resources::{Kind, MissKind};
 use periplus_xml::{Element, decode, parse};
 
-use crate::evaluate::{Failed, State};
-use crate::expand::{Frame, Output, value_origin};
+use crate::attributes::value_origin;
 use crate::expression::{EmptyScope, Expression, Value, evaluate};
+use crate::frame::Frame;
+use crate::output::Output;
+use crate::state::{Failed, State};
 use crate::yaml;
 
 /// How deep files may include files.

@@ -8,20 +8,27 @@
 //! reference stops at a limitation of its regular expressions we go on: braces inside `${...}` and
 //! parentheses inside `$(eval ...)` may nest.
 
+mod attributes;
 mod call;
 mod evaluate;
 mod expand;
 pub mod expression;
 mod extension;
+mod frame;
 mod include;
 mod literal;
+mod names;
+mod output;
 mod parameters;
 mod property;
 mod scopes;
+mod setting;
+mod state;
 mod text;
 mod yaml;
 
-pub use expand::{Expanded, Setting, expand};
+pub use expand::{Expanded, expand};
+pub use setting::Setting;
 
 /// The namespace that marks a file as xacro.
 pub const NAMESPACE: &str = "http://www.ros.org/wiki/xacro";

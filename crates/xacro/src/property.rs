@@ -6,11 +6,12 @@ use periplus_diagnostics::Diagnostic;
 use periplus_xml::{Attribute, Element};
 use smol_str::SmolStr;
 
-use crate::evaluate::{Failed, State};
-use crate::expand::{Frame, value_origin};
+use crate::attributes::value_origin;
 use crate::expression::{Value, is_built_in};
+use crate::frame::Frame;
 use crate::literal::{condition, is_name, literal, typed};
 use crate::scopes::{Block, LazyText, ScopeId, Symbol, TOP};
+use crate::state::{Failed, State};
 
 const ATTRIBUTES: [&str; 6] = ["name", "value", "default", "remove", "scope", "lazy_eval"];
 

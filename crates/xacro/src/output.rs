@@ -1,0 +1,62 @@
+//! Where expanded nodes go.
+
+use periplus_diagnostics::Origin;
+use periplus_xml::{Attribute, Element, Node, SmolStr};
+
+/// Where expanded nodes go: the content of an element, whose attributes `xacro:attribute` and
+/// inherited namespaces may extend.
+pub(crate) struct Output<'e> {
+    pub(crate) parent: &'e mut Element,
+    /// How many children no directive that follows takes comments from.
+    settled: usize,
+}
+
+impl<'e> Output<'e> {
+    pub(crate) fn new(parent: &'e mut Element) -> Self {
+        Self { parent, settled: 0 }
+    }
+
+    pub(crate) fn push(&mut self, node: Node) {
+        self.parent.children.push(node);
+    }
+
+    #[inline(never)]
+    pub(crate) fn set_attribute(&mut self, name: &str, value: &str, origin: Origin) {
+        let value = SmolStr::new(value);
+        match self.parent.attributes.iter_mut().find(|attribute| attribute.name == name) {
+            Some(attribute) => attribute.value = value,
+            None => self.parent.attributes.push(Attribute {
+                name: name.into(),
+                value,
+                origin,
+                value_origin: origin,
+            }),
+        }
+    }
+
+    /// What was put out so far keeps its comments.
+    pub(crate) fn settle(&mut self) {
+        self.settled = self.parent.children.len();
+    }
+
+    /// Comments right before something of xacro's speak of it, and go with it.
+    #[inline(never)]
+    pub(crate) fn drop_comments(&mut self) {
+        let children = &mut self.parent.children;
+        let blank = |node: &Node| {
+            matches!(node, Node::Text(text)
+                if text.text.trim().is_empty() && text.text.matches('\n').count() <= 1)
+        };
+        let mut before = children.len();
+        loop {
+            if before > self.settled && blank(&children[before - 1]) {
+                before -= 1;
+            }
+            if before <= self.settled || !matches!(children[before - 1], Node::Comment(_)) {
+                return;
+            }
+            before -= 1;
+            children.remove(before);
+        }
+    }
+}
