@@ -11,7 +11,7 @@ use periplus_sdf::keep;
 use periplus_xml::{Document, Element};
 
 use crate::robot::{GazeboBlock, Placement, Robot, Rotation};
-use fields::{extra, only_child, required_text, vector};
+use fields::{extra, only_child, required_name, vector};
 
 /// Children of `<robot>` that may come any number of times.
 const MANY: [&str; 9] = [
@@ -43,14 +43,14 @@ pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<Robot>
 }
 
 fn robot(root: &Element, diagnostics: &mut Diagnostics) -> Robot {
-    let name = required_text(root, "name", diagnostics);
+    let name = required_name(root, "name", diagnostics);
     let mut extra = extra(root, &["name", "version"], &["origin"], &MANY, diagnostics);
     for name in ["mujoco", "isaac_sim"] {
         extra.elements.extend(root.named(name).map(keep));
     }
     let verbatim = |name| root.named(name).map(keep).collect();
     Robot {
-        name: name.map(|name| name.value.to_string()).unwrap_or_default(),
+        name: name.unwrap_or_default(),
         version: version(root, diagnostics),
         origin_in_world: only_child(root, "origin", diagnostics)
             .map(|origin| placement(origin, diagnostics)),
@@ -112,7 +112,7 @@ fn gazebo(element: &Element, diagnostics: &mut Diagnostics) -> GazeboBlock {
         }
     }
     GazeboBlock {
-        reference: reference.map(|reference| reference.value.to_string()),
+        reference: reference.map(|reference| reference.value.trim().to_owned()),
         content: element.elements().map(keep).collect(),
         extra: crate::robot::Extra {
             attributes: attributes.into_iter().cloned().collect(),

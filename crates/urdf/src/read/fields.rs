@@ -85,6 +85,25 @@ pub(super) fn required_text<'a>(
     }
 }
 
+/// A name, or the name of something else, in an attribute that must be there. Blanks around it
+/// are taken off, for SDF, which Gazebo makes of it, has no room for them.
+pub(super) fn required_name(
+    element: &Element,
+    name: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<String> {
+    let attribute = required_text(element, name, diagnostics)?;
+    let plain = attribute.value.trim();
+    if plain.len() < attribute.value.len() {
+        diagnostics.push(
+            Diagnostic::warning("blank-in-name", "blanks around a name do not count")
+                .at(attribute.value_origin)
+                .replace(attribute.value_origin, plain, "other readers take them for a part of it"),
+        );
+    }
+    Some(plain.to_owned())
+}
+
 /// The first child of a name. More than one is a warning, for readers of URDF take the first.
 pub(super) fn only_child<'a>(
     element: &'a Element,

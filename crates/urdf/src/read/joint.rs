@@ -3,7 +3,9 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_xml::Element;
 
-use super::fields::{extra, number, only_child, required_number, required_text, vector};
+use super::fields::{
+    extra, number, only_child, required_name, required_number, required_text, vector,
+};
 use super::origin_of;
 use crate::robot::{Calibration, Dynamics, Joint, JointType, Limit, Mimic, SafetyController};
 
@@ -21,7 +23,7 @@ const CHILDREN: [&str; 9] = [
 
 /// A `<joint>`; none, with an error, without a name.
 pub(super) fn joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<Joint> {
-    let name = required_text(element, "name", diagnostics)?.value.to_string();
+    let name = required_name(element, "name", diagnostics)?;
     let kind = kind(element, &name, diagnostics);
     let (parent, parent_origin) = end(element, "parent", &name, diagnostics);
     let (child, child_origin) = end(element, "child", &name, diagnostics);
@@ -89,10 +91,9 @@ fn end(joint: &Element, end: &str, name: &str, diagnostics: &mut Diagnostics) ->
         return (String::new(), joint.origin);
     };
     extra(element, &["link"], &[], &[], diagnostics);
-    match required_text(element, "link", diagnostics) {
-        Some(link) => (link.value.to_string(), link.value_origin),
-        None => (String::new(), element.origin),
-    }
+    let link = required_name(element, "link", diagnostics).unwrap_or_default();
+    let origin = element.attribute("link").map_or(element.origin, |link| link.value_origin);
+    (link, origin)
 }
 
 fn axis_of(element: &Element, diagnostics: &mut Diagnostics) -> ([f64; 3], crate::robot::Extra) {
@@ -185,13 +186,14 @@ fn dynamics_of(element: &Element, diagnostics: &mut Diagnostics) -> Dynamics {
 }
 
 fn mimic_of(element: &Element, diagnostics: &mut Diagnostics) -> Option<Mimic> {
-    let joint = required_text(element, "joint", diagnostics)?;
+    let joint = required_name(element, "joint", diagnostics)?;
+    let origin = element.attribute("joint").map_or(element.origin, |joint| joint.value_origin);
     Some(Mimic {
-        joint: joint.value.to_string(),
+        joint,
         multiplier: number(element, "multiplier", diagnostics).unwrap_or(1.0),
         offset: number(element, "offset", diagnostics).unwrap_or(0.0),
         extra: extra(element, &["joint", "multiplier", "offset"], &[], &[], diagnostics),
-        origin: joint.value_origin,
+        origin,
     })
 }
 

@@ -3,13 +3,15 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_xml::Element;
 
-use super::fields::{extra, only_child, required_number, required_text, unknown_element, vector};
+use super::fields::{
+    extra, only_child, required_name, required_number, required_text, unknown_element, vector,
+};
 use super::{material, origin_of};
 use crate::robot::{Collision, Geometry, Inertial, Link, Visual};
 
 /// A `<link>`; none, with an error, without a name.
 pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<Link> {
-    let name = required_text(element, "name", diagnostics)?.value.to_string();
+    let name = required_name(element, "name", diagnostics)?;
     Some(Link {
         name,
         inertial: only_child(element, "inertial", diagnostics)

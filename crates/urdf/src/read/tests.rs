@@ -262,3 +262,12 @@ fn what_nobody_knows_is_kept() {
         assert!(written.contains(kept), "{kept} is lost in {written}");
     }
 }
+
+#[test]
+fn a_blank_after_a_joint_name_made_a_frame_that_nobody_found() {
+    codes(
+        "<link name='a'/><link name=' b'/>\
+         <joint name='j ' type='fixed'><parent link='a'/><child link='b'/></joint>",
+        &["blank-in-name", "blank-in-name"],
+    );
+}
