@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin, SourceMap};
 use periplus_resources::Kind;
 use periplus_sdf::{Includes, Opened};
 
@@ -49,9 +49,13 @@ impl<'s, 'a> Files<'s, 'a> {
                 return Opened::Broken;
             }
         };
-        let Some(document) = read_xml(path, &bytes, self.setting, sources, diagnostics) else {
+        let Some(mut document) = read_xml(path, &bytes, self.setting, sources, diagnostics) else {
             return Opened::Broken;
         };
+        // A file that is included many times is read once; its findings name the first include.
+        if let Some(at) = from.0 {
+            document.root.see_through(sources.expand(Expansion::Include { at }));
+        }
         let key = path.to_string_lossy().into_owned();
         if document.root.local_name() != "robot" {
             return Opened::Sdf { document: Arc::new(document), key };

@@ -40,3 +40,8 @@ fn a_lidar_in_a_world_without_the_sensors_system() {
 fn a_property_misspelt_in_a_macro() {
     check("misspelt_property.urdf.xacro");
 }
+
+#[test]
+fn a_slip_in_a_file_that_is_included() {
+    check("included_slip/world.sdf");
+}

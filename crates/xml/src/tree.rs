@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use periplus_diagnostics::{Origin, Span};
+use periplus_diagnostics::{ContextId, Origin, Span};
 use smol_str::SmolStr;
 
 /// A whole file: what stands before the root, the root, what stands after it.
@@ -185,6 +185,28 @@ impl Element {
         // With entities or CDATA in it the text is shorter than its source; then point to it all.
         let plain = run.text.len() == (span.end - span.start) as usize;
         Origin(Some(if plain { span.part(leading, leading + length) } else { span }))
+    }
+
+    /// Makes every place in this element be seen through a macro call or an include.
+    pub fn see_through(&mut self, context: ContextId) {
+        let seen = |origin: &mut Origin| {
+            if let Some(span) = &mut origin.0 {
+                span.context = context;
+            }
+        };
+        seen(&mut self.origin);
+        for attribute in &mut self.attributes {
+            seen(&mut attribute.origin);
+            seen(&mut attribute.value_origin);
+        }
+        for child in &mut self.children {
+            match child {
+                Node::Element(element) => element.see_through(context),
+                Node::Text(text) | Node::Comment(text) | Node::Instruction(text) => {
+                    seen(&mut text.origin);
+                }
+            }
+        }
     }
 
     /// Where the name in the start tag stands.
