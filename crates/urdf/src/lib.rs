@@ -1,7 +1,7 @@
 //! URDF with Gazebo's extensions.
 //!
 //! [`read`] turns a document into a [`Robot`]: plain data close to the file, checked as
-//! `check_urdf` checks. [`write`] goes back.
+//! `check_urdf` checks. [`write()`] goes back.
 
 mod check;
 mod convert;
