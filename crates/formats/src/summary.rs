@@ -172,8 +172,20 @@ fn shown(name: &str) -> Cow<'_, str> {
     }
 }
 
+/// Names with commas between them; one that comes again is counted.
 fn list(names: &[String]) -> String {
-    names.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ")
+    let mut counted: Vec<(&str, usize)> = Vec::new();
+    for name in names {
+        match counted.iter_mut().find(|(known, _)| known == name) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((name, 1)),
+        }
+    }
+    let words = counted.into_iter().map(|(name, count)| match count {
+        1 => shown(name).into_owned(),
+        _ => format!("{} ({count})", shown(name)),
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Writes a summary as an indented list.
