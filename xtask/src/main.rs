@@ -6,6 +6,7 @@
     reason = "a tool that runs other programs, reads the source tree and says how it went"
 )]
 
+mod codegen;
 mod corpus;
 mod docs;
 mod fuzz;
@@ -53,6 +54,12 @@ enum Task {
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
     Bench,
+    /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
+    Codegen {
+        /// Only say whether the code is what the texts say
+        #[arg(long)]
+        check: bool,
+    },
     /// The pictures in the documentation, from the program itself
     Pictures,
     /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
@@ -86,6 +93,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
         Task::Bench => corpus::bench(),
+        Task::Codegen { check } => codegen::run(*check),
         Task::Pictures => pictures::draw(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }

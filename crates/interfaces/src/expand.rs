@@ -1,0 +1,105 @@
+//! The types that services and actions imply.
+//!
+//! Names, fields and their order are those of `rosidl_generator_type_description` (checked in the
+//! tests by the hashes that it publishes).
+
+use periplus_diagnostics::Origin;
+
+use crate::{Definition, Element, Field, Kind, Scalar, Shape, Type, TypeName};
+
+/// What one text defines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interface {
+    /// Its full name.
+    pub name: TypeName,
+    /// What the comments at its top say.
+    pub doc: String,
+    /// The message; or request and response; or goal, result and feedback. Their names are already
+    /// those of the implied types, such as `Trigger_Request`.
+    pub parts: Vec<Definition>,
+}
+
+/// All types that an interface defines: of a message the message itself, of a service its request,
+/// response, event and the service as a whole, of an action these for both of its services, the
+/// goal, result, feedback, the feedback's message, and the action as a whole.
+#[must_use]
+pub fn expand(interface: &Interface) -> Vec<Definition> {
+    let mut all = interface.parts.clone();
+    let name = &interface.name;
+    match name.kind {
+        Kind::Message => {}
+        Kind::Service => all.extend(service(name, &interface.doc)),
+        Kind::Action => {
+            let uuid = || field("goal_id", message("unique_identifier_msgs", "UUID"));
+            let own = |suffix: &str| Element::Nested(name.implied(suffix));
+            let send = name.implied("SendGoal");
+            all.push(implied(send.implied("Request"), vec![uuid(), field("goal", own("Goal"))]));
+            let accepted = field("accepted", Element::Scalar(Scalar::Bool));
+            let stamp = field("stamp", message("builtin_interfaces", "Time"));
+            all.push(implied(send.implied("Response"), vec![accepted, stamp]));
+            all.extend(service(&send, ""));
+            let get = name.implied("GetResult");
+            all.push(implied(get.implied("Request"), vec![uuid()]));
+            let status = field("status", Element::Scalar(Scalar::I8));
+            all.push(implied(
+                get.implied("Response"),
+                vec![status, field("result", own("Result"))],
+            ));
+            all.extend(service(&get, ""));
+            let feedback = field("feedback", own("Feedback"));
+            all.push(implied(name.implied("FeedbackMessage"), vec![uuid(), feedback]));
+            let whole = [
+                ("goal", "Goal"),
+                ("result", "Result"),
+                ("feedback", "Feedback"),
+                ("send_goal_service", "SendGoal"),
+                ("get_result_service", "GetResult"),
+                ("feedback_message", "FeedbackMessage"),
+            ];
+            let fields = whole.map(|(name, suffix)| field(name, own(suffix)));
+            all.push(implied(name.clone(), fields.into()));
+        }
+    }
+    all
+}
+
+/// The event of a service, and the service as a whole.
+fn service(name: &TypeName, doc: &str) -> [Definition; 2] {
+    let own = |suffix: &str| Element::Nested(name.implied(suffix));
+    let at_most_one = |name: &str, element| Field {
+        r#type: Type { element, shape: Shape::Bounded(1) },
+        ..field(name, Element::Scalar(Scalar::Bool))
+    };
+    let event = vec![
+        field("info", message("service_msgs", "ServiceEventInfo")),
+        at_most_one("request", own("Request")),
+        at_most_one("response", own("Response")),
+    ];
+    let whole = [
+        ("request_message", "Request"),
+        ("response_message", "Response"),
+        ("event_message", "Event"),
+    ];
+    let whole = whole.map(|(name, suffix)| field(name, own(suffix)));
+    let mut service = implied(name.clone(), whole.into());
+    service.doc = doc.into();
+    [implied(name.implied("Event"), event), service]
+}
+
+fn implied(name: TypeName, fields: Vec<Field>) -> Definition {
+    Definition { name, fields, constants: Vec::new(), doc: String::new(), text: String::new() }
+}
+
+fn message(package: &str, name: &str) -> Element {
+    Element::Nested(TypeName::message(package, name))
+}
+
+fn field(name: &str, element: Element) -> Field {
+    Field {
+        name: name.into(),
+        r#type: Type { element, shape: Shape::One },
+        default: None,
+        doc: String::new(),
+        origin: Origin::default(),
+    }
+}

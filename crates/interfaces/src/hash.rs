@@ -1,0 +1,105 @@
+//! Type hashes: RIHS01.
+//!
+//! Sha-256 of the type's description as JSON (ROS Enhancement Proposal 2016; the layout of the JSON
+//! as `rosidl_generator_type_description` prints it): names, types and order of the fields count;
+//! comments, constants and defaults do not.
+
+use std::fmt::Write as _;
+
+use sha2::{Digest, Sha256};
+
+use crate::{Definition, Element, Field, Registry, Scalar, Shape, TypeName};
+
+impl Registry {
+    /// `RIHS01_` and 64 hexadecimal digits; none when the type or one that it needs is unknown.
+    #[must_use]
+    pub fn hash(&self, name: &TypeName) -> Option<String> {
+        let digest = Sha256::digest(self.description(name)?);
+        let mut hash = String::from("RIHS01_");
+        for byte in digest {
+            let _ = write!(hash, "{byte:02x}");
+        }
+        Some(hash)
+    }
+
+    /// The text that is hashed.
+    #[must_use]
+    pub fn description(&self, name: &TypeName) -> Option<String> {
+        let mut json = String::from("{\"type_description\": ");
+        individual(&mut json, self.get(name)?);
+        json.push_str(", \"referenced_type_descriptions\": [");
+        // Sorted by full name as text.
+        let mut referenced: Vec<(String, TypeName)> =
+            self.referenced(name).into_iter().map(|name| (name.to_string(), name)).collect();
+        referenced.sort();
+        for (index, (_, name)) in referenced.iter().enumerate() {
+            json.push_str(if index == 0 { "" } else { ", " });
+            individual(&mut json, self.get(name)?);
+        }
+        json.push_str("]}");
+        Some(json)
+    }
+}
+
+fn individual(json: &mut String, definition: &Definition) {
+    let _ = write!(json, "{{\"type_name\": \"{}\", \"fields\": [", definition.name);
+    for (index, field) in definition.fields.iter().enumerate() {
+        json.push_str(if index == 0 { "" } else { ", " });
+        one(json, field);
+    }
+    if definition.fields.is_empty() {
+        // The middleware's type language has no empty structures.
+        json.push_str(
+            "{\"name\": \"structure_needs_at_least_one_member\", \"type\": {\"type_id\": 3, \
+             \"capacity\": 0, \"string_capacity\": 0, \"nested_type_name\": \"\"}}",
+        );
+    }
+    json.push_str("]}");
+}
+
+fn one(json: &mut String, field: &Field) {
+    let nested = match &field.r#type.element {
+        Element::Nested(name) => name.to_string(),
+        _ => String::new(),
+    };
+    let (id, string_capacity) = match &field.r#type.element {
+        Element::Scalar(scalar) => (scalar_id(*scalar), 0),
+        Element::String(None) => (17, 0),
+        Element::WString(None) => (18, 0),
+        Element::String(Some(bound)) => (21, *bound),
+        Element::WString(Some(bound)) => (22, *bound),
+        Element::Nested(_) => (1, 0),
+    };
+    let (added, capacity) = match field.r#type.shape {
+        Shape::One => (0, 0),
+        Shape::Fixed(size) => (48, size),
+        Shape::Bounded(bound) => (96, bound),
+        Shape::Unbounded => (144, 0),
+    };
+    let _ = write!(
+        json,
+        "{{\"name\": \"{}\", \"type\": {{\"type_id\": {}, \"capacity\": {capacity}, \
+         \"string_capacity\": {string_capacity}, \"nested_type_name\": \"{nested}\"}}}}",
+        field.name,
+        id + added
+    );
+}
+
+/// The numbers of `type_description_interfaces/msg/FieldType`; a `char` is hashed as the `uint8`
+/// that it is.
+fn scalar_id(scalar: Scalar) -> u8 {
+    match scalar {
+        Scalar::I8 => 2,
+        Scalar::U8 | Scalar::Char => 3,
+        Scalar::I16 => 4,
+        Scalar::U16 => 5,
+        Scalar::I32 => 6,
+        Scalar::U32 => 7,
+        Scalar::I64 => 8,
+        Scalar::U64 => 9,
+        Scalar::F32 => 10,
+        Scalar::F64 => 11,
+        Scalar::Bool => 15,
+        Scalar::Byte => 16,
+    }
+}

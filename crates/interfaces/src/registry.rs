@@ -1,0 +1,210 @@
+//! Many types that know each other.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
+
+use crate::{Definition, Dialect, Interface, SEPARATOR, Shape, TypeName, expand, parse};
+
+/// A type whose arrays of fixed size hold more elements than this, all together, is refused: every
+/// value of it would take that much memory, whatever a message brings.
+const MOST_FIXED: u64 = 1 << 20;
+
+/// Deeper nesting is refused; the deepest in common use is 7.
+const DEEPEST: usize = 64;
+
+/// The types of many texts, by name.
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    types: BTreeMap<TypeName, Definition>,
+    interfaces: BTreeMap<TypeName, Interface>,
+}
+
+impl Registry {
+    /// No types.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds what one text defines. Call [`Registry::check`] when all are there.
+    pub fn add(&mut self, interface: Interface) {
+        for definition in expand(&interface) {
+            self.types.insert(definition.name.clone(), definition);
+        }
+        self.interfaces.insert(interface.name.clone(), interface);
+    }
+
+    /// Adds the types of a schema as bags and wires carry them: the text of `name`, then for each
+    /// type that it needs a line of `=`, a line `MSG: package/Name`, and its text. Types that are
+    /// already there are replaced: the schema knows what was sent.
+    ///
+    /// Returns whether all of it could be used; else the findings say why.
+    pub fn add_schema(
+        &mut self,
+        name: &TypeName,
+        file: FileId,
+        sources: &SourceMap,
+        dialect: Dialect,
+        diagnostics: &mut Diagnostics,
+    ) -> bool {
+        let whole = sources.whole(file);
+        let text = sources.text(whole);
+        let before = diagnostics.errors();
+        let mut name = Some(name.clone());
+        let (mut start, mut at) = (0, 0);
+        let mut is_header = false;
+        let mut pieces = Vec::new();
+        for line in text.split_inclusive('\n') {
+            let next = at + line.len();
+            if is_separator(line) {
+                pieces.extend(name.take().map(|name| (name, start, at)));
+                is_header = true;
+            } else if is_header {
+                is_header = false;
+                start = next;
+                name = line.trim().strip_prefix("MSG:").map(str::trim).and_then(TypeName::read);
+                if name.is_none() {
+                    let wrong = "after a line of `=` a schema names the type that follows";
+                    let wrong = Diagnostic::error("bad-schema", wrong).at(whole.part(at, next));
+                    diagnostics.push(wrong.help("write `MSG: package/Name`"));
+                }
+            }
+            at = next;
+        }
+        pieces.extend(name.take().map(|name| (name, start, text.len())));
+        for (name, start, end) in pieces {
+            let span = whole.part(start, end);
+            if let Some(interface) = parse::part(&name, span, sources, dialect, diagnostics) {
+                self.add(interface);
+            }
+        }
+        diagnostics.errors() == before
+    }
+
+    /// Whether every type that is referred to is known, none contains itself, and none is larger
+    /// than memory. Types for which this is not so are removed, and so are those that need them.
+    pub fn check(&mut self, diagnostics: &mut Diagnostics) {
+        let mut judged = BTreeMap::new();
+        let names: Vec<TypeName> = self.types.keys().cloned().collect();
+        for name in &names {
+            self.judge(name, &mut Vec::new(), &mut judged, diagnostics);
+        }
+        let usable: BTreeSet<TypeName> = judged
+            .iter()
+            .filter(|(_, size)| size.is_some())
+            .map(|(name, _)| (*name).clone())
+            .collect();
+        self.types.retain(|name, _| usable.contains(name));
+        self.interfaces.retain(|_, interface| {
+            interface.parts.iter().all(|part| self.types.contains_key(&part.name))
+        });
+    }
+
+    /// How many fixed elements a type has; none when it cannot be used.
+    fn judge<'a>(
+        &'a self,
+        name: &'a TypeName,
+        above: &mut Vec<&'a TypeName>,
+        judged: &mut BTreeMap<&'a TypeName, Option<u64>>,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<u64> {
+        if let Some(known) = judged.get(name) {
+            return *known;
+        }
+        let definition = self.types.get(name)?;
+        above.push(name);
+        let mut total = Some(0_u64);
+        for field in &definition.fields {
+            let one = match &field.r#type.element {
+                crate::Element::Nested(nested) if above.contains(&nested) => {
+                    let wrong = format!("`{name}` contains itself, by way of `{nested}`");
+                    diagnostics.push(Diagnostic::error("endless-type", wrong).at(field.origin));
+                    None
+                }
+                crate::Element::Nested(nested) if !self.types.contains_key(nested) => {
+                    diagnostics.push(self.unknown(definition, field, nested));
+                    None
+                }
+                crate::Element::Nested(_) if above.len() >= DEEPEST => {
+                    let wrong = format!("types nest deeper than {DEEPEST} here");
+                    diagnostics.push(Diagnostic::error("deep-type", wrong).at(field.origin));
+                    None
+                }
+                crate::Element::Nested(nested) => self.judge(nested, above, judged, diagnostics),
+                _ => Some(1),
+            };
+            let times = if let Shape::Fixed(size) = field.r#type.shape { size } else { 1 };
+            let added = one.and_then(|one| one.checked_mul(times)).zip(total);
+            total = added.and_then(|(one, total)| one.checked_add(total));
+            if total.is_some_and(|total| total > MOST_FIXED) {
+                let wrong = format!("`{name}` has more than {MOST_FIXED} elements of fixed number");
+                diagnostics.push(Diagnostic::error("large-type", wrong).at(field.origin));
+                total = None;
+            }
+        }
+        above.pop();
+        judged.insert(name, total);
+        total
+    }
+
+    fn unknown(&self, at: &Definition, field: &crate::Field, nested: &TypeName) -> Diagnostic {
+        let wrong = format!("`{}` needs the unknown type `{nested}`", at.name);
+        let short = nested.short();
+        let same_package = self.types.keys().filter(|known| known.package == nested.package);
+        let all = self.types.keys().filter(|known| known.name == nested.name);
+        let known: Vec<String> = all.chain(same_package).map(TypeName::short).collect();
+        let wrong = Diagnostic::error("unknown-type", wrong).at(field.origin);
+        let same_name = known.iter().find(|one| one.ends_with(&format!("/{}", nested.name)));
+        if let Some(same) = same_name {
+            return wrong.help(format!("there is `{same}`"));
+        }
+        match periplus_diagnostics::closest(&short, known.iter().map(String::as_str)) {
+            Some(near) => wrong.help(format!("did you mean `{near}`?")),
+            None => wrong.help(format!("add the package `{}`", nested.package)),
+        }
+    }
+
+    /// The definition of a type.
+    #[must_use]
+    pub fn get(&self, name: &TypeName) -> Option<&Definition> {
+        self.types.get(name)
+    }
+
+    /// What a text defined as a whole.
+    #[must_use]
+    pub fn interface(&self, name: &TypeName) -> Option<&Interface> {
+        self.interfaces.get(name)
+    }
+
+    /// All types, by name.
+    pub fn types(&self) -> impl Iterator<Item = &Definition> {
+        self.types.values()
+    }
+
+    /// What the texts defined, by name.
+    pub fn interfaces(&self) -> impl Iterator<Item = &Interface> {
+        self.interfaces.values()
+    }
+
+    /// All types that a type refers to, at any depth, by name; not itself.
+    #[must_use]
+    pub fn referenced(&self, name: &TypeName) -> BTreeSet<TypeName> {
+        let mut found = BTreeSet::new();
+        let mut ahead = vec![name];
+        while let Some(definition) = ahead.pop().and_then(|name| self.types.get(name)) {
+            for (_, nested) in definition.nested() {
+                if found.insert(nested.clone()) {
+                    ahead.push(nested);
+                }
+            }
+        }
+        found.remove(name);
+        found
+    }
+}
+
+fn is_separator(line: &str) -> bool {
+    let line = line.trim_end();
+    line == SEPARATOR || line.len() >= 40 && line.bytes().all(|b| b == b'=')
+}

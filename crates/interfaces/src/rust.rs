@@ -1,0 +1,260 @@
+//! Rust code for a package: calls of the macros `message!`, `service!` and `action!` of the crate
+//! `periplus-msgs`, which hold all that is the same for every type.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::{
+    Definition, Element, Field, Interface, Kind, Literal, Registry, Scalar, Shape, TypeName,
+};
+
+/// The code of one package. Every type that it refers to is expected in a module named like its
+/// package, beside this one.
+///
+/// # Errors
+/// What cannot be said in this form, in words.
+pub fn package(registry: &Registry, package: &str) -> Result<String, String> {
+    let mut code = format!(
+        "//! `{package}`. Made by `cargo xtask codegen`; edit the texts in `interfaces/{package}`\n\
+         //! instead.\n"
+    );
+    let mut taken = BTreeMap::new();
+    for interface in registry.interfaces().filter(|one| one.name.package == package) {
+        for definition in structs(registry, interface) {
+            claim(&mut taken, &definition.name)?;
+            message(&mut code, registry, definition)?;
+        }
+        match interface.name.kind {
+            Kind::Message => {}
+            Kind::Service => {
+                claim(&mut taken, &interface.name)?;
+                service(&mut code, registry, &interface.name, &interface.doc)?;
+            }
+            Kind::Action => {
+                claim(&mut taken, &interface.name)?;
+                for suffix in ["SendGoal", "GetResult"] {
+                    service(&mut code, registry, &interface.name.implied(suffix), "")?;
+                }
+                action(&mut code, registry, interface)?;
+            }
+        }
+    }
+    Ok(code)
+}
+
+/// The types of an interface that become structures: not the events of services, which only
+/// introspection sends, nor services and actions as a whole, which are never sent.
+pub fn structs<'a>(
+    registry: &'a Registry,
+    interface: &'a Interface,
+) -> impl Iterator<Item = &'a Definition> {
+    let suffixes: &[&str] = match interface.name.kind {
+        Kind::Action => &[
+            "SendGoal_Request",
+            "SendGoal_Response",
+            "GetResult_Request",
+            "GetResult_Response",
+            "FeedbackMessage",
+        ],
+        _ => &[],
+    };
+    let implied =
+        suffixes.iter().filter_map(|suffix| registry.get(&interface.name.implied(suffix)));
+    interface.parts.iter().chain(implied)
+}
+
+/// The name of a type as Rust has it: `Trigger_Request` is `TriggerRequest`.
+#[must_use]
+pub fn type_name(name: &TypeName) -> String {
+    name.name.replace('_', "")
+}
+
+fn claim(taken: &mut BTreeMap<String, TypeName>, name: &TypeName) -> Result<(), String> {
+    match taken.insert(type_name(name), name.clone()) {
+        Some(other) => Err(format!("`{name}` and `{other}` would have the same name in Rust")),
+        None => Ok(()),
+    }
+}
+
+fn hash(registry: &Registry, name: &TypeName) -> Result<String, String> {
+    registry.hash(name).ok_or_else(|| format!("`{name}` needs a type that is not there"))
+}
+
+fn message(code: &mut String, registry: &Registry, definition: &Definition) -> Result<(), String> {
+    let name = &definition.name;
+    let _ = writeln!(code, "\ncrate::message! {{");
+    let fallback = format!("`{name}`.");
+    doc(code, "    ", if definition.doc.is_empty() { &fallback } else { &definition.doc });
+    let _ = writeln!(code, "    \"{name}\" \"{}\"", hash(registry, name)?);
+    let _ = writeln!(code, "    {} {{", type_name(name));
+    for field in &definition.fields {
+        doc(code, "        ", if field.doc.is_empty() { &field.name } else { &field.doc });
+        let _ = write!(code, "        {}: {}", ident(&field.name), field_type(field, name)?);
+        if let Some(limit) = limit(field) {
+            let _ = write!(code, " | {limit}");
+        }
+        if let Some(default) = &field.default {
+            let _ = write!(code, " = {}", value(default, field)?);
+        }
+        code.push_str(",\n");
+    }
+    code.push_str("    }\n");
+    for constant in &definition.constants {
+        doc(code, "    ", if constant.doc.is_empty() { &constant.name } else { &constant.doc });
+        let rust = match constant.element {
+            Element::Scalar(scalar) => scalar_type(scalar),
+            _ => "&str",
+        };
+        let value = scalar_value(&constant.value, &constant.element)?;
+        let _ = writeln!(code, "    {}: {rust} = {value};", constant.name);
+    }
+    code.push_str("}\n");
+    Ok(())
+}
+
+fn service(
+    code: &mut String,
+    registry: &Registry,
+    name: &TypeName,
+    words: &str,
+) -> Result<(), String> {
+    let _ = writeln!(code, "\ncrate::service! {{");
+    let fallback = format!("`{name}`.");
+    doc(code, "    ", if words.is_empty() { &fallback } else { words });
+    let rust = type_name(name);
+    let hash = hash(registry, name)?;
+    let _ = writeln!(code, "    \"{name}\" \"{hash}\"\n    {rust}, {rust}Request, {rust}Response");
+    code.push_str("}\n");
+    Ok(())
+}
+
+fn action(code: &mut String, registry: &Registry, interface: &Interface) -> Result<(), String> {
+    let _ = writeln!(code, "\ncrate::action! {{");
+    let fallback = format!("`{}`.", interface.name);
+    doc(code, "    ", if interface.doc.is_empty() { &fallback } else { &interface.doc });
+    let rust = type_name(&interface.name);
+    let hash = hash(registry, &interface.name)?;
+    let _ = writeln!(code, "    \"{}\" \"{hash}\"", interface.name);
+    let _ = writeln!(
+        code,
+        "    {rust}, {rust}Goal, {rust}Result, {rust}Feedback,\n    {rust}SendGoal, \
+         {rust}GetResult, {rust}FeedbackMessage"
+    );
+    code.push_str("}\n");
+    Ok(())
+}
+
+fn doc(code: &mut String, indent: &str, text: &str) {
+    for line in text.lines() {
+        // What looks like a link or a tag to rustdoc is meant as it stands.
+        let line = line.replace('[', "\\[").replace('<', "\\<");
+        let _ = writeln!(code, "{}", format!("{indent}/// {line}").trim_end());
+    }
+}
+
+fn field_type(field: &Field, owner: &TypeName) -> Result<String, String> {
+    let one = match &field.r#type.element {
+        Element::Scalar(scalar) => scalar_type(*scalar).to_owned(),
+        Element::String(_) => "std::string::String".into(),
+        Element::WString(_) => "crate::WideString".into(),
+        Element::Nested(name) if name.package == owner.package => type_name(name),
+        Element::Nested(name) => format!("crate::{}::{}", name.package, type_name(name)),
+    };
+    let bound_twice = limit_of_text(&field.r#type.element).is_some();
+    Ok(match field.r#type.shape {
+        Shape::One => one,
+        _ if bound_twice => {
+            return Err(format!("`{owner}`: an array of bounded strings: `{}`", field.name));
+        }
+        Shape::Fixed(size) => format!("[{one}; {size}]"),
+        Shape::Bounded(_) | Shape::Unbounded => format!("Vec<{one}>"),
+    })
+}
+
+fn limit_of_text(element: &Element) -> Option<u64> {
+    match element {
+        Element::String(limit) | Element::WString(limit) => *limit,
+        _ => None,
+    }
+}
+
+/// How long a field may be, where the text says so.
+fn limit(field: &Field) -> Option<u64> {
+    match field.r#type.shape {
+        Shape::One => limit_of_text(&field.r#type.element),
+        Shape::Bounded(limit) => Some(limit),
+        _ => None,
+    }
+}
+
+fn scalar_type(scalar: Scalar) -> &'static str {
+    match scalar {
+        Scalar::Bool => "bool",
+        Scalar::Byte | Scalar::Char | Scalar::U8 => "u8",
+        Scalar::I8 => "i8",
+        Scalar::I16 => "i16",
+        Scalar::U16 => "u16",
+        Scalar::I32 => "i32",
+        Scalar::U32 => "u32",
+        Scalar::I64 => "i64",
+        Scalar::U64 => "u64",
+        Scalar::F32 => "f32",
+        Scalar::F64 => "f64",
+    }
+}
+
+fn value(literal: &Literal, field: &Field) -> Result<String, String> {
+    let one = |literal: &Literal| {
+        let value = scalar_value(literal, &field.r#type.element)?;
+        let is_text = matches!(literal, Literal::Text(_));
+        Ok(if is_text { format!("{value}.into()") } else { value })
+    };
+    match literal {
+        Literal::List(list) => {
+            let items: Result<Vec<String>, String> = list.iter().map(one).collect();
+            let opening = if matches!(field.r#type.shape, Shape::Fixed(_)) { "[" } else { "vec![" };
+            Ok(format!("{opening}{}]", items?.join(", ")))
+        }
+        literal => one(literal),
+    }
+}
+
+fn scalar_value(literal: &Literal, element: &Element) -> Result<String, String> {
+    Ok(match literal {
+        Literal::Bool(value) => value.to_string(),
+        Literal::Int(value) => value.to_string(),
+        Literal::Float(value) if value.is_finite() => format!("{value:?}"),
+        Literal::Float(value) => {
+            let rust = if *element == Element::Scalar(Scalar::F32) { "f32" } else { "f64" };
+            let name = match (value.is_nan(), *value > 0.0) {
+                (true, _) => "NAN",
+                (false, true) => "INFINITY",
+                (false, false) => "NEG_INFINITY",
+            };
+            format!("{rust}::{name}")
+        }
+        Literal::Text(text) => format!("{text:?}"),
+        Literal::List(_) => return Err("a list where one value belongs".into()),
+    })
+}
+
+/// The words that Rust keeps for itself and that may name a field.
+const KEYWORDS: [&str; 44] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
+    "else", "enum", "extern", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "static",
+    "struct", "trait", "try", "type", "typeof", "unsafe", "use", "virtual", "where", "while",
+];
+
+fn ident(name: &str) -> String {
+    match name {
+        // These cannot be written raw either; the macro takes the stroke off again.
+        "self" | "super" | "crate" => format!("{name}_"),
+        name if KEYWORDS.contains(&name)
+            || ["yield", "unsized", "true", "false", "static"].contains(&name) =>
+        {
+            format!("r#{name}")
+        }
+        name => name.into(),
+    }
+}

@@ -1,0 +1,91 @@
+//! All types that a program knows.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock, OnceLock};
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_interfaces::{Dialect, Registry, TypeName, parse};
+
+use super::layout::{self, Layout};
+
+/// Types by name, ready for use.
+#[derive(Debug, Default)]
+pub struct TypeRegistry {
+    registry: Registry,
+    types: BTreeMap<String, (Arc<Layout>, OnceLock<Option<String>>)>,
+}
+
+impl TypeRegistry {
+    /// Makes the types of texts ready. What is not usable (see [`Registry::check`]) is left out, and
+    /// the findings say why.
+    #[must_use]
+    pub fn new(mut registry: Registry, diagnostics: &mut Diagnostics) -> Self {
+        registry.check(diagnostics);
+        let layouts = layout::all(&registry).into_iter();
+        let types = layouts.map(|(name, layout)| (name, (layout, OnceLock::new()))).collect();
+        Self { registry, types }
+    }
+
+    /// The types of this crate.
+    #[must_use]
+    pub fn builtin() -> &'static Self {
+        static BUILTIN: LazyLock<TypeRegistry> = LazyLock::new(|| {
+            let mut diagnostics = Diagnostics::new();
+            let types = TypeRegistry::new(builtin_texts(&mut diagnostics), &mut diagnostics);
+            debug_assert!(diagnostics.is_empty(), "{diagnostics:?}");
+            types
+        });
+        &BUILTIN
+    }
+
+    /// The types of this crate as texts, to add others to them.
+    #[must_use]
+    pub fn builtin_texts() -> Registry {
+        Self::builtin().registry.clone()
+    }
+
+    /// A type by its full name.
+    #[must_use]
+    pub fn layout(&self, type_name: &str) -> Option<&Arc<Layout>> {
+        self.types.get(type_name).map(|(layout, _)| layout)
+    }
+
+    /// The texts that define a type, as MCAP's `ros2msg` wants them.
+    #[must_use]
+    pub fn schema_text(&self, type_name: &str) -> Option<&str> {
+        let (_, text) = self.types.get(type_name)?;
+        let make = || self.registry.schema_text(&TypeName::read(type_name)?);
+        text.get_or_init(make).as_deref()
+    }
+
+    /// The type hash of a type.
+    #[must_use]
+    pub fn hash(&self, type_name: &str) -> Option<String> {
+        self.registry.hash(&TypeName::read(type_name)?)
+    }
+
+    /// What the texts say.
+    #[must_use]
+    pub fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    /// The full names of all types, sorted.
+    pub fn type_names(&self) -> impl Iterator<Item = &str> {
+        self.types.keys().map(String::as_str)
+    }
+}
+
+fn builtin_texts(diagnostics: &mut Diagnostics) -> Registry {
+    let mut registry = Registry::new();
+    let mut sources = SourceMap::new();
+    for (path, text) in crate::generated::SOURCES {
+        let stem = path.rsplit_once('.').map_or(*path, |(stem, _)| stem);
+        let Some(name) = TypeName::read(stem) else { continue };
+        let file = sources.add(*path, *text);
+        if let Some(interface) = parse(&name, file, &sources, Dialect::Ros2, diagnostics) {
+            registry.add(interface);
+        }
+    }
+    registry
+}

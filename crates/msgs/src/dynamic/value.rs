@@ -1,0 +1,218 @@
+//! Values of types that are known only when the program runs.
+
+use std::sync::Arc;
+
+use super::layout::{Element, Field, Layout, Shape};
+use crate::binary::{Reader, Writer};
+use crate::{
+    Count, DecodeError, EncodeError, Format, Message, Number, NumberVec, Numbers, Sink, Source,
+    TypeRegistry, YamlStyle, json, yaml,
+};
+
+/// The value of a field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// One number.
+    Number(Number),
+    /// A text, in either coding.
+    Text(String),
+    /// A list of numbers.
+    Numbers(NumberVec),
+    /// Another list.
+    List(Vec<Self>),
+    /// The fields of a message.
+    Struct(Vec<Self>),
+}
+
+/// A value of some type.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DynamicMessage {
+    layout: Arc<Layout>,
+    fields: Vec<Value>,
+}
+
+impl DynamicMessage {
+    /// With all fields as they are when nobody sets them.
+    #[must_use]
+    pub fn blank(layout: &Arc<Layout>) -> Self {
+        Self { layout: layout.clone(), fields: layout.blank() }
+    }
+
+    /// A message of a type of this crate.
+    ///
+    /// # Errors
+    /// When a string or list is longer than its type allows.
+    pub fn of<T: Message>(message: &T) -> Result<Self, EncodeError> {
+        let unknown = || unreachable!("{} is a type of another crate", T::TYPE_NAME);
+        let layout = TypeRegistry::builtin().layout(T::TYPE_NAME).unwrap_or_else(unknown);
+        let bytes = message.to_cdr()?;
+        Ok(Self::decode(layout, Format::CDR, &bytes).unwrap_or_else(|_| Self::blank(layout)))
+    }
+
+    /// Reads bytes.
+    ///
+    /// # Errors
+    /// When they are no such message.
+    pub fn decode(layout: &Arc<Layout>, format: Format, bytes: &[u8]) -> Result<Self, DecodeError> {
+        let mut reader = Reader::new(format, bytes)?;
+        let fields = read_struct(layout, &mut reader)?;
+        reader.finish()?;
+        Ok(Self { layout: layout.clone(), fields })
+    }
+
+    /// Appends its bytes to `out`.
+    ///
+    /// # Errors
+    /// When a string or list is longer than its type allows.
+    pub fn encode(&self, format: Format, out: &mut Vec<u8>) -> Result<(), EncodeError> {
+        let mut writer = Writer::new(format, out);
+        write_struct(&self.layout, &self.fields, &mut writer);
+        writer.finish()
+    }
+
+    /// As JSON; see [`crate::to_json`].
+    #[must_use]
+    pub fn to_json(&self) -> serde_json::Value {
+        let mut writer = json::Writer::default();
+        write_struct(&self.layout, &self.fields, &mut writer);
+        writer.done
+    }
+
+    /// From JSON; fields that are not given keep their defaults.
+    ///
+    /// # Errors
+    /// When something else is there than the type has.
+    pub fn from_json(layout: &Arc<Layout>, json: &serde_json::Value) -> Result<Self, DecodeError> {
+        let fields = read_struct(layout, &mut json::Reader::new(json))?;
+        Ok(Self { layout: layout.clone(), fields })
+    }
+
+    /// As YAML, the way `ros2 topic echo` prints it, without the line `---`.
+    #[must_use]
+    pub fn to_yaml(&self, style: &YamlStyle) -> String {
+        yaml::print(&self.layout, &self.fields, style)
+    }
+
+    /// Its type.
+    #[must_use]
+    pub fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    /// The values of its fields, in the order of the type.
+    #[must_use]
+    pub fn fields(&self) -> &[Value] {
+        &self.fields
+    }
+
+    /// The value of a field by its way from the outside, such as `header.frame_id` or
+    /// `transforms[2].child_frame_id`.
+    #[must_use]
+    pub fn get(&self, path: &str) -> Option<Value> {
+        let mut steps = path.split(['.', '[']);
+        let first = steps.next()?;
+        let at = self.layout.fields.iter().position(|field| field.name == first)?;
+        let mut field = &self.layout.fields[at];
+        let mut value = self.fields.get(at)?.clone();
+        for step in steps {
+            value = match (value, step.strip_suffix(']')) {
+                (Value::List(mut list), Some(index)) => {
+                    let index: usize = index.parse().ok()?;
+                    (index < list.len()).then(|| list.swap_remove(index))?
+                }
+                (Value::Numbers(numbers), Some(index)) => {
+                    Value::Number(numbers.borrow().get(index.parse().ok()?)?)
+                }
+                (Value::Struct(mut fields), None) => {
+                    let Element::Struct(layout) = &field.element else { return None };
+                    let at = layout.fields.iter().position(|field| field.name == step)?;
+                    field = &layout.fields[at];
+                    fields.swap_remove(at)
+                }
+                _ => return None,
+            };
+        }
+        Some(value)
+    }
+}
+
+fn write_struct(layout: &Layout, values: &[Value], sink: &mut dyn Sink) {
+    sink.begin(&layout.type_name);
+    for (field, value) in layout.fields.iter().zip(values) {
+        sink.field(&field.name);
+        match (value, field.shape) {
+            (Value::Numbers(numbers), Shape::List(count)) => {
+                list(sink, numbers.borrow(), count);
+            }
+            (Value::List(list), Shape::List(count)) => {
+                sink.list(list.len(), count);
+                for value in list {
+                    write_one(&field.element, value, sink);
+                }
+                sink.end_list();
+            }
+            (value, _) => write_one(&field.element, value, sink),
+        }
+    }
+    sink.end(layout.fields.is_empty());
+}
+
+fn list(sink: &mut dyn Sink, numbers: Numbers<'_>, count: Count) {
+    sink.list(numbers.len(), count);
+    sink.numbers(numbers);
+    sink.end_list();
+}
+
+fn write_one(element: &Element, value: &Value, sink: &mut dyn Sink) {
+    match (element, value) {
+        (_, Value::Number(number)) => sink.number(*number),
+        (Element::WideText(limit), Value::Text(text)) => sink.wide_text(text, *limit),
+        (Element::Text(limit), Value::Text(text)) => sink.text(text, *limit),
+        (Element::Struct(layout), Value::Struct(fields)) => write_struct(layout, fields, sink),
+        // Values are made from layouts only.
+        _ => {}
+    }
+}
+
+fn read_struct(layout: &Layout, source: &mut dyn Source) -> Result<Vec<Value>, DecodeError> {
+    source.begin(&layout.type_name, &mut layout.fields())?;
+    let mut values = Vec::with_capacity(layout.fields.len());
+    for field in &layout.fields {
+        values.push(if source.enter(&field.name)? {
+            let value = read_field(field, source).map_err(|error| error.within(&field.name))?;
+            source.leave();
+            value
+        } else {
+            field.blank()
+        });
+    }
+    source.end(layout.fields.is_empty())?;
+    Ok(values)
+}
+
+fn read_field(field: &Field, source: &mut dyn Source) -> Result<Value, DecodeError> {
+    let Shape::List(count) = field.shape else { return read_one(&field.element, source) };
+    let length = source.list(count, field.element.least_bytes())?;
+    if let Element::Number { kind, .. } = field.element {
+        let mut numbers = kind.zeros(length);
+        source.numbers(numbers.borrow_mut())?;
+        return Ok(Value::Numbers(numbers));
+    }
+    let mut list = Vec::with_capacity(length);
+    for index in 0..length {
+        source.enter_element(index)?;
+        let value = read_one(&field.element, source);
+        list.push(value.map_err(|error| error.within_element(index))?);
+        source.leave();
+    }
+    Ok(Value::List(list))
+}
+
+fn read_one(element: &Element, source: &mut dyn Source) -> Result<Value, DecodeError> {
+    Ok(match element {
+        Element::Number { kind, .. } => Value::Number(source.number(*kind)?),
+        Element::Text(limit) => Value::Text(source.text(*limit)?),
+        Element::WideText(limit) => Value::Text(source.wide_text(*limit)?),
+        Element::Struct(layout) => Value::Struct(read_struct(layout, source)?),
+    })
+}

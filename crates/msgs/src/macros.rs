@@ -1,0 +1,171 @@
+//! What all generated types have in common.
+
+/// A structure that is a [`crate::Message`].
+#[doc(hidden)]
+#[macro_export]
+macro_rules! message {
+    (
+        $(#[$doc:meta])*
+        $type_name:literal $type_hash:literal
+        $name:ident {
+            $($(#[$field_doc:meta])* $field:ident: $type:ty $(| $limit:literal)? $(= $default:expr)?,)*
+        }
+        $($(#[$const_doc:meta])* $const:ident: $const_type:ty = $value:expr;)*
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $name {
+            $($(#[$field_doc])* pub $field: $type,)*
+        }
+
+        impl $name {
+            $($(#[$const_doc])* pub const $const: $const_type = $value;)*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self {
+                    $($field: $crate::message!(@default $($default)?),)*
+                }
+            }
+        }
+
+        impl $crate::Codec for $name {
+            const LEAST_BYTES: usize = 0 $(+ <$type as $crate::Codec>::LEAST_BYTES)*;
+
+            fn blank() -> Self {
+                Self::default()
+            }
+
+            fn write(&self, sink: &mut dyn $crate::Sink, _: Option<u32>) {
+                sink.begin($type_name);
+                $(
+                    $crate::write_field(
+                        &self.$field,
+                        const { $crate::plain(stringify!($field)) },
+                        $crate::message!(@limit $($limit)?),
+                        sink,
+                    );
+                )*
+                sink.end(Self::FIELDS.is_empty());
+            }
+
+            fn read(
+                &mut self,
+                source: &mut dyn $crate::Source,
+                _: Option<u32>,
+            ) -> Result<(), $crate::DecodeError> {
+                source.begin($type_name, &mut Self::FIELDS.iter().copied())?;
+                $(
+                    $crate::read_field(
+                        &mut self.$field,
+                        const { $crate::plain(stringify!($field)) },
+                        $crate::message!(@limit $($limit)?),
+                        source,
+                    )?;
+                )*
+                source.end(Self::FIELDS.is_empty())
+            }
+        }
+
+        impl $name {
+            const FIELDS: &[&str] = &[$($crate::plain(stringify!($field)),)*];
+        }
+
+        impl $crate::Message for $name {
+            const TYPE_NAME: &'static str = $type_name;
+            const TYPE_HASH: &'static str = $type_hash;
+        }
+    };
+    (@default) => { $crate::Codec::blank() };
+    (@default $default:expr) => { $default };
+    (@limit) => { None };
+    (@limit $limit:literal) => { Some($limit) };
+}
+
+/// A [`crate::Service`].
+#[doc(hidden)]
+#[macro_export]
+macro_rules! service {
+    (
+        $(#[$doc:meta])*
+        $type_name:literal $type_hash:literal
+        $name:ident, $request:ident, $response:ident
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+
+        impl $crate::Service for $name {
+            type Request = $request;
+            type Response = $response;
+            const TYPE_NAME: &'static str = $type_name;
+            const TYPE_HASH: &'static str = $type_hash;
+        }
+    };
+}
+
+/// A [`crate::Action`].
+#[doc(hidden)]
+#[macro_export]
+macro_rules! action {
+    (
+        $(#[$doc:meta])*
+        $type_name:literal $type_hash:literal
+        $name:ident, $goal:ident, $result:ident, $feedback:ident,
+        $send_goal:ident, $get_result:ident, $feedback_message:ident
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+
+        impl $crate::Action for $name {
+            type Goal = $goal;
+            type Result = $result;
+            type Feedback = $feedback;
+            type SendGoal = $send_goal;
+            type GetResult = $get_result;
+            type FeedbackMessage = $feedback_message;
+            const TYPE_NAME: &'static str = $type_name;
+            const TYPE_HASH: &'static str = $type_hash;
+        }
+    };
+}
+
+/// The texts that the types are made from, with their paths below `interfaces`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! sources {
+    ($($path:literal)*) => {
+        pub(crate) const SOURCES: &[(&str, &str)] = &[$((
+            $path,
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/interfaces/", $path)),
+        ),)*];
+    };
+}
+
+/// Makes `every_message!`, which gives all types to another macro.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! list_messages {
+    ($($package:ident::$name:ident)*) => {
+        /// Gives all messages of this crate to a macro.
+        #[macro_export]
+        macro_rules! every_message {
+            ($do:ident) => { $do! { $($package::$name)* } };
+        }
+    };
+}
+
+/// Makes `every_service!`, which gives all services to another macro.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! list_services {
+    ($($package:ident::$name:ident)*) => {
+        /// Gives all services of this crate to a macro.
+        #[macro_export]
+        macro_rules! every_service {
+            ($do:ident) => { $do! { $($package::$name)* } };
+        }
+    };
+}

@@ -1,0 +1,283 @@
+//! YAML, the way `ros2 topic echo` prints it.
+//!
+//! That is PyYAML's block style after `rosidl_runtime_py.message_to_ordereddict`. One difference is
+//! deliberate: a text of several lines is one line in double quotes here, so that every field stays
+//! on a line of its own.
+
+use crate::dynamic::{Element, Layout, Shape, Value};
+use crate::{Number, Numbers};
+
+/// What to leave out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct YamlStyle {
+    /// Longer lists and texts are cut; elements or characters. 128, as there, unless it is changed.
+    pub longest: Option<usize>,
+    /// Only the type and length of lists (`--no-arr`).
+    pub no_arrays: bool,
+    /// Only the length of texts (`--no-str`).
+    pub no_texts: bool,
+}
+
+impl Default for YamlStyle {
+    fn default() -> Self {
+        Self { longest: Some(128), no_arrays: false, no_texts: false }
+    }
+}
+
+pub(crate) fn print(layout: &Layout, values: &[Value], style: &YamlStyle) -> String {
+    if layout.fields.is_empty() {
+        return "{}\n".into();
+    }
+    let mut printer = Printer { out: String::new(), style };
+    printer.mapping(layout, values, 0, false);
+    printer.out
+}
+
+struct Printer<'a> {
+    out: String,
+    style: &'a YamlStyle,
+}
+
+impl Printer<'_> {
+    fn indent(&mut self, depth: usize) {
+        self.out.extend(std::iter::repeat_n(' ', depth));
+    }
+
+    /// The fields of a structure; whether the first stands on a line that is begun already.
+    fn mapping(&mut self, layout: &Layout, values: &[Value], depth: usize, mut is_begun: bool) {
+        for (field, value) in layout.fields.iter().zip(values) {
+            if !is_begun {
+                self.indent(depth);
+            }
+            is_begun = false;
+            self.out.push_str(&quoted(&field.name));
+            self.out.push(':');
+            match (value, field.shape) {
+                (Value::Numbers(numbers), Shape::List(_)) => {
+                    self.numbers(numbers.borrow(), &field.element, depth);
+                }
+                (Value::List(list), Shape::List(_)) => self.list(list, &field.element, depth),
+                (Value::Struct(values), _) => {
+                    if let Element::Struct(layout) = &field.element {
+                        let is_empty = layout.fields.is_empty();
+                        self.out.push_str(if is_empty { " {}\n" } else { "\n" });
+                        self.mapping(layout, values, depth + 2, false);
+                    }
+                }
+                (value, _) => {
+                    self.out.push(' ');
+                    self.scalar(value, &field.element);
+                }
+            }
+        }
+    }
+
+    /// What stands in the place of a list that is not shown, or how much of it is shown.
+    fn shown(&mut self, length: usize, element: &Element) -> Option<usize> {
+        if length == 0 {
+            self.out.push_str(" []\n");
+            return None;
+        }
+        if self.style.no_arrays {
+            let name = match element {
+                Element::Number { is_byte: true, .. } => "byte",
+                Element::Number { kind, .. } => kind.name(),
+                Element::Text(_) => "string",
+                Element::WideText(_) => "wstring",
+                Element::Struct(layout) => &layout.type_name,
+            };
+            let name = name.replace("/msg/", "/");
+            self.out.push_str(&format!(" '<array type: {name}[{length}]>'\n"));
+            return None;
+        }
+        self.out.push('\n');
+        Some(self.style.longest.map_or(length, |longest| longest.min(length)))
+    }
+
+    fn rest(&mut self, is_cut: bool, depth: usize) {
+        if is_cut {
+            self.indent(depth);
+            self.out.push_str("- '...'\n");
+        }
+    }
+
+    fn numbers(&mut self, numbers: Numbers<'_>, element: &Element, depth: usize) {
+        let Some(shown) = self.shown(numbers.len(), element) else { return };
+        for number in (0..shown).filter_map(|index| numbers.get(index)) {
+            self.indent(depth);
+            self.out.push_str("- ");
+            self.scalar(&Value::Number(number), element);
+        }
+        self.rest(shown < numbers.len(), depth);
+    }
+
+    fn list(&mut self, list: &[Value], element: &Element, depth: usize) {
+        let Some(shown) = self.shown(list.len(), element) else { return };
+        for value in &list[..shown] {
+            self.indent(depth);
+            self.out.push_str("- ");
+            match (element, value) {
+                (Element::Struct(layout), _) if layout.fields.is_empty() => {
+                    self.out.push_str("{}\n");
+                }
+                (Element::Struct(layout), Value::Struct(values)) => {
+                    self.mapping(layout, values, depth + 2, true);
+                }
+                _ => self.scalar(value, element),
+            }
+        }
+        self.rest(shown < list.len(), depth);
+    }
+
+    /// A number or a text, and the end of the line.
+    fn scalar(&mut self, value: &Value, element: &Element) {
+        let text = match value {
+            Value::Number(Number::U8(byte))
+                if matches!(element, Element::Number { is_byte: true, .. }) =>
+            {
+                quoted(&char::from(*byte).to_string())
+            }
+            Value::Number(number) => number_text(*number),
+            Value::Text(text) => self.text(text),
+            _ => String::new(),
+        };
+        self.out.push_str(&text);
+        self.out.push('\n');
+    }
+
+    fn text(&self, text: &str) -> String {
+        if self.style.no_texts && !text.is_empty() {
+            return format!("'<string length: <{}>>'", text.chars().count());
+        }
+        match self.style.longest.and_then(|longest| text.char_indices().nth(longest)) {
+            Some((end, _)) => quoted(&format!("{}...", &text[..end])),
+            None => quoted(text),
+        }
+    }
+}
+
+fn number_text(number: Number) -> String {
+    match number {
+        Number::Bool(number) => number.to_string(),
+        Number::I8(number) => number.to_string(),
+        Number::U8(number) => number.to_string(),
+        Number::I16(number) => number.to_string(),
+        Number::U16(number) => number.to_string(),
+        Number::I32(number) => number.to_string(),
+        Number::U32(number) => number.to_string(),
+        Number::I64(number) => number.to_string(),
+        Number::U64(number) => number.to_string(),
+        // Python has only one kind, and prints all digits of it.
+        Number::F32(number) => float_text(number.into()),
+        Number::F64(number) => float_text(number),
+    }
+}
+
+/// As PyYAML's `represent_float` does: Python's `repr`, but always with a point.
+fn float_text(number: f64) -> String {
+    if number.is_nan() {
+        return ".nan".into();
+    }
+    if number.is_infinite() {
+        return if number > 0.0 { ".inf".into() } else { "-.inf".into() };
+    }
+    let scientific = format!("{number:e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-4..16).contains(&exponent) {
+        let fixed = number.to_string();
+        return if fixed.contains('.') { fixed } else { format!("{fixed}.0") };
+    }
+    let point = if digits.contains('.') { "" } else { ".0" };
+    let sign = if exponent < 0 { '-' } else { '+' };
+    format!("{digits}{point}e{sign}{:02}", exponent.abs())
+}
+
+/// A text, in quotes where YAML 1.1 would take it for something else.
+fn quoted(text: &str) -> String {
+    // What PyYAML holds for printable (`Emitter.analyze_scalar`).
+    let printable = |c: char| match c {
+        ' '..='~' | '\u{85}' | '\u{a0}'..='\u{d7ff}' | '\u{10000}'.. => true,
+        '\u{e000}'..='\u{fffd}' => c != '\u{feff}',
+        _ => false,
+    };
+    if !text.chars().all(printable) {
+        return double_quoted(text);
+    }
+    if is_plain(text) { text.into() } else { format!("'{}'", text.replace('\'', "''")) }
+}
+
+fn double_quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            '\0' => quoted.push_str("\\0"),
+            '\u{7}' => quoted.push_str("\\a"),
+            '\u{8}' => quoted.push_str("\\b"),
+            '\t' => quoted.push_str("\\t"),
+            '\n' => quoted.push_str("\\n"),
+            '\u{b}' => quoted.push_str("\\v"),
+            '\u{c}' => quoted.push_str("\\f"),
+            '\r' => quoted.push_str("\\r"),
+            '\u{1b}' => quoted.push_str("\\e"),
+            '\u{feff}' => quoted.push_str("\\uFEFF"),
+            c if (c as u32) < 0x20 || (0x7f..0xa0).contains(&(c as u32)) => {
+                quoted.push_str(&format!("\\x{:02X}", c as u32));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// Whether a text of printable characters can stand without quotes and stays a text.
+fn is_plain(text: &str) -> bool {
+    let Some(first) = text.chars().next() else { return false };
+    let followed = |at: usize| text[at..].chars().nth(1).is_none_or(|next| next == ' ');
+    let start = match first {
+        '#' | ',' | '[' | ']' | '{' | '}' | '&' | '*' | '!' | '|' | '>' | '\'' | '"' | '%'
+        | '@' | '`' | ' ' => false,
+        '?' | ':' | '-' => !followed(0),
+        _ => true,
+    };
+    let middle = text.char_indices().skip(1).all(|(at, character)| match character {
+        ':' => !followed(at),
+        '#' => !text[..at].ends_with(' '),
+        '\u{85}' | '\u{2028}' | '\u{2029}' => false,
+        _ => true,
+    });
+    let document = text.starts_with("---") || text.starts_with("...");
+    start && middle && !text.ends_with(' ') && !document && !resolves(text)
+}
+
+/// Whether YAML 1.1, as PyYAML resolves it, would see something else than a text.
+fn resolves(text: &str) -> bool {
+    let lower = text.to_ascii_lowercase();
+    let is_cased = text == lower
+        || text == text.to_ascii_uppercase()
+        || text[..1] == text[..1].to_ascii_uppercase() && text[1..] == lower[1..];
+    let word = ["yes", "no", "true", "false", "on", "off", "null"].contains(&lower.as_str());
+    let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let all = |text: &str, test: fn(u8) -> bool| !text.is_empty() && text.bytes().all(test);
+    let infinite = [".inf", ".Inf", ".INF"].contains(&unsigned);
+    let nan = [".nan", ".NaN", ".NAN"].contains(&text);
+    let integer = all(unsigned, |b| b.is_ascii_digit() || b == b'_') && !unsigned.starts_with('_')
+        || unsigned
+            .strip_prefix("0x")
+            .is_some_and(|hex| all(hex, |b| b.is_ascii_hexdigit() || b == b'_'))
+        || unsigned.strip_prefix("0b").is_some_and(|bits| all(bits, |b| b"01_".contains(&b)));
+    // With a point, or sexagesimal, or a date: a little more than PyYAML takes is quoted, which
+    // changes nothing for a reader.
+    let looks_numeric = unsigned.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        && unsigned.bytes().any(|b| b.is_ascii_digit())
+        && unsigned.bytes().all(|b| b.is_ascii_digit() || b".eE+-_:TtZ ".contains(&b));
+    word && is_cased
+        || matches!(text, "~" | "<<" | "=")
+        || infinite
+        || nan
+        || integer
+        || looks_numeric && unsigned.contains(['.', ':', '-'])
+}

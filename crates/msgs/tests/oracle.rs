@@ -1,0 +1,180 @@
+//! The bytes and hashes of others; see `data/make.py` for where they come from.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
+use std::collections::BTreeMap;
+
+use periplus_msgs::{
+    DynamicMessage, Encapsulation, Format, Message, Service as _, TypeRegistry, decode, encode,
+};
+use serde_json::Value;
+
+const FORMATS: [(&str, Format); 3] = [
+    ("le", Format::Cdr(Encapsulation::LittleEndian)),
+    ("be", Format::Cdr(Encapsulation::BigEndian)),
+    ("ros1", Format::Ros1),
+];
+
+/// What rosbags made of each type.
+fn oracle() -> BTreeMap<String, Value> {
+    let lines = include_str!("data/oracle.jsonl").lines();
+    let parse = |line| serde_json::from_str::<Value>(line).unwrap();
+    lines.map(parse).map(|one| (one["type"].as_str().unwrap().to_owned(), one)).collect()
+}
+
+/// Each type with its hash and who says so.
+fn hashes() -> BTreeMap<&'static str, (&'static str, &'static str)> {
+    let read = |line: &'static str| {
+        let [name, hash, source] = line.split('\t').collect::<Vec<_>>()[..] else {
+            panic!("{line}")
+        };
+        (name, (hash, source))
+    };
+    include_str!("data/hashes.tsv").lines().map(read).collect()
+}
+
+fn base64(text: &str) -> Vec<u8> {
+    const ALPHABET: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut bytes = Vec::new();
+    let (mut held, mut bits) = (0_u32, 0);
+    for character in text.bytes().filter(|&b| b != b'=') {
+        let six = ALPHABET.iter().position(|&b| b == character).unwrap();
+        held = held << 6 | u32::try_from(six).unwrap();
+        bits += 6;
+        if bits >= 8 {
+            bits -= 8;
+            bytes.push((held >> bits & 0xff) as u8);
+        }
+    }
+    bytes
+}
+
+#[test]
+fn rosbags_makes_the_same_bytes() {
+    fn check<T: Message>(oracle: &BTreeMap<String, Value>) -> usize {
+        let Some(one) = oracle.get(T::TYPE_NAME) else { return 0 };
+        let json = &one["json"];
+        let value = T::from_json(json).unwrap_or_else(|e| panic!("{}: {e}", T::TYPE_NAME));
+        for (key, format) in FORMATS {
+            let theirs = base64(one[key].as_str().unwrap());
+            let mut ours = Vec::new();
+            encode(&value, format, &mut ours).unwrap();
+            assert_eq!(ours, theirs, "{} {key}", T::TYPE_NAME);
+            let back: T = decode(format, &theirs).unwrap();
+            assert_eq!(&back.to_json(), json, "{} {key}", T::TYPE_NAME);
+        }
+        1
+    }
+    let oracle = oracle();
+    let mut compared = 0;
+    macro_rules! all {
+        ($($package:ident::$name:ident)*) => {
+            $(compared += check::<periplus_msgs::$package::$name>(&oracle);)*
+        };
+    }
+    periplus_msgs::every_message!(all);
+    assert_eq!(compared, oracle.len());
+    assert!(compared > 300, "{compared}");
+}
+
+#[test]
+fn what_is_made_at_run_time_is_the_same_as_what_is_compiled() {
+    fn check<T: Message>(oracle: &BTreeMap<String, Value>) {
+        let layout = TypeRegistry::builtin().layout(T::TYPE_NAME).unwrap();
+        let mut values = vec![T::default()];
+        values.extend(oracle.get(T::TYPE_NAME).map(|one| T::from_json(&one["json"]).unwrap()));
+        let blank = DynamicMessage::blank(layout);
+        assert_eq!(blank.to_json(), T::default().to_json(), "{}", T::TYPE_NAME);
+        for value in values {
+            for (_, format) in FORMATS {
+                let mut bytes = Vec::new();
+                encode(&value, format, &mut bytes).unwrap();
+                let dynamic = DynamicMessage::decode(layout, format, &bytes).unwrap();
+                let mut again = Vec::new();
+                dynamic.encode(format, &mut again).unwrap();
+                assert_eq!(again, bytes, "{}", T::TYPE_NAME);
+                assert_eq!(dynamic.to_json(), value.to_json(), "{}", T::TYPE_NAME);
+            }
+        }
+    }
+    let oracle = oracle();
+    macro_rules! all {
+        ($($package:ident::$name:ident)*) => {
+            $(check::<periplus_msgs::$package::$name>(&oracle);)*
+        };
+    }
+    periplus_msgs::every_message!(all);
+}
+
+#[test]
+fn type_hashes_are_the_published_ones() {
+    let published = hashes();
+    let types = TypeRegistry::builtin();
+    let mut counts = BTreeMap::new();
+    for (name, (hash, source)) in &published {
+        let ours = types.hash(name).unwrap_or_else(|| panic!("{name} is missing"));
+        assert_eq!(&ours, hash, "{name}, as {source} has it");
+        *counts.entry(*source).or_insert(0) += 1;
+    }
+    assert!(counts["jazzy"] > 240, "{counts:?}");
+    macro_rules! messages {
+        ($($package:ident::$name:ident)*) => {
+            $({
+                type T = periplus_msgs::$package::$name;
+                assert_eq!(types.hash(T::TYPE_NAME).as_deref(), Some(T::TYPE_HASH));
+            })*
+        };
+    }
+    periplus_msgs::every_message!(messages);
+    macro_rules! services {
+        ($($package:ident::$name:ident)*) => {
+            $({
+                type T = periplus_msgs::$package::$name;
+                assert_eq!(types.hash(T::TYPE_NAME).as_deref(), Some(T::TYPE_HASH));
+            })*
+        };
+    }
+    periplus_msgs::every_service!(services);
+}
+
+/// Read off a running ROS 2 Jazzy: `ros2 topic info -v`.
+#[test]
+fn type_hashes_are_those_of_a_running_system() {
+    for (name, hash) in [
+        (
+            "sensor_msgs/msg/LaserScan",
+            "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
+        ),
+        (
+            "sensor_msgs/msg/PointCloud2",
+            "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5",
+        ),
+        (
+            "nav_msgs/msg/OccupancyGrid",
+            "8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7",
+        ),
+        (
+            "tf2_msgs/msg/TFMessage",
+            "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
+        ),
+        (
+            "nav_msgs/msg/Odometry",
+            "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
+        ),
+        (
+            "rosgraph_msgs/msg/Clock",
+            "692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564",
+        ),
+        (
+            "geometry_msgs/msg/Twist",
+            "9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a",
+        ),
+        ("std_msgs/msg/String", "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"),
+        (
+            "std_srvs/srv/Trigger",
+            "eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f",
+        ),
+    ] {
+        let ours = TypeRegistry::builtin().hash(name).unwrap();
+        assert_eq!(ours, format!("RIHS01_{hash}"), "{name}");
+    }
+}
