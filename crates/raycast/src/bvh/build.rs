@@ -1,0 +1,431 @@
+//! Building a tree by the surface area heuristic.
+//!
+//! Ranges of primitives are split where `area x count` of both sides, over 16 bins along each axis,
+//! is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"); a node
+//! splits its largest range until it has eight. The tree does not depend on the number of threads.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::{LEAF, MAX_DEPTH, MAX_LEAF, MAX_PRIMITIVES, Node, leaf};
+use crate::simd::{Row, Task, V8, dispatch};
+
+const BINS: usize = 16;
+/// From here on ranges are halved, three times a node: 2²⁸ boxes are spent after ten more.
+const HALVE_DEPTH: usize = MAX_DEPTH - 12;
+/// Below this many primitives a thread costs more than it brings.
+const THREAD_MIN: usize = 20_000;
+
+/// A box and a number: lower corner, number as bits, negated upper corner, nothing. Negated so
+/// that one minimum of eight lanes unites two boxes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds(pub(crate) Row);
+
+impl Bounds {
+    pub(crate) const EMPTY: Self = Self(Row([f32::INFINITY; 8]));
+
+    pub(crate) fn new(low: [f32; 3], high: [f32; 3], number: u32) -> Self {
+        let n = f32::from_bits(number);
+        Self(Row([low[0], low[1], low[2], n, -high[0], -high[1], -high[2], 0.0]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn low(&self, axis: usize) -> f32 {
+        self.0.0[axis]
+    }
+
+    #[inline(always)]
+    pub(crate) fn high(&self, axis: usize) -> f32 {
+        -self.0.0[axis + 4]
+    }
+
+    #[inline(always)]
+    pub(crate) fn number(&self) -> u32 {
+        self.0.0[3].to_bits()
+    }
+
+    #[inline(always)]
+    fn half_area(&self) -> f32 {
+        let (x, y) = (self.high(0) - self.low(0), self.high(1) - self.low(1));
+        let z = self.high(2) - self.low(2);
+        x * y + y * z + z * x
+    }
+
+    #[inline(always)]
+    fn union<V: V8>(&self, other: &Self) -> Self {
+        Self(V::load(&self.0).min(V::load(&other.0)).store())
+    }
+}
+
+/// Primitives to become one child.
+#[derive(Clone, Copy)]
+struct Range {
+    start: usize,
+    end: usize,
+    bounds: Bounds,
+    /// Of twice the centres.
+    centres: Bounds,
+}
+
+impl Range {
+    fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+/// A tree over boxes, root first; orders `boxes` as the leaves name them. No node where there is
+/// no box. Leaves hold up to `leaf_size` (at most 8) boxes.
+pub(crate) fn build(boxes: &mut [Bounds], leaf_size: usize, threads: usize) -> Vec<Node> {
+    assert!(boxes.len() <= MAX_PRIMITIVES && (1..=MAX_LEAF).contains(&leaf_size));
+    dispatch(Build { boxes, leaf_size, threads })
+}
+
+struct Build<'a> {
+    boxes: &'a mut [Bounds],
+    leaf_size: usize,
+    threads: usize,
+}
+
+impl Task for Build<'_> {
+    type Output = Vec<Node>;
+
+    #[inline(always)]
+    fn run<V: V8>(self) -> Vec<Node> {
+        let mut nodes = Vec::new();
+        if self.boxes.is_empty() {
+            return nodes;
+        }
+        let range = measure::<V>(self.boxes, 0);
+        if self.threads < 2 || self.boxes.len() < THREAD_MIN {
+            nodes.reserve(self.boxes.len() / 4);
+            grow::<V>(&mut nodes, self.boxes, range, self.leaf_size, 0);
+            return nodes;
+        }
+        // The root's children are the tasks; their order of completion does not matter.
+        let (children, count) = children_of::<V>(self.boxes, range, self.leaf_size, 0);
+        let children = &children[..count];
+        let mut tasks = Vec::with_capacity(count);
+        let mut rest = self.boxes;
+        for child in children {
+            let (boxes, after) = rest.split_at_mut(child.len());
+            rest = after;
+            tasks.push(Mutex::new((boxes, Vec::new())));
+        }
+        let next = AtomicUsize::new(0);
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by_key(|&slot| std::cmp::Reverse(children[slot].len()));
+        std::thread::scope(|scope| {
+            for _ in 0..self.threads.min(count) {
+                scope.spawn(|| {
+                    while let Some(&slot) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        if let Ok(mut task) = tasks[slot].lock() {
+                            let (boxes, nodes) = &mut *task;
+                            dispatch(Grow {
+                                boxes,
+                                nodes,
+                                whole: children[slot],
+                                leaf_size: self.leaf_size,
+                            });
+                        }
+                    }
+                });
+            }
+        });
+        nodes.push(Node::EMPTY);
+        for (slot, task) in tasks.into_iter().enumerate() {
+            let child = &children[slot];
+            let word = if child.len() <= self.leaf_size {
+                leaf(child.start, child.len())
+            } else {
+                let offset = index(nodes.len());
+                let grown = task.into_inner().map_or_else(|_| Vec::new(), |(_, nodes)| nodes);
+                nodes.extend(grown.into_iter().map(|mut node| {
+                    for slot in 0..8 {
+                        if node.is_used(slot) && node.child(slot) & LEAF == 0 {
+                            node.set_child(slot, node.child(slot) + offset);
+                        } else if node.is_used(slot) {
+                            node.set_child(slot, node.child(slot) + index(child.start));
+                        }
+                    }
+                    node
+                }));
+                offset
+            };
+            nodes[0].set(slot, &child.bounds, word);
+        }
+        nodes
+    }
+}
+
+/// The part of a tree below one child of the root.
+struct Grow<'a, 'b> {
+    boxes: &'a mut &'b mut [Bounds],
+    nodes: &'a mut Vec<Node>,
+    whole: Range,
+    leaf_size: usize,
+}
+
+impl Task for Grow<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: V8>(self) {
+        let range = Range { start: 0, end: self.boxes.len(), ..self.whole };
+        if range.len() > self.leaf_size {
+            self.nodes.reserve(range.len() / 4);
+            grow::<V>(self.nodes, self.boxes, range, self.leaf_size, 1);
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "`build` asserts the limits")]
+fn index(value: usize) -> u32 {
+    value as u32
+}
+
+/// Adds the node of a range and all below it.
+#[inline(never)]
+fn grow_apart<V: V8>(
+    n: &mut Vec<Node>,
+    boxes: &mut [Bounds],
+    range: Range,
+    size: usize,
+    depth: usize,
+) {
+    struct Again<'a>(&'a mut Vec<Node>, &'a mut [Bounds], Range, usize, usize);
+    impl Task for Again<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn run<V: V8>(self) {
+            grow::<V>(self.0, self.1, self.2, self.3, self.4);
+        }
+    }
+    V::run(Again(n, boxes, range, size, depth));
+}
+
+#[inline(always)]
+fn grow<V: V8>(
+    nodes: &mut Vec<Node>,
+    boxes: &mut [Bounds],
+    range: Range,
+    leaf_size: usize,
+    depth: usize,
+) {
+    let own = nodes.len();
+    nodes.push(Node::EMPTY);
+    let (children, count) = children_of::<V>(boxes, range, leaf_size, depth);
+    for (slot, child) in children[..count].iter().enumerate() {
+        let word = if child.len() <= leaf_size {
+            leaf(child.start, child.len())
+        } else {
+            let word = index(nodes.len());
+            grow_apart::<V>(nodes, boxes, *child, leaf_size, depth + 1);
+            word
+        };
+        nodes[own].set(slot, &child.bounds, word);
+    }
+}
+
+/// Splits a range into at most eight, in the order of the boxes.
+#[inline(always)]
+fn children_of<V: V8>(
+    boxes: &mut [Bounds],
+    range: Range,
+    leaf_size: usize,
+    depth: usize,
+) -> ([Range; 8], usize) {
+    let mut children = [range; 8];
+    let mut count = 1;
+    let mut settled = [false; 8];
+    while count < 8 {
+        let mut widest = None;
+        let mut most = f32::NEG_INFINITY;
+        for slot in 0..count {
+            let child = &children[slot];
+            if settled[slot] || child.len() < 2 {
+                continue;
+            }
+            // What has to be split comes first.
+            let large = child.len() > leaf_size;
+            let weight = if depth >= HALVE_DEPTH {
+                child.len() as f32
+            } else {
+                child.bounds.half_area() * if large { 1.0 } else { 1e-6 }
+            };
+            if weight > most {
+                most = weight;
+                widest = Some(slot);
+            }
+        }
+        let Some(slot) = widest else { break };
+        let child = children[slot];
+        let large = child.len() > leaf_size;
+        let Some((left, right)) = split::<V>(boxes, &child, large, depth >= HALVE_DEPTH) else {
+            settled[slot] = true;
+            continue;
+        };
+        children.copy_within(slot + 1..count, slot + 2);
+        settled.copy_within(slot + 1..count, slot + 2);
+        children[slot] = left;
+        children[slot + 1] = right;
+        (settled[slot], settled[slot + 1]) = (false, false);
+        count += 1;
+    }
+    (children, count)
+}
+
+/// Bounds of all boxes and of their centres.
+#[inline(always)]
+fn measure<V: V8>(boxes: &[Bounds], start: usize) -> Range {
+    let mut bounds = V::splat(f32::INFINITY);
+    let mut centres = bounds;
+    for each in boxes {
+        let row = V::load(&each.0);
+        bounds = bounds.min(row);
+        centres = centres.min(centre(row));
+    }
+    let (bounds, centres) = (Bounds(bounds.store()), Bounds(centres.store()));
+    Range { start, end: start + boxes.len(), bounds, centres }
+}
+
+/// Twice the centre, and negated in the other half.
+#[inline(always)]
+fn centre<V: V8>(row: V) -> V {
+    row.sub(row.swap_halves())
+}
+
+/// Where a range is cut: the boxes whose centre lies in a bin below `bin` go left.
+struct Cut {
+    cost: f32,
+    axis: usize,
+    bin: usize,
+    left: Bounds,
+    right: Bounds,
+}
+
+/// Splits a range in two, or says that it better stays whole, which it may only if not `forced`.
+#[inline(always)]
+fn split<V: V8>(
+    boxes: &mut [Bounds],
+    range: &Range,
+    forced: bool,
+    halve: bool,
+) -> Option<(Range, Range)> {
+    let own = &mut boxes[range.start..range.end];
+    let best = if halve { None } else { best_cut::<V>(own, range) };
+    if !forced {
+        // A leaf costs as much with eight triangles as with one: only less area pays.
+        let worth = |cut: &Cut| {
+            cut.left.half_area() + cut.right.half_area() < 0.9 * range.bounds.half_area()
+        };
+        if !best.as_ref().is_some_and(worth) {
+            return None;
+        }
+    }
+    let Some(cut) = best else {
+        // All centres are the same, or there is no time to look closer.
+        let middle = own.len() / 2;
+        let (left, right) = own.split_at(middle);
+        let (left, right) =
+            (measure::<V>(left, range.start), measure::<V>(right, range.start + middle));
+        return Some((left, right));
+    };
+    let (offset, scale) = grid(range);
+    let (offset, scale) = (V::load(&offset), V::load(&scale));
+    let none = V::splat(f32::INFINITY);
+    let mut sides = [none, none];
+    let (mut left, mut right) = (0, own.len());
+    let axis = cut.axis;
+    while left < right {
+        let middle = centre(V::load(&own[left].0));
+        let bin = bins(middle, offset, scale)[axis];
+        if bin < cut.bin {
+            sides[0] = sides[0].min(middle);
+            left += 1;
+        } else {
+            sides[1] = sides[1].min(middle);
+            right -= 1;
+            own.swap(left, right);
+        }
+    }
+    let middle = range.start + left;
+    let [first, second] = [Bounds(sides[0].store()), Bounds(sides[1].store())];
+    Some((
+        Range { start: range.start, end: middle, bounds: cut.left, centres: first },
+        Range { start: middle, end: range.end, bounds: cut.right, centres: second },
+    ))
+}
+
+/// What to subtract from twice a centre, and the bins per length.
+#[inline(always)]
+fn grid(range: &Range) -> (Row, Row) {
+    let mut offset = Row([0.0; 8]);
+    let mut scale = Row([0.0; 8]);
+    for axis in 0..3 {
+        let extent = range.centres.high(axis) - range.centres.low(axis);
+        if extent > 1e-30 {
+            offset.0[axis] = range.centres.low(axis);
+            scale.0[axis] = (BINS as f32 * 0.99999) / extent;
+        }
+    }
+    (offset, scale)
+}
+
+/// The bins of a centre along the three axes.
+#[inline(always)]
+#[expect(clippy::cast_sign_loss, reason = "no centre lies below the lowest")]
+fn bins<V: V8>(centre: V, offset: V, scale: V) -> [usize; 3] {
+    let place = centre.sub(offset).mul(scale).truncate();
+    let [x, y, z, ..] = place;
+    [x as usize & (BINS - 1), y as usize & (BINS - 1), z as usize & (BINS - 1)]
+}
+
+#[inline(always)]
+fn best_cut<V: V8>(own: &[Bounds], range: &Range) -> Option<Cut> {
+    let (offset, scale) = grid(range);
+    let (offset_v, scale_v) = (V::load(&offset), V::load(&scale));
+    let mut counts = [[0_u32; BINS]; 3];
+    let mut boxes = [[Bounds::EMPTY; BINS]; 3];
+    for each in own {
+        let row = V::load(&each.0);
+        let place = bins(centre(row), offset_v, scale_v);
+        for axis in 0..3 {
+            let bin = place[axis];
+            counts[axis][bin] += 1;
+            let own = &mut boxes[axis][bin].0;
+            *own = V::load(own).min(row).store();
+        }
+    }
+    let mut best: Option<Cut> = None;
+    for axis in 0..3 {
+        if scale.0[axis] == 0.0 {
+            continue;
+        }
+        let mut right = [(0.0_f32, Bounds::EMPTY); BINS];
+        let (mut count, mut bounds) = (0, Bounds::EMPTY);
+        for bin in (1..BINS).rev() {
+            count += counts[axis][bin];
+            bounds = bounds.union::<V>(&boxes[axis][bin]);
+            right[bin] = (if count == 0 { 0.0 } else { bounds.half_area() * cost(count) }, bounds);
+        }
+        let (mut count, mut bounds) = (0, Bounds::EMPTY);
+        for bin in 1..BINS {
+            count += counts[axis][bin - 1];
+            bounds = bounds.union::<V>(&boxes[axis][bin - 1]);
+            if count == 0 || count as usize == own.len() {
+                continue;
+            }
+            let total = bounds.half_area() * cost(count) + right[bin].0;
+            if best.as_ref().is_none_or(|best| total < best.cost) {
+                best = Some(Cut { cost: total, axis, bin, left: bounds, right: right[bin].1 });
+            }
+        }
+    }
+    best
+}
+
+/// What a ray through a box pays for the primitives in it.
+#[inline(always)]
+fn cost(count: u32) -> f32 {
+    count as f32
+}

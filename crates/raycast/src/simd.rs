@@ -1,0 +1,344 @@
+//! Eight numbers at a time.
+//!
+//! [`V8`] is the small set of operations that traversal, triangle test and builder are written in,
+//! once, for every kind of processor: [`Portable`] is plain Rust, [`Avx2`] the same with x86-64
+//! vector registers. Every operation but [`V8::mul_add_about`] rounds as IEEE 754 says, so both give
+//! the same bits. The only unsafe code of this crate is here.
+
+#![allow(unsafe_code, reason = "vector instructions; each use says why it is sound")]
+
+/// Eight f32 in memory, aligned for a vector load.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row(pub(crate) [f32; 8]);
+
+/// Eight f32 in registers. A comparison gives a mask: all bits of a lane set, or none.
+pub(crate) trait V8: Copy {
+    /// All lanes the same.
+    fn splat(value: f32) -> Self;
+    fn load(row: &Row) -> Self;
+    fn store(self) -> Row;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// The smaller; `other` where one is no number.
+    fn min(self, other: Self) -> Self;
+    /// The larger; `other` where one is no number.
+    fn max(self, other: Self) -> Self;
+    /// `self * a + b`, rounded once or twice: only where a margin covers the difference.
+    fn mul_add_about(self, a: Self, b: Self) -> Self;
+    fn le(self, other: Self) -> Self;
+    fn and(self, other: Self) -> Self;
+    fn or(self, other: Self) -> Self;
+    /// `self` where the mask is set, `other` elsewhere.
+    fn select(self, other: Self, mask: Self) -> Self;
+    /// Lanes 4 to 7, then 0 to 3.
+    fn swap_halves(self) -> Self;
+    /// Bit `i` tells lane `i` of a mask.
+    fn bits(self) -> u32;
+    /// Whole numbers towards zero. Every lane must lie within ±2³¹.
+    fn truncate(self) -> [i32; 8];
+
+    /// Runs a task with this type's instructions enabled throughout.
+    fn run<T: Task>(task: T) -> T::Output;
+}
+
+/// All lanes of three vectors the same.
+#[inline(always)]
+pub(crate) fn splat3<V: V8>(values: [f32; 3]) -> [V; 3] {
+    [V::splat(values[0]), V::splat(values[1]), V::splat(values[2])]
+}
+
+/// Work that is compiled once for every kind of processor.
+pub(crate) trait Task {
+    type Output;
+    fn run<V: V8>(self) -> Self::Output;
+}
+
+/// Runs a task with the best instructions of this machine. Implementations of [`Task::run`] have
+/// to be `#[inline(always)]` down to the vector operations, or they lose their instructions; that
+/// rules out closures with vector operations, which cannot be told so.
+#[inline]
+pub(crate) fn dispatch<T: Task>(task: T) -> T::Output {
+    #[cfg(target_arch = "x86_64")]
+    if !force_portable() && has_avx2() {
+        return Avx2::run(task);
+    }
+    Portable::run(task)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline]
+fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("lzcnt")
+}
+
+#[cfg(not(test))]
+#[inline(always)]
+fn force_portable() -> bool {
+    false
+}
+
+#[cfg(test)]
+thread_local! {
+    static PORTABLE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+#[cfg(test)]
+fn force_portable() -> bool {
+    PORTABLE.get()
+}
+
+/// What `work` gives without vector instructions.
+#[cfg(test)]
+pub(crate) fn without_vectors<R>(work: impl FnOnce() -> R) -> R {
+    PORTABLE.set(true);
+    let result = work();
+    PORTABLE.set(false);
+    result
+}
+
+/// Plain Rust; compilers vectorise it for the processor they are told of.
+#[derive(Clone, Copy)]
+pub(crate) struct Portable([f32; 8]);
+
+impl Portable {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+}
+
+#[inline(always)]
+fn mask(set: bool) -> f32 {
+    f32::from_bits(if set { u32::MAX } else { 0 })
+}
+
+impl V8 for Portable {
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self([value; 8])
+    }
+    #[inline(always)]
+    fn load(row: &Row) -> Self {
+        Self(row.0)
+    }
+    #[inline(always)]
+    fn store(self) -> Row {
+        Row(self.0)
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn mul_add_about(self, a: Self, b: Self) -> Self {
+        self.mul(a).add(b)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> Self {
+        self.zip(other, |a, b| mask(a <= b))
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.zip(other, |a, b| f32::from_bits(a.to_bits() & b.to_bits()))
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self.zip(other, |a, b| f32::from_bits(a.to_bits() | b.to_bits()))
+    }
+    #[inline(always)]
+    fn select(self, other: Self, mask: Self) -> Self {
+        Self(std::array::from_fn(|i| if mask.0[i].to_bits() == 0 { other.0[i] } else { self.0[i] }))
+    }
+    #[inline(always)]
+    fn swap_halves(self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i ^ 4]))
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        (0..8).map(|i| (self.0[i].to_bits() >> 31) << i).sum()
+    }
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "that is what it does")]
+    fn truncate(self) -> [i32; 8] {
+        self.0.map(|value| value as i32)
+    }
+    #[inline(always)]
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run::<Self>()
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx2::Avx2;
+
+#[cfg(target_arch = "x86_64")]
+mod avx2 {
+    use std::arch::x86_64::*;
+
+    use super::{Row, Task, V8};
+
+    /// Eight f32 in an AVX register. Values of this type come to be only inside [`V8::run`], which
+    /// [`super::dispatch`] reaches only on machines that have the instructions: that makes every
+    /// `unsafe` below sound, as these intrinsics ask for nothing else.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Avx2(__m256);
+
+    /// A method body of intrinsics on registers.
+    macro_rules! ops {
+        ($($name:ident($($arg:ident),*) = $body:expr;)*) => {$(
+            #[inline(always)]
+            fn $name(self $(, $arg: Self)*) -> Self {
+                $(let $arg = $arg.0;)*
+                // SAFETY: on registers only; the machine has AVX2 and FMA (see `Avx2`).
+                Self(unsafe { $body(self.0 $(, $arg)*) })
+            }
+        )*};
+    }
+
+    impl V8 for Avx2 {
+        #[inline(always)]
+        fn splat(value: f32) -> Self {
+            // SAFETY: on registers only; the machine has AVX (see `Avx2`).
+            Self(unsafe { _mm256_set1_ps(value) })
+        }
+        #[inline(always)]
+        fn load(row: &Row) -> Self {
+            // SAFETY: a `Row` is 32 readable bytes, aligned to 32.
+            Self(unsafe { _mm256_load_ps(row.0.as_ptr()) })
+        }
+        #[inline(always)]
+        fn store(self) -> Row {
+            let mut row = Row([0.0; 8]);
+            // SAFETY: a `Row` is 32 writable bytes, aligned to 32.
+            unsafe { _mm256_store_ps(row.0.as_mut_ptr(), self.0) };
+            row
+        }
+        ops! {
+            add(other) = _mm256_add_ps;
+            sub(other) = _mm256_sub_ps;
+            mul(other) = _mm256_mul_ps;
+            div(other) = _mm256_div_ps;
+            min(other) = _mm256_min_ps;
+            max(other) = _mm256_max_ps;
+            mul_add_about(a, b) = _mm256_fmadd_ps;
+            le(other) = _mm256_cmp_ps::<_CMP_LE_OQ>;
+            and(other) = _mm256_and_ps;
+            or(other) = _mm256_or_ps;
+        }
+        #[inline(always)]
+        fn select(self, other: Self, mask: Self) -> Self {
+            // SAFETY: on registers only; the machine has AVX (see `Avx2`).
+            Self(unsafe { _mm256_blendv_ps(other.0, self.0, mask.0) })
+        }
+        #[inline(always)]
+        fn swap_halves(self) -> Self {
+            // SAFETY: on registers only; the machine has AVX (see `Avx2`).
+            Self(unsafe { _mm256_permute2f128_ps::<1>(self.0, self.0) })
+        }
+        #[inline(always)]
+        fn bits(self) -> u32 {
+            // SAFETY: on registers only; the machine has AVX (see `Avx2`).
+            unsafe { _mm256_movemask_ps(self.0) }.cast_unsigned()
+        }
+        #[inline(always)]
+        fn truncate(self) -> [i32; 8] {
+            let mut result = [0_i32; 8];
+            // SAFETY: the target is 32 writable bytes; the unaligned store asks for no more.
+            unsafe {
+                _mm256_storeu_si256(result.as_mut_ptr().cast(), _mm256_cvttps_epi32(self.0));
+            }
+            result
+        }
+        #[inline(always)]
+        fn run<T: Task>(task: T) -> T::Output {
+            // SAFETY: `dispatch` saw that the machine has these instructions.
+            unsafe { run(task) }
+        }
+    }
+
+    #[target_feature(enable = "avx2,fma,bmi1,lzcnt")]
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run::<Avx2>()
+    }
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    struct Every(Row, Row, Row);
+
+    impl Task for Every {
+        type Output = Vec<[u32; 8]>;
+        #[inline(always)]
+        fn run<V: V8>(self) -> Self::Output {
+            let (a, b, c) = (V::load(&self.0), V::load(&self.1), V::load(&self.2));
+            let mask = a.le(c);
+            let values = [
+                a.add(b),
+                a.sub(b),
+                a.mul(b),
+                a.div(b),
+                a.min(b),
+                a.max(b),
+                a.le(b),
+                mask,
+                a.and(b),
+                a.or(b),
+                a.swap_halves(),
+                a.select(b, mask),
+                V::splat(self.0.0[3]),
+            ];
+            let mut all: Vec<_> = values.iter().map(|v| v.store().0.map(canonical)).collect();
+            all.push([mask.bits(); 8]);
+            all
+        }
+    }
+
+    /// NaN payloads may differ.
+    fn canonical(value: f32) -> u32 {
+        if value.is_nan() { f32::NAN.to_bits() } else { value.to_bits() }
+    }
+
+    fn row() -> impl Strategy<Value = Row> {
+        prop::array::uniform8(prop_oneof![any::<f32>(), (-4_i8..4).prop_map(f32::from)])
+            .prop_map(Row)
+    }
+
+    proptest! {
+        #[test]
+        fn vectors_and_plain_rust_give_the_same_bits(a in row(), b in row(), c in row()) {
+            if super::has_avx2() {
+                prop_assert_eq!(Avx2::run(Every(a, b, c)), Portable::run(Every(a, b, c)));
+            }
+        }
+    }
+}

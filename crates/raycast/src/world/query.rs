@@ -1,0 +1,346 @@
+//! One ray at a time.
+
+use periplus_base::DVec3;
+
+use super::{Body, Filter, Instance, World};
+use crate::bvh::{STACK, leaf_range};
+use crate::local::{BoxTest, LocalRay, reach};
+use crate::mesh::Nearest;
+use crate::ray::{Hit, InstanceId, Ray};
+use crate::simd::{Task, V8, dispatch};
+use crate::walk::{Leaves, Stack, Step, walk};
+
+/// What is known of a ray so far; without an instance (`u32::MAX`) how far it looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    pub(super) distance: f64,
+    pub(super) instance: u32,
+    pub(super) primitive: u32,
+}
+
+impl Found {
+    pub(super) fn nothing(max: f64) -> Self {
+        Self { distance: max, instance: u32::MAX, primitive: u32::MAX }
+    }
+
+    pub(super) fn is_hit(&self) -> bool {
+        self.instance != u32::MAX
+    }
+
+    /// Keeps the nearer; of equals the one of the lower numbers.
+    #[inline(always)]
+    pub(super) fn consider(&mut self, distance: f64, instance: u32, primitive: u32) {
+        let numbers = (instance, primitive) < (self.instance, self.primitive);
+        if distance < self.distance || distance == self.distance && numbers {
+            *self = Self { distance, instance, primitive };
+        }
+    }
+}
+
+/// The next f32 not below a distance.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "rounded up when it was rounded down")]
+pub(super) fn single_above(distance: f64) -> f32 {
+    let single = distance as f32;
+    if f64::from(single) < distance { single.next_up() } else { single }
+}
+
+impl World {
+    /// The nearest thing on a ray.
+    #[must_use]
+    pub fn cast(&self, ray: &Ray, filter: Filter) -> Option<Hit> {
+        let found = dispatch(Ask::<false> { world: self, ray, filter });
+        found.is_hit().then(|| self.hit(ray, &found))
+    }
+
+    /// Whether anything is on a ray: cheaper than to know what.
+    #[must_use]
+    pub fn occluded(&self, ray: &Ray, filter: Filter) -> bool {
+        dispatch(Ask::<true> { world: self, ray, filter }).is_hit()
+    }
+
+    /// All that is to know of a hit.
+    pub(super) fn hit(&self, ray: &Ray, found: &Found) -> Hit {
+        let instance = &self.instances[found.instance as usize];
+        let frame = &instance.world_from_body;
+        let point = frame.point_in_body(ray.at(found.distance));
+        let normal = match &instance.body {
+            Body::Fixed => {
+                let part = self.parts.partition_point(|part| part.instance < found.instance);
+                self.fixed.normal(self.parts[part].first + found.primitive)
+            }
+            Body::Solid(solid) => frame.turn(solid.normal(point, found.primitive)),
+            Body::Mesh(mesh) => frame.turn(mesh.normal(found.primitive)),
+            Body::Heights(heights) => frame.turn(heights.normal(found.primitive)),
+        };
+        let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
+        Hit {
+            distance_m: found.distance,
+            normal,
+            instance: InstanceId(found.instance),
+            primitive: found.primitive,
+        }
+    }
+
+    /// Whether every fixed triangle is seen.
+    pub(super) fn sees_all_fixed(&self, filter: Filter) -> bool {
+        (self.parts.is_empty() || self.parts_mask & filter.mask != 0)
+            && (filter.except_group == 0
+                || self.parts_groups.binary_search(&filter.except_group).is_err())
+    }
+
+    /// The instance of a fixed triangle, and its number in that.
+    #[inline]
+    pub(super) fn part_of(&self, triangle: u32) -> (u32, u32) {
+        let after = self.parts.partition_point(|part| part.first <= triangle);
+        let part = self.parts[after - 1];
+        (part.instance, triangle - part.first)
+    }
+
+    /// Follows one ray through everything.
+    #[inline(always)]
+    pub(super) fn find<V: V8, const ANY: bool>(
+        &self,
+        ray: &Ray,
+        filter: Filter,
+        stack: &mut Stack,
+    ) -> Found {
+        let mut found = Found::nothing(ray.max_m);
+        if !ray.is_sound() {
+            return found;
+        }
+        self.find_endless(ray, filter, &mut found);
+        if ANY && found.is_hit() {
+            return found;
+        }
+        if !self.fixed.is_empty() {
+            let local = self.fixed.localize(ray.origin_m, ray.direction, ray.min_m);
+            self.find_fixed::<V, ANY>(&local, filter, &mut found, stack);
+            if ANY && found.is_hit() {
+                return found;
+            }
+        }
+        self.find_instances::<V, ANY>(ray, filter, &mut found, stack);
+        found
+    }
+
+    #[inline(always)]
+    pub(super) fn find_endless(&self, ray: &Ray, filter: Filter, found: &mut Found) {
+        for &number in &self.endless {
+            self.find_solid(number, ray, filter, found);
+        }
+    }
+
+    #[inline(always)]
+    fn find_solid(&self, number: u32, ray: &Ray, filter: Filter, found: &mut Found) {
+        let Instance { body: Body::Solid(solid), tags, world_from_body, .. } =
+            &self.instances[number as usize]
+        else {
+            return;
+        };
+        if !filter.lets_pass(*tags) {
+            return;
+        }
+        let origin = world_from_body.point_in_body(ray.origin_m);
+        let direction = world_from_body.unturn(ray.direction);
+        let min = ray.min_m.max(0.0);
+        if let Some((distance, face)) = solid.cast(origin, direction, min, found.distance) {
+            found.consider(distance, number, face);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn find_fixed<V: V8, const ANY: bool>(
+        &self,
+        local: &LocalRay,
+        filter: Filter,
+        found: &mut Found,
+        stack: &mut Stack,
+    ) {
+        let mut nearest = Nearest { distance: single_above(found.distance), id: u32::MAX };
+        if self.sees_all_fixed(filter) {
+            self.fixed.trace::<V, ANY>(local, &mut nearest, stack, |_| true);
+        } else {
+            let accept =
+                |id: u32| filter.lets_pass(self.instances[self.part_of(id).0 as usize].tags);
+            self.fixed.trace::<V, ANY>(local, &mut nearest, stack, accept);
+        }
+        self.take_fixed(nearest, found);
+    }
+
+    #[inline(always)]
+    pub(super) fn take_fixed(&self, nearest: Nearest, found: &mut Found) {
+        if nearest.id != u32::MAX {
+            let (instance, primitive) = self.part_of(nearest.id);
+            found.consider(nearest.distance.into(), instance, primitive);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn find_instances<V: V8, const ANY: bool>(
+        &self,
+        ray: &Ray,
+        filter: Filter,
+        found: &mut Found,
+        stack: &mut Stack,
+    ) {
+        if self.top.is_empty() {
+            return;
+        }
+        let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
+        // The boxes have room for what an instance may be off.
+        let boxes = BoxTest::<V>::new(&local, 0.0);
+        // Of its own: walks in instances happen inside this one.
+        let mut waiting: Stack = [0; STACK];
+        let limit = reach(single_above(found.distance), 0.0);
+        let mut leaves = Instances::<V, ANY> {
+            world: self,
+            ray,
+            filter,
+            found,
+            stack,
+            vectors: std::marker::PhantomData,
+        };
+        walk(&self.top, &boxes, limit, &mut waiting, &mut leaves);
+    }
+
+    #[inline(always)]
+    pub(super) fn find_instance<V: V8, const ANY: bool>(
+        &self,
+        number: u32,
+        ray: &Ray,
+        filter: Filter,
+        found: &mut Found,
+        stack: &mut Stack,
+    ) {
+        let instance = &self.instances[number as usize];
+        if !filter.lets_pass(instance.tags) {
+            return;
+        }
+        let frame = &instance.world_from_body;
+        let body = |v: DVec3| frame.point_in_body(v);
+        match &instance.body {
+            Body::Fixed => {}
+            Body::Solid(_) => self.find_solid(number, ray, filter, found),
+            Body::Mesh(mesh) => {
+                let direction = frame.unturn(ray.direction);
+                let local = mesh.localize(body(ray.origin_m), direction, ray.min_m);
+                let mut nearest = Nearest { distance: single_above(found.distance), id: u32::MAX };
+                mesh.trace::<V, ANY>(&local, &mut nearest, stack, |_| true);
+                if nearest.id != u32::MAX {
+                    found.consider(nearest.distance.into(), number, nearest.id);
+                }
+            }
+            Body::Heights(heights) => {
+                let (origin, direction) = (body(ray.origin_m), frame.unturn(ray.direction));
+                let min = ray.min_m.max(0.0);
+                if let Some((distance, primitive)) =
+                    heights.cast(origin, direction, min, found.distance)
+                {
+                    found.consider(distance, number, primitive);
+                }
+            }
+        }
+    }
+}
+
+/// One ray against instances.
+struct Instances<'a, V, const ANY: bool> {
+    world: &'a World,
+    ray: &'a Ray,
+    filter: Filter,
+    found: &'a mut Found,
+    stack: &'a mut Stack,
+    vectors: std::marker::PhantomData<V>,
+}
+
+impl<V: V8, const ANY: bool> Leaves for Instances<'_, V, ANY> {
+    #[inline(always)]
+    fn visit(&mut self, word: u32) -> Step {
+        let (first, count) = leaf_range(word);
+        for &number in &self.world.order[first..first + count] {
+            self.world.find_instance::<V, ANY>(
+                number,
+                self.ray,
+                self.filter,
+                self.found,
+                self.stack,
+            );
+            if ANY && self.found.is_hit() {
+                return Step::Stop;
+            }
+        }
+        Step::Within(reach(single_above(self.found.distance), 0.0))
+    }
+}
+
+struct Ask<'a, const ANY: bool> {
+    world: &'a World,
+    ray: &'a Ray,
+    filter: Filter,
+}
+
+impl<const ANY: bool> Task for Ask<'_, ANY> {
+    type Output = Found;
+
+    #[inline(always)]
+    fn run<V: V8>(self) -> Found {
+        self.world.find::<V, ANY>(self.ray, self.filter, &mut [0; STACK])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_base::{DVec3, Pose, Stream};
+    use proptest::prelude::*;
+
+    use crate::simd::without_vectors;
+    use crate::{Filter, Ray, Tags, World};
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        /// Trees as well are built with and without vector instructions.
+        #[test]
+        fn vectors_change_no_bit(seed in any::<u64>(), count in 1_u32..300) {
+            let mut stream = Stream::keyed(seed, "world", 0);
+            let mut point = |size: f64| {
+                [0; 3].map(|_| (stream.unit() - 0.5) * size)
+            };
+            let mut positions = Vec::new();
+            for _ in 0..count {
+                let middle = point(10.0);
+                for _ in 0..3 {
+                    let off = point(2.0);
+                    positions.push([0, 1, 2].map(|axis: usize| middle[axis] + off[axis]));
+                }
+            }
+            let triangles: Vec<[u32; 3]> =
+                (0..count).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
+            let eye = DVec3::from_array(point(4.0));
+            let rays: Vec<Ray> = (0..200)
+                .map(|n| {
+                    let ahead = DVec3::new(1.0, f64::from(n) * 0.01 - 1.0, 0.0);
+                    let any = DVec3::from_array(point(2.0));
+                    let origin = if n % 3 == 0 { DVec3::from_array(point(9.0)) } else { eye };
+                    Ray::new(origin, (ahead + any * 0.05).normalize_or(DVec3::X))
+                })
+                .collect();
+            let answers = || {
+                let mut builder = World::builder();
+                builder
+                    .add_fixed(&positions, &triangles, &Pose::IDENTITY, Tags::default())
+                    .unwrap();
+                let world = builder.build(1).unwrap();
+                let mut hits = vec![None; rays.len()];
+                world.hits_grid(&rays, 20, Filter::default(), &mut hits);
+                let single: Vec<_> =
+                    rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
+                (hits, single)
+            };
+            let (vectors, plain) = (answers(), without_vectors(answers));
+            prop_assert_eq!(&vectors.0, &vectors.1);
+            prop_assert_eq!(vectors, plain);
+        }
+    }
+}
