@@ -197,7 +197,9 @@ fn float_text(number: f64) -> String {
 fn quoted(text: &str) -> String {
     // What PyYAML holds for printable (`Emitter.analyze_scalar`).
     let printable = |c: char| match c {
-        ' '..='~' | '\u{85}' | '\u{a0}'..='\u{d7ff}' | '\u{10000}'.. => true,
+        // Breaks of lines, and of pages.
+        '\u{85}' | '\u{2028}' | '\u{2029}' => false,
+        ' '..='~' | '\u{a0}'..='\u{d7ff}' | '\u{10000}'.. => true,
         '\u{e000}'..='\u{fffd}' => c != '\u{feff}',
         _ => false,
     };
@@ -222,6 +224,9 @@ fn double_quoted(text: &str) -> String {
             '\u{c}' => quoted.push_str("\\f"),
             '\r' => quoted.push_str("\\r"),
             '\u{1b}' => quoted.push_str("\\e"),
+            '\u{85}' => quoted.push_str("\\N"),
+            '\u{2028}' => quoted.push_str("\\L"),
+            '\u{2029}' => quoted.push_str("\\P"),
             '\u{feff}' => quoted.push_str("\\uFEFF"),
             c if (c as u32) < 0x20 || (0x7f..0xa0).contains(&(c as u32)) => {
                 quoted.push_str(&format!("\\x{:02X}", c as u32));
@@ -246,7 +251,6 @@ fn is_plain(text: &str) -> bool {
     let middle = text.char_indices().skip(1).all(|(at, character)| match character {
         ':' => !followed(at),
         '#' => !text[..at].ends_with(' '),
-        '\u{85}' | '\u{2028}' | '\u{2029}' => false,
         _ => true,
     });
     let document = text.starts_with("---") || text.starts_with("...");
@@ -256,9 +260,11 @@ fn is_plain(text: &str) -> bool {
 /// Whether YAML 1.1, as PyYAML resolves it, would see something else than a text.
 fn resolves(text: &str) -> bool {
     let lower = text.to_ascii_lowercase();
-    let is_cased = text == lower
-        || text == text.to_ascii_uppercase()
-        || text[..1] == text[..1].to_ascii_uppercase() && text[1..] == lower[1..];
+    let capital = |word: &str| -> String {
+        let mut letters = word.chars();
+        letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect()
+    };
+    let is_cased = text == lower || text == text.to_ascii_uppercase() || text == capital(&lower);
     let word = ["yes", "no", "true", "false", "on", "off", "null"].contains(&lower.as_str());
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let all = |text: &str, test: fn(u8) -> bool| !text.is_empty() && text.bytes().all(test);

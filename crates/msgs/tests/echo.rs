@@ -271,3 +271,47 @@ fn a_type_from_a_bag_is_read_and_written() {
     assert_eq!(message.get("animals[1].name"), None);
     assert_eq!(message.get("corners[0].x"), Some(periplus_msgs::Value::Number(1.0.into())));
 }
+
+/// A text that begins with a letter of several bytes once ended the program.
+#[test]
+fn any_text_can_be_shown() {
+    use proptest::prelude::*;
+    proptest!(|(data in "(\\PC|[ -~]|[\u{0}-\u{ff}]|\u{2028}|→){0,12}")| {
+        let message = DynamicMessage::of(&std_msgs::String { data }).unwrap();
+        let yaml = message.to_yaml(&YamlStyle::default());
+        // One line, whatever is in it.
+        prop_assert_eq!(yaml.chars().filter(|c| "\n\r\u{85}\u{2028}\u{2029}".contains(*c)).count(), 1);
+    });
+}
+
+/// What PyYAML makes of the same.
+#[test]
+fn texts_and_numbers_as_pyyaml_writes_them() {
+    for (data, expected) in [
+        ("", "''"),
+        ("base_link", "base_link"),
+        ("/camera/image", "/camera/image"),
+        ("→ b", "→ b"),
+        ("Yes", "'Yes'"),
+        ("yEs", "yEs"),
+        ("y", "y"),
+        ("null", "'null'"),
+        ("12:30", "'12:30'"),
+        ("1e5", "1e5"),
+        ("a #b", "'a #b'"),
+        ("a#b", "a#b"),
+        ("- a", "'- a'"),
+        ("-a", "-a"),
+        ("it's: so", "'it''s: so'"),
+        ("tab\t", "\"tab\\t\""),
+    ] {
+        let message = DynamicMessage::of(&std_msgs::String { data: data.into() }).unwrap();
+        assert_eq!(message.to_yaml(&YamlStyle::default()), format!("data: {expected}\n"));
+    }
+    for (data, expected) in
+        [(1e16, "1.0e+16"), (1.5e-5, "1.5e-05"), (1e15, "1000000000000000.0"), (-0.0, "-0.0")]
+    {
+        let message = DynamicMessage::of(&std_msgs::Float64 { data }).unwrap();
+        assert_eq!(message.to_yaml(&YamlStyle::default()), format!("data: {expected}\n"));
+    }
+}

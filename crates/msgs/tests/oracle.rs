@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_interfaces::{Dialect, TypeName, parse};
 use periplus_msgs::{
     DynamicMessage, Encapsulation, Format, Message, Service as _, TypeRegistry, decode, encode,
 };
@@ -176,5 +178,39 @@ fn type_hashes_are_those_of_a_running_system() {
     ] {
         let ours = TypeRegistry::builtin().hash(name).unwrap();
         assert_eq!(ours, format!("RIHS01_{hash}"), "{name}");
+    }
+}
+
+/// The hashes that the build of `test_msgs` 2.0.3 for ROS 2 Jazzy (PyPI `ros-test-msgs`) publishes
+/// for its Fibonacci action, and for all that an action implies.
+#[test]
+fn type_hashes_of_an_action_are_the_published_ones() {
+    let mut sources = SourceMap::new();
+    let mut diagnostics = Diagnostics::new();
+    let text = "int32 order\n---\nint32[] sequence\n---\nint32[] sequence\n";
+    let file = sources.add("Fibonacci.action", text);
+    let name = TypeName::read("test_msgs/action/Fibonacci").unwrap();
+    let action = parse(&name, file, &sources, Dialect::Ros2, &mut diagnostics).unwrap();
+    let mut registry = TypeRegistry::builtin_texts();
+    registry.add(action);
+    let types = TypeRegistry::new(registry, &mut diagnostics);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    for (suffix, hash) in [
+        ("", "be9273e3557225044b4a040811112491f7079326e3a573f83258b0b4c30bd069"),
+        ("_Feedback", "7d1110f2efa019ad5ad8ad2244db98d862f39dc9fae8c976814b0065fa2f32d5"),
+        ("_FeedbackMessage", "37487bae8cea358366b97003c1ef1ca7ce7c08df36f9e8cca496624226aee64e"),
+        ("_GetResult", "5d30fdeb21d20e117aa5f36c7b4f0b6874f1a8cf7a9c038d58f1156c5737b209"),
+        ("_GetResult_Event", "fe0aa5843ef10550a9b322aeeccd5b11e78bca05b3571cf6999c51bff30c1e23"),
+        ("_GetResult_Request", "c65e93c4c4328d7f1abd6ace83dba8e5fa0f32de76b4d2c96b5c655d94803b92"),
+        ("_GetResult_Response", "ef88159d47a3d21d9bf4bec690cf668939d9542db28a9cfd77dbcd97eaf1add2"),
+        ("_Goal", "e58ef5a8f4f039ab522a740823547c460b1d5aed8031c8b7825d33d345d90df8"),
+        ("_Result", "0774b095467813c6904d475498b5486b7ebd4cda6a4569f97e8de8c862689049"),
+        ("_SendGoal", "d807633803e38e164276573cd97e9fbd71e109c290bbf4cc312a0a1c9da7bbd9"),
+        ("_SendGoal_Event", "a20e708c6aae7a99d1eb0e930a0916f596bb5bae93a342a61752e13135be2c44"),
+        ("_SendGoal_Request", "dfe75c73dc2c090cbc8fd8c45039bfa279d16aa6aadd348f812c6adad26e669e"),
+        ("_SendGoal_Response", "1e7e84f7edf1fb020d9e51c7842bceef4cbdbd847f354125f3227cf4f314a683"),
+    ] {
+        let ours = types.hash(&format!("{name}{suffix}")).unwrap();
+        assert_eq!(ours, format!("RIHS01_{hash}"), "{name}{suffix}");
     }
 }

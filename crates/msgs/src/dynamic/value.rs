@@ -42,11 +42,14 @@ impl DynamicMessage {
     ///
     /// # Errors
     /// When a string or list is longer than its type allows.
+    ///
+    /// # Panics
+    /// With a message of a type that another crate made.
     pub fn of<T: Message>(message: &T) -> Result<Self, EncodeError> {
-        let unknown = || unreachable!("{} is a type of another crate", T::TYPE_NAME);
-        let layout = TypeRegistry::builtin().layout(T::TYPE_NAME).unwrap_or_else(unknown);
+        let layout = TypeRegistry::builtin().layout(T::TYPE_NAME);
+        let layout = layout.expect("the types of this crate are in its registry");
         let bytes = message.to_cdr()?;
-        Ok(Self::decode(layout, Format::CDR, &bytes).unwrap_or_else(|_| Self::blank(layout)))
+        Ok(Self::decode(layout, Format::CDR, &bytes).expect("both forms of a type are the same"))
     }
 
     /// Reads bytes.
