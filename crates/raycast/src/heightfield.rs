@@ -12,7 +12,7 @@ use periplus_base::DVec3;
 pub struct Heightfield {
     columns: usize,
     rows: usize,
-    /// From one sample to the next [m].
+    /// From one sample to the next \[m\].
     step_m: [f64; 2],
     heights_m: Vec<f64>,
     low_m: f64,
@@ -50,7 +50,7 @@ impl fmt::Display for BadHeightfield {
 impl std::error::Error for BadHeightfield {}
 
 impl Heightfield {
-    /// From heights [m] row by row, from low y to high, over a rectangle of a size along x and y.
+    /// From heights \[m\] row by row, from low y to high, over a rectangle of a size along x and y.
     ///
     /// # Errors
     /// When numbers do not fit together or are none.
@@ -89,7 +89,7 @@ impl Heightfield {
         Ok(field)
     }
 
-    /// Lower and upper corner of the box around it [m].
+    /// Lower and upper corner of the box around it \[m\].
     #[must_use]
     pub fn bounds_m(&self) -> (DVec3, DVec3) {
         let [x, y] = self.half();

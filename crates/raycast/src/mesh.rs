@@ -11,14 +11,14 @@ use crate::simd::{Row, V8, splat3};
 use crate::triangle;
 use crate::walk::{Leaves, Stack, Step, walk};
 
-/// Coordinates beyond this are no place [m].
+/// Coordinates beyond this are no place \[m\].
 const FARTHEST_M: f64 = 1e12;
 
 /// Triangles with a tree over them, in a frame of their own. Single precision about the middle of
 /// the mesh: distances are good to about 1e-7 of the mesh's size and of themselves.
 #[derive(Clone, Debug)]
 pub struct TriangleMesh {
-    /// Of the tree's frame [m].
+    /// Of the tree's frame \[m\].
     pub(crate) middle_m: DVec3,
     pub(crate) low_m: DVec3,
     pub(crate) high_m: DVec3,
@@ -26,7 +26,7 @@ pub struct TriangleMesh {
     pub(crate) blocks: Vec<Block>,
     /// Block and lane of every triangle.
     places: Vec<u32>,
-    /// The longest side of a triangle's box [m].
+    /// The longest side of a triangle's box \[m\].
     pub(crate) extent: f32,
 }
 
@@ -88,7 +88,7 @@ impl Nearest {
 }
 
 impl TriangleMesh {
-    /// From positions [m] and corners of triangles, with `threads` (0 counts as 1) threads. The
+    /// From positions \[m\] and corners of triangles, with `threads` (0 counts as 1) threads. The
     /// same triangles make the same mesh, whatever their number. Triangles without area are kept
     /// and never hit.
     ///
@@ -190,7 +190,7 @@ impl TriangleMesh {
         (b - a).cross(c - a).normalize_or_zero()
     }
 
-    /// A ray given in the mesh's frame [m], in that of its tree.
+    /// A ray given in the mesh's frame \[m\], in that of its tree.
     #[inline(always)]
     pub(crate) fn localize(&self, origin_m: DVec3, direction: DVec3, min_m: f64) -> LocalRay {
         LocalRay::new(origin_m - self.middle_m, direction, min_m)

@@ -6,13 +6,13 @@ use periplus_base::DVec3;
 /// is of length 1, as all of this crate's own scans and images make it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts [m].
+    /// Where it starts \[m\].
     pub origin_m: DVec3,
     /// Where it goes.
     pub direction: DVec3,
-    /// Nothing nearer counts [m].
+    /// Nothing nearer counts \[m\].
     pub min_m: f64,
-    /// Nothing farther counts [m].
+    /// Nothing farther counts \[m\].
     pub max_m: f64,
 }
 
@@ -23,7 +23,7 @@ impl Ray {
         Self { origin_m, direction, min_m: 0.0, max_m: f64::INFINITY }
     }
 
-    /// The point at a distance [m].
+    /// The point at a distance \[m\].
     #[must_use]
     pub fn at(&self, distance_m: f64) -> DVec3 {
         self.origin_m + self.direction * distance_m
@@ -50,7 +50,7 @@ pub struct InstanceId(pub u32);
 /// instance counts, and of that the lowest primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// How far along the ray [m].
+    /// How far along the ray \[m\].
     pub distance_m: f64,
     /// Unit normal of the surface, on the side the ray comes from.
     pub normal: DVec3,

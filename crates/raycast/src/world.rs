@@ -75,7 +75,7 @@ pub struct World {
     order: Vec<u32>,
     /// Instances without an end.
     endless: Vec<u32>,
-    /// Origin of the frame of `top` [m].
+    /// Origin of the frame of `top` \[m\].
     middle_m: DVec3,
     boxes: Vec<Bounds>,
 }

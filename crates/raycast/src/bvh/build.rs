@@ -71,6 +71,11 @@ impl Range {
     fn len(&self) -> usize {
         self.end - self.start
     }
+
+    /// For few, fewer bins are as good.
+    fn bins(&self) -> usize {
+        if self.len() > 64 { BINS } else { BINS / 2 }
+    }
 }
 
 /// A tree over boxes, root first; orders `boxes` as the leaves name them. No node where there is
@@ -365,7 +370,7 @@ fn grid(range: &Range) -> (Row, Row) {
         let extent = range.centres.high(axis) - range.centres.low(axis);
         if extent > 1e-30 {
             offset.0[axis] = range.centres.low(axis);
-            scale.0[axis] = (BINS as f32 * 0.99999) / extent;
+            scale.0[axis] = (range.bins() as f32 * 0.99999) / extent;
         }
     }
     (offset, scale)
@@ -403,13 +408,13 @@ fn best_cut<V: V8>(own: &[Bounds], range: &Range) -> Option<Cut> {
         }
         let mut right = [(0.0_f32, Bounds::EMPTY); BINS];
         let (mut count, mut bounds) = (0, Bounds::EMPTY);
-        for bin in (1..BINS).rev() {
+        for bin in (1..range.bins()).rev() {
             count += counts[axis][bin];
             bounds = bounds.union::<V>(&boxes[axis][bin]);
             right[bin] = (if count == 0 { 0.0 } else { bounds.half_area() * cost(count) }, bounds);
         }
         let (mut count, mut bounds) = (0, Bounds::EMPTY);
-        for bin in 1..BINS {
+        for bin in 1..range.bins() {
             count += counts[axis][bin - 1];
             bounds = bounds.union::<V>(&boxes[axis][bin - 1]);
             if count == 0 || count as usize == own.len() {

@@ -11,7 +11,10 @@ use crate::simd::{Row, Task, V8, dispatch};
 use crate::walk::{Leaves, Stack, Step, walk};
 
 /// Rays farther apart than this (in slope) have little in common, and go one by one.
-const WIDEST: f32 = 0.1;
+const WIDEST: f32 = 0.5;
+/// The same where triangles are many and a wide pyramid meets far more than its rays do.
+const WIDEST_AMONG_MANY: f32 = 0.1;
+const MANY_TRIANGLES: usize = 50_000;
 
 /// How rays are gathered by eights: so many columns, so many rows.
 #[derive(Clone, Copy)]
@@ -122,12 +125,18 @@ impl<F: FnMut(usize, &Found)> Task for Many<'_, F> {
 impl<F: FnMut(usize, &Found)> Many<'_, F> {
     #[inline(always)]
     fn tile<V: V8>(&mut self, picked: &[usize], scratch: &mut Scratch) {
-        let (Some(&start), true) = (picked.first(), picked.len() > 1) else {
-            for &index in picked {
-                self.single::<V>(index, scratch);
-            }
+        if self.packet::<V>(picked, scratch) {
             return;
-        };
+        }
+        for &index in picked {
+            self.single::<V>(index, scratch);
+        }
+    }
+
+    /// False when the rays do not go together; then nothing was done.
+    #[inline(always)]
+    fn packet<V: V8>(&mut self, picked: &[usize], scratch: &mut Scratch) -> bool {
+        let (Some(&start), true) = (picked.first(), picked.len() > 1) else { return false };
         let first = &self.rays[start];
         let mut together = [first; 8];
         let mut common = first.is_sound();
@@ -136,18 +145,17 @@ impl<F: FnMut(usize, &Found)> Many<'_, F> {
             together[lane] = ray;
             common &= ray.origin_m == first.origin_m && ray.is_sound();
         }
-        if common
-            && let Some(found) =
-                self.world.find_packet::<V>(&together[..picked.len()], self.filter, scratch)
-        {
-            for (lane, &index) in picked.iter().enumerate() {
-                (self.give)(index, &found[lane]);
-            }
-        } else {
-            for &index in picked {
-                self.single::<V>(index, scratch);
-            }
+        if !common {
+            return false;
         }
+        let rays = &together[..picked.len()];
+        let Some(found) = self.world.find_packet::<V>(rays, self.filter, scratch) else {
+            return false;
+        };
+        for (lane, &index) in picked.iter().enumerate() {
+            (self.give)(index, &found[lane]);
+        }
+        true
     }
 
     #[inline(always)]
@@ -174,7 +182,8 @@ impl World {
             self.fixed.localize(lane(i).origin_m, lane(i).direction, lane(i).min_m)
         });
         let packet = Packet::new(&locals)?;
-        if packet.spread() > WIDEST {
+        let many = self.fixed.len() > MANY_TRIANGLES;
+        if packet.spread() > if many { WIDEST_AMONG_MANY } else { WIDEST } {
             return None;
         }
         let mut found: [Found; 8] = std::array::from_fn(|i| Found::nothing(lane(i).max_m));
