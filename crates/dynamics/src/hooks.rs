@@ -1,0 +1,143 @@
+//! Which shapes touch, beyond what bit masks can say.
+
+use rapier3d_f64::geometry::SolverFlags;
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::pipeline::{ContactModificationContext, PairFilterContext, PhysicsHooks};
+use rapier3d_f64::prelude::ColliderHandle;
+
+/// What a collider knows of itself, packed into its 128 bits of user data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tag {
+    pub(crate) link: u32,
+    /// Which of the link's collisions.
+    pub(crate) collision: u16,
+    pub(crate) self_collide: bool,
+    /// It reports contacts and does not push.
+    pub(crate) only_reports: bool,
+    pub(crate) part: Part,
+}
+
+/// Which part of a wheel a collider is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Part {
+    /// None: an ordinary shape.
+    Whole,
+    /// The ball; its contacts count within this distance of the wheel's plane [m].
+    Tread(f64),
+    /// The core; its contacts count where they point along the axle.
+    Core,
+}
+
+const SELF_COLLIDE: u128 = 1 << 48;
+const ONLY_REPORTS: u128 = 1 << 49;
+const TREAD: u128 = 1 << 50;
+const CORE: u128 = 1 << 51;
+
+impl Tag {
+    pub(crate) fn pack(self) -> u128 {
+        let mut bits = u128::from(self.link) | u128::from(self.collision) << 32;
+        if self.self_collide {
+            bits |= SELF_COLLIDE;
+        }
+        if self.only_reports {
+            bits |= ONLY_REPORTS;
+        }
+        match self.part {
+            Part::Whole => bits,
+            Part::Tread(half_width_m) => bits | TREAD | u128::from(half_width_m.to_bits()) << 64,
+            Part::Core => bits | CORE,
+        }
+    }
+
+    pub(crate) fn unpack(bits: u128) -> Self {
+        let part = if bits & TREAD != 0 {
+            Part::Tread(f64::from_bits((bits >> 64) as u64))
+        } else if bits & CORE != 0 {
+            Part::Core
+        } else {
+            Part::Whole
+        };
+        Self {
+            link: bits as u32,
+            collision: (bits >> 32) as u16,
+            self_collide: bits & SELF_COLLIDE != 0,
+            only_reports: bits & ONLY_REPORTS != 0,
+            part,
+        }
+    }
+}
+
+/// The questions that rapier asks about each pair.
+pub(crate) struct Hooks<'a> {
+    /// The model of each link.
+    pub(crate) model_of_link: &'a [u32],
+}
+
+impl PhysicsHooks for Hooks<'_> {
+    fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
+        let tag = |handle: ColliderHandle| Tag::unpack(context.colliders[handle].user_data);
+        let (a, b) = (tag(context.collider1), tag(context.collider2));
+        let model = |tag: Tag| self.model_of_link.get(tag.link as usize);
+        if model(a) == model(b) && !(a.self_collide && b.self_collide) {
+            return None;
+        }
+        let pushes = !(a.only_reports || b.only_reports);
+        Some(if pushes { SolverFlags::COMPUTE_RIGID_IMPULSES } else { SolverFlags::empty() })
+    }
+
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
+        let normal = match context.rigid() {
+            Some(manifold) => *manifold.normal,
+            None => return,
+        };
+        let colliders = context.colliders;
+        let keeps = |handle: ColliderHandle| {
+            let collider = &colliders[handle];
+            let part = Tag::unpack(collider.user_data).part;
+            // The ball keeps the frame of the collision; the solver's cylinders stand along y.
+            let along = if part == Part::Core { Vector::Y } else { Vector::Z };
+            let axle = collider.rotation() * along;
+            let reach = collider.shape().as_ball().map_or(0.0, |ball| ball.radius);
+            touches(part, normal.dot(axle).abs(), reach)
+        };
+        let keep = keeps(context.collider1) && keeps(context.collider2);
+        if !keep && let Some(manifold) = context.rigid_mut() {
+            manifold.solver_contacts.clear();
+        }
+    }
+}
+
+/// Whether a contact of a part of a wheel counts, by the sine of the angle between its normal and
+/// the wheel's plane.
+fn touches(part: Part, sine: f64, ball_radius_m: f64) -> bool {
+    match part {
+        Part::Whole => true,
+        // The point where a ball touches lies `radius * sine` beside the wheel's plane.
+        Part::Tread(half_width_m) => ball_radius_m * sine <= half_width_m,
+        // More along the axle than across.
+        Part::Core => sine > std::f64::consts::FRAC_1_SQRT_2,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tags_come_back() {
+        for part in [Part::Whole, Part::Tread(0.02), Part::Core] {
+            let tag =
+                Tag { link: u32::MAX, collision: 7, self_collide: true, only_reports: false, part };
+            assert_eq!(Tag::unpack(tag.pack()), tag);
+        }
+    }
+
+    #[test]
+    fn a_tread_of_four_centimetres() {
+        // A wheel of 10 cm radius leaning by 0.1 rad touches 1 cm beside its middle.
+        assert!(touches(Part::Tread(0.02), 0.1, 0.1));
+        // A wall beside it is the core's.
+        assert!(!touches(Part::Tread(0.02), 1.0, 0.1));
+        assert!(touches(Part::Core, 1.0, 0.0) && !touches(Part::Core, 0.1, 0.0));
+    }
+}

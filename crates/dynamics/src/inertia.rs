@@ -1,0 +1,77 @@
+//! Mass and inertia, and what cannot be one.
+
+use periplus_base::DQuat;
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_scene::{Inertial, Link};
+use rapier3d_f64::math::{Matrix, Pose as RapierPose, Vector};
+use rapier3d_f64::parry::mass_properties::MassProperties;
+
+/// Radius of gyration that a body without inertia is given [m].
+const SMALLEST_GYRATION_M: f64 = 0.01;
+
+/// The mass properties of a link about its own frame; none (and an error) where they are
+/// impossible.
+pub(crate) fn mass_properties(
+    link: &Link,
+    name: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<MassProperties> {
+    let Inertial { mass_kg, link_from_inertial, inertia_kg_m2, .. } = &link.inertial;
+    let finite = mass_kg.is_finite()
+        && link_from_inertial.is_finite()
+        && inertia_kg_m2.iter().all(|value| value.is_finite());
+    if !finite {
+        diagnostics.push(
+            Diagnostic::error(
+                "inertia-not-finite",
+                format!("mass or inertia of `{name}` is not a finite number"),
+            )
+            .at(link.origin)
+            .help("give mass [kg] and inertia [kg m²] as finite numbers"),
+        );
+        return None;
+    }
+    if *mass_kg <= 0.0 {
+        diagnostics.push(
+            Diagnostic::error("no-mass", format!("`{name}` has a mass of {mass_kg} kg and cannot be moved by forces"))
+                .at(link.origin)
+                .help("give it an <inertial> with a positive mass, fix it to another link, or make its model static"),
+        );
+        return None;
+    }
+    let [xx, xy, xz, yy, yz, zz] = *inertia_kg_m2;
+    let columns = [Vector::new(xx, xy, xz), Vector::new(xy, yy, yz), Vector::new(xz, yz, zz)];
+    let inertia = Matrix::from_cols(columns[0], columns[1], columns[2]);
+    let turn: DQuat = link_from_inertial.rotation;
+    let to_link = Matrix::from_quat(turn);
+    let about_com = to_link * inertia * to_link.transpose();
+    let mut mass =
+        MassProperties::with_inertia_matrix(link_from_inertial.translation, *mass_kg, about_com);
+    let principal = mass.principal_inertia();
+    let smallest = mass_kg * SMALLEST_GYRATION_M * SMALLEST_GYRATION_M * 1e-6;
+    if principal.min_element() <= smallest {
+        diagnostics.push(
+            Diagnostic::warning(
+                "no-inertia",
+                format!("the inertia of `{name}` is not positive about every axis"),
+            )
+            .at(link.origin)
+            .note("a ball of 1 cm radius of gyration is assumed about such an axis")
+            .help("give the inertia of its shape: for a box of sides a, b, c that is m (b² + c²) / 12 about a"),
+        );
+        let least = Vector::splat(mass_kg * SMALLEST_GYRATION_M * SMALLEST_GYRATION_M);
+        let raised = Vector::select(principal.cmple(Vector::splat(smallest)), least, principal);
+        mass = MassProperties::with_principal_inertia_frame(
+            mass.local_com,
+            *mass_kg,
+            raised,
+            mass.principal_inertia_local_frame,
+        );
+    }
+    Some(mass)
+}
+
+/// Mass properties told in another frame.
+pub(crate) fn moved(mass: MassProperties, body_from_link: &RapierPose) -> MassProperties {
+    mass.transform_by(body_from_link)
+}

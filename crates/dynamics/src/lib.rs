@@ -1,0 +1,41 @@
+//! How the world moves: bodies, joints, contacts, and the drives of robots.
+//!
+//! [`World`] takes models as plain data ([`periplus_scene`]) and steps them. The solver is rapier in
+//! double precision, behind this interface: none of its types shows. The same program of calls
+//! gives the same bits on every machine (`enhanced-determinism`), and names play no part in it.
+//!
+//! What a user of Gazebo should know:
+//!
+//! - Links on fixed joints are one body, exactly rigid. Other joints are solved by impulses; their
+//!   coordinates start at zero in the pose that the file gives.
+//! - Friction of a pair is the **smaller** of the two coefficients, as in ODE; where `mu` and `mu2`
+//!   of one surface differ, the smaller holds in every direction, and a warning says so.
+//! - A **wheel** (a cylinder or sphere that turns about its own axis) touches with one point, in
+//!   the middle of its tread: see [`wheel`](World#wheels). Contact stiffness (`kp`, `kd`), slip and
+//!   torsional friction are not modelled.
+//! - Meshes are exact where they are static, and their convex hull where they move. Ellipsoids are
+//!   hulls of 162 points on their surface.
+//!
+//! [`drives`] holds the laws of the drive plugins as plain functions of numbers, and [`Kinematic`]
+//! moves a robot on flat ground without any physics, exactly.
+
+mod build;
+mod contacts;
+pub mod drives;
+mod hooks;
+mod inertia;
+mod joints;
+mod kinematic;
+mod places;
+mod shapes;
+mod state;
+mod step;
+mod wheels;
+mod world;
+
+pub use contacts::{Contact, Touching};
+pub use joints::{AxisState, Command};
+pub use kinematic::{Kinematic, Twist};
+pub use shapes::{Heights, Meshes, NoMeshes, Triangles};
+pub use state::{Diverged, JointId, LinkId, LinkState, ModelId};
+pub use world::{Added, World};

@@ -1,0 +1,171 @@
+//! Scenes that no one should have written.
+#![allow(missing_docs, reason = "tests")]
+
+mod common;
+
+use common::*;
+use periplus_diagnostics::{Origin, Severity, SourceMap};
+use periplus_dynamics::{NoMeshes, World};
+use periplus_scene::{Axis, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
+use proptest::prelude::*;
+
+/// Adds a model and answers whether it was taken, and the findings' codes.
+fn check(model: &Model) -> (bool, Vec<&'static str>) {
+    let mut world = flat_world();
+    let added = world.add(model, Pose::from_xyz(0.0, 0.0, 1.0), &NoMeshes);
+    for _ in 0..20 {
+        let _ = world.step(STEP_S);
+    }
+    let taken = added.model.is_some();
+    (taken, added.diagnostics.iter().map(|found| found.code).collect())
+}
+
+fn heavy(mass_kg: f64) -> Link {
+    Link { inertial: Inertial { mass_kg, ..Inertial::default() }, ..solid_ball("a", 1.0, 0.1) }
+}
+
+#[test]
+fn no_mass_is_refused_where_it_is_written() {
+    let mut sources = SourceMap::new();
+    let file = sources.add("robot.sdf", "<link name='a'/>");
+    let link = Link { origin: Origin(Some(sources.whole(file))), ..heavy(0.0) };
+    let mut world = flat_world();
+    let added = world.add(&model("m", vec![link], vec![]), Pose::IDENTITY, &NoMeshes);
+    assert_eq!(added.model, None);
+    let found = added.diagnostics.iter().next().unwrap();
+    assert_eq!((found.severity, found.code), (Severity::Error, "no-mass"));
+    assert_eq!(found.span, Some(sources.whole(file)));
+    // The world goes on without it.
+    run(&mut world, 0.01);
+    assert_eq!(world.find_model("m"), None);
+}
+
+#[test]
+fn numbers_that_are_none() {
+    assert_eq!(
+        check(&model("m", vec![heavy(f64::NAN)], vec![])),
+        (false, vec!["inertia-not-finite"])
+    );
+    assert_eq!(
+        check(&model("m", vec![heavy(f64::INFINITY)], vec![])),
+        (false, vec!["inertia-not-finite"])
+    );
+    let lost = at(f64::NAN, 0.0, 0.0, solid_ball("a", 1.0, 0.1));
+    assert_eq!(check(&model("m", vec![lost], vec![])), (false, vec!["pose-not-finite"]));
+    let mut sick = solid_ball("a", 1.0, 0.1);
+    sick.collisions[0].shape = Shape::Sphere { radius_m: f64::NAN };
+    assert_eq!(check(&model("m", vec![sick], vec![])), (true, vec!["shape-impossible"]));
+    let axis = Axis { damping: f64::NAN, ..Axis::default() };
+    let links = || vec![solid_ball("a", 1.0, 0.1), solid_ball("b", 1.0, 0.1)];
+    let shaky = joint("j", JointKind::Revolute, "a", "b", axis);
+    assert_eq!(check(&model("m", links(), vec![shaky])), (false, vec!["joint-impossible"]));
+    let nowhere = hinge("j", "a", "b", DVec3::ZERO);
+    assert_eq!(check(&model("m", links(), vec![nowhere])), (false, vec!["joint-impossible"]));
+}
+
+#[test]
+fn inertia_of_nothing_is_told_and_replaced() {
+    let mut point = solid_ball("a", 1.0, 0.1);
+    point.inertial.inertia_kg_m2 = [0.0; 6];
+    assert_eq!(check(&model("m", vec![point], vec![])), (true, vec!["no-inertia"]));
+}
+
+#[test]
+fn a_joint_to_nobody() {
+    let links = vec![solid_ball("base", 1.0, 0.1)];
+    let joints = vec![Joint::new("j", JointKind::Fixed, "bace", "base")];
+    let (taken, codes) = check(&model("m", links, joints));
+    assert_eq!((taken, codes), (true, vec!["joint-end-unknown"]));
+}
+
+#[test]
+fn a_mountain_on_a_needle_is_worth_a_warning() {
+    let links =
+        vec![solid_ball("needle", 0.001, 0.1), at(0.0, 0.0, 1.0, solid_ball("mountain", 1e6, 0.1))];
+    let joints = vec![hinge("j", "needle", "mountain", DVec3::Y)];
+    assert_eq!(check(&model("m", links, joints)), (true, vec!["steep-masses"]));
+}
+
+#[test]
+fn shapes_that_nothing_can_touch_are_told() {
+    let mut plane = solid_ball("a", 1.0, 0.1);
+    plane.collisions[0].shape = Shape::Plane { normal: DVec3::Z, size_m: [1.0, 1.0] };
+    assert_eq!(check(&model("m", vec![plane], vec![])), (true, vec!["shape-not-simulated"]));
+    let mut flat = solid_ball("a", 1.0, 0.1);
+    flat.collisions[0].shape = Shape::Box { size_m: DVec3::new(1.0, 1.0, 0.0) };
+    assert_eq!(check(&model("m", vec![flat], vec![])), (true, vec!["shape-impossible"]));
+}
+
+#[test]
+fn joints_in_a_circle_hold_without_a_panic() {
+    let links = vec![solid_ball("a", 1.0, 0.1), at(1.0, 0.0, 0.0, solid_ball("b", 1.0, 0.1))];
+    let joints = vec![
+        Joint::new("one", JointKind::Fixed, "a", "b"),
+        Joint::new("two", JointKind::Fixed, "b", "a"),
+        hinge("three", "a", "b", DVec3::Z),
+    ];
+    assert_eq!(check(&model("m", links, joints)), (true, vec!["joint-inside-a-body"]));
+}
+
+#[test]
+fn a_motion_that_is_none_is_told_with_the_bodys_name() {
+    let mut world = flat_world();
+    put(
+        &mut world,
+        &model("m", vec![solid_ball("rocket", 1.0, 0.1)], vec![]),
+        Pose::from_xyz(0.0, 0.0, 1.0),
+    );
+    let rocket = link(&world, "m", "rocket");
+    assert!(!world.push(rocket, DVec3::ZERO, DVec3::splat(f64::NAN), DVec3::ZERO));
+    world.push(rocket, DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
+    let diverged = world.step(STEP_S).unwrap_err();
+    assert_eq!(diverged.link, "m::rocket");
+    assert!(diverged.to_string().contains("`m::rocket` moves at "), "{diverged}");
+    assert_eq!(world.step(STEP_S), Err(diverged));
+    world.reset();
+    assert_eq!(world.step(STEP_S), Ok(()));
+}
+
+#[test]
+fn commands_that_are_none_are_refused() {
+    use periplus_dynamics::Command;
+    let mut world = flat_world();
+    put(&mut world, &two_wheels(), Pose::IDENTITY);
+    let wheels = Wheels::of(&world);
+    assert!(!world.command(wheels.left, Command::Effort(f64::NAN)));
+    assert!(
+        !world.command(wheels.left, Command::Velocity { target: f64::INFINITY, max_effort: 1.0 })
+    );
+    let fixed = find_joint(&world, "robot", "caster_joint");
+    assert!(!world.command(fixed, Command::Effort(1.0)));
+    assert_eq!(world.joint_state(fixed), vec![]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+    #[test]
+    fn whatever_the_numbers_nothing_panics(
+        mass in prop_oneof![Just(0.0), Just(-1.0), Just(f64::NAN), Just(1e-30), Just(1e30), 0.1..10.0f64],
+        moment in prop_oneof![Just(0.0), Just(-1.0), Just(1e-30), Just(1e30), 0.01..1.0f64],
+        size in prop_oneof![Just(0.0), Just(-1.0), Just(1e-12), Just(1e12), 0.01..1.0f64],
+        lower in prop_oneof![Just(f64::NAN), Just(1e16), Just(-1e300), -4.0..4.0f64],
+        upper in prop_oneof![Just(f64::INFINITY), Just(-1e16), Just(f64::MIN_POSITIVE), -4.0..4.0f64],
+        damping in prop_oneof![Just(-1.0), Just(1e300), 0.0..1.0f64],
+        kind in 0..5usize,
+    ) {
+        let kind = [JointKind::Revolute, JointKind::Prismatic, JointKind::Ball, JointKind::Universal, JointKind::Planar][kind];
+        let mut link = heavy(mass);
+        link.inertial.inertia_kg_m2 = [moment, 0.1, 0.0, 1.0, 0.0, 1.0];
+        link.collisions[0].shape = Shape::Cylinder { radius_m: size, length_m: 0.1 };
+        let axis = Axis { lower, upper, damping, friction: damping, ..Axis::default() };
+        let mut knuckle = joint("j", kind, "a", "b", axis.clone());
+        knuckle.axis2 = Some(axis);
+        check(&model("m", vec![link, at(0.0, 0.0, 0.5, solid_ball("b", 1.0, 0.1))], vec![knuckle]));
+    }
+}
+
+#[test]
+fn world_of_nan_gravity() {
+    let world = World::empty(DVec3::ZERO);
+    assert_eq!(world.gravity_m_s2(), DVec3::ZERO);
+}
