@@ -473,7 +473,7 @@ impl Surface {
             );
         }
         // Gazebo bounces only above a threshold, whose default nothing ever reaches.
-        let bounces = contact.bounce_threshold_m_s < 1000.0;
+        let bounces = contact.bounce_threshold_m_s < 1000.0 && !contact.restitution.is_nan();
         let restitution = if bounces { contact.restitution.clamp(0.0, 1.0) } else { 0.0 };
         Self {
             // Beyond this no slope is too steep, and products stay finite.

@@ -7,7 +7,11 @@
 //! What a user of Gazebo should know:
 //!
 //! - Links on fixed joints are one body, exactly rigid. Other joints are solved by impulses; their
-//!   coordinates start at zero in the pose that the file gives.
+//!   coordinates start at zero in the pose that the file gives. A motor cannot hold a weight whose
+//!   own moment of inertia is far smaller (hundreds of times) than mass times arm squared: impulses
+//!   then travel too slowly through the joint.
+//! - A follower (`mimic`) is driven after its leader, and the leader does not feel it.
+//! - A universal joint has a small cross between its hinges, made of a tenth of the child's mass.
 //! - Friction of a pair is the **smaller** of the two coefficients, as in ODE; where `mu` and `mu2`
 //!   of one surface differ, the smaller holds in every direction, and a warning says so.
 //! - A **wheel** (a cylinder or sphere that turns about its own axis) touches with one point, in

@@ -12,7 +12,7 @@ const FASTEST_M_S: f64 = 1e4;
 
 impl World {
     /// Moves everything on by a time [s]. Use the same step throughout: 1 ms is what worlds ask for
-    /// and what wheels like; above 5 ms joints become soft.
+    /// and what the tests hold. A step that is no positive number does nothing.
     ///
     /// # Errors
     /// When a body's motion is no longer finite, or absurdly fast. The world then stands still until

@@ -192,3 +192,26 @@ fn put_down_taken_away_and_put_back() {
     world.reset();
     assert_eq!(world.model_pose(id), None);
 }
+
+#[test]
+fn a_bounce_keeps_its_share_of_speed() {
+    let height_after = |restitution: f64| {
+        let mut world = World::empty(DVec3::new(0.0, 0.0, -10.0));
+        let bouncy = |mut model: periplus_scene::Model| {
+            let contact = &mut model.links[0].collisions[0].surface.contact;
+            (contact.restitution, contact.bounce_threshold_m_s) = (restitution, 0.1);
+            model
+        };
+        put(&mut world, &bouncy(ground()), Pose::IDENTITY);
+        let ball = bouncy(model("ball", vec![solid_ball("ball", 1.0, 0.1)], vec![]));
+        // 0.8 m above the ground: 4 m/s after 0.4 s.
+        put(&mut world, &ball, Pose::from_xyz(0.0, 0.0, 0.9));
+        run(&mut world, 0.6);
+        state(&world, "ball", "ball").world_from_link.translation.z - 0.1
+    };
+    // Up again with 2 m/s, and 0.2 s later at the top, 0.2 m high.
+    let height = height_after(0.5);
+    assert!((height - 0.2).abs() < 0.01, "{height}");
+    // What is no number bounces nothing.
+    assert!(height_after(f64::NAN).abs() < 0.002);
+}
