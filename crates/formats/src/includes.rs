@@ -9,7 +9,7 @@ use periplus_resources::Kind;
 use periplus_sdf::{Includes, Opened};
 
 use crate::documents::{model_of, read_xml};
-use crate::setting::{Setting, shown};
+use crate::setting::{Setting, mentioned_in, shown};
 
 /// Opens files as `<include>` names them, each once.
 pub(crate) struct Files<'s, 'a> {
@@ -78,10 +78,7 @@ impl Includes for Files<'_, '_> {
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
     ) -> Opened {
-        let mentioned_in = match from.0 {
-            Some(span) => self.setting.working_folder.join(&sources.file(span.file).name),
-            None => self.setting.working_folder.clone(),
-        };
+        let mentioned_in = mentioned_in(from, sources, &self.setting.working_folder);
         let resolver = self.setting.resolver;
         let found = resolver.resolve(uri, &mentioned_in).and_then(|path| {
             match self.setting.host.kind(&path) {

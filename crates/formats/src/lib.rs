@@ -10,6 +10,7 @@ mod load;
 mod mesh_files;
 mod rebase;
 mod setting;
+mod shapes;
 mod summary;
 
 pub use detect::Language;

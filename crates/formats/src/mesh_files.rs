@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
 use periplus_meshes::{MeshFormat, read};
 use periplus_resources::Host;
-use periplus_scene::{Link, Mesh, Model, Scene, Shape};
+use periplus_scene::{Mesh, Scene, Shape};
 use serde::Serialize;
 
-use crate::setting::{Setting, shown};
+use crate::setting::{Setting, mentioned_in, shown};
+use crate::shapes::for_each_shape;
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,14 +64,7 @@ pub(crate) fn resolve(
     diagnostics: &mut Diagnostics,
 ) {
     let mut look = Look { setting, sources, diagnostics, seen: BTreeMap::new() };
-    let worlds = scene.worlds.iter_mut().flat_map(|world| &mut world.models);
-    for model in worlds.chain(&mut scene.models) {
-        look.model(model);
-    }
-    let actors = scene.worlds.iter_mut().flat_map(|world| &mut world.actors);
-    for actor in actors.chain(&mut scene.actors) {
-        actor.links.iter_mut().for_each(|link| look.link(link));
-    }
+    for_each_shape(scene, &mut |shape, origin| look.shape(shape, origin));
 }
 
 type Parts = Result<Vec<String>, ()>;
@@ -84,20 +78,6 @@ struct Look<'l, 'a> {
 }
 
 impl Look<'_, '_> {
-    fn model(&mut self, model: &mut Model) {
-        model.links.iter_mut().for_each(|link| self.link(link));
-        model.models.iter_mut().for_each(|inner| self.model(inner));
-    }
-
-    fn link(&mut self, link: &mut Link) {
-        for collision in &mut link.collisions {
-            self.shape(&mut collision.shape, collision.origin);
-        }
-        for visual in &mut link.visuals {
-            self.shape(&mut visual.shape, visual.origin);
-        }
-    }
-
     fn shape(&mut self, shape: &mut Shape, origin: Origin) {
         match shape {
             Shape::Mesh(mesh) => self.mesh(mesh),
@@ -155,10 +135,7 @@ impl Look<'_, '_> {
         if uri.is_empty() {
             return None;
         }
-        let from = match origin.0 {
-            Some(span) => self.setting.working_folder.join(&self.sources.file(span.file).name),
-            None => self.setting.working_folder.clone(),
-        };
+        let from = mentioned_in(origin, self.sources, &self.setting.working_folder);
         match self.setting.resolver.resolve(uri, &from) {
             Ok(path) => Some(path),
             Err(miss) => {

@@ -3,23 +3,21 @@
 use std::path::{Component, Path, PathBuf};
 
 use periplus_diagnostics::{Origin, SourceMap};
-use periplus_scene::{Link, Model, Scene, Shape};
+use periplus_scene::{Scene, Shape};
+
+use crate::setting::mentioned_in;
+use crate::shapes::for_each_shape;
 
 /// Rewrites the relative URIs of meshes and images for a file that will lie in `folder`. Each is
 /// relative to the file that mentions it, and after a conversion all stand in one file.
 pub fn rebase(scene: &mut Scene, sources: &SourceMap, working_folder: &Path, folder: &Path) {
     let rebase = Rebase { sources, working_folder, folder };
-    let worlds = scene.worlds.iter_mut();
-    for world in worlds {
-        world.models.iter_mut().for_each(|model| rebase.model(model));
-        world
-            .actors
-            .iter_mut()
-            .flat_map(|actor| &mut actor.links)
-            .for_each(|link| rebase.link(link));
-    }
-    scene.models.iter_mut().for_each(|model| rebase.model(model));
-    scene.actors.iter_mut().flat_map(|actor| &mut actor.links).for_each(|link| rebase.link(link));
+    for_each_shape(scene, &mut |shape, _| match shape {
+        Shape::Mesh(mesh) => rebase.uri(&mut mesh.uri, mesh.origin),
+        Shape::Heightmap(heightmap) => rebase.uri(&mut heightmap.uri, heightmap.origin),
+        Shape::Image(image) => rebase.uri(&mut image.uri, image.origin),
+        _ => {}
+    });
 }
 
 struct Rebase<'a> {
@@ -29,30 +27,15 @@ struct Rebase<'a> {
 }
 
 impl Rebase<'_> {
-    fn model(&self, model: &mut Model) {
-        model.links.iter_mut().for_each(|link| self.link(link));
-        model.models.iter_mut().for_each(|inner| self.model(inner));
-    }
-
-    fn link(&self, link: &mut Link) {
-        let collisions = link.collisions.iter_mut().map(|collision| &mut collision.shape);
-        let visuals = link.visuals.iter_mut().map(|visual| &mut visual.shape);
-        for shape in collisions.chain(visuals) {
-            match shape {
-                Shape::Mesh(mesh) => self.uri(&mut mesh.uri, mesh.origin),
-                Shape::Heightmap(heightmap) => self.uri(&mut heightmap.uri, heightmap.origin),
-                Shape::Image(image) => self.uri(&mut image.uri, image.origin),
-                _ => {}
-            }
-        }
-    }
-
     fn uri(&self, uri: &mut String, origin: Origin) {
-        let Some(span) = origin.0 else { return };
-        if uri.is_empty() || uri.contains("://") || Path::new(uri.as_str()).is_absolute() {
+        if origin.0.is_none()
+            || uri.is_empty()
+            || uri.contains("://")
+            || Path::new(uri.as_str()).is_absolute()
+        {
             return;
         }
-        let mentioned_in = self.working_folder.join(&self.sources.file(span.file).name);
+        let mentioned_in = mentioned_in(origin, self.sources, self.working_folder);
         let Some(from) = mentioned_in.parent() else { return };
         if plain(from) == plain(self.folder) {
             return;

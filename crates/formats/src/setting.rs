@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use periplus_diagnostics::{Origin, SourceMap};
 use periplus_resources::{Host, Resolver};
 
 /// What a reading needs to know.
@@ -22,4 +23,12 @@ pub struct Setting<'a> {
 /// A path as messages show it.
 pub(crate) fn shown(path: &Path, working_folder: &Path) -> String {
     path.strip_prefix(working_folder).unwrap_or(path).display().to_string()
+}
+
+/// The file in which a place stands; the working folder for a place that no file holds.
+pub(crate) fn mentioned_in(origin: Origin, sources: &SourceMap, working_folder: &Path) -> PathBuf {
+    match origin.0 {
+        Some(span) => working_folder.join(&sources.file(span.file).name),
+        None => working_folder.to_owned(),
+    }
 }
