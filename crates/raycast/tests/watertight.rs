@@ -128,9 +128,8 @@ fn nothing_leaks() {
     all(40_000);
 }
 
-/// Ten million rays.
+/// More than ten million rays; about three seconds.
 #[test]
-#[ignore = "minutes long; run by name"]
 fn nothing_leaks_of_ten_million() {
     all(1_300_000);
 }
