@@ -66,28 +66,19 @@ fn run(scenes: &Path, scene: &str, out: Option<&Path>, threads: usize) {
         let Ok(bytes) = std::fs::read(&file) else { continue };
         let rays = rays(&bytes);
         let mut distances = vec![0.0_f32; rays.len()];
-        let per_thread = rays.len().div_ceil(threads).next_multiple_of(2 * columns.min(rays.len()));
-        let per_thread =
-            if columns > rays.len() { rays.len().div_ceil(threads) } else { per_thread };
         let inner = if rays.len() < 10_000 { 20 } else { 1 };
         let mut walls = Vec::new();
         let (begin, cpu) = (Instant::now(), cpu_s());
         while walls.len() < 3 || begin.elapsed().as_secs_f64() < 0.8 {
             let start = Instant::now();
             for _ in 0..inner {
-                let cast = |rays: &[Ray], distances: &mut [f32]| {
-                    world.cast_grid(rays, columns.min(rays.len()), Filter::default(), distances);
-                };
-                if threads == 1 {
-                    cast(&rays, &mut distances);
-                    continue;
-                }
-                std::thread::scope(|scope| {
-                    let chunks = rays.chunks(per_thread).zip(distances.chunks_mut(per_thread));
-                    for (rays, distances) in chunks {
-                        scope.spawn(move || cast(rays, distances));
-                    }
-                });
+                world.cast_grid(
+                    &rays,
+                    columns.min(rays.len()),
+                    Filter::default(),
+                    threads,
+                    &mut distances,
+                );
             }
             walls.push(start.elapsed().as_secs_f64() / f64::from(inner));
         }

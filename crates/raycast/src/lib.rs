@@ -37,4 +37,4 @@ pub use heightfield::{BadHeightfield, Heightfield};
 pub use mesh::{MeshError, TriangleMesh};
 pub use ray::{Hit, InstanceId, Ray};
 pub use shape::{BadSize, Shape};
-pub use world::{BadInstance, Filter, NotMovable, Tags, World, WorldBuilder};
+pub use world::{BadChange, BadInstance, Filter, Tags, World, WorldBuilder};

@@ -179,6 +179,21 @@ impl TriangleMesh {
         size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.places)
     }
 
+    /// Middle and half sides of the box around it \[m\].
+    pub(crate) fn bounds_m(&self) -> (DVec3, DVec3) {
+        ((self.low_m + self.high_m) / 2.0, (self.high_m - self.low_m) / 2.0)
+    }
+
+    /// Takes the area of triangles, so that no ray meets them any more.
+    pub(crate) fn erase(&mut self, ids: std::ops::Range<u32>) {
+        for id in ids {
+            let place = self.places[id as usize] as usize;
+            for row in self.blocks[place / 8].corners.as_flattened_mut() {
+                row.0[place % 8] = 0.0;
+            }
+        }
+    }
+
     /// Unit normal of a triangle by the right-hand rule, zero for one without area.
     pub(crate) fn normal(&self, id: u32) -> DVec3 {
         let place = self.places[id as usize] as usize;

@@ -1,19 +1,22 @@
 //! Everything rays can meet, in two levels.
 
 mod builder;
+mod change;
+mod instances;
 mod many;
 mod query;
+mod shares;
 
 use std::sync::Arc;
 
 use periplus_base::{DVec3, Pose};
 
 pub use builder::{BadInstance, WorldBuilder};
+pub use change::BadChange;
 
-use crate::bvh::{Bounds, Node, build};
+use self::instances::InstanceTree;
 use crate::heightfield::Heightfield;
 use crate::mesh::TriangleMesh;
-use crate::ray::InstanceId;
 use crate::shape::Solid;
 
 /// Who sees an instance.
@@ -53,14 +56,15 @@ impl Filter {
     }
 }
 
-/// Everything rays can meet: triangles that never move, in one tree, and instances of shapes,
-/// meshes and height fields that may, in a small tree over theirs that is made anew when they do.
+/// Everything rays can meet, in three trees: triangles that never move; instances of shapes, meshes
+/// and height fields that have not moved yet; and those that have. Only the last is touched when
+/// something moves, so a robot costs the same in an empty room and among a thousand walls.
 ///
-/// Answers do not depend on the number of threads, on the processor, or on whether a ray is asked
-/// alone or among others.
+/// Answers do not depend on the number of threads, on the processor, on the history of the trees,
+/// or on whether a ray is asked alone or among others.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// All fixed triangles.
+    /// Triangles fixed from the start.
     fixed: TriangleMesh,
     /// For every part of `fixed`, in order: the first triangle, the instance.
     parts: Vec<Part>,
@@ -70,14 +74,14 @@ pub struct World {
     parts_groups: Vec<u32>,
     /// Instances in the order of their numbers.
     instances: Vec<Instance>,
-    /// Over instances with an end; leaves name places in `order`.
-    top: Vec<Node>,
-    order: Vec<u32>,
+    /// Over instances with an end that have not moved.
+    resting: InstanceTree,
+    /// Over instances with an end that have.
+    moving: InstanceTree,
     /// Instances without an end.
     endless: Vec<u32>,
-    /// Origin of the frame of `top` \[m\].
+    /// Origin of the frame of the trees over instances \[m\]: that of the fixed triangles.
     middle_m: DVec3,
-    boxes: Vec<Bounds>,
 }
 
 /// One set of fixed triangles.
@@ -101,14 +105,27 @@ enum Body {
 #[derive(Clone, Debug)]
 struct Instance {
     body: Body,
+    state: State,
     tags: Tags,
     world_from_body: Frame,
     /// Middle and half sides of the box in the body's frame; `None` when endless.
     bounds_m: Option<(DVec3, DVec3)>,
 }
 
+/// What becomes of an instance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// It cannot move.
+    Pinned,
+    /// It can, and has not so far.
+    Resting,
+    Moving,
+    /// It was taken away.
+    Gone,
+}
+
 /// A pose as the columns of its rotation matrix.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     translation: DVec3,
     columns: [DVec3; 3],
@@ -141,22 +158,6 @@ impl Frame {
     }
 }
 
-/// An instance that cannot be moved: fixed triangles, or no instance at all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotMovable(pub InstanceId);
-
-impl std::fmt::Display for NotMovable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let InstanceId(number) = self.0;
-        write!(
-            f,
-            "instance {number} does not move: add it as a shape or a mesh, not as fixed triangles"
-        )
-    }
-}
-
-impl std::error::Error for NotMovable {}
-
 impl World {
     /// Starts a world.
     #[must_use]
@@ -164,62 +165,24 @@ impl World {
         WorldBuilder::default()
     }
 
-    /// How many instances there are; their ids count from 0.
+    /// How many instances there are, without those taken away.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.instances.len()
+        self.instances.iter().filter(|instance| instance.state != State::Gone).count()
     }
 
     /// Whether there is nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.instances.is_empty()
+        self.instances.iter().all(|instance| instance.state == State::Gone)
     }
 
     /// What trees and fixed triangles take in memory.
     #[must_use]
     pub fn size_bytes(&self) -> usize {
-        self.fixed.size_bytes() + size_of_val(&*self.top) + size_of_val(&*self.instances)
-    }
-
-    /// Puts instances elsewhere.
-    ///
-    /// # Errors
-    /// When one cannot move; those before it have moved.
-    pub fn move_to(&mut self, poses: &[(InstanceId, Pose)]) -> Result<(), NotMovable> {
-        let mut result = Ok(());
-        for (id, world_from_body) in poses {
-            match self.instances.get_mut(id.0 as usize) {
-                Some(instance) if !matches!(instance.body, Body::Fixed) => {
-                    instance.world_from_body = Frame::new(world_from_body);
-                }
-                _ => {
-                    result = Err(NotMovable(*id));
-                    break;
-                }
-            }
-        }
-        self.refit();
-        result
-    }
-
-    /// Makes the top level anew.
-    fn refit(&mut self) {
-        self.boxes.clear();
-        for (number, instance) in (0_u32..).zip(&self.instances) {
-            let Some((middle, half)) = instance.bounds_m else { continue };
-            let frame = &instance.world_from_body;
-            let middle = frame.translation + frame.turn(middle) - self.middle_m;
-            let [x, y, z] = frame.columns.map(DVec3::abs);
-            let half = x * half.x + y * half.y + z * half.z;
-            // Room for the rounding of the frame, of f32, and of a ray's way into the body.
-            let half = half + (half + middle.abs()).max_element() * 1e-6 + 1e-9;
-            #[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
-            let single = |v: DVec3| v.to_array().map(|x| x as f32);
-            self.boxes.push(Bounds::new(single(middle - half), single(middle + half), number));
-        }
-        self.top = build(&mut self.boxes, 1, 1);
-        self.order.clear();
-        self.order.extend(self.boxes.iter().map(Bounds::number));
+        self.fixed.size_bytes()
+            + self.resting.size_bytes()
+            + self.moving.size_bytes()
+            + size_of_val(&*self.instances)
     }
 }

@@ -111,23 +111,16 @@ proptest! {
         for filter in [Filter::default(), Filter { mask: 1, except_group: 3 }] {
             let single: Vec<Option<Hit>> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
             let mut hits = vec![None; rays.len()];
-            world.hits_grid(&rays, columns, filter, &mut hits);
+            world.hits_grid(&rays, columns, filter, 1, &mut hits);
             prop_assert_eq!(&hits, &single);
             let mut distances = vec![0.0; rays.len()];
-            world.cast_many(&rays, filter, &mut distances);
+            world.cast_many(&rays, filter, 2, &mut distances);
             #[expect(clippy::cast_possible_truncation)]
             let expected: Vec<f32> = single
                 .iter()
                 .map(|hit| hit.map_or(f32::INFINITY, |hit| hit.distance_m as f32))
                 .collect();
             prop_assert_eq!(&distances, &expected);
-            let (first, second) = rays.split_at(rays.len() / 3);
-            let (mut a, mut b) = (vec![0.0; first.len()], vec![0.0; second.len()]);
-            std::thread::scope(|scope| {
-                scope.spawn(|| world.cast_many(first, filter, &mut a));
-                scope.spawn(|| world.cast_many(second, filter, &mut b));
-            });
-            prop_assert_eq!([a, b].concat(), expected);
         }
     }
 }
@@ -196,6 +189,27 @@ fn the_lower_numbers_win_ties() {
             let hit = world.cast(&ray, Filter { mask, except_group: 0 }).unwrap();
             assert_eq!((hit.instance, hit.primitive, hit.distance_m), (expected, 0, 1.0));
         }
+    }
+}
+
+#[test]
+fn rays_do_not_depend_on_threads() {
+    let world = everything(7);
+    let mut stream = Stream::keyed(7, "fan", 0);
+    let rays: Vec<Ray> = (0..20_011)
+        .map(|n| {
+            if n % 100 == 0 {
+                return ray(&mut stream);
+            }
+            let (eye, slope) = (f64::from(n / 5000), f64::from(n % 100) * 0.01);
+            Ray::new(DVec3::new(eye - 2.0, 0.0, 0.5), DVec3::new(1.0, slope, 0.1).normalize())
+        })
+        .collect();
+    let single: Vec<_> = rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
+    for (threads, columns) in [(1, 100), (2, 100), (3, 7), (64, 20_011), (0, 1_000_000)] {
+        let mut hits = vec![None; rays.len()];
+        world.hits_grid(&rays, columns, Filter::default(), threads, &mut hits);
+        assert!(hits == single, "{threads} threads, {columns} columns");
     }
 }
 

@@ -89,7 +89,7 @@ fn leaks(solid: &Solid, inside: impl Fn(&mut Stream) -> DVec3, count: usize) -> 
             rays.push(Ray::new(origin, (target - origin).normalize()));
         }
         distances.resize(rays.len(), 0.0);
-        world.cast_many(&rays, Filter::default(), &mut distances);
+        world.cast_many(&rays, Filter::default(), 1, &mut distances);
         open += distances.iter().filter(|distance| distance.is_infinite()).count();
         // Neighbours go together as packets; here each goes alone.
         open +=

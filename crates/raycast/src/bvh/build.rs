@@ -45,10 +45,17 @@ impl Bounds {
     }
 
     #[inline(always)]
-    fn half_area(&self) -> f32 {
+    pub(crate) fn half_area(&self) -> f32 {
         let (x, y) = (self.high(0) - self.low(0), self.high(1) - self.low(1));
         let z = self.high(2) - self.low(2);
         x * y + y * z + z * x
+    }
+
+    /// Grows to hold another box as well.
+    pub(crate) fn include(&mut self, other: &Self) {
+        for (own, &other) in self.0.0.iter_mut().zip(&other.0.0) {
+            *own = if other < *own { other } else { *own };
+        }
     }
 
     #[inline(always)]

@@ -5,19 +5,23 @@ use std::sync::Arc;
 
 use periplus_base::{DVec3, Pose};
 
-use super::{Body, Frame, Instance, Part, Tags, World};
+use super::instances::InstanceTree;
+use super::{Body, Frame, Instance, Part, State, Tags, World};
 use crate::heightfield::Heightfield;
 use crate::mesh::{MeshError, TriangleMesh};
 use crate::ray::InstanceId;
 use crate::shape::{BadSize, Shape, Solid};
 
-/// Collects what a [`World`] is made of. Ids are given in the order of adding.
+/// Collects what a [`World`] is made of, or what is added to one. Ids are given in the order of
+/// adding.
 #[derive(Clone, Debug, Default)]
 pub struct WorldBuilder {
-    instances: Vec<Instance>,
-    positions_m: Vec<[f64; 3]>,
-    triangles: Vec<[u32; 3]>,
-    parts: Vec<Part>,
+    pub(super) instances: Vec<Instance>,
+    pub(super) positions_m: Vec<[f64; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) parts: Vec<Part>,
+    /// The first position of every part.
+    pub(super) starts: Vec<u32>,
 }
 
 /// Why something cannot be part of a world.
@@ -81,6 +85,7 @@ impl WorldBuilder {
         self.triangles.extend(triangles.iter().map(|t| t.map(|corner| corner + offset)));
         let id = self.push(Body::Fixed, world_from_body, tags, None)?;
         self.parts.push(Part { first, instance: id.0 });
+        self.starts.push(offset);
         Ok(id)
     }
 
@@ -94,7 +99,7 @@ impl WorldBuilder {
         world_from_body: &Pose,
         tags: Tags,
     ) -> Result<InstanceId, BadInstance> {
-        let bounds = ((mesh.low_m + mesh.high_m) / 2.0, (mesh.high_m - mesh.low_m) / 2.0);
+        let bounds = mesh.bounds_m();
         self.push(Body::Mesh(mesh), world_from_body, tags, Some(bounds))
     }
 
@@ -141,7 +146,8 @@ impl WorldBuilder {
         let number = u32::try_from(self.instances.len())
             .map_err(|_| BadInstance::Mesh(MeshError::TooMany))?;
         let world_from_body = Frame::new(world_from_body);
-        self.instances.push(Instance { body, tags, world_from_body, bounds_m });
+        let state = if let Body::Fixed = body { State::Pinned } else { State::Resting };
+        self.instances.push(Instance { body, state, tags, world_from_body, bounds_m });
         Ok(InstanceId(number))
     }
 
@@ -152,30 +158,19 @@ impl WorldBuilder {
     pub fn build(self, threads: usize) -> Result<World, BadInstance> {
         let fixed = TriangleMesh::new(&self.positions_m, &self.triangles, threads)
             .map_err(BadInstance::Mesh)?;
-        let tags = |part: &Part| self.instances[part.instance as usize].tags;
-        let parts_mask = self.parts.iter().fold(u32::MAX, |mask, part| mask & tags(part).mask);
-        let mut parts_groups: Vec<u32> =
-            self.parts.iter().map(|part| tags(part).group).filter(|&group| group != 0).collect();
-        parts_groups.sort_unstable();
-        parts_groups.dedup();
-        let endless = (0_u32..)
-            .zip(&self.instances)
-            .filter(|(_, each)| each.bounds_m.is_none() && !matches!(each.body, Body::Fixed))
-            .map(|(number, _)| number)
-            .collect();
         let mut world = World {
             middle_m: fixed.middle_m,
             fixed,
             parts: self.parts,
-            parts_mask,
-            parts_groups,
+            parts_mask: u32::MAX,
+            parts_groups: Vec::new(),
             instances: self.instances,
-            top: Vec::new(),
-            order: Vec::new(),
-            endless,
-            boxes: Vec::new(),
+            resting: InstanceTree::default(),
+            moving: InstanceTree::default(),
+            endless: Vec::new(),
         };
-        world.refit();
+        world.survey_parts();
+        world.plant();
         Ok(world)
     }
 }

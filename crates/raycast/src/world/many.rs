@@ -1,8 +1,9 @@
 //! Many rays at a time.
 
-use super::query::{Found, single_above};
+use super::query::{Found, Scratch, single_above};
+use super::shares::in_shares;
 use super::{Body, Filter, World};
-use crate::bvh::{STACK, leaf_range};
+use crate::bvh::leaf_range;
 use crate::local::LocalRay;
 use crate::mesh::{Nearest, TriangleMesh};
 use crate::packet::{Frustum, Packet};
@@ -26,20 +27,15 @@ struct Tile {
 const LINE: Tile = Tile { columns: 8, rows: 1 };
 const PATCH: Tile = Tile { columns: 4, rows: 2 };
 
-/// Room for a walk through two levels.
-struct Scratch {
-    top: Stack,
-    body: Stack,
-}
-
 impl World {
     /// Distances of many rays, infinite where nothing is: the same that [`Self::cast`] finds for
-    /// each. Neighbours of one origin are traced together, so keep scans and images in order.
+    /// each, with any number of `threads`. Neighbours of one origin are traced together, so keep
+    /// scans and images in order. Few rays stay on this thread.
     ///
     /// # Panics
     /// When there are not as many places as rays.
-    pub fn cast_many(&self, rays: &[Ray], filter: Filter, distances_m: &mut [f32]) {
-        self.cast_grid(rays, rays.len(), filter, distances_m);
+    pub fn cast_many(&self, rays: &[Ray], filter: Filter, threads: usize, distances_m: &mut [f32]) {
+        self.cast_grid(rays, rays.len(), filter, threads, distances_m);
     }
 
     /// [`Self::cast_many`] for rays that lie in rows of `columns`, like the pixels of an image or
@@ -47,18 +43,26 @@ impl World {
     ///
     /// # Panics
     /// When there are not as many places as rays.
-    pub fn cast_grid(&self, rays: &[Ray], columns: usize, filter: Filter, distances_m: &mut [f32]) {
-        assert_eq!(rays.len(), distances_m.len(), "one place for every ray");
-        #[expect(clippy::cast_possible_truncation, reason = "single precision is asked for")]
-        dispatch(Many {
-            world: self,
-            rays,
-            columns,
-            filter,
-            give: |index: usize, found: &Found| {
-                distances_m[index] =
-                    if found.is_hit() { found.distance as f32 } else { f32::INFINITY };
-            },
+    pub fn cast_grid(
+        &self,
+        rays: &[Ray],
+        columns: usize,
+        filter: Filter,
+        threads: usize,
+        distances_m: &mut [f32],
+    ) {
+        in_shares(rays, columns, threads, distances_m, |rays, columns, distances_m| {
+            #[expect(clippy::cast_possible_truncation, reason = "single precision is asked for")]
+            dispatch(Many {
+                world: self,
+                rays,
+                columns,
+                filter,
+                give: |index: usize, found: &Found| {
+                    distances_m[index] =
+                        if found.is_hit() { found.distance as f32 } else { f32::INFINITY };
+                },
+            });
         });
     }
 
@@ -71,17 +75,19 @@ impl World {
         rays: &[Ray],
         columns: usize,
         filter: Filter,
+        threads: usize,
         hits: &mut [Option<Hit>],
     ) {
-        assert_eq!(rays.len(), hits.len(), "one place for every ray");
-        dispatch(Many {
-            world: self,
-            rays,
-            columns,
-            filter,
-            give: |index: usize, found: &Found| {
-                hits[index] = found.is_hit().then(|| self.hit(&rays[index], found));
-            },
+        in_shares(rays, columns, threads, hits, |rays, columns, hits| {
+            dispatch(Many {
+                world: self,
+                rays,
+                columns,
+                filter,
+                give: |index: usize, found: &Found| {
+                    hits[index] = found.is_hit().then(|| self.hit(&rays[index], found));
+                },
+            });
         });
     }
 }
@@ -99,8 +105,8 @@ impl<F: FnMut(usize, &Found)> Task for Many<'_, F> {
 
     #[inline(always)]
     fn run<V: V8>(mut self) {
-        let mut scratch = Scratch { top: [0; STACK], body: [0; STACK] };
-        let columns = self.columns.max(1);
+        let mut scratch = Scratch::new();
+        let columns = self.columns;
         let rows = self.rays.len().div_ceil(columns);
         let tile = if rows > 1 { PATCH } else { LINE };
         for top in (0..rows).step_by(tile.rows) {
@@ -160,7 +166,7 @@ impl<F: FnMut(usize, &Found)> Many<'_, F> {
 
     #[inline(always)]
     fn single<V: V8>(&mut self, index: usize, scratch: &mut Scratch) {
-        let found = self.world.find::<V, false>(&self.rays[index], self.filter, &mut scratch.body);
+        let found = self.world.find::<V, false>(&self.rays[index], self.filter, scratch);
         (self.give)(index, &found);
     }
 }
@@ -199,13 +205,13 @@ impl World {
                 self.take_fixed(*nearest, found);
             }
         }
-        if !self.top.is_empty() {
+        if !self.resting.nodes.is_empty() || !self.moving.nodes.is_empty() {
             self.find_instances_packet::<V>(rays, &packet, filter, &mut found, scratch);
         }
         Some(found)
     }
 
-    /// `packet` is in the frame of the fixed triangles, which is that of the top level.
+    /// `packet` is in the frame of the fixed triangles, which is that of the trees over instances.
     #[inline(always)]
     fn find_instances_packet<V: V8>(
         &self,
@@ -217,17 +223,20 @@ impl World {
     ) {
         let frustum = Frustum::<V>::new(packet, 0.0);
         let Scratch { top, body } = scratch;
-        let limit = limit(packet, found, rays.len());
-        let mut leaves = InstancesPacket::<V> {
-            world: self,
-            rays,
-            packet,
-            filter,
-            found,
-            stack: body,
-            vectors: std::marker::PhantomData,
-        };
-        walk(&self.top, &frustum, limit, top, &mut leaves);
+        for tree in [&self.resting, &self.moving] {
+            let limit = limit(packet, found, rays.len());
+            let mut leaves = InstancesPacket::<V> {
+                world: self,
+                order: &tree.order,
+                rays,
+                packet,
+                filter,
+                found,
+                stack: body,
+                vectors: std::marker::PhantomData,
+            };
+            walk(&tree.nodes, &frustum, limit, top, &mut leaves);
+        }
     }
 
     /// False when the rays do not go together in the mesh's frame.
@@ -271,6 +280,7 @@ fn limit(packet: &Packet, found: &[Found; 8], count: usize) -> f32 {
 /// Eight rays against instances.
 struct InstancesPacket<'a, V> {
     world: &'a World,
+    order: &'a [u32],
     rays: &'a [&'a Ray],
     packet: &'a Packet,
     filter: Filter,
@@ -283,7 +293,7 @@ impl<V: V8> Leaves for InstancesPacket<'_, V> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (first, count) = leaf_range(word);
-        for &number in &self.world.order[first..first + count] {
+        for &number in &self.order[first..first + count] {
             let instance = &self.world.instances[number as usize];
             if !self.filter.lets_pass(instance.tags) {
                 continue;

@@ -37,6 +37,18 @@ impl Found {
     }
 }
 
+/// Room for a walk through two levels.
+pub(super) struct Scratch {
+    pub(super) top: Stack,
+    pub(super) body: Stack,
+}
+
+impl Scratch {
+    pub(super) fn new() -> Self {
+        Self { top: [0; STACK], body: [0; STACK] }
+    }
+}
+
 /// The next f32 not below a distance.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "rounded up when it was rounded down")]
@@ -103,7 +115,7 @@ impl World {
         &self,
         ray: &Ray,
         filter: Filter,
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) -> Found {
         let mut found = Found::nothing(ray.max_m);
         if !ray.is_sound() {
@@ -115,12 +127,12 @@ impl World {
         }
         if !self.fixed.is_empty() {
             let local = self.fixed.localize(ray.origin_m, ray.direction, ray.min_m);
-            self.find_fixed::<V, ANY>(&local, filter, &mut found, stack);
+            self.find_fixed::<V, ANY>(&local, filter, &mut found, &mut scratch.body);
             if ANY && found.is_hit() {
                 return found;
             }
         }
-        self.find_instances::<V, ANY>(ray, filter, &mut found, stack);
+        self.find_instances::<V, ANY>(ray, filter, &mut found, scratch);
         found
     }
 
@@ -182,26 +194,31 @@ impl World {
         ray: &Ray,
         filter: Filter,
         found: &mut Found,
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
-        if self.top.is_empty() {
+        if self.resting.nodes.is_empty() && self.moving.nodes.is_empty() {
             return;
         }
         let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
         // The boxes have room for what an instance may be off.
         let boxes = BoxTest::<V>::new(&local, 0.0);
-        // Of its own: walks in instances happen inside this one.
-        let mut waiting: Stack = [0; STACK];
-        let limit = reach(single_above(found.distance), 0.0);
-        let mut leaves = Instances::<V, ANY> {
-            world: self,
-            ray,
-            filter,
-            found,
-            stack,
-            vectors: std::marker::PhantomData,
-        };
-        walk(&self.top, &boxes, limit, &mut waiting, &mut leaves);
+        let Scratch { top, body } = scratch;
+        for tree in [&self.resting, &self.moving] {
+            let limit = reach(single_above(found.distance), 0.0);
+            let mut leaves = Instances::<V, ANY> {
+                world: self,
+                order: &tree.order,
+                ray,
+                filter,
+                found,
+                stack: body,
+                vectors: std::marker::PhantomData,
+            };
+            walk(&tree.nodes, &boxes, limit, top, &mut leaves);
+            if ANY && found.is_hit() {
+                return;
+            }
+        }
     }
 
     #[inline(always)]
@@ -247,6 +264,7 @@ impl World {
 /// One ray against instances.
 struct Instances<'a, V, const ANY: bool> {
     world: &'a World,
+    order: &'a [u32],
     ray: &'a Ray,
     filter: Filter,
     found: &'a mut Found,
@@ -258,7 +276,7 @@ impl<V: V8, const ANY: bool> Leaves for Instances<'_, V, ANY> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (first, count) = leaf_range(word);
-        for &number in &self.world.order[first..first + count] {
+        for &number in &self.order[first..first + count] {
             self.world.find_instance::<V, ANY>(
                 number,
                 self.ray,
@@ -285,7 +303,7 @@ impl<const ANY: bool> Task for Ask<'_, ANY> {
 
     #[inline(always)]
     fn run<V: V8>(self) -> Found {
-        self.world.find::<V, ANY>(self.ray, self.filter, &mut [0; STACK])
+        self.world.find::<V, ANY>(self.ray, self.filter, &mut Scratch::new())
     }
 }
 
@@ -333,7 +351,7 @@ mod tests {
                     .unwrap();
                 let world = builder.build(1).unwrap();
                 let mut hits = vec![None; rays.len()];
-                world.hits_grid(&rays, 20, Filter::default(), &mut hits);
+                world.hits_grid(&rays, 20, Filter::default(), 1, &mut hits);
                 let single: Vec<_> =
                     rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
                 (hits, single)
