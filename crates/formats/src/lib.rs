@@ -5,6 +5,7 @@
 
 mod detect;
 mod documents;
+mod images;
 mod includes;
 mod load;
 mod mesh_files;
@@ -14,8 +15,9 @@ mod shapes;
 mod summary;
 
 pub use detect::Language;
-pub use load::{Loaded, load};
-pub use mesh_files::MeshSummary;
+pub use images::settle_images;
+pub use load::{Loaded, load, load_bytes};
+pub use mesh_files::{MeshSummary, read_beside, read_mesh};
 pub use rebase::rebase;
 pub use setting::Setting;
 pub use summary::{ModelSummary, SensorSummary, Summary, WorldSummary, describe, summarise};

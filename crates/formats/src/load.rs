@@ -40,9 +40,50 @@ pub struct Loaded {
 #[must_use]
 pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
     let path = setting.working_folder.join(path);
-    let mut loaded = Loaded {
+    match setting.host.read(&path) {
+        Ok(bytes) => load_bytes(&path, &bytes, setting),
+        Err(error) => {
+            let mut loaded = empty(path);
+            loaded.diagnostics.push(
+                Diagnostic::error(
+                    "unreadable-file",
+                    format!(
+                        "`{}` cannot be read: {error}",
+                        shown(&loaded.path, &setting.working_folder)
+                    ),
+                )
+                .help("check the path; it is taken from the folder you stand in"),
+            );
+            loaded
+        }
+    }
+}
+
+/// Reads what a file of this name would hold: a text that came over a wire, or is built in. What it
+/// mentions is looked for from that place.
+#[must_use]
+pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
+    let mut loaded = empty(setting.working_folder.join(path));
+    let path = loaded.path.clone();
+    if mesh_files::is_mesh(&path) {
+        loaded.language = Language::Mesh;
+        loaded.mesh = mesh_files::summarise(&path, bytes, setting, &mut loaded.diagnostics);
+        return loaded;
+    }
+    if let Some(document) =
+        read_xml(&path, bytes, setting, &mut loaded.sources, &mut loaded.diagnostics)
+    {
+        loaded.language = language(&path, &document);
+        interpret(document, setting, &mut loaded);
+    }
+    loaded
+}
+
+/// Nothing yet of a file.
+fn empty(path: PathBuf) -> Loaded {
+    Loaded {
         language: promised(&path),
-        path: path.clone(),
+        path,
         sources: SourceMap::new(),
         diagnostics: Diagnostics::new(),
         document: None,
@@ -50,32 +91,7 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
         scene: None,
         mesh: None,
         files: Vec::new(),
-    };
-    let bytes = match setting.host.read(&path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            loaded.diagnostics.push(
-                Diagnostic::error(
-                    "unreadable-file",
-                    format!("`{}` cannot be read: {error}", shown(&path, &setting.working_folder)),
-                )
-                .help("check the path; it is taken from the folder you stand in"),
-            );
-            return loaded;
-        }
-    };
-    if mesh_files::is_mesh(&path) {
-        loaded.language = Language::Mesh;
-        loaded.mesh = mesh_files::summarise(&path, &bytes, setting, &mut loaded.diagnostics);
-        return loaded;
     }
-    if let Some(document) =
-        read_xml(&path, &bytes, setting, &mut loaded.sources, &mut loaded.diagnostics)
-    {
-        loaded.language = language(&path, &document);
-        interpret(document, setting, &mut loaded);
-    }
-    loaded
 }
 
 fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {

@@ -152,22 +152,7 @@ impl Look<'_, '_> {
 type OpenedMesh = Result<(MeshSummary, Vec<String>), (String, String)>;
 
 fn open(path: &Path, bytes: &[u8], host: &dyn Host) -> OpenedMesh {
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    // A mesh may only name files beside it or below: a downloaded one is not to be trusted.
-    let mut side_files = |name: &str| {
-        let plain = Path::new(name).components().all(|part| {
-            matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir)
-        });
-        if plain { host.read(&folder.join(name)).ok() } else { None }
-    };
-    let format = MeshFormat::from_path_and_bytes(&path.to_string_lossy(), bytes);
-    let mesh = format
-        .and_then(|format| read(bytes, format, &mut side_files).map(|mesh| (format, mesh)))
-        .map_err(|error| {
-            let place = error.place.map(|place| format!("{place}: ")).unwrap_or_default();
-            (format!("{place}{}", error.message), error.help)
-        });
-    let (format, mesh) = mesh?;
+    let (format, mesh) = parse(path, bytes, host)?;
     let summary = MeshSummary {
         format: format!("{format:?}"),
         submeshes: mesh.submeshes.iter().map(|part| part.name.clone()).collect(),
@@ -180,4 +165,33 @@ fn open(path: &Path, bytes: &[u8], host: &dyn Host) -> OpenedMesh {
         count => format!("{} ({count} times)", note.message),
     });
     Ok((summary, notes.collect()))
+}
+
+/// The triangles of a mesh file; none of a broken one, of which [`crate::load`] tells.
+#[must_use]
+pub fn read_mesh(path: &Path, bytes: &[u8], host: &dyn Host) -> Option<periplus_meshes::Mesh> {
+    parse(path, bytes, host).ok().map(|(_, mesh)| mesh)
+}
+
+/// A file that a mesh names, such as a texture. It may only lie beside the mesh or below: a
+/// downloaded mesh is not to be trusted.
+#[must_use]
+pub fn read_beside(mesh: &Path, name: &str, host: &dyn Host) -> Option<Vec<u8>> {
+    let plain = Path::new(name)
+        .components()
+        .all(|part| matches!(part, std::path::Component::Normal(_) | std::path::Component::CurDir));
+    let folder = mesh.parent().unwrap_or(Path::new(""));
+    if plain { host.read(&folder.join(name)).ok() } else { None }
+}
+
+type ParsedMesh = Result<(MeshFormat, periplus_meshes::Mesh), (String, String)>;
+
+fn parse(path: &Path, bytes: &[u8], host: &dyn Host) -> ParsedMesh {
+    let mut side_files = |name: &str| read_beside(path, name, host);
+    MeshFormat::from_path_and_bytes(&path.to_string_lossy(), bytes)
+        .and_then(|format| read(bytes, format, &mut side_files).map(|mesh| (format, mesh)))
+        .map_err(|error| {
+            let place = error.place.map(|place| format!("{place}: ")).unwrap_or_default();
+            (format!("{place}{}", error.message), error.help)
+        })
 }

@@ -3,5 +3,7 @@
 //! This is the one place below the programs where files and the environment are touched.
 
 mod machine;
+mod stopwatch;
 
 pub use machine::Machine;
+pub use stopwatch::{Stopwatch, sleep};
