@@ -12,7 +12,8 @@ mod common;
 
 use std::time::Instant;
 
-use common::{Wheels, flat_world, model, put, run, solid_box, state, two_wheels};
+use common::*;
+use periplus_dynamics::{Mode, Twist, World};
 use periplus_scene::{DVec3, Pose};
 
 fn main() {
@@ -36,4 +37,20 @@ fn main() {
         let bits = pose.translation.to_array().map(f64::to_bits);
         println!("{boxes} sleeping boxes: {:.1} us/step, ends at {bits:x?}", best * 1e6);
     }
+    let mut world = World::empty(DOWN, Mode::Kinematic);
+    put(&mut world, &ground(), Pose::IDENTITY);
+    let robot = put(&mut world, &two_wheels(), Pose::IDENTITY);
+    let wheels = Wheels::of(&world);
+    let mut best = f64::INFINITY;
+    for _ in 0..10 {
+        let start = Instant::now();
+        for _ in 0..100_000 {
+            world.follow(robot, Twist { x_m_s: 0.5, y_m_s: 0.0, yaw_rad_s: 0.2 });
+            wheels.turn(&mut world, 4.0, 6.0);
+            world.step(STEP_NS).unwrap();
+        }
+        best = best.min(start.elapsed().as_secs_f64() / 1e5);
+    }
+    let bits = world.model_pose(robot).unwrap().translation.to_array().map(f64::to_bits);
+    println!("kinematic: {:.3} us/step, ends at {bits:x?}", best * 1e6);
 }

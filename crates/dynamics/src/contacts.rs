@@ -4,6 +4,7 @@ use periplus_base::DVec3;
 use rapier3d_f64::geometry::PairContacts;
 
 use crate::build::scene_pose;
+use crate::engine::Engine;
 use crate::hooks::Tag;
 use crate::state::LinkId;
 use crate::world::World;
@@ -33,15 +34,17 @@ pub struct Contact {
 }
 
 impl World {
-    /// What touches, in a fixed order. Shapes that only come near are not told.
+    /// What touches, in a fixed order. Shapes that only come near are not told; in
+    /// [`Mode::Kinematic`](crate::Mode) nothing ever touches.
     #[must_use]
     pub fn contacts(&self) -> Vec<Contact> {
         let mut contacts = Vec::new();
-        let step_s = self.solver.integration_parameters.dt;
-        for pair in self.solver.narrow_phase.contact_pairs() {
+        let Engine::Rigid(rigid) = &self.engine else { return contacts };
+        let solver = &rigid.solver;
+        let step_s = solver.integration_parameters.dt;
+        for pair in solver.narrow_phase.contact_pairs() {
             let PairContacts::Rigid(rigid) = &pair.contacts else { continue };
-            let (one, two) =
-                (&self.solver.colliders[pair.collider1], &self.solver.colliders[pair.collider2]);
+            let (one, two) = (&solver.colliders[pair.collider1], &solver.colliders[pair.collider2]);
             let touching = |bits: u128| {
                 let tag = Tag::unpack(bits);
                 Touching { link: LinkId(tag.link), collision: usize::from(tag.collision) }

@@ -20,20 +20,26 @@
 //! - Meshes are exact where they are static, and their convex hull where they move. Ellipsoids are
 //!   hulls of 162 points on their surface.
 //!
-//! [`drives`] holds the laws of the drive plugins as plain functions of numbers, and [`Kinematic`]
-//! moves a robot on flat ground without any physics, exactly.
+//! In [`Mode::Kinematic`] the same world moves without physics: robots follow their twists on flat
+//! ground exactly ([`Kinematic`]), joints their commands, in steps of any length. Nothing touches,
+//! falls or slips there, joints that close a ring are not held, and efforts move nothing.
+//!
+//! [`drives`] holds the laws of the drive plugins as plain functions of numbers.
 
 mod build;
 mod contacts;
 pub mod drives;
+mod engine;
+mod exact;
 mod hooks;
 mod inertia;
 mod joints;
 mod kinematic;
 mod places;
+mod records;
+mod rigid;
 mod shapes;
 mod state;
-mod step;
 mod wheels;
 mod world;
 
@@ -42,4 +48,4 @@ pub use joints::{AxisState, Command};
 pub use kinematic::{Kinematic, Twist};
 pub use shapes::{Heights, Meshes, NoMeshes, Triangles};
 pub use state::{Diverged, JointId, LinkId, LinkState, ModelId};
-pub use world::{Added, World};
+pub use world::{Added, Mode, World};

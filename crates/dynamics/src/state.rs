@@ -30,15 +30,16 @@ pub struct LinkState {
 pub struct Diverged {
     /// The first body concerned, as `model::link`.
     pub link: String,
-    /// Simulated time of the step [s].
-    pub time_s: f64,
+    /// Simulated time of the step [ns].
+    pub time_ns: i64,
     /// Its speed [m/s]; none if it is not a number.
     pub speed_m_s: Option<f64>,
 }
 
 impl std::fmt::Display for Diverged {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { link, time_s, speed_m_s } = self;
+        let Self { link, time_ns, speed_m_s } = self;
+        let time_s = *time_ns as f64 / 1e9;
         write!(out, "the simulation diverged at {time_s:.3} s: `{link}` ")?;
         match speed_m_s {
             Some(speed) => write!(out, "moves at {speed:.0} m/s")?,

@@ -4,12 +4,12 @@
 mod common;
 
 use common::*;
-use periplus_dynamics::{NoMeshes, World};
+use periplus_dynamics::{Mode, NoMeshes, World};
 use periplus_scene::{Collision, DVec3, Link, Pose, Shape};
 
 #[test]
 fn a_second_of_free_fall_is_4_9_metres() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     put(&mut world, &model("stone", vec![solid_ball("ball", 1.0, 0.1)], vec![]), Pose::IDENTITY);
     run(&mut world, 1.0);
     let state = state(&world, "stone", "ball");
@@ -106,7 +106,7 @@ fn what_only_reports_contacts_falls_through_and_is_told() {
 
 #[test]
 fn links_without_weight_float() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     let light = Link { gravity: false, ..solid_ball("balloon", 1.0, 0.1) };
     put(&mut world, &model("balloon", vec![light], vec![]), Pose::IDENTITY);
     run(&mut world, 1.0);
@@ -179,7 +179,7 @@ fn put_down_taken_away_and_put_back() {
     assert_eq!(world.model_pose(id), Some(Pose::from_xyz(1.0, 2.0, 3.0)));
     assert!(!world.set_pose(id, Pose::from_xyz(f64::NAN, 0.0, 0.0)));
     world.reset();
-    assert_eq!((world.time_s(), world.model_pose(id)), (0.0, Some(Pose::from_xyz(0.0, 0.0, 5.0))));
+    assert_eq!((world.time_ns(), world.model_pose(id)), (0, Some(Pose::from_xyz(0.0, 0.0, 5.0))));
     world.remove(id);
     assert_eq!((world.model_pose(id), world.find_model("stone")), (None, None));
     run(&mut world, 0.01);
@@ -196,7 +196,7 @@ fn put_down_taken_away_and_put_back() {
 #[test]
 fn a_bounce_keeps_its_share_of_speed() {
     let height_after = |restitution: f64| {
-        let mut world = World::empty(DVec3::new(0.0, 0.0, -10.0));
+        let mut world = World::empty(DVec3::new(0.0, 0.0, -10.0), Mode::Rigid);
         let bouncy = |mut model: periplus_scene::Model| {
             let contact = &mut model.links[0].collisions[0].surface.contact;
             (contact.restitution, contact.bounce_threshold_m_s) = (restitution, 0.1);

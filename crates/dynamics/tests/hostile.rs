@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use periplus_diagnostics::{Origin, Severity, SourceMap};
-use periplus_dynamics::{NoMeshes, World};
+use periplus_dynamics::{Mode, NoMeshes, World};
 use periplus_scene::{Axis, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
 use proptest::prelude::*;
 
@@ -14,7 +14,7 @@ fn check(model: &Model) -> (bool, Vec<&'static str>) {
     let mut world = flat_world();
     let added = world.add(model, Pose::from_xyz(0.0, 0.0, 1.0), &NoMeshes);
     for _ in 0..20 {
-        let _ = world.step(STEP_S);
+        let _ = world.step(STEP_NS);
     }
     let taken = added.model.is_some();
     (taken, added.diagnostics.iter().map(|found| found.code).collect())
@@ -118,12 +118,12 @@ fn a_motion_that_is_none_is_told_with_the_bodys_name() {
     let rocket = link(&world, "m", "rocket");
     assert!(!world.push(rocket, DVec3::ZERO, DVec3::splat(f64::NAN), DVec3::ZERO));
     world.push(rocket, DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
-    let diverged = world.step(STEP_S).unwrap_err();
+    let diverged = world.step(STEP_NS).unwrap_err();
     assert_eq!(diverged.link, "m::rocket");
     assert!(diverged.to_string().contains("`m::rocket` moves at "), "{diverged}");
-    assert_eq!(world.step(STEP_S), Err(diverged));
+    assert_eq!(world.step(STEP_NS), Err(diverged));
     world.reset();
-    assert_eq!(world.step(STEP_S), Ok(()));
+    assert_eq!(world.step(STEP_NS), Ok(()));
 }
 
 #[test]
@@ -166,6 +166,6 @@ proptest! {
 
 #[test]
 fn world_of_nan_gravity() {
-    let world = World::empty(DVec3::ZERO);
+    let world = World::empty(DVec3::ZERO, Mode::Rigid);
     assert_eq!(world.gravity_m_s2(), DVec3::ZERO);
 }

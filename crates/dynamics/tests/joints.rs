@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::*;
-use periplus_dynamics::{Command, World};
+use periplus_dynamics::{Command, Mode, World};
 use periplus_scene::{Axis, DVec3, Joint, JointKind, Mimic, Model, Pose};
 
 /// A weight of 1 kg and 0.1 kg m², 1 m from a hinge along y through the origin of the world.
@@ -19,18 +19,18 @@ fn pendulum(direction: DVec3) -> Model {
 
 #[test]
 fn a_pendulum_of_one_metre_swings_in_two_seconds() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     let (sine, cosine) = libm::sincos(0.1);
     put(&mut world, &pendulum(DVec3::new(sine, 0.0, -cosine)), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
     let mut crossings = Vec::new();
     let mut before = 0.0;
     for _ in 0..9000 {
-        world.step(STEP_S).unwrap();
+        world.step(STEP_NS).unwrap();
         // Positive about y swings from x towards -z, so the lowest point is at 0.1 rad.
         let now = world.axis_state(hinge).unwrap().position - 0.1;
         if before < 0.0 && now >= 0.0 {
-            crossings.push(world.time_s());
+            crossings.push(world.time_ns() as f64 / 1e9);
         }
         before = now;
     }
@@ -41,7 +41,7 @@ fn a_pendulum_of_one_metre_swings_in_two_seconds() {
 
 #[test]
 fn holding_a_pendulum_out_takes_its_weight_times_its_arm() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     put(&mut world, &pendulum(DVec3::X), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
     let hold = Command::Position { target: 0.0, max_speed: 1.0, max_effort: 100.0 };
@@ -56,7 +56,7 @@ fn holding_a_pendulum_out_takes_its_weight_times_its_arm() {
 }
 
 fn slider(axis: Axis) -> (World, periplus_dynamics::JointId) {
-    let mut world = World::empty(DVec3::ZERO);
+    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
     let axis = Axis { direction_in_joint: DVec3::X, ..axis };
     let slide = joint("slide", JointKind::Prismatic, "world", "cart", axis);
     put(
@@ -130,7 +130,7 @@ fn dry_friction_holds_up_to_its_force() {
 
 /// A disc of 0.1 kg m² on an axle along z.
 fn disc(axis: Axis, kind: JointKind) -> (World, periplus_dynamics::JointId) {
-    let mut world = World::empty(DVec3::ZERO);
+    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
     let mut wheel = solid_ball("disc", 1.0, 0.5);
     wheel.collisions.clear();
     let axle = joint("axle", kind, "world", "disc", axis);
@@ -186,7 +186,7 @@ fn turning_limits_hold_narrow_wide_and_beyond_a_turn() {
 
 #[test]
 fn a_follower_follows() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     let finger = |name: &str, y: f64| at(0.0, y, 0.0, solid_box(name, 0.2, DVec3::splat(0.05)));
     let slide = |name: &str, child: &str, mimic| {
         joint(
@@ -219,7 +219,7 @@ fn a_follower_follows() {
 
 #[test]
 fn links_on_fixed_joints_are_one_body() {
-    let mut world = World::empty(DVec3::ZERO);
+    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
     let weld = Joint::new("weld", JointKind::Fixed, "a", "b");
     let bar = model(
         "bar",
@@ -243,7 +243,7 @@ fn links_on_fixed_joints_are_one_body() {
 
 #[test]
 fn a_ball_joint_lets_turn_and_holds_its_place() {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     let mut ball = Joint::new("ball", JointKind::Ball, "world", "bob");
     ball.child_from_joint = Pose::from_xyz(-1.0, 0.0, 0.0);
     put(
@@ -258,7 +258,7 @@ fn a_ball_joint_lets_turn_and_holds_its_place() {
 
 #[test]
 fn a_universal_joint_turns_about_both_axes_and_no_third() {
-    let mut world = World::empty(DVec3::ZERO);
+    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
     let mut cross = joint(
         "cross",
         JointKind::Universal,
@@ -295,7 +295,7 @@ fn a_universal_joint_turns_about_both_axes_and_no_third() {
 
 #[test]
 fn a_quarter_turn_carries_the_link_along() {
-    let mut world = World::empty(DVec3::ZERO);
+    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
     put(&mut world, &pendulum(DVec3::X), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
     world.command(hinge, Command::Position { target: FRAC_PI_2, max_speed: 5.0, max_effort: 1e3 });

@@ -48,7 +48,7 @@ fn two_turns_on_the_spot() {
     let mut before = base(&world).rpy().yaw;
     let steps = (2.0 * TAU / STEP_S).round() as usize;
     for _ in 0..steps {
-        world.step(STEP_S).unwrap();
+        world.step(STEP_NS).unwrap();
         let now = base(&world).rpy().yaw;
         yaw += libm::remainder(now - before, TAU);
         before = now;
@@ -143,7 +143,7 @@ fn a_wheel_touches_a_wall_beside_it_where_its_face_is() {
         let DVec3 { x, y, .. } = base(&world).translation;
         let low = DVec3::new(x - 0.12, y, 0.02);
         world.push(left, low, DVec3::new(0.0, 250.0, 0.0), DVec3::ZERO);
-        world.step(STEP_S).unwrap();
+        world.step(STEP_NS).unwrap();
     }
     let face = world.link_state(left).unwrap().world_from_link.translation.y + 0.02;
     println!("pushed to {face} {:?}", base(&world));
@@ -165,7 +165,7 @@ fn two_runs_are_equal_bit_for_bit_and_names_play_no_part() {
             out.clear();
             wheels.turn(&mut world, 6.0, 5.5);
             for _ in 0..3000 {
-                world.step(STEP_S).unwrap();
+                world.step(STEP_NS).unwrap();
                 let Pose { translation, rotation } = base(&world);
                 out.extend(translation.to_array().map(f64::to_bits));
                 out.extend(rotation.to_array().map(f64::to_bits));

@@ -1,12 +1,15 @@
 //! Scenes for the tests, built in code.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test file uses a part; a test may panic")]
 
-use periplus_dynamics::{Added, Command, JointId, LinkId, LinkState, ModelId, NoMeshes, World};
+use periplus_dynamics::{
+    Added, Command, JointId, LinkId, LinkState, Mode, ModelId, NoMeshes, World,
+};
 use periplus_scene::{
     Axis, Collision, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape,
 };
 
 pub(crate) const STEP_S: f64 = 0.001;
+pub(crate) const STEP_NS: i64 = 1_000_000;
 pub(crate) const DOWN: DVec3 = DVec3::new(0.0, 0.0, -9.8);
 
 pub(crate) fn solid_box(name: &str, mass_kg: f64, size_m: DVec3) -> Link {
@@ -59,7 +62,7 @@ pub(crate) fn ground() -> Model {
 }
 
 pub(crate) fn flat_world() -> World {
-    let mut world = World::empty(DOWN);
+    let mut world = World::empty(DOWN, Mode::Rigid);
     put(&mut world, &ground(), Pose::IDENTITY);
     world
 }
@@ -72,7 +75,7 @@ pub(crate) fn put(world: &mut World, model: &Model, pose: Pose) -> ModelId {
 
 pub(crate) fn run(world: &mut World, time_s: f64) {
     for _ in 0..(time_s / STEP_S).round() as usize {
-        world.step(STEP_S).unwrap();
+        world.step(STEP_NS).unwrap();
     }
 }
 

@@ -1,0 +1,125 @@
+//! Which links are one body.
+
+use periplus_diagnostics::Diagnostic;
+use periplus_scene::{JointKind, Model};
+use rapier3d_f64::parry::mass_properties::MassProperties;
+
+use super::{Builder, rapier_pose};
+use crate::inertia::{mass_properties, moved};
+use crate::places::End;
+use crate::records::{Body, BodyKind, LinkRecord};
+
+impl Builder<'_, '_> {
+    /// Whether some joint of the model can move: then it must not fall asleep under a command.
+    pub(super) fn driven(&self) -> bool {
+        self.flat.joints.iter().any(|(_, joint)| joint.kind != JointKind::Fixed)
+    }
+
+    /// For each link, the lowest link on the same rigid body; `None` in the world's.
+    pub(super) fn groups(&mut self, is_static: bool) -> Vec<Option<usize>> {
+        let count = self.flat.links.len();
+        if is_static {
+            return vec![None; count];
+        }
+        // Union-find in which the world is the number after the last link.
+        let mut above: Vec<usize> = (0..=count).collect();
+        fn find(above: &mut [usize], mut member: usize) -> usize {
+            while above[member] != member {
+                above[member] = above[above[member]];
+                member = above[member];
+            }
+            member
+        }
+        for (scope, joint) in &self.flat.joints {
+            let rigid = match joint.kind {
+                JointKind::Fixed => true,
+                JointKind::Screw | JointKind::Gearbox => {
+                    self.diagnostics.push(
+                        Diagnostic::warning(
+                            "joint-not-simulated",
+                            format!("joint `{scope}{}` is of a kind that is not simulated; it is held fast", joint.name),
+                        )
+                        .at(joint.origin),
+                    );
+                    true
+                }
+                _ => false,
+            };
+            let number = |end: Option<End>| match end {
+                Some(End::World) => Some(count),
+                Some(End::Link(link, _)) => Some(link),
+                None => None,
+            };
+            let ends = (
+                number(self.flat.end(scope, &joint.parent)),
+                number(self.flat.end(scope, &joint.child)),
+            );
+            if let (true, (Some(a), Some(b))) = (rigid, ends) {
+                let (a, b) = (find(&mut above, a), find(&mut above, b));
+                // The world is the root of its own group, otherwise the lowest link is.
+                let (low, high) = if a == count || (b != count && a < b) { (a, b) } else { (b, a) };
+                above[high] = low;
+            }
+        }
+        (0..count).map(|link| Some(find(&mut above, link)).filter(|&root| root != count)).collect()
+    }
+
+    pub(super) fn bodies(
+        &mut self,
+        model: &Model,
+        group_of_link: &[Option<usize>],
+        driven: bool,
+    ) -> Option<()> {
+        let mut refused = false;
+        let mut body_of_group: Vec<Option<usize>> = vec![None; self.flat.links.len() + 1];
+        for (number, group) in group_of_link.iter().enumerate() {
+            let (name, link, model_from_link) = &self.flat.links[number];
+            let world_from_link = self.world_from_model * *model_from_link;
+            let slot = group.unwrap_or(self.flat.links.len());
+            let body = match body_of_group[slot] {
+                Some(body) => body,
+                None => {
+                    let kind = match (group, link.kinematic) {
+                        (None, _) => BodyKind::Fixed,
+                        (_, true) => BodyKind::Kinematic,
+                        _ => BodyKind::Dynamic,
+                    };
+                    self.records.bodies.push(Body {
+                        name: format!("{}::{name}", model.name),
+                        kind,
+                        world_from_body: world_from_link,
+                        mass: MassProperties::default(),
+                        weight_share: 0.0,
+                        damping: link.velocity_decay,
+                        can_sleep: model.allow_auto_disable && !driven,
+                        colliders: Vec::new(),
+                        removed: false,
+                    });
+                    self.records.bodies.len() - 1
+                }
+            };
+            body_of_group[slot] = Some(body);
+            let record = &mut self.records.bodies[body];
+            let body_from_link = record.world_from_body.inverse() * world_from_link;
+            if record.kind == BodyKind::Dynamic {
+                let Some(mass) = mass_properties(link, name, self.diagnostics) else {
+                    // The others may be worth a word too.
+                    refused = true;
+                    continue;
+                };
+                record.mass += moved(mass, &rapier_pose(body_from_link));
+                if link.gravity {
+                    record.weight_share += link.inertial.mass_kg;
+                }
+            }
+            self.records.links.push(LinkRecord {
+                model: self.number,
+                name: name.clone(),
+                body,
+                body_from_link,
+                collisions: link.collisions.iter().map(|found| found.name.clone()).collect(),
+            });
+        }
+        (!refused).then_some(())
+    }
+}

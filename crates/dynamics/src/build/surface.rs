@@ -1,0 +1,78 @@
+//! Friction and bounce.
+
+use periplus_base::Pose;
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_scene::Collision;
+use rapier3d_f64::dynamics::CoefficientCombineRule;
+use rapier3d_f64::geometry::{
+    ColliderBuilder, Group, InteractionGroups, InteractionTestMode, SharedShape,
+};
+use rapier3d_f64::pipeline::ActiveHooks;
+
+use super::rapier_pose;
+use crate::hooks::{Part, Tag};
+
+/// Friction and bounce of one collision.
+pub(super) struct Surface {
+    friction: f64,
+    restitution: f64,
+    mask: u32,
+    reports: bool,
+}
+
+impl Surface {
+    pub(super) fn of(collision: &Collision, name: &str, diagnostics: &mut Diagnostics) -> Self {
+        let (friction, contact) = (&collision.surface.friction, &collision.surface.contact);
+        // ODE takes a negative coefficient for infinite.
+        let endless = |mu: f64| if mu < 0.0 { f64::INFINITY } else { mu };
+        let (mu, mu2) = (endless(friction.mu), endless(friction.mu2));
+        if mu != mu2 && mu2.is_finite() {
+            diagnostics.push(
+                Diagnostic::warning(
+                    "friction-one-direction",
+                    format!("collision `{name}` has friction {mu} one way and {mu2} the other"),
+                )
+                .at(collision.origin)
+                .note("the smaller one holds in every direction"),
+            );
+        }
+        // Gazebo bounces only above a threshold, whose default nothing ever reaches.
+        let bounces = contact.bounce_threshold_m_s < 1000.0 && !contact.restitution.is_nan();
+        let restitution = if bounces { contact.restitution.clamp(0.0, 1.0) } else { 0.0 };
+        Self {
+            // Beyond this no slope is too steep, and products stay finite.
+            friction: mu.min(mu2).min(1e6),
+            restitution,
+            mask: contact.collide_bitmask,
+            reports: contact.collide_without_contact,
+        }
+    }
+
+    pub(super) fn collider(
+        &self,
+        shape: SharedShape,
+        body_from_shape: Pose,
+        tag: Tag,
+        several: bool,
+    ) -> ColliderBuilder {
+        let mask = Group::from_bits_retain(self.mask);
+        let mut hooks = ActiveHooks::empty();
+        if several || self.reports {
+            hooks |= ActiveHooks::FILTER_CONTACT_PAIRS;
+        }
+        if tag.part != Part::Whole {
+            hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
+        }
+        ColliderBuilder::new(shape)
+            .position(rapier_pose(body_from_shape))
+            .density(0.0)
+            .friction(self.friction)
+            .friction_combine_rule(CoefficientCombineRule::Min)
+            .restitution(self.restitution)
+            .restitution_combine_rule(CoefficientCombineRule::Min)
+            // Sharing a bit is symmetric, so members and filter are the same mask.
+            .collision_groups(InteractionGroups::new(mask, mask, InteractionTestMode::And))
+            .active_hooks(hooks)
+            .user_data(tag.pack())
+    }
+}

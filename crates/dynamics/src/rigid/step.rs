@@ -1,0 +1,71 @@
+//! One step of the solver.
+
+use rapier3d_f64::prelude::PhysicsPipeline;
+
+use super::Rigid;
+use crate::hooks::Hooks;
+use crate::joints::Command;
+use crate::records::{BodyKind, Records};
+
+/// Nothing that a robot meets moves faster [m/s].
+const FASTEST_M_S: f64 = 1e4;
+
+/// A body whose motion is none, and its speed [m/s] if that is a number.
+pub(crate) struct Lost {
+    pub(crate) body: usize,
+    pub(crate) speed_m_s: Option<f64>,
+}
+
+impl Rigid {
+    /// Moves on by a time [s], and reads where the axes are.
+    pub(crate) fn step(&mut self, records: &mut Records, dt_s: f64) -> Result<(), Lost> {
+        self.solver.integration_parameters.dt = dt_s;
+        for number in 0..records.axes.len() {
+            let leader =
+                records.axes[number].follows.map(|follow| records.axes[follow.leader].state);
+            records.axes[number].drive(leader, dt_s, self.axes[number], self, &records.bodies);
+        }
+        self.solver.step_with_events(&Hooks { model_of_link: &records.model_of_link }, &());
+        let mut pushed = false;
+        for (number, axis) in records.axes.iter_mut().enumerate() {
+            axis.observe(self.axes[number], self);
+            pushed |= matches!(axis.command, Command::Effort(_));
+        }
+        if pushed || self.pushed {
+            self.clear_pushes();
+        }
+        self.watch(records)
+    }
+
+    fn clear_pushes(&mut self) {
+        self.pushed = false;
+        for handle in self.bodies.iter().flatten() {
+            let body = &mut self.solver.bodies[*handle];
+            if body.is_dynamic() {
+                body.reset_forces(false);
+                body.reset_torques(false);
+            }
+        }
+    }
+
+    /// Finds the first body whose motion is none.
+    fn watch(&self, records: &Records) -> Result<(), Lost> {
+        let lost = PhysicsPipeline::quarantine(&self.solver.physics_pipeline).bodies();
+        for (number, handle) in self.bodies.iter().enumerate() {
+            let Some(handle) = handle.filter(|_| records.bodies[number].kind == BodyKind::Dynamic)
+            else {
+                continue;
+            };
+            let found = &self.solver.bodies[handle];
+            let speed = found.linvel().length();
+            let finite = speed.is_finite() && found.translation().is_finite();
+            let speed_m_s = match (finite && !lost.contains(&handle), speed > FASTEST_M_S) {
+                (true, false) => continue,
+                (true, true) => Some(speed),
+                (false, _) => None,
+            };
+            return Err(Lost { body: number, speed_m_s });
+        }
+        Ok(())
+    }
+}
