@@ -1,5 +1,7 @@
 //! Random numbers that depend on nothing but their key.
 
+mod normal;
+
 /// A stream of random numbers named by a seed, a name and a number (a tick, an index): the same
 /// key gives the same numbers on every machine, in every order of work. SplitMix64 (Steele, Lea,
 /// Flood 2014, "Fast splittable pseudorandom number generators") started from an FNV-1a hash of
@@ -36,6 +38,11 @@ impl Stream {
         #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
         let value = (self.bits() >> 11) as f64;
         value * (1.0 / 9_007_199_254_740_992.0)
+    }
+
+    /// A number of the normal distribution with mean 0 and standard deviation 1.
+    pub fn normal(&mut self) -> f64 {
+        normal::draw(self)
     }
 }
 
