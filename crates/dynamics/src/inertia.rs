@@ -9,8 +9,8 @@ use rapier3d_f64::parry::mass_properties::MassProperties;
 /// Radius of gyration that a body without inertia is given [m].
 const SMALLEST_GYRATION_M: f64 = 0.01;
 
-/// The mass properties of a link about its own frame; none (and an error) where they are
-/// impossible.
+/// The mass properties of a link about its own frame, nothing at all for one without mass; none
+/// (and an error) where they are impossible.
 pub(crate) fn mass_properties(
     link: &Link,
     name: &str,
@@ -31,13 +31,13 @@ pub(crate) fn mass_properties(
         );
         return None;
     }
-    if *mass_kg <= 0.0 {
-        diagnostics.push(
-            Diagnostic::error("no-mass", format!("`{name}` has a mass of {mass_kg} kg and cannot be moved by forces"))
-                .at(link.origin)
-                .help("give it an <inertial> with a positive mass, fix it to another link, or make its model static"),
-        );
+    if *mass_kg < 0.0 {
+        diagnostics.push(no_mass(link, name));
         return None;
+    }
+    if *mass_kg == 0.0 {
+        // Whether that matters depends on what it is fixed to.
+        return Some(MassProperties::default());
     }
     let [xx, xy, xz, yy, yz, zz] = *inertia_kg_m2;
     let columns = [Vector::new(xx, xy, xz), Vector::new(xy, yy, yz), Vector::new(xz, yz, zz)];
@@ -69,6 +69,19 @@ pub(crate) fn mass_properties(
         );
     }
     Some(mass)
+}
+
+/// What to say of a link that nothing can move.
+pub(crate) fn no_mass(link: &Link, name: &str) -> Diagnostic {
+    let mass_kg = link.inertial.mass_kg;
+    Diagnostic::error(
+        "no-mass",
+        format!("`{name}` has a mass of {mass_kg} kg and cannot be moved by forces"),
+    )
+    .at(link.origin)
+    .help(
+        "give it an <inertial> with a positive mass, fix it to another link, or make its model static",
+    )
 }
 
 /// Mass properties told in another frame.

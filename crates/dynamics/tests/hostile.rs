@@ -41,6 +41,20 @@ fn no_mass_is_refused_where_it_is_written() {
 }
 
 #[test]
+fn a_frame_without_mass_on_a_link_with_mass_is_no_error() {
+    let footprint = Joint::new("fixed", JointKind::Fixed, "footprint", "base");
+    let robot = model(
+        "m",
+        vec![
+            Link { name: "footprint".into(), ..heavy(0.0) },
+            Link { name: "base".into(), ..heavy(2.0) },
+        ],
+        vec![footprint],
+    );
+    assert_eq!(check(&robot), (true, vec![]));
+}
+
+#[test]
 fn numbers_that_are_none() {
     assert_eq!(
         check(&model("m", vec![heavy(f64::NAN)], vec![])),

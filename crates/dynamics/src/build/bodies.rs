@@ -5,7 +5,7 @@ use periplus_scene::{JointKind, Model};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
 use super::{Builder, rapier_pose};
-use crate::inertia::{mass_properties, moved};
+use crate::inertia::{mass_properties, moved, no_mass};
 use crate::places::End;
 use crate::records::{Body, BodyKind, LinkRecord};
 
@@ -119,6 +119,14 @@ impl Builder<'_, '_> {
                 body_from_link,
                 collisions: link.collisions.iter().map(|found| found.name.clone()).collect(),
             });
+        }
+        for (slot, body) in body_of_group.iter().enumerate() {
+            let Some(body) = body.map(|body| &self.records.bodies[body]) else { continue };
+            if !refused && body.kind == BodyKind::Dynamic && body.mass.mass() <= 0.0 {
+                let (name, link, _) = &self.flat.links[slot];
+                self.diagnostics.push(no_mass(link, name));
+                refused = true;
+            }
         }
         (!refused).then_some(())
     }

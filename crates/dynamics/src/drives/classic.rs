@@ -1,4 +1,5 @@
-//! `libgazebo_ros_diff_drive.so`, of ROS 1 and ROS 2: one or several pairs of wheels.
+//! `libgazebo_ros_diff_drive.so`, of ROS 1 and ROS 2: one or several pairs of wheels; and ROS 1's
+//! `libgazebo_ros_skid_steer_drive.so`, which is the same with two pairs.
 
 use super::Odometry;
 use crate::kinematic::Twist;
@@ -42,6 +43,35 @@ impl Default for ClassicDiffDrive {
             max_wheel_torque_n_m: 5.0,
             update_rate_hz: 100.0,
         }
+    }
+}
+
+impl ClassicDiffDrive {
+    /// `libgazebo_ros_skid_steer_drive.so`: a front and a rear pair that do the same, without a
+    /// limit on acceleration. Its own defaults are a separation of 0.4 m and a diameter of 0.15 m;
+    /// its odometry is the truth.
+    #[must_use]
+    pub fn skid_steer(wheels: WheelPair, torque_n_m: f64, update_rate_hz: f64) -> Self {
+        Self {
+            pairs: vec![wheels; 2],
+            max_wheel_acceleration_m_s2: 0.0,
+            max_wheel_torque_n_m: torque_n_m,
+            update_rate_hz,
+        }
+    }
+
+    /// The twist of the middle between the wheels when they turn at these speeds [rad/s], left and
+    /// right of each pair, and slip no more than they must: the mean of what each pair would do.
+    #[must_use]
+    pub fn twist(&self, wheels_rad_s: &[[f64; 2]]) -> Twist {
+        let mut twist = Twist::default();
+        let count = self.pairs.len().min(wheels_rad_s.len()).max(1) as f64;
+        for (pair, [left, right]) in self.pairs.iter().zip(wheels_rad_s) {
+            let radius_m = pair.diameter_m / 2.0;
+            twist.x_m_s += (left + right) * radius_m / 2.0 / count;
+            twist.yaw_rad_s += (right - left) * radius_m / pair.separation_m / count;
+        }
+        twist
     }
 }
 
@@ -119,6 +149,19 @@ mod tests {
         for [left, right] in answer {
             assert!((left - 3.0).abs() < 1e-12 && (right - 7.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn four_wheels_of_a_skid_steered_robot() {
+        let drive = ClassicDiffDrive::skid_steer(
+            WheelPair { separation_m: 0.4, diameter_m: 0.2 },
+            5.0,
+            100.0,
+        );
+        let answer = ClassicDrive::default().update(&drive, twist(0.5, 1.0), &[], 0.01);
+        assert_eq!(answer, vec![answer[0]; 2]);
+        let back = drive.twist(&answer);
+        assert!((back.x_m_s - 0.5).abs() < 1e-12 && (back.yaw_rad_s - 1.0).abs() < 1e-12);
     }
 
     #[test]
