@@ -1,0 +1,76 @@
+//! Whether a file is what the format says, byte for byte: every sum, every offset, every index.
+//!
+//! Readers are lenient; this is not. It is how tests know that what we write is right, and it tells
+//! what is wrong with a file of someone else.
+
+mod data;
+mod summary;
+
+use std::fmt;
+
+use crate::record::{FOOTER, Footer, MAGIC, op};
+use data::Data;
+
+/// Something that is not as the format says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where: bytes from the start of the file.
+    pub offset: u64,
+    /// What is wrong, in one sentence without a full stop.
+    pub message: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (byte {})", self.message, self.offset)
+    }
+}
+
+/// More faults than this are not told.
+const MOST_FAULTS: usize = 100;
+
+/// Faults, as they are found.
+#[derive(Default)]
+struct Faults(Vec<Fault>);
+
+impl Faults {
+    fn add(&mut self, offset: usize, message: impl Into<String>) {
+        if self.0.len() < MOST_FAULTS {
+            self.0.push(Fault { offset: offset as u64, message: message.into() });
+        }
+    }
+
+    fn unless(&mut self, is_right: bool, offset: usize, message: &str) {
+        if !is_right {
+            self.add(offset, message);
+        }
+    }
+}
+
+/// Holds a whole file against the format. No faults, no words.
+#[must_use]
+pub fn check(bytes: &[u8]) -> Vec<Fault> {
+    let mut faults = Faults::default();
+    faults.unless(bytes.starts_with(&MAGIC), 0, "the file does not begin as MCAP does");
+    let tail = bytes.len().saturating_sub(MAGIC.len());
+    faults.unless(bytes.ends_with(&MAGIC), tail, "the file does not end as MCAP does");
+    if !faults.0.is_empty() {
+        return faults.0;
+    }
+    let data = Data::walk(bytes, &mut faults);
+    let footer_at = tail.saturating_sub(FOOTER);
+    let footer = record_at(bytes, footer_at)
+        .filter(|(opcode, content)| *opcode == op::FOOTER && content.len() == 20)
+        .and_then(|(_, content)| Footer::parse(content));
+    match (data, footer) {
+        (Some(data), Some(footer)) => summary::check(bytes, &data, footer, footer_at, &mut faults),
+        (_, None) => faults.add(footer_at, "there is no footer in front of the last magic"),
+        (None, _) => {}
+    }
+    faults.0
+}
+
+/// The opcode and content of the record at a place.
+fn record_at(bytes: &[u8], at: usize) -> Option<(u8, &[u8])> {
+    crate::record::Cursor::new(bytes.get(at..)?).record()
+}

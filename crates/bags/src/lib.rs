@@ -1,0 +1,34 @@
+//! Recordings of topics.
+//!
+//! A [`Writer`] makes MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and Lichtblick
+//! open; [`BagInfo`] is the `metadata.yaml` beside them. Nothing here opens files: sinks and
+//! sources come in.
+//!
+//! ```
+//! use periplus_bags::{QosProfile, Settings, Stamp, Topic, Writer};
+//! use periplus_msgs::{Message, geometry_msgs::Twist};
+//!
+//! let mut bag = Writer::new(Vec::new(), Settings::new("run.mcap"))?;
+//! let topic = bag.topic(Topic::of::<Twist>("/cmd_vel", &[QosProfile::reliable(10)]))?;
+//! bag.write(topic, Stamp::at(20_000_000), &Twist::default().to_cdr()?)?;
+//! let (bytes, info) = bag.finish()?;
+//! assert_eq!(info.messages(), 1);
+//! assert!(bytes.starts_with(b"\x89MCAP0\r\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! File format: the MCAP specification, version 1 (mcap.dev); what ROS 2 puts into it: `ros2/rosbag2`,
+//! packages `rosbag2_storage` and `rosbag2_storage_mcap`.
+
+mod check;
+mod compression;
+mod metadata;
+mod qos;
+mod record;
+mod write;
+
+pub use check::{Fault, check};
+pub use compression::Compression;
+pub use metadata::{BagInfo, FileInfo, Style, TopicInfo};
+pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
+pub use write::{Settings, Stamp, Topic, TopicId, WriteError, Writer};

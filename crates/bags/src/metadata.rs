@@ -1,0 +1,199 @@
+//! `metadata.yaml`: what is in a recording, as rosbag2 writes it.
+
+use std::fmt::Write as _;
+
+use crate::QosProfile;
+use crate::qos;
+
+/// For which readers the metadata is written. All messages are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Version 5 of the metadata: policies as numbers, for ROS 2 Humble and all that came later.
+    Humble,
+    /// Version 9 of the metadata: policies as names, for ROS 2 Jazzy and later.
+    #[default]
+    Jazzy,
+}
+
+impl Style {
+    /// The version number in `metadata.yaml`.
+    #[must_use]
+    pub fn version(self) -> u32 {
+        match self {
+            Self::Humble => 5,
+            Self::Jazzy => 9,
+        }
+    }
+}
+
+/// What is in a recording.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BagInfo {
+    /// The topics, in the order in which they appeared.
+    pub topics: Vec<TopicInfo>,
+    /// The files, in the order of their messages.
+    pub files: Vec<FileInfo>,
+    /// The name of the ROS distribution whose messages these are, such as `jazzy`; may be empty.
+    pub ros_distro: String,
+}
+
+/// One topic of a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TopicInfo {
+    /// Its full name, such as `/scan`.
+    pub name: String,
+    /// The full name of its type, such as `sensor_msgs/msg/LaserScan`.
+    pub type_name: String,
+    /// The type hash, such as `RIHS01_64c1...`; empty when nobody knows.
+    pub type_hash: String,
+    /// How its messages are encoded: `cdr`.
+    pub encoding: String,
+    /// How each of its publishers offered it.
+    pub qos: Vec<QosProfile>,
+    /// Number of messages.
+    pub messages: u64,
+}
+
+/// One file of a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileInfo {
+    /// Its name beside `metadata.yaml`.
+    pub path: String,
+    /// Time of the first message and of the last [ns]; none without messages.
+    pub span_ns: Option<(i64, i64)>,
+    /// Number of messages.
+    pub messages: u64,
+}
+
+impl BagInfo {
+    /// Number of messages.
+    #[must_use]
+    pub fn messages(&self) -> u64 {
+        self.topics.iter().map(|topic| topic.messages).sum()
+    }
+
+    /// Time of the first message and of the last [ns]; none without messages.
+    #[must_use]
+    pub fn span_ns(&self) -> Option<(i64, i64)> {
+        let spans = self.files.iter().filter_map(|file| file.span_ns);
+        spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)))
+    }
+
+    /// The text of `metadata.yaml`.
+    #[must_use]
+    pub fn to_yaml(&self, style: Style) -> String {
+        format!("rosbag2_bagfile_information:\n{}", self.body(style, 2))
+    }
+
+    /// The same without its outermost name, as files carry it inside, each line indented by `indent`.
+    pub(crate) fn body(&self, style: Style, indent: usize) -> String {
+        let pad = " ".repeat(indent);
+        let mut yaml = String::new();
+        let mut line = |text: &str| {
+            let _ = writeln!(yaml, "{pad}{text}");
+        };
+        line(&format!("version: {}", style.version()));
+        line("storage_identifier: mcap");
+        span(&mut line, "", self.span_ns());
+        line(&format!("message_count: {}", self.messages()));
+        list(&mut line, "topics_with_message_count", self.topics.is_empty());
+        for topic in &self.topics {
+            topic.put(&mut line, style);
+        }
+        line("compression_format: \"\"");
+        line("compression_mode: \"\"");
+        list(&mut line, "relative_file_paths", self.files.is_empty());
+        for file in &self.files {
+            line(&format!("  - {}", quoted(&file.path)));
+        }
+        list(&mut line, "files", self.files.is_empty());
+        for file in &self.files {
+            line(&format!("  - path: {}", quoted(&file.path)));
+            span(&mut line, "    ", file.span_ns);
+            line(&format!("    message_count: {}", file.messages));
+        }
+        if style == Style::Jazzy {
+            line("custom_data: ~");
+            line(&format!("ros_distro: {}", quoted(&self.ros_distro)));
+        }
+        yaml
+    }
+}
+
+impl TopicInfo {
+    /// The profiles as one text, as a channel carries them.
+    pub(crate) fn qos_text(&self, style: Style) -> String {
+        match style {
+            Style::Jazzy if self.qos.is_empty() => "[]".into(),
+            _ => qos::to_yaml(&self.qos, style, 0),
+        }
+    }
+
+    fn put(&self, line: &mut dyn FnMut(&str), style: Style) {
+        line("  - topic_metadata:");
+        line(&format!("      name: {}", quoted(&self.name)));
+        line(&format!("      type: {}", quoted(&self.type_name)));
+        line(&format!("      serialization_format: {}", quoted(&self.encoding)));
+        match style {
+            // Until version 8 the profiles are a text inside the text.
+            Style::Humble => {
+                let text = self.qos_text(style);
+                line(&format!("      offered_qos_profiles: {}", quoted(&text)));
+            }
+            Style::Jazzy if self.qos.is_empty() => line("      offered_qos_profiles: []"),
+            Style::Jazzy => {
+                line("      offered_qos_profiles:");
+                qos::to_yaml(&self.qos, style, 8).lines().for_each(&mut *line);
+            }
+        }
+        if style == Style::Jazzy {
+            line(&format!("      type_description_hash: {}", quoted(&self.type_hash)));
+        }
+        line(&format!("    message_count: {}", self.messages));
+    }
+}
+
+fn list(line: &mut dyn FnMut(&str), name: &str, is_empty: bool) {
+    line(&format!("{name}:{}", if is_empty { " []" } else { "" }));
+}
+
+/// Start and duration. Without messages both are zero, as rosbag2 has it.
+fn span(line: &mut dyn FnMut(&str), pad: &str, span_ns: Option<(i64, i64)>) {
+    let (start_ns, end_ns) = span_ns.unwrap_or_default();
+    let order: [(&str, &str, i64); 2] = [
+        ("duration", "nanoseconds", end_ns.saturating_sub(start_ns)),
+        ("starting_time", "nanoseconds_since_epoch", start_ns),
+    ];
+    // rosbag2 has them in this order for the whole, and the other way round for each file.
+    let order = if pad.is_empty() { order } else { [order[1], order[0]] };
+    for (name, unit, value) in order {
+        line(&format!("{pad}{name}:"));
+        line(&format!("{pad}  {unit}: {value}"));
+    }
+}
+
+/// A text in YAML: plain where every reader takes it for a text, else in double quotes.
+fn quoted(text: &str) -> String {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "/_.-".contains(c);
+    let starts = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/');
+    let is_special = ["true", "false", "yes", "no", "on", "off", "null", "y", "n"]
+        .contains(&text.to_ascii_lowercase().as_str());
+    if starts && !is_special && text.chars().all(is_word) {
+        return text.into();
+    }
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            c if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}') => {
+                let _ = write!(quoted, "\\U{:08X}", c as u32);
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

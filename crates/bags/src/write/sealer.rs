@@ -1,0 +1,291 @@
+//! Packs chunks, writes them, and remembers where they are.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
+use std::thread::JoinHandle;
+
+use super::Settings;
+use super::chunk::Chunk;
+use super::topics::Topics;
+use crate::compression::Packer;
+use crate::record::{
+    ChunkHead, ChunkIndex, Footer, MAGIC, PREFIX, Statistics, begin, end, op, put_message_index,
+    put_metadata, put_metadata_index, put_summary_offset, put_text,
+};
+use crate::{BagInfo, Compression, FileInfo};
+
+/// The name under which rosbag2 keeps its metadata in a file.
+const METADATA: &str = "rosbag2";
+
+/// A sink that counts and sums up what goes through it.
+struct Counter<W> {
+    sink: W,
+    written: u64,
+    crc: crc32fast::Hasher,
+}
+
+impl<W: Write> Counter<W> {
+    fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.sink.write_all(bytes)?;
+        self.written += bytes.len() as u64;
+        self.crc.update(bytes);
+        Ok(())
+    }
+}
+
+/// Everything behind the open chunk.
+pub(super) struct Sealer<W> {
+    out: Counter<W>,
+    packer: Packer,
+    compression: Compression,
+    chunks: Vec<ChunkIndex>,
+    /// Offset and length of the metadata records.
+    metadata: Vec<(u64, u64)>,
+    scratch: Vec<u8>,
+}
+
+impl<W: Write> Sealer<W> {
+    /// Begins the file: magic, header, and what readers of a cut file need to know.
+    pub(super) fn new(sink: W, settings: &Settings) -> io::Result<Self> {
+        let out = Counter { sink, written: 0, crc: crc32fast::Hasher::new() };
+        let mut head = MAGIC.to_vec();
+        let start = begin(&mut head, op::HEADER);
+        put_text(&mut head, "ros2");
+        put_text(&mut head, "periplus");
+        end(&mut head, start, 0);
+        let mut sealer = Self {
+            out,
+            packer: Packer::new(settings.compression)?,
+            compression: settings.compression,
+            chunks: Vec::new(),
+            metadata: Vec::new(),
+            scratch: Vec::new(),
+        };
+        sealer.out.put(&head)?;
+        let info = BagInfo { ros_distro: settings.ros_distro.clone(), ..BagInfo::default() };
+        sealer.put_metadata(&info, settings)?;
+        sealer.out.sink.flush()?;
+        Ok(sealer)
+    }
+
+    fn put_metadata(&mut self, info: &BagInfo, settings: &Settings) -> io::Result<()> {
+        let text = info.body(settings.style, 0);
+        let map = BTreeMap::from([("serialized_metadata".to_owned(), text)]);
+        self.scratch.clear();
+        put_metadata(&mut self.scratch, METADATA, &map);
+        self.metadata.push((self.out.written, self.scratch.len() as u64));
+        self.out.put(&self.scratch)
+    }
+
+    /// Writes a chunk with what stands in front of it and its index, and flushes.
+    pub(super) fn seal(&mut self, chunk: &Chunk) -> io::Result<()> {
+        self.out.put(&chunk.preamble)?;
+        if let Some((start, end)) = chunk.span {
+            self.put_chunk(chunk, start, end)?;
+        }
+        self.out.sink.flush()
+    }
+
+    fn put_chunk(&mut self, chunk: &Chunk, start: u64, end: u64) -> io::Result<()> {
+        let packed = self.packer.pack(&chunk.records)?;
+        let head = ChunkHead {
+            start,
+            end,
+            length: chunk.records.len() as u64,
+            crc: crc32fast::hash(&chunk.records),
+            compression: self.compression.name().into(),
+            packed: packed.len() as u64,
+        };
+        let offset = self.out.written;
+        self.scratch.clear();
+        head.put(&mut self.scratch);
+        self.out.put(&self.scratch)?;
+        self.out.put(packed)?;
+        let stored = self.out.written - offset;
+
+        self.scratch.clear();
+        let mut indexes = BTreeMap::new();
+        for (channel, entries) in (0_u16..).zip(&chunk.indexes) {
+            if entries.is_empty() {
+                continue;
+            }
+            indexes.insert(channel, self.out.written + self.scratch.len() as u64);
+            if entries.is_sorted() {
+                put_message_index(&mut self.scratch, channel, entries);
+            } else {
+                let mut sorted = entries.clone();
+                sorted.sort_unstable();
+                put_message_index(&mut self.scratch, channel, &sorted);
+            }
+        }
+        self.out.put(&self.scratch)?;
+        self.chunks.push(ChunkIndex {
+            start,
+            end,
+            offset,
+            stored,
+            indexes,
+            indexes_length: self.scratch.len() as u64,
+            compression: head.compression,
+            packed: head.packed,
+            length: head.length,
+        });
+        Ok(())
+    }
+
+    /// Ends the file: metadata, then the summary.
+    pub(super) fn finish(
+        mut self,
+        topics: &Topics,
+        settings: &Settings,
+    ) -> io::Result<(W, BagInfo)> {
+        let first = self.chunks.iter().map(|chunk| chunk.start).min();
+        let last = self.chunks.iter().map(|chunk| chunk.end).max();
+        let signed = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
+        let span_ns = first.zip(last).map(|(first, last)| (signed(first), signed(last)));
+        let messages = topics.infos.iter().map(|topic| topic.messages).sum();
+        let file = FileInfo { path: settings.file_name.clone(), span_ns, messages };
+        let info = BagInfo {
+            topics: topics.infos.clone(),
+            files: vec![file],
+            ros_distro: settings.ros_distro.clone(),
+        };
+        self.put_metadata(&info, settings)?;
+
+        let mut tail = Vec::new();
+        let at = begin(&mut tail, op::DATA_END);
+        tail.extend(self.out.crc.clone().finalize().to_le_bytes());
+        end(&mut tail, at, 0);
+        self.out.put(&tail)?;
+
+        let statistics = Statistics {
+            messages,
+            schemas: u16::try_from(topics.schemas.len()).unwrap_or(u16::MAX),
+            channels: u32::try_from(topics.channels.len()).unwrap_or(u32::MAX),
+            attachments: 0,
+            metadata: u32::try_from(self.metadata.len()).unwrap_or(u32::MAX),
+            chunks: u32::try_from(self.chunks.len()).unwrap_or(u32::MAX),
+            start: first.unwrap_or(0),
+            end: last.unwrap_or(0),
+            by_channel: (topics.channels.iter().zip(&topics.infos))
+                .filter(|(_, info)| info.messages > 0)
+                .map(|(channel, info)| (channel.id, info.messages))
+                .collect(),
+        };
+        let summary = self.summary(topics, &statistics);
+        self.out.put(&summary)?;
+        self.out.sink.flush()?;
+        Ok((self.out.sink, info))
+    }
+
+    /// The summary, the footer and the last magic.
+    fn summary(&self, topics: &Topics, statistics: &Statistics) -> Vec<u8> {
+        let base = self.out.written;
+        let mut out = Vec::new();
+        let mut groups = Vec::new();
+        let mut group = |out: &mut Vec<u8>, opcode, put: &dyn Fn(&mut Vec<u8>)| {
+            let start = out.len();
+            put(out);
+            if out.len() > start {
+                groups.push((opcode, base + start as u64, (out.len() - start) as u64));
+            }
+        };
+        group(&mut out, op::SCHEMA, &|out| topics.schemas.iter().for_each(|one| one.put(out)));
+        group(&mut out, op::CHANNEL, &|out| topics.channels.iter().for_each(|one| one.put(out)));
+        group(&mut out, op::STATISTICS, &|out| statistics.put(out));
+        group(&mut out, op::CHUNK_INDEX, &|out| self.chunks.iter().for_each(|one| one.put(out)));
+        group(&mut out, op::METADATA_INDEX, &|out| {
+            for &(offset, length) in &self.metadata {
+                put_metadata_index(out, offset, length, METADATA);
+            }
+        });
+        let offsets = base + out.len() as u64;
+        for (opcode, offset, length) in groups {
+            put_summary_offset(&mut out, opcode, offset, length);
+        }
+        // The sum covers the footer up to itself.
+        let footer = out.len();
+        Footer { summary: base, offsets, crc: 0 }.put(&mut out);
+        let crc_at = footer + PREFIX + 16;
+        let crc = crc32fast::hash(&out[..crc_at]);
+        out[crc_at..].copy_from_slice(&crc.to_le_bytes());
+        out.extend(MAGIC);
+        out
+    }
+}
+
+/// The way to the sealer: straight, or by a thread.
+pub(super) enum Line<W> {
+    Straight(Sealer<W>),
+    Threaded(Thread<W>),
+    /// The thread ended early; its error was told.
+    Broken,
+}
+
+pub(super) struct Thread<W> {
+    full: SyncSender<Chunk>,
+    empty: Receiver<Chunk>,
+    thread: JoinHandle<io::Result<Sealer<W>>>,
+}
+
+/// How many closed chunks may wait for the thread; then the writer waits.
+const MOST_WAITING: usize = 2;
+
+impl<W: Write + Send + 'static> Line<W> {
+    pub(super) fn new(mut sealer: Sealer<W>, is_threaded: bool) -> Self {
+        if !is_threaded {
+            return Self::Straight(sealer);
+        }
+        let (full, waiting) = sync_channel::<Chunk>(MOST_WAITING);
+        let (done, empty) = channel();
+        let thread = std::thread::spawn(move || {
+            for mut chunk in waiting {
+                sealer.seal(&chunk)?;
+                chunk.clear();
+                // Its memory is used again; when nobody wants it, the writer is gone.
+                let _ = done.send(chunk);
+            }
+            Ok(sealer)
+        });
+        Self::Threaded(Thread { full, empty, thread })
+    }
+
+    /// Seals a chunk and leaves an empty one.
+    pub(super) fn seal(&mut self, chunk: &mut Chunk) -> io::Result<()> {
+        match self {
+            Self::Straight(sealer) => {
+                let result = sealer.seal(chunk);
+                chunk.clear();
+                if result.is_err() {
+                    *self = Self::Broken;
+                }
+                result
+            }
+            Self::Threaded(line) => {
+                let next = line.empty.try_recv().unwrap_or_default();
+                match line.full.send(std::mem::replace(chunk, next)) {
+                    Ok(()) => Ok(()),
+                    Err(_) => std::mem::replace(self, Self::Broken).finish().map(|_| ()),
+                }
+            }
+            Self::Broken => Err(broken()),
+        }
+    }
+
+    /// Waits until all is written.
+    pub(super) fn finish(self) -> io::Result<Sealer<W>> {
+        match self {
+            Self::Straight(sealer) => Ok(sealer),
+            Self::Threaded(Thread { full, thread, .. }) => {
+                drop(full);
+                thread.join().unwrap_or_else(|_| Err(broken()))
+            }
+            Self::Broken => Err(broken()),
+        }
+    }
+}
+
+fn broken() -> io::Error {
+    io::Error::other("an earlier part of it could not be written")
+}

@@ -1,0 +1,123 @@
+//! The topics of a file and their types.
+
+use std::collections::BTreeMap;
+
+use periplus_msgs::Message;
+
+use super::WriteError;
+use crate::record::{Channel, Schema};
+use crate::{QosProfile, Style, TopicInfo};
+
+/// A topic to record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Topic {
+    /// Its full name, such as `/scan`.
+    pub name: String,
+    /// The full name of its type, such as `sensor_msgs/msg/LaserScan`.
+    pub type_name: String,
+    /// The texts that define the type, as `ros2msg` has them.
+    pub schema_text: String,
+    /// The type hash; may be empty.
+    pub type_hash: String,
+    /// How each of its publishers offers it.
+    pub qos: Vec<QosProfile>,
+}
+
+impl Topic {
+    /// A topic of a type that is known here.
+    #[must_use]
+    pub fn of<T: Message>(name: impl Into<String>, qos: &[QosProfile]) -> Self {
+        Self {
+            name: name.into(),
+            type_name: T::TYPE_NAME.into(),
+            schema_text: T::schema_text().into(),
+            type_hash: T::TYPE_HASH.into(),
+            qos: qos.to_vec(),
+        }
+    }
+}
+
+/// Names a topic of a [`super::Writer`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TopicId(u16);
+
+/// A message's channel and its number there.
+pub(super) struct Counted {
+    pub(super) id: u16,
+    pub(super) sequence: u32,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Topics {
+    pub(super) schemas: Vec<Schema>,
+    pub(super) channels: Vec<Channel>,
+    pub(super) infos: Vec<TopicInfo>,
+    by_name: BTreeMap<(String, String), u16>,
+}
+
+impl Topics {
+    pub(super) fn add(
+        &mut self,
+        topic: Topic,
+        style: Style,
+        preamble: &mut Vec<u8>,
+    ) -> Result<TopicId, WriteError> {
+        let key = (topic.name.clone(), topic.type_name.clone());
+        if let Some(&id) = self.by_name.get(&key) {
+            return Ok(TopicId(id));
+        }
+        for text in [&topic.name, &topic.type_name, &topic.schema_text, &topic.type_hash] {
+            if u32::try_from(text.len()).is_err() {
+                return Err(WriteError::TooLong("a name or type".into()));
+            }
+        }
+        // Number 0 is no schema; channels are counted from 1 as well, as rosbag2 does.
+        let number = |count: usize| u16::try_from(count + 1).map_err(|_| WriteError::TooManyTopics);
+        let id = number(self.channels.len())?;
+        let known = self.schemas.iter().find(|schema| {
+            schema.name == topic.type_name && schema.data == topic.schema_text.as_bytes()
+        });
+        let schema = if let Some(schema) = known {
+            schema.id
+        } else {
+            let schema = Schema {
+                id: number(self.schemas.len())?,
+                name: topic.type_name.clone(),
+                encoding: "ros2msg".into(),
+                data: topic.schema_text.into_bytes(),
+            };
+            schema.put(preamble);
+            self.schemas.push(schema);
+            self.schemas[self.schemas.len() - 1].id
+        };
+        let info = TopicInfo {
+            name: topic.name,
+            type_name: topic.type_name,
+            type_hash: topic.type_hash,
+            encoding: "cdr".into(),
+            qos: topic.qos,
+            messages: 0,
+        };
+        let metadata = BTreeMap::from([
+            ("offered_qos_profiles".to_owned(), info.qos_text(style)),
+            ("topic_type_hash".to_owned(), info.type_hash.clone()),
+        ]);
+        let encoding = info.encoding.clone();
+        let channel = Channel { id, schema, topic: info.name.clone(), encoding, metadata };
+        channel.put(preamble);
+        self.channels.push(channel);
+        self.infos.push(info);
+        self.by_name.insert(key, id);
+        Ok(TopicId(id))
+    }
+
+    /// Counts a message.
+    pub(super) fn count(&mut self, topic: TopicId) -> Result<Counted, WriteError> {
+        let info = usize::from(topic.0).checked_sub(1).and_then(|index| self.infos.get_mut(index));
+        let info = info.ok_or(WriteError::UnknownTopic)?;
+        info.messages += 1;
+        #[expect(clippy::cast_possible_truncation, reason = "numbers of messages start over")]
+        let sequence = info.messages as u32;
+        Ok(Counted { id: topic.0, sequence })
+    }
+}
