@@ -1,0 +1,110 @@
+//! What is to be done, in order.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// When in the life of its node something happens, at one and the same time: what came from others
+/// before what the node does by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Rank {
+    Message,
+    Request,
+    Answer,
+    Timer,
+}
+
+/// The order of everything that happens: time, then node, then topic, then the number of the
+/// message. The last number tells apart what is equal otherwise: two subscriptions of one node to
+/// one topic, by their age.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Key {
+    pub(crate) time_ns: i64,
+    pub(crate) node: Arc<str>,
+    pub(crate) rank: Rank,
+    pub(crate) name: Arc<str>,
+    pub(crate) sequence: u64,
+    pub(crate) ordinal: u64,
+}
+
+/// Something that can happen.
+pub(crate) trait Event: Send + Sync {
+    fn happen(&self, key: &Key);
+
+    /// When it happens instead, now that the clock jumped to `now_ns`.
+    fn time_after_jump(&self, now_ns: i64) -> i64 {
+        now_ns
+    }
+
+    /// It will not happen after all.
+    fn forget(&self, _key: &Key) {}
+}
+
+#[derive(Default)]
+pub(crate) struct Agenda {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    events: BTreeMap<Key, Arc<dyn Event>>,
+}
+
+impl Agenda {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn add(&self, key: Key, event: Arc<dyn Event>) {
+        self.lock().events.insert(key, event);
+        self.changed.notify_one();
+    }
+
+    pub(crate) fn remove(&self, key: &Key) {
+        let removed = self.lock().events.remove(key);
+        drop(removed);
+    }
+
+    /// The first of what is due.
+    pub(crate) fn next_due(&self, now_ns: i64) -> Option<(Key, Arc<dyn Event>)> {
+        let mut state = self.lock();
+        let first = state.events.first_entry()?;
+        (first.key().time_ns <= now_ns).then(|| first.remove_entry())
+    }
+
+    /// Takes a timer out.
+    pub(crate) fn remove_timer(&self, node: &str, ordinal: u64) {
+        let is_it =
+            |key: &Key| key.rank == Rank::Timer && key.ordinal == ordinal && *key.node == *node;
+        let mut state = self.lock();
+        let key = state.events.keys().find(|key| is_it(key)).cloned();
+        let removed = key.and_then(|key| state.events.remove(&key));
+        drop(state);
+        drop(removed);
+    }
+
+    /// Forgets all that is due but timers.
+    pub(crate) fn drop_due(&self, now_ns: i64) {
+        let mut state = self.lock();
+        let all = std::mem::take(&mut state.events);
+        let (keep, drop): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            all.into_iter().partition(|(key, _)| key.rank == Rank::Timer || now_ns < key.time_ns);
+        state.events = keep;
+        std::mem::drop(state);
+        for (key, event) in drop {
+            event.forget(&key);
+        }
+    }
+
+    /// The clock jumped: timers start anew, all else is due now.
+    pub(crate) fn rebase(&self, now_ns: i64) {
+        let mut state = self.lock();
+        let all = std::mem::take(&mut state.events);
+        state.events = all
+            .into_iter()
+            .map(|(key, event)| (Key { time_ns: event.time_after_jump(now_ns), ..key }, event))
+            .collect();
+        drop(state);
+        self.changed.notify_one();
+    }
+}

@@ -1,0 +1,52 @@
+//! What every part of one graph needs: its clock, and a place for findings.
+
+use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+#[derive(Default)]
+pub(crate) struct Common {
+    pub(crate) clock: Clock,
+    findings: Mutex<Diagnostics>,
+}
+
+/// The time of a graph. It is told to it; nobody here reads a clock.
+#[derive(Default)]
+pub(crate) struct Clock {
+    now_ns: AtomicI64,
+    is_paused: AtomicBool,
+}
+
+impl Clock {
+    pub(crate) fn now_ns(&self) -> i64 {
+        self.now_ns.load(Ordering::Acquire)
+    }
+
+    pub(crate) fn set(&self, now_ns: i64) {
+        self.now_ns.store(now_ns, Ordering::Release);
+    }
+
+    pub(crate) fn is_paused(&self) -> bool {
+        self.is_paused.load(Ordering::Acquire)
+    }
+
+    pub(crate) fn set_paused(&self, is_paused: bool) {
+        self.is_paused.store(is_paused, Ordering::Release);
+    }
+}
+
+impl Common {
+    pub(crate) fn report(&self, finding: Diagnostic) {
+        lock(&self.findings).push(finding);
+    }
+
+    pub(crate) fn take_findings(&self) -> Diagnostics {
+        std::mem::take(&mut *lock(&self.findings))
+    }
+}
+
+/// Locks; a panic elsewhere must not spread.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

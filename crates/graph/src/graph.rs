@@ -1,0 +1,158 @@
+//! The handle of a graph.
+
+use std::sync::{Arc, Mutex};
+
+use periplus_diagnostics::Diagnostics;
+
+use crate::agenda::Agenda;
+use crate::common::{Common, lock};
+use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
+use crate::node::Node;
+use crate::registry::Registry;
+use crate::settings::NodeSettings;
+use crate::tap::{Sink, TapId};
+use crate::{GraphError, executor};
+
+/// A graph of nodes. This is a handle: clones mean the same graph. There can be several graphs in
+/// one program, and they know nothing of each other.
+#[derive(Clone, Default)]
+pub struct Graph(pub(crate) Arc<Core>);
+
+#[derive(Default)]
+pub(crate) struct Core {
+    pub(crate) common: Arc<Common>,
+    pub(crate) registry: Mutex<Registry>,
+    /// What is to happen, in lockstep.
+    pub(crate) agenda: Arc<Agenda>,
+    /// Held while time moves.
+    pub(crate) turn: Mutex<executor::Turn>,
+}
+
+impl Graph {
+    /// An empty graph in lockstep, at time 0.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The time of the graph \[ns\].
+    #[must_use]
+    pub fn now_ns(&self) -> i64 {
+        self.0.common.clock.now_ns()
+    }
+
+    /// Makes a node.
+    ///
+    /// # Errors
+    /// When a name or remapping is not valid, or the graph has a node of this name.
+    pub fn node(&self, settings: NodeSettings) -> Result<Node, GraphError> {
+        Node::new(self, settings.names()?)
+    }
+
+    /// Adds a tap. It sees the chosen topics, those that are there and those to come, and gets what
+    /// latched topics hold.
+    pub fn tap(&self, sink: Box<dyn Sink>) -> TapId {
+        let tap = lock(&self.0.registry).add_tap(sink, &self.0.common);
+        tap.flush();
+        tap.id
+    }
+
+    /// Ends a tap: its sink is dropped when its last message is taken.
+    pub fn untap(&self, id: TapId) {
+        let gone = lock(&self.0.registry).remove_tap(id, &self.0.common);
+        drop(gone);
+    }
+
+    /// Lets time go on to `time_ns`. Everything that is due by then happens, in the order of time,
+    /// node, topic and number of the message; what that sets off happens before time moves on.
+    /// A time before now is a jump back, as [`Graph::jump_to`].
+    ///
+    /// While the graph is paused, time stands still, and what is due now happens.
+    pub fn advance_to(&self, time_ns: i64) {
+        executor::advance(&self.0, time_ns);
+    }
+
+    /// Lets everything happen that is due now, without moving time.
+    pub fn settle(&self) {
+        executor::advance(&self.0, self.now_ns());
+    }
+
+    /// Sets the clock, back (a reset) or forward, without letting the time between pass. What is due
+    /// happens before; timers start anew.
+    pub fn jump_to(&self, time_ns: i64) {
+        executor::jump(&self.0, time_ns);
+    }
+
+    /// Stops time, or lets it go on.
+    pub fn set_paused(&self, is_paused: bool) {
+        self.0.common.clock.set_paused(is_paused);
+    }
+
+    /// Whether time stands still.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        self.0.common.clock.is_paused()
+    }
+
+    /// Another bound than [`crate::MOST_REACTIONS`] for what may happen without time moving.
+    pub fn limit_reactions(&self, most: u64) {
+        lock(&self.0.turn).most = Some(most);
+    }
+
+    /// What was wrong since the last call: QoS that do not fit, messages that cannot be read,
+    /// reactions without end.
+    #[must_use]
+    pub fn take_findings(&self) -> Diagnostics {
+        self.0.common.take_findings()
+    }
+
+    /// The topics that somebody publishes or subscribes to, by name.
+    #[must_use]
+    pub fn topics(&self) -> Vec<TopicInfo> {
+        lock(&self.0.registry).topic_infos()
+    }
+
+    /// The services that somebody answers or calls, by name.
+    #[must_use]
+    pub fn services(&self) -> Vec<ServiceInfo> {
+        lock(&self.0.registry).service_infos()
+    }
+
+    /// The nodes, by name.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<NodeInfo> {
+        let registry = lock(&self.0.registry);
+        let (topics, services) = (registry.topic_infos(), registry.service_infos());
+        let info = |name: &Arc<str>| {
+            let mine = |node: &String| **node == **name;
+            let topic_names = |uses: &dyn Fn(&TopicInfo) -> bool| {
+                topics.iter().filter(|topic| uses(topic)).map(|topic| topic.name.clone()).collect()
+            };
+            let service_names = |uses: &dyn Fn(&ServiceInfo) -> bool| {
+                services.iter().filter(|one| uses(one)).map(|one| one.name.clone()).collect()
+            };
+            NodeInfo {
+                name: name.to_string(),
+                publishes: topic_names(&|topic| topic.publishers.iter().any(|end| mine(&end.node))),
+                subscribes: topic_names(&|topic| {
+                    topic.subscriptions.iter().any(|end| mine(&end.node))
+                }),
+                serves: service_names(&|service| service.server.as_ref().is_some_and(mine)),
+                calls: service_names(&|service| service.clients.iter().any(mine)),
+            }
+        };
+        registry.nodes.iter().map(info).collect()
+    }
+
+    /// What went through the topics so far, by name.
+    #[must_use]
+    pub fn traffic(&self) -> Vec<Traffic> {
+        lock(&self.0.registry).traffic(self.now_ns())
+    }
+}
+
+impl std::fmt::Debug for Graph {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Graph").field("now_ns", &self.now_ns()).finish_non_exhaustive()
+    }
+}
