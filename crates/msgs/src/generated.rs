@@ -3,6 +3,7 @@
 pub mod action_msgs;
 pub mod builtin_interfaces;
 pub mod diagnostic_msgs;
+pub mod gazebo_msgs;
 pub mod geometry_msgs;
 pub mod lifecycle_msgs;
 pub mod map_msgs;
@@ -37,6 +38,49 @@ crate::sources! {
     "diagnostic_msgs/msg/KeyValue.msg"
     "diagnostic_msgs/srv/AddDiagnostics.srv"
     "diagnostic_msgs/srv/SelfTest.srv"
+    "gazebo_msgs/msg/ContactState.msg"
+    "gazebo_msgs/msg/ContactsState.msg"
+    "gazebo_msgs/msg/EntityState.msg"
+    "gazebo_msgs/msg/LinkState.msg"
+    "gazebo_msgs/msg/LinkStates.msg"
+    "gazebo_msgs/msg/ModelState.msg"
+    "gazebo_msgs/msg/ModelStates.msg"
+    "gazebo_msgs/msg/ODEJointProperties.msg"
+    "gazebo_msgs/msg/ODEPhysics.msg"
+    "gazebo_msgs/msg/PerformanceMetrics.msg"
+    "gazebo_msgs/msg/SensorPerformanceMetric.msg"
+    "gazebo_msgs/msg/WheelSlip.msg"
+    "gazebo_msgs/msg/WorldState.msg"
+    "gazebo_msgs/srv/ApplyBodyWrench.srv"
+    "gazebo_msgs/srv/ApplyJointEffort.srv"
+    "gazebo_msgs/srv/ApplyLinkWrench.srv"
+    "gazebo_msgs/srv/BodyRequest.srv"
+    "gazebo_msgs/srv/DeleteEntity.srv"
+    "gazebo_msgs/srv/DeleteLight.srv"
+    "gazebo_msgs/srv/DeleteModel.srv"
+    "gazebo_msgs/srv/GetEntityState.srv"
+    "gazebo_msgs/srv/GetJointProperties.srv"
+    "gazebo_msgs/srv/GetLightProperties.srv"
+    "gazebo_msgs/srv/GetLinkProperties.srv"
+    "gazebo_msgs/srv/GetLinkState.srv"
+    "gazebo_msgs/srv/GetModelList.srv"
+    "gazebo_msgs/srv/GetModelProperties.srv"
+    "gazebo_msgs/srv/GetModelState.srv"
+    "gazebo_msgs/srv/GetPhysicsProperties.srv"
+    "gazebo_msgs/srv/GetWorldProperties.srv"
+    "gazebo_msgs/srv/JointRequest.srv"
+    "gazebo_msgs/srv/LinkRequest.srv"
+    "gazebo_msgs/srv/SetEntityState.srv"
+    "gazebo_msgs/srv/SetJointProperties.srv"
+    "gazebo_msgs/srv/SetJointTrajectory.srv"
+    "gazebo_msgs/srv/SetLightProperties.srv"
+    "gazebo_msgs/srv/SetLinkProperties.srv"
+    "gazebo_msgs/srv/SetLinkState.srv"
+    "gazebo_msgs/srv/SetModelConfiguration.srv"
+    "gazebo_msgs/srv/SetModelState.srv"
+    "gazebo_msgs/srv/SetPhysicsProperties.srv"
+    "gazebo_msgs/srv/SpawnEntity.srv"
+    "gazebo_msgs/srv/SpawnModel.srv"
     "geometry_msgs/msg/Accel.msg"
     "geometry_msgs/msg/AccelStamped.msg"
     "geometry_msgs/msg/AccelWithCovariance.msg"
@@ -147,7 +191,9 @@ crate::sources! {
     "rcl_interfaces/srv/SetLoggerLevels.srv"
     "rcl_interfaces/srv/SetParameters.srv"
     "rcl_interfaces/srv/SetParametersAtomically.srv"
+    "ros_gz_interfaces/msg/AirSpeed.msg"
     "ros_gz_interfaces/msg/Altimeter.msg"
+    "ros_gz_interfaces/msg/Clock.msg"
     "ros_gz_interfaces/msg/Contact.msg"
     "ros_gz_interfaces/msg/Contacts.msg"
     "ros_gz_interfaces/msg/Dataframe.msg"
@@ -158,6 +204,9 @@ crate::sources! {
     "ros_gz_interfaces/msg/GuiCamera.msg"
     "ros_gz_interfaces/msg/JointWrench.msg"
     "ros_gz_interfaces/msg/Light.msg"
+    "ros_gz_interfaces/msg/LogPlaybackStatistics.msg"
+    "ros_gz_interfaces/msg/LogicalCameraImage.msg"
+    "ros_gz_interfaces/msg/LogicalCameraImageModel.msg"
     "ros_gz_interfaces/msg/MaterialColor.msg"
     "ros_gz_interfaces/msg/ParamVec.msg"
     "ros_gz_interfaces/msg/SensorNoise.msg"
@@ -166,6 +215,8 @@ crate::sources! {
     "ros_gz_interfaces/msg/VideoRecord.msg"
     "ros_gz_interfaces/msg/WorldControl.msg"
     "ros_gz_interfaces/msg/WorldReset.msg"
+    "ros_gz_interfaces/msg/WorldStatistics.msg"
+    "ros_gz_interfaces/srv/AttachDetach.srv"
     "ros_gz_interfaces/srv/ControlWorld.srv"
     "ros_gz_interfaces/srv/DeleteEntity.srv"
     "ros_gz_interfaces/srv/SetEntityPose.srv"
@@ -310,6 +361,79 @@ crate::list_messages! {
     diagnostic_msgs::AddDiagnosticsResponse
     diagnostic_msgs::SelfTestRequest
     diagnostic_msgs::SelfTestResponse
+    gazebo_msgs::ContactState
+    gazebo_msgs::ContactsState
+    gazebo_msgs::EntityState
+    gazebo_msgs::LinkState
+    gazebo_msgs::LinkStates
+    gazebo_msgs::ModelState
+    gazebo_msgs::ModelStates
+    gazebo_msgs::ODEJointProperties
+    gazebo_msgs::ODEPhysics
+    gazebo_msgs::PerformanceMetrics
+    gazebo_msgs::SensorPerformanceMetric
+    gazebo_msgs::WheelSlip
+    gazebo_msgs::WorldState
+    gazebo_msgs::ApplyBodyWrenchRequest
+    gazebo_msgs::ApplyBodyWrenchResponse
+    gazebo_msgs::ApplyJointEffortRequest
+    gazebo_msgs::ApplyJointEffortResponse
+    gazebo_msgs::ApplyLinkWrenchRequest
+    gazebo_msgs::ApplyLinkWrenchResponse
+    gazebo_msgs::BodyRequestRequest
+    gazebo_msgs::BodyRequestResponse
+    gazebo_msgs::DeleteEntityRequest
+    gazebo_msgs::DeleteEntityResponse
+    gazebo_msgs::DeleteLightRequest
+    gazebo_msgs::DeleteLightResponse
+    gazebo_msgs::DeleteModelRequest
+    gazebo_msgs::DeleteModelResponse
+    gazebo_msgs::GetEntityStateRequest
+    gazebo_msgs::GetEntityStateResponse
+    gazebo_msgs::GetJointPropertiesRequest
+    gazebo_msgs::GetJointPropertiesResponse
+    gazebo_msgs::GetLightPropertiesRequest
+    gazebo_msgs::GetLightPropertiesResponse
+    gazebo_msgs::GetLinkPropertiesRequest
+    gazebo_msgs::GetLinkPropertiesResponse
+    gazebo_msgs::GetLinkStateRequest
+    gazebo_msgs::GetLinkStateResponse
+    gazebo_msgs::GetModelListRequest
+    gazebo_msgs::GetModelListResponse
+    gazebo_msgs::GetModelPropertiesRequest
+    gazebo_msgs::GetModelPropertiesResponse
+    gazebo_msgs::GetModelStateRequest
+    gazebo_msgs::GetModelStateResponse
+    gazebo_msgs::GetPhysicsPropertiesRequest
+    gazebo_msgs::GetPhysicsPropertiesResponse
+    gazebo_msgs::GetWorldPropertiesRequest
+    gazebo_msgs::GetWorldPropertiesResponse
+    gazebo_msgs::JointRequestRequest
+    gazebo_msgs::JointRequestResponse
+    gazebo_msgs::LinkRequestRequest
+    gazebo_msgs::LinkRequestResponse
+    gazebo_msgs::SetEntityStateRequest
+    gazebo_msgs::SetEntityStateResponse
+    gazebo_msgs::SetJointPropertiesRequest
+    gazebo_msgs::SetJointPropertiesResponse
+    gazebo_msgs::SetJointTrajectoryRequest
+    gazebo_msgs::SetJointTrajectoryResponse
+    gazebo_msgs::SetLightPropertiesRequest
+    gazebo_msgs::SetLightPropertiesResponse
+    gazebo_msgs::SetLinkPropertiesRequest
+    gazebo_msgs::SetLinkPropertiesResponse
+    gazebo_msgs::SetLinkStateRequest
+    gazebo_msgs::SetLinkStateResponse
+    gazebo_msgs::SetModelConfigurationRequest
+    gazebo_msgs::SetModelConfigurationResponse
+    gazebo_msgs::SetModelStateRequest
+    gazebo_msgs::SetModelStateResponse
+    gazebo_msgs::SetPhysicsPropertiesRequest
+    gazebo_msgs::SetPhysicsPropertiesResponse
+    gazebo_msgs::SpawnEntityRequest
+    gazebo_msgs::SpawnEntityResponse
+    gazebo_msgs::SpawnModelRequest
+    gazebo_msgs::SpawnModelResponse
     geometry_msgs::Accel
     geometry_msgs::AccelStamped
     geometry_msgs::AccelWithCovariance
@@ -454,7 +578,9 @@ crate::list_messages! {
     rcl_interfaces::SetParametersResponse
     rcl_interfaces::SetParametersAtomicallyRequest
     rcl_interfaces::SetParametersAtomicallyResponse
+    ros_gz_interfaces::AirSpeed
     ros_gz_interfaces::Altimeter
+    ros_gz_interfaces::Clock
     ros_gz_interfaces::Contact
     ros_gz_interfaces::Contacts
     ros_gz_interfaces::Dataframe
@@ -465,6 +591,9 @@ crate::list_messages! {
     ros_gz_interfaces::GuiCamera
     ros_gz_interfaces::JointWrench
     ros_gz_interfaces::Light
+    ros_gz_interfaces::LogPlaybackStatistics
+    ros_gz_interfaces::LogicalCameraImage
+    ros_gz_interfaces::LogicalCameraImageModel
     ros_gz_interfaces::MaterialColor
     ros_gz_interfaces::ParamVec
     ros_gz_interfaces::SensorNoise
@@ -473,6 +602,9 @@ crate::list_messages! {
     ros_gz_interfaces::VideoRecord
     ros_gz_interfaces::WorldControl
     ros_gz_interfaces::WorldReset
+    ros_gz_interfaces::WorldStatistics
+    ros_gz_interfaces::AttachDetachRequest
+    ros_gz_interfaces::AttachDetachResponse
     ros_gz_interfaces::ControlWorldRequest
     ros_gz_interfaces::ControlWorldResponse
     ros_gz_interfaces::DeleteEntityRequest
@@ -635,6 +767,36 @@ crate::list_services! {
     action_msgs::CancelGoal
     diagnostic_msgs::AddDiagnostics
     diagnostic_msgs::SelfTest
+    gazebo_msgs::ApplyBodyWrench
+    gazebo_msgs::ApplyJointEffort
+    gazebo_msgs::ApplyLinkWrench
+    gazebo_msgs::BodyRequest
+    gazebo_msgs::DeleteEntity
+    gazebo_msgs::DeleteLight
+    gazebo_msgs::DeleteModel
+    gazebo_msgs::GetEntityState
+    gazebo_msgs::GetJointProperties
+    gazebo_msgs::GetLightProperties
+    gazebo_msgs::GetLinkProperties
+    gazebo_msgs::GetLinkState
+    gazebo_msgs::GetModelList
+    gazebo_msgs::GetModelProperties
+    gazebo_msgs::GetModelState
+    gazebo_msgs::GetPhysicsProperties
+    gazebo_msgs::GetWorldProperties
+    gazebo_msgs::JointRequest
+    gazebo_msgs::LinkRequest
+    gazebo_msgs::SetEntityState
+    gazebo_msgs::SetJointProperties
+    gazebo_msgs::SetJointTrajectory
+    gazebo_msgs::SetLightProperties
+    gazebo_msgs::SetLinkProperties
+    gazebo_msgs::SetLinkState
+    gazebo_msgs::SetModelConfiguration
+    gazebo_msgs::SetModelState
+    gazebo_msgs::SetPhysicsProperties
+    gazebo_msgs::SpawnEntity
+    gazebo_msgs::SpawnModel
     lifecycle_msgs::ChangeState
     lifecycle_msgs::GetAvailableStates
     lifecycle_msgs::GetAvailableTransitions
@@ -669,6 +831,7 @@ crate::list_services! {
     rcl_interfaces::SetLoggerLevels
     rcl_interfaces::SetParameters
     rcl_interfaces::SetParametersAtomically
+    ros_gz_interfaces::AttachDetach
     ros_gz_interfaces::ControlWorld
     ros_gz_interfaces::DeleteEntity
     ros_gz_interfaces::SetEntityPose

@@ -2,6 +2,19 @@
 //! instead.
 
 crate::message! {
+    /// What a pitot tube measures.
+    "ros_gz_interfaces/msg/AirSpeed" "RIHS01_f370b0d7cc13a385870d7c465fc87998dd37b7f5719e00087fa572058fda2aba"
+    AirSpeed {
+        /// header
+        header: crate::std_msgs::Header,
+        /// hPa.
+        diff_pressure: f64,
+        /// K.
+        temperature: f64,
+    }
+}
+
+crate::message! {
     /// Height and climbing speed.
     "ros_gz_interfaces/msg/Altimeter" "RIHS01_c1e452c867a0dd147e2a612d1f78e5da9675ae5ef75c0950ad1520f004101703"
     Altimeter {
@@ -13,6 +26,21 @@ crate::message! {
         vertical_velocity: f64,
         /// m.
         vertical_reference: f64,
+    }
+}
+
+crate::message! {
+    /// What time it is, by three clocks.
+    "ros_gz_interfaces/msg/Clock" "RIHS01_ef3e2c08386c13a09d14d8013fa05ee41baeda3a46b1a453f7b257572d236a36"
+    Clock {
+        /// header
+        header: crate::std_msgs::Header,
+        /// Of the computer.
+        system: crate::builtin_interfaces::Time,
+        /// Since the start, on the wall's clock.
+        real: crate::builtin_interfaces::Time,
+        /// Simulated.
+        sim: crate::builtin_interfaces::Time,
     }
 }
 
@@ -225,6 +253,43 @@ crate::message! {
 }
 
 crate::message! {
+    /// From when to when a log goes that is played.
+    "ros_gz_interfaces/msg/LogPlaybackStatistics" "RIHS01_f5614a5b25cf3729762dcf099fee128c43004c656369254979a63e30e230730c"
+    LogPlaybackStatistics {
+        /// header
+        header: crate::std_msgs::Header,
+        /// start_time
+        start_time: crate::builtin_interfaces::Time,
+        /// end_time
+        end_time: crate::builtin_interfaces::Time,
+    }
+}
+
+crate::message! {
+    /// Which models a logical camera sees.
+    "ros_gz_interfaces/msg/LogicalCameraImage" "RIHS01_182c20bcbe04e080e79b496c6a2d1dcdd1773ad64048b245e2a21f7d46bd0d70"
+    LogicalCameraImage {
+        /// header
+        header: crate::std_msgs::Header,
+        /// Of the camera.
+        pose: crate::geometry_msgs::Pose,
+        /// model
+        model: Vec<LogicalCameraImageModel>,
+    }
+}
+
+crate::message! {
+    /// A model that a logical camera sees.
+    "ros_gz_interfaces/msg/LogicalCameraImageModel" "RIHS01_2e52e5ada28f48848f9c94471af5076d2a8b59d716531fa679ce6f42b3546834"
+    LogicalCameraImageModel {
+        /// name
+        name: std::string::String,
+        /// In the frame of the camera.
+        pose: crate::geometry_msgs::Pose,
+    }
+}
+
+crate::message! {
     /// New colours for something.
     "ros_gz_interfaces/msg/MaterialColor" "RIHS01_54b65af3b212e12850320fb8720cd067cb74d961cab813918fa0c94617db3913"
     MaterialColor {
@@ -378,6 +443,71 @@ crate::message! {
         /// model_only
         model_only: bool = false,
     }
+}
+
+crate::message! {
+    /// How a simulation runs.
+    "ros_gz_interfaces/msg/WorldStatistics" "RIHS01_5335d33b3320a2559cf0c3fc7648af056139c9626e5d0a768ba47477d3b81a94"
+    WorldStatistics {
+        /// header
+        header: crate::std_msgs::Header,
+        /// sim_time
+        sim_time: crate::builtin_interfaces::Time,
+        /// How long it stood still, on the wall's clock.
+        pause_time: crate::builtin_interfaces::Time,
+        /// How long it ran, on the wall's clock.
+        real_time: crate::builtin_interfaces::Time,
+        /// paused
+        paused: bool,
+        /// Steps since the start.
+        iterations: u64,
+        /// model_count
+        model_count: i32,
+        /// log_playback_statistics
+        log_playback_statistics: LogPlaybackStatistics,
+        /// Simulated seconds in a second of the wall.
+        real_time_factor: f64,
+        /// step_size
+        step_size: crate::builtin_interfaces::Time,
+        /// Whether it goes only the steps that were asked for.
+        stepping: bool,
+    }
+}
+
+crate::message! {
+    /// Joins a model to another, or frees it.
+    "ros_gz_interfaces/srv/AttachDetach_Request" "RIHS01_084c48b3e495c954d68fd43df4af956dc11ff58e25bc6e6e6a98f8fe868ff907"
+    AttachDetachRequest {
+        /// child_model_name
+        child_model_name: std::string::String,
+        /// child_link_name
+        child_link_name: std::string::String,
+        /// One of the values above.
+        command: u8,
+    }
+    /// COMMAND_UNSPECIFIED
+    COMMAND_UNSPECIFIED: u8 = 0;
+    /// ATTACH
+    ATTACH: u8 = 1;
+    /// DETACH
+    DETACH: u8 = 2;
+}
+
+crate::message! {
+    /// `ros_gz_interfaces/srv/AttachDetach_Response`.
+    "ros_gz_interfaces/srv/AttachDetach_Response" "RIHS01_839bf71e4e7b4ed7955422c713a6308eb0d8c9a9ef6e3463256d88876d977aad"
+    AttachDetachResponse {
+        /// error_code
+        error_code: i32,
+        /// message
+        message: std::string::String,
+    }
+}
+
+crate::service! {
+    /// Joins a model to another, or frees it.
+    "ros_gz_interfaces/srv/AttachDetach" "RIHS01_da6eb644f97fe3f50270f4b2d4520abb760289077ec1232ceed03c9276eff137"
+    AttachDetach, AttachDetachRequest, AttachDetachResponse
 }
 
 crate::message! {
