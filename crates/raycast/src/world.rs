@@ -4,6 +4,7 @@ mod builder;
 mod change;
 mod instances;
 mod many;
+mod near;
 mod query;
 mod shares;
 
