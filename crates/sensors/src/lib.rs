@@ -6,6 +6,7 @@
 //!
 //! Out of range is told as REP 117 says: `-inf` too near, `+inf` nothing there.
 
+mod camera;
 mod field;
 mod force_torque;
 mod geodesy;
@@ -22,6 +23,7 @@ mod sweep;
 mod touch;
 mod view;
 
+pub use camera::{Calibration, Depth, ImageNoise, MOST_PIXELS, Pinhole, clip_depths};
 pub use field::{Altimeter, AltimeterReading, Barometer, Magnetometer, standard_pressure_pa};
 pub use force_torque::{ForceFrame, ForceTorque, Wrench};
 pub use geodesy::{Ellipsoid, Geodetic, Globe};
