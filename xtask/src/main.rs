@@ -8,6 +8,7 @@
 
 mod codegen;
 mod corpus;
+mod determinism;
 mod docs;
 mod fuzz;
 mod layers;
@@ -60,6 +61,8 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// The same bag from every build and number of threads
+    Determinism,
     /// The pictures in the documentation, from the program itself
     Pictures,
     /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
@@ -94,6 +97,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Corpus => corpus::run_all(),
         Task::Bench => corpus::bench(),
         Task::Codegen { check } => codegen::run(*check),
+        Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
@@ -105,6 +109,7 @@ fn ci() -> Result<(), Failed> {
     timed("clippy", clippy)?;
     timed("deny", deny)?;
     timed("docs", docs::run)?;
+    timed("determinism", determinism::check)?;
     timed("test", || test(&[]))
 }
 

@@ -3,6 +3,7 @@
 mod check;
 mod convert;
 mod options;
+mod sim;
 mod terminal;
 
 use std::process::ExitCode;
@@ -18,6 +19,7 @@ fn main() -> ExitCode {
     let outcome = match options.command {
         Command::Check(options) => check::run(&options),
         Command::Convert(options) => convert::run(&options),
+        Command::Sim(options) => sim::run(&options),
     };
     match outcome {
         Ok(code) => code,

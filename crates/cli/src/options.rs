@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use anstream::ColorChoice;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-/// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, and converts
-/// between them.
+use crate::sim::SimOptions;
+
+/// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
+/// them, and simulates robots with all their sensors.
 #[derive(Debug, Parser)]
 #[command(name = "periplus", version, max_term_width = 100)]
 pub(crate) struct Options {
@@ -21,6 +23,7 @@ pub(crate) struct Options {
 pub(crate) enum Command {
     Check(CheckOptions),
     Convert(ConvertOptions),
+    Sim(Box<SimOptions>),
 }
 
 /// Tell what files hold and what is wrong with them

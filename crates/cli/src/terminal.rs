@@ -43,6 +43,11 @@ pub(crate) fn working_folder() -> PathBuf {
     std::env::current_dir().unwrap_or_default()
 }
 
+/// Threads that the machine can run side by side.
+pub(crate) fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// Runs something with the machine as readers see it.
 pub(crate) fn with_setting<T>(
     resource_path: &[PathBuf],

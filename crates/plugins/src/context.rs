@@ -99,6 +99,26 @@ pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
     sites
 }
 
+/// The plugins of a model that stands in a world, in order.
+#[must_use]
+pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<Site<'a>> {
+    let mut sites = Vec::new();
+    let context = Context { world: Some(world), root: Some(model), ..Context::NOWHERE };
+    add_model(model, context, &mut sites);
+    settle_ros_version(&mut sites);
+    sites
+}
+
+/// The plugins of a world itself, in order.
+#[must_use]
+pub fn world_sites(world: &World) -> Vec<Site<'_>> {
+    let mut sites = Vec::new();
+    let context = Context { place: Place::World, world: Some(world), ..Context::NOWHERE };
+    add(&world.plugins, context, &mut sites);
+    settle_ros_version(&mut sites);
+    sites
+}
+
 fn add<'a>(plugins: &'a [Plugin], context: Context<'a>, sites: &mut Vec<Site<'a>>) {
     sites.extend(plugins.iter().map(|plugin| Site { plugin, context }));
 }

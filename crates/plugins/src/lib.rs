@@ -15,7 +15,7 @@ mod ros;
 mod tables;
 mod topics;
 
-pub use context::{Context, Place, Site, sites};
+pub use context::{Context, Place, Site, model_sites, sites, world_sites};
 pub use interpret::{Interpreted, interpret};
 pub use known::{Family, Flow, Known, Role, Support, Topic};
 pub use library::library_id;

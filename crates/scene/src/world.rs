@@ -66,6 +66,35 @@ pub struct World {
     pub origin: Origin,
 }
 
+impl World {
+    /// A world with nothing in it, and the defaults of SDF: 9.8 m/s² down, the Earth's magnetic
+    /// field at Gazebo's home, grey light.
+    #[must_use]
+    pub fn empty(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            gravity_m_s2: DVec3::new(0.0, 0.0, -9.8),
+            magnetic_field_t: DVec3::new(5.5645e-6, 22.8758e-6, -42.3884e-6),
+            wind_m_s: DVec3::ZERO,
+            physics: Vec::new(),
+            ambient: Colour([0.4, 0.4, 0.4, 1.0]),
+            background: Colour([0.7, 0.7, 0.7, 1.0]),
+            shadows: true,
+            grid: true,
+            spherical_coordinates: None,
+            gui: None,
+            frames: Vec::new(),
+            models: Vec::new(),
+            joints: Vec::new(),
+            lights: Vec::new(),
+            actors: Vec::new(),
+            plugins: Vec::new(),
+            extra: Vec::new(),
+            origin: Origin::default(),
+        }
+    }
+}
+
 /// Where on Earth a world is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphericalCoordinates {

@@ -1,8 +1,8 @@
 //! `<world>`.
 
 use periplus_base::DVec3;
-use periplus_diagnostics::{Diagnostic, Origin};
-use periplus_scene::{Colour, Gui, SphericalCoordinates, World};
+use periplus_diagnostics::Diagnostic;
+use periplus_scene::{Gui, SphericalCoordinates, World};
 use periplus_xml::Element;
 
 use super::actor::read_actor;
@@ -48,7 +48,7 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> WorldDraft {
     let mut fields = Fields::new(element, reader.diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let mut world =
-        World { origin: element.origin, ..empty(name.unwrap_or_else(|| "world".into())) };
+        World { origin: element.origin, ..World::empty(name.unwrap_or_else(|| "world".into())) };
     world.gravity_m_s2 = fields.vector("gravity", world.gravity_m_s2);
     world.magnetic_field_t = fields.vector("magnetic_field", world.magnetic_field_t);
     if let Some(mut wind) = fields.open("wind") {
@@ -97,31 +97,6 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> WorldDraft {
     fields.verbatim(&["audio", "atmosphere", "road"]);
     draft.world.extra = fields.finish();
     draft
-}
-
-/// A world with SDF's defaults, but without physics.
-pub(crate) fn empty(name: String) -> World {
-    World {
-        name,
-        gravity_m_s2: DVec3::new(0.0, 0.0, -9.8),
-        magnetic_field_t: DVec3::new(5.5645e-6, 22.8758e-6, -42.3884e-6),
-        wind_m_s: DVec3::ZERO,
-        physics: Vec::new(),
-        ambient: Colour([0.4, 0.4, 0.4, 1.0]),
-        background: Colour([0.7, 0.7, 0.7, 1.0]),
-        shadows: true,
-        grid: true,
-        spherical_coordinates: None,
-        gui: None,
-        frames: Vec::new(),
-        models: Vec::new(),
-        joints: Vec::new(),
-        lights: Vec::new(),
-        actors: Vec::new(),
-        plugins: Vec::new(),
-        extra: Vec::new(),
-        origin: Origin::default(),
-    }
 }
 
 fn read_scene(fields: &mut Fields<'_, '_>, world: &mut World) {

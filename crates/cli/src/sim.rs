@@ -1,0 +1,249 @@
+//! `periplus sim`.
+
+mod progress;
+mod report;
+mod robots;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+use periplus_host::Stopwatch;
+use periplus_sim::{
+    Composition, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
+    Wanted, compose,
+};
+
+use crate::options::{SearchOptions, split};
+use crate::terminal;
+
+pub(crate) use robots::Robots;
+
+/// Run a world with robots in it: physics, sensors, topics, and a bag of what was said
+///
+/// The world is an SDF or a saved world; a robot's own file stands on a plane in the sun. Runs as
+/// fast as the machine can when `--duration` is given, otherwise at the world's own pace until
+/// Ctrl-C. The same files, options and seed give the same bag, byte for byte.
+#[derive(Debug, Args)]
+pub(crate) struct SimOptions {
+    /// The world, and `name:=value` for its xacro
+    #[arg(required = true, value_name = "WORLD|NAME:=VALUE")]
+    words: Vec<String>,
+    #[command(flatten)]
+    robots: Robots,
+    /// Simulated seconds to run; without it until Ctrl-C
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    duration: Option<f64>,
+    /// Write what is published to a bag: FILE.mcap, or a folder as `ros2 bag` makes it
+    #[arg(long, value_name = "FILE.mcap|FOLDER")]
+    record: Option<std::path::PathBuf>,
+    /// Record only topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    topics: Option<regex::Regex>,
+    /// Do not record topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    exclude: Option<regex::Regex>,
+    /// Drive by a script (YAML) or by the commands of a bag
+    #[arg(long, value_name = "FILE")]
+    cmd: Option<std::path::PathBuf>,
+    /// Seed of all noise
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    seed: u64,
+    /// How things move: with forces and contacts, or exactly as told on flat ground
+    #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
+    dynamics: Dynamics,
+    /// Simulated seconds per second of the wall, or `max`
+    #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
+    rtf: Option<Factor>,
+    /// Step of the simulation in seconds, in place of the world's own
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    step: Option<f64>,
+    /// Threads for rays; the answers do not depend on it
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<usize>,
+    /// Copy the oddities of Gazebo too, such as periods of whole milliseconds
+    #[arg(long)]
+    gz_quirks: bool,
+    /// Rename a topic, service or node: `from:=to`
+    #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
+    remaps: Vec<String>,
+    /// Print a report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Say nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    search: SearchOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Dynamics {
+    /// Bodies, joints, contacts and friction
+    Rigid,
+    /// Robots move exactly as commanded, through anything
+    Kinematic,
+}
+
+/// Simulated seconds per second of the wall.
+#[derive(Clone, Copy, Debug)]
+enum Factor {
+    /// As many as the machine can.
+    Max,
+    /// So many.
+    Of(f64),
+}
+
+pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
+    let start = Stopwatch::start();
+    let (files, arguments) = split(&options.words);
+    let [world] = files.as_slice() else {
+        terminal::complain("sim takes one world; robots come with --robot; see `periplus sim --help`");
+        return Ok(ExitCode::from(2));
+    };
+    let search = &options.search.resource_path;
+    let mut composition = terminal::with_setting(search, arguments, |setting| {
+        compose(world, &options.robots.0, setting)
+    });
+    let mut simulation =
+        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), options.simulation());
+    let whole = tell_findings(&composition, options.quiet)?;
+    if let Some(missing) = composition.missing() {
+        terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
+        return Ok(ExitCode::FAILURE);
+    }
+    let recorder = match options.record.as_deref() {
+        None => None,
+        Some(path) => match Recorder::start(&simulation, path, options.wanted()) {
+            Ok(recorder) => Some(recorder),
+            Err(error) => {
+                terminal::complain(&format!("cannot record to {}: {error}", path.display()));
+                return Ok(ExitCode::FAILURE);
+            }
+        },
+    };
+    let mut services = match Services::new(&simulation) {
+        Ok(services) => services,
+        Err(error) => {
+            terminal::complain(&format!("cannot offer the world's services: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let stop = stop_on_ctrl_c();
+    let run = Run {
+        end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
+        factor: options.factor(&composition),
+        stop: &stop,
+        paused: false,
+    };
+    let start_up = start.elapsed();
+    let mut line = progress::Line::new(options.duration, options.quiet || options.json);
+    let stopwatch = Stopwatch::start();
+    let outcome =
+        run.go(&mut simulation, &mut services, &mut |progress| line.show(progress));
+    let wall = stopwatch.elapsed();
+    line.clear();
+    let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {
+        Ok(recording) => recording,
+        Err(error) => {
+            terminal::complain(&format!("the bag is not whole: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let report =
+        report::Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
+    if options.json {
+        writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
+    } else if !options.quiet {
+        report.tell(&mut anstream::stderr().lock())?;
+    }
+    match outcome {
+        Ok(()) if whole => Ok(ExitCode::SUCCESS),
+        Ok(()) => {
+            terminal::complain("parts of the files have errors and took no part");
+            Ok(ExitCode::FAILURE)
+        }
+        Err(diverged) => {
+            terminal::complain(&diverged.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}
+
+impl SimOptions {
+    fn simulation(&self) -> Options {
+        Options {
+            seed: self.seed,
+            mode: match self.dynamics {
+                Dynamics::Rigid => Mode::Rigid,
+                Dynamics::Kinematic => Mode::Kinematic,
+            },
+            step_s: self.step,
+            threads: self.threads.unwrap_or_else(terminal::processors),
+            quirks: if self.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },
+            remaps: self.remaps.clone(),
+            ..Options::default()
+        }
+    }
+
+    /// As fast as can be when there is an end, otherwise at the pace that the world asks for.
+    fn factor(&self, composition: &Composition) -> Option<f64> {
+        match (self.rtf, self.duration) {
+            (Some(Factor::Of(factor)), _) => Some(factor),
+            (Some(Factor::Max), _) | (None, Some(_)) => None,
+            (None, None) => composition.real_time_factor(),
+        }
+    }
+
+    fn wanted(&self) -> Wanted {
+        let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
+        Box::new(move |name| {
+            topics.as_ref().is_none_or(|topics| topics.is_match(name))
+                && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
+        })
+    }
+}
+
+/// Tells what is wrong with the files. False when something is missing that was asked for.
+fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
+    let mut err = anstream::stderr().lock();
+    let mut whole = true;
+    for loaded in &composition.files {
+        whole &= !loaded.diagnostics.has_errors();
+        if !quiet || loaded.diagnostics.has_errors() {
+            terminal::findings(&mut err, loaded)?;
+        }
+    }
+    Ok(whole)
+}
+
+fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // The second Ctrl-C ends the program at once: somebody may not want to wait for the bag.
+    let asked = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::abort();
+        }
+    });
+    if asked.is_err() {
+        terminal::complain("Ctrl-C cannot be caught; the bag's end will be missing when it is used");
+    }
+    stop
+}
+
+fn positive(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("it has to be a number above 0".into()),
+    }
+}
+
+fn factor(word: &str) -> Result<Factor, String> {
+    if word == "max" {
+        return Ok(Factor::Max);
+    }
+    positive(word).map(Factor::Of).map_err(|_| "it has to be a number above 0, or `max`".into())
+}

@@ -1,0 +1,63 @@
+//! How far a run is, for a person who waits.
+
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use periplus_sim::Progress;
+
+/// Between two drawings of the line.
+const REDRAW: Duration = Duration::from_millis(100);
+
+/// A line at the bottom of the terminal; nothing where stderr is no terminal.
+pub(crate) struct Line {
+    bar: ProgressBar,
+    drawn: Duration,
+    end_s: Option<f64>,
+}
+
+impl Line {
+    /// For a run of so many simulated seconds, or without end.
+    pub(crate) fn new(end_s: Option<f64>, quiet: bool) -> Self {
+        let bar = match end_s {
+            _ if quiet => ProgressBar::hidden(),
+            Some(_) => ProgressBar::new(1000).with_style(style("{bar:30} {msg}")),
+            None => ProgressBar::new_spinner().with_style(style("{spinner} {msg}")),
+        };
+        Self { bar, drawn: Duration::ZERO, end_s }
+    }
+
+    /// Shows how far the run is, not too often.
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "for the eye"
+    )]
+    pub(crate) fn show(&mut self, progress: Progress) {
+        if progress.wall < self.drawn + REDRAW {
+            return;
+        }
+        self.drawn = progress.wall;
+        let time_s = progress.time_ns as f64 * 1e-9;
+        let factor = progress.real_time_factor;
+        match self.end_s {
+            Some(end_s) => {
+                self.bar.set_position((time_s / end_s * 1000.0) as u64);
+                self.bar.set_message(format!("{time_s:.1} of {end_s} s, {factor:.1} x real time"));
+            }
+            None => {
+                self.bar.tick();
+                self.bar.set_message(format!("{time_s:.1} s, {factor:.1} x real time; Ctrl-C ends"));
+            }
+        }
+    }
+
+    /// Takes the line away.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner())
+}

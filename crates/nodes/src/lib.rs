@@ -1,0 +1,17 @@
+//! The parts of a simulated robot as nodes on the graph.
+//!
+//! Each sensor and each plugin that does something becomes a [`Device`]: it reads commands from
+//! topics, tells joints what to do, measures, and publishes. What it computes is in `dynamics` and
+//! `sensors`; here is only who is told, under which name, how often, in which message.
+
+mod device;
+mod naming;
+mod setting;
+mod stamp;
+mod views;
+
+pub use device::{Device, Moment, Span};
+pub use naming::{gz_topic, node_of, plain_node, publisher_qos, subscription_qos};
+pub use setting::Setting;
+pub use stamp::{header, stamp};
+pub use views::Views;

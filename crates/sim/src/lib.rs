@@ -1,0 +1,26 @@
+//! A world with its robots, run step by step.
+//!
+//! [`compose`] reads files, [`Simulation`] makes nodes of what is in them and steps them, [`Run`]
+//! goes on until it is time, at the pace that is asked for. A [`Recorder`] writes what is published
+//! into a bag, [`Services`] let others change the world.
+
+mod compose;
+mod files;
+mod ground;
+mod pace;
+mod record;
+mod run;
+mod services;
+mod shares;
+mod simulation;
+
+pub use compose::{Composition, Member, Placement, Standing, compose};
+pub use files::ShapeFiles;
+pub use pace::Pace;
+pub use periplus_dynamics::{Diverged, Mode};
+pub use periplus_sensors::Quirks;
+pub use record::{RecordError, Recorder, Recording, Wanted};
+pub use run::{Progress, Run};
+pub use services::Services;
+pub use shares::{Shares, Work};
+pub use simulation::{Options, Simulation};

@@ -1,0 +1,316 @@
+//! A world that runs.
+
+use std::sync::Arc;
+
+use periplus_base::Pose;
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_dynamics::{Diverged, Mode, ModelId};
+use periplus_graph::Graph;
+use periplus_host::Stopwatch;
+use periplus_nodes::{Device, Moment, Setting, Span, Views};
+use periplus_scene as scene;
+use periplus_sensors::Quirks;
+
+use crate::compose::{Composition, Member};
+use crate::files::ShapeFiles;
+use crate::shares::{Shares, Work};
+
+/// Where motion needs no small steps, time still goes no further than this at once \[ns\]: drives
+/// that listen at each step want to be asked.
+const LONGEST_STEP_NS: i64 = 10_000_000;
+
+/// Shortest step that is taken \[ns\].
+const SHORTEST_STEP_NS: i64 = 1_000;
+
+/// What a run is asked to be like.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Seed of all noise.
+    pub seed: u64,
+    /// How things move.
+    pub mode: Mode,
+    /// Step \[s\]; without one that of the world's physics.
+    pub step_s: Option<f64>,
+    /// Threads for rays.
+    pub threads: usize,
+    /// Which oddities of Gazebo are wanted.
+    pub quirks: Quirks,
+    /// `from:=to` for all nodes.
+    pub remaps: Vec<String>,
+    /// Messages on `/clock` per simulated second \[Hz\].
+    pub clock_rate_hz: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            mode: Mode::Rigid,
+            step_s: None,
+            threads: 1,
+            quirks: Quirks::default(),
+            remaps: Vec::new(),
+            clock_rate_hz: 100.0,
+        }
+    }
+}
+
+/// A model that is there, with what acts and measures on it.
+pub(crate) struct Running {
+    pub(crate) member: Member,
+    pub(crate) model: ModelId,
+    devices: Vec<Box<dyn Device>>,
+}
+
+/// A world with its robots, ready to run.
+///
+/// In each step first all messages are delivered, then devices act, then everything moves, then
+/// devices measure and publish, always in the same order. Nothing depends on the wall clock or the
+/// number of threads.
+pub struct Simulation {
+    pub(crate) graph: Graph,
+    pub(crate) scene: scene::World,
+    pub(crate) motion: periplus_dynamics::World,
+    pub(crate) running: Vec<Running>,
+    world_devices: Vec<Box<dyn Device>>,
+    views: Views,
+    files: Arc<ShapeFiles>,
+    options: Options,
+    step_ns: i64,
+    time_ns: i64,
+    shares: Shares,
+}
+
+impl Simulation {
+    /// Puts a composition to work. Findings are added to its files; what cannot be simulated is
+    /// left out.
+    #[must_use]
+    pub fn new(composition: &mut Composition, files: Arc<ShapeFiles>, options: Options) -> Self {
+        let scene = composition.world.clone();
+        let step_s = options.step_s.unwrap_or_else(|| step_of(&scene));
+        let motion = periplus_dynamics::World::empty(scene.gravity_m_s2, options.mode);
+        let graph = Graph::new();
+        let views = Views::new(Arc::clone(&files) as _, options.threads);
+        let mut simulation = Self {
+            step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
+            world_devices: Vec::new(),
+            running: Vec::new(),
+            time_ns: 0,
+            shares: Shares::default(),
+            graph,
+            scene,
+            motion,
+            views,
+            files,
+            options,
+        };
+        let mut findings = Diagnostics::new();
+        let rate_hz = simulation.options.clock_rate_hz;
+        composition.files[0].diagnostics.append(findings);
+        for member in composition.members.clone() {
+            let file = member.file;
+            let findings = simulation.spawn(member);
+            composition.files[file].diagnostics.append(findings);
+        }
+        simulation
+    }
+}
+
+impl Simulation {
+    /// The nodes and topics of this world.
+    #[must_use]
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// What moves.
+    #[must_use]
+    pub fn motion(&self) -> &periplus_dynamics::World {
+        &self.motion
+    }
+
+    /// Simulated time \[ns\].
+    #[must_use]
+    pub fn time_ns(&self) -> i64 {
+        self.time_ns
+    }
+
+    /// The step of the simulation \[ns\].
+    #[must_use]
+    pub fn step_ns(&self) -> i64 {
+        self.step_ns
+    }
+
+    /// Changes the step \[s\].
+    pub(crate) fn set_step(&mut self, step_s: f64) {
+        self.step_ns = nanoseconds(step_s).max(SHORTEST_STEP_NS);
+    }
+
+    /// Wall time by kind of work.
+    #[must_use]
+    pub fn shares(&self) -> &Shares {
+        &self.shares
+    }
+
+    /// Wall time by kind of work, to be added to.
+    pub(crate) fn shares_mut(&mut self) -> &mut Shares {
+        &mut self.shares
+    }
+
+    /// The names of the models that are there, in the order of coming.
+    pub fn models(&self) -> impl Iterator<Item = &str> {
+        self.running.iter().map(|running| running.member.name.as_str())
+    }
+
+    /// The names of all devices, in the order in which they act.
+    pub fn devices(&self) -> impl Iterator<Item = &str> {
+        let own = self.running.iter().flat_map(|running| &running.devices);
+        self.world_devices.iter().chain(own).map(|device| device.name())
+    }
+
+    /// Puts a model into the world, with its drives and sensors.
+    pub fn spawn(&mut self, mut member: Member) -> Diagnostics {
+        member.model.name.clone_from(&member.name);
+        let added = self.motion.add(&member.model, member.world_from_model, &*self.files);
+        let mut findings = added.diagnostics;
+        let Some(model) = added.model else { return findings };
+        self.views.add(Arc::new(member.model.clone()), model, &self.motion);
+        let setting = Setting {
+            graph: &self.graph,
+            world: &self.motion,
+            scene: &self.scene,
+            root: &member.model,
+            model,
+            model_name: &member.name,
+            namespace: &member.namespace,
+            remaps: &self.options.remaps,
+            seed: self.options.seed,
+            quirks: self.options.quirks,
+            start_ns: self.time_ns,
+        };
+        let description = member.description.as_deref();
+        let devices = periplus_nodes::devices(&setting, description, &mut findings);
+        self.running.push(Running { member, model, devices });
+        findings
+    }
+
+    /// Takes a model out. False if there is none of that name.
+    pub fn delete(&mut self, name: &str) -> bool {
+        let Some(place) = self.place_of(name) else { return false };
+        let gone = self.running.remove(place);
+        self.views.remove(gone.model, &self.motion);
+        self.motion.remove(gone.model);
+        true
+    }
+
+    /// Puts a model down somewhere, at rest. False if there is none of that name, or the pose is
+    /// not finite.
+    pub fn set_pose(&mut self, name: &str, world_from_model: Pose) -> bool {
+        let Some(place) = self.place_of(name) else { return false };
+        let model = self.running[place].model;
+        let moved = self.motion.set_pose(model, world_from_model);
+        if moved {
+            self.views.moved();
+        }
+        moved
+    }
+
+    /// Everything back to where it came in, at time zero.
+    pub fn reset(&mut self) {
+        self.time_ns = 0;
+        self.graph.jump_to(0);
+        self.reset_models();
+    }
+
+    /// Models back to where they came in, at rest; time goes on.
+    pub fn reset_models(&mut self) {
+        self.motion.reset();
+        self.views.moved();
+        let time_ns = self.time_ns;
+        let own = self.running.iter_mut().flat_map(|running| &mut running.devices);
+        self.world_devices.iter_mut().chain(own).for_each(|device| device.reset(time_ns));
+    }
+
+    pub(crate) fn place_of(&self, name: &str) -> Option<usize> {
+        self.running.iter().position(|running| running.member.name == name)
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// When a body's motion is no longer one.
+    pub fn step(&mut self) -> Result<(), Diverged> {
+        self.step_until(i64::MAX)
+    }
+
+    /// One step that ends at `end_ns` at the latest.
+    ///
+    /// # Errors
+    /// When a body's motion is no longer one.
+    pub fn step_until(&mut self, end_ns: i64) -> Result<(), Diverged> {
+        let mut stopwatch = Stopwatch::start();
+        self.graph.advance_to(self.time_ns);
+        self.shares.lap(Work::Messages, &mut stopwatch);
+        let span = Span { start_ns: self.time_ns, length_ns: self.next_length_ns(end_ns) };
+        for device in all(&mut self.world_devices, &mut self.running) {
+            device.act(&mut self.motion, span);
+        }
+        self.motion.step(span.length_ns)?;
+        self.time_ns = span.end_ns();
+        self.shares.lap(Work::Physics, &mut stopwatch);
+        self.graph.advance_to(self.time_ns);
+        self.shares.lap(Work::Messages, &mut stopwatch);
+        let mut moment = Moment {
+            span,
+            world: &self.motion,
+            views: &mut self.views,
+            threads: self.options.threads,
+        };
+        for device in all(&mut self.world_devices, &mut self.running) {
+            device.sense(&mut moment);
+        }
+        self.shares.lap(Work::Sensing, &mut stopwatch);
+        Ok(())
+    }
+
+    /// One step of the world's size; where motion is exact for any step, straight to the time at
+    /// which a device has something to do.
+    fn next_length_ns(&mut self, end_ns: i64) -> i64 {
+        let step_ns = self.step_ns;
+        let left_ns = end_ns.saturating_sub(self.time_ns).max(1);
+        if self.options.mode == Mode::Rigid {
+            return step_ns.min(left_ns);
+        }
+        let start_ns = self.time_ns;
+        let longest_ns = LONGEST_STEP_NS.max(step_ns);
+        let due_ns = all(&mut self.world_devices, &mut self.running)
+            .filter_map(|device| device.next_ns())
+            .map(|due_ns| due_ns - start_ns)
+            .filter(|wait_ns| *wait_ns > 0)
+            .fold(longest_ns, i64::min);
+        // Only whole steps, so that both kinds of motion measure at the same times.
+        let steps = (due_ns + step_ns - 1) / step_ns;
+        (steps * step_ns).min(left_ns)
+    }
+}
+
+/// All devices in the order in which they act.
+fn all<'a>(
+    world: &'a mut [Box<dyn Device>],
+    running: &'a mut [Running],
+) -> impl Iterator<Item = &'a mut Box<dyn Device>> {
+    let own = running.iter_mut().flat_map(|running| &mut running.devices);
+    world.iter_mut().chain(own)
+}
+
+/// The step that a world asks for \[s\].
+fn step_of(world: &scene::World) -> f64 {
+    let physics = world.physics.iter().find(|physics| physics.default).or(world.physics.first());
+    let asked = physics.map_or(0.001, |physics| physics.max_step_size_s);
+    if asked.is_finite() && asked > 0.0 { asked } else { 0.001 }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a step is a fraction of a second")]
+fn nanoseconds(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}
