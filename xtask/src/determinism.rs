@@ -2,7 +2,7 @@
 //! for byte.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::step::{Failed, cargo, run};
 
@@ -33,7 +33,8 @@ pub(crate) fn check() -> Result<(), Failed> {
     let mut first: Option<(String, Vec<u8>)> = None;
     for build in BUILDS {
         for threads in THREADS {
-            let name = format!("{}-{threads}-threads", if build.is_empty() { "debug" } else { "release" });
+            let name =
+                format!("{}-{threads}-threads", if build.is_empty() { "debug" } else { "release" });
             let bag = bag_of(&folder, build, threads)?;
             match &first {
                 None => {

@@ -12,8 +12,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use periplus_host::Stopwatch;
 use periplus_sim::{
-    Composition, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
-    Wanted, compose,
+    Composition, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation, Wanted,
+    compose,
 };
 
 use crate::options::{SearchOptions, split};
@@ -100,7 +100,9 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     let start = Stopwatch::start();
     let (files, arguments) = split(&options.words);
     let [world] = files.as_slice() else {
-        terminal::complain("sim takes one world; robots come with --robot; see `periplus sim --help`");
+        terminal::complain(
+            "sim takes one world; robots come with --robot; see `periplus sim --help`",
+        );
         return Ok(ExitCode::from(2));
     };
     let search = &options.search.resource_path;
@@ -141,8 +143,7 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     let start_up = start.elapsed();
     let mut line = progress::Line::new(options.duration, options.quiet || options.json);
     let stopwatch = Stopwatch::start();
-    let outcome =
-        run.go(&mut simulation, &mut services, &mut |progress| line.show(progress));
+    let outcome = run.go(&mut simulation, &mut services, &mut |progress| line.show(progress));
     let wall = stopwatch.elapsed();
     line.clear();
     let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {
@@ -229,7 +230,9 @@ fn stop_on_ctrl_c() -> Arc<AtomicBool> {
         }
     });
     if asked.is_err() {
-        terminal::complain("Ctrl-C cannot be caught; the bag's end will be missing when it is used");
+        terminal::complain(
+            "Ctrl-C cannot be caught; the bag's end will be missing when it is used",
+        );
     }
     stop
 }

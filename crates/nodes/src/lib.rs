@@ -4,12 +4,14 @@
 //! topics, tells joints what to do, measures, and publishes. What it computes is in `dynamics` and
 //! `sensors`; here is only who is told, under which name, how often, in which message.
 
+mod build;
 mod device;
 mod naming;
 mod setting;
 mod stamp;
 mod views;
 
+pub use build::devices;
 pub use device::{Device, Moment, Span};
 pub use naming::{gz_topic, node_of, plain_node, publisher_qos, subscription_qos};
 pub use setting::Setting;

@@ -77,9 +77,8 @@ impl Composition {
     #[must_use]
     pub fn missing(&self) -> Option<&Path> {
         let from = |file: usize| self.members.iter().any(|member| member.file == file);
-        let empty = |(file, loaded): &(usize, &Loaded)| {
-            loaded.diagnostics.has_errors() && !from(*file)
-        };
+        let empty =
+            |(file, loaded): &(usize, &Loaded)| loaded.diagnostics.has_errors() && !from(*file);
         self.files.iter().enumerate().find(empty).map(|(_, loaded)| loaded.path.as_path())
     }
 

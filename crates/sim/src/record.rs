@@ -8,8 +8,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use periplus_bags::{BagInfo, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer};
-use periplus_graph::{Durability, History, Liveliness, Qos, Reliability, Sample, Sink, TapId, TopicInfo};
+use periplus_bags::{
+    BagInfo, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer,
+};
+use periplus_graph::{
+    Durability, History, Liveliness, Qos, Reliability, Sample, Sink, TapId, TopicInfo,
+};
 use periplus_host::Stopwatch;
 use periplus_msgs::TypeRegistry;
 
@@ -112,8 +116,12 @@ impl Recorder {
         let sink = File::create(&file).map_err(|error| RecordError::File(file.clone(), error))?;
         let writer = Writer::new(sink, Settings::new(name.unwrap_or_default()))
             .map_err(RecordError::Write)?;
-        let state =
-            State { writer: Some(writer), topics: BTreeMap::new(), failure: None, spent: Duration::ZERO };
+        let state = State {
+            writer: Some(writer),
+            topics: BTreeMap::new(),
+            failure: None,
+            spent: Duration::ZERO,
+        };
         let shared = Arc::new(Shared { wanted, state: Mutex::new(state) });
         let tap = simulation.graph().tap(Box::new(BagSink(Arc::clone(&shared))));
         Ok(Self { path: file, folder, tap, shared })
@@ -147,8 +155,7 @@ impl Recorder {
 
 fn write_metadata(folder: &Path, info: &BagInfo) -> Result<(), RecordError> {
     let path = folder.join("metadata.yaml");
-    fs::write(&path, info.to_yaml(Style::default()))
-        .map_err(|error| RecordError::File(path, error))
+    fs::write(&path, info.to_yaml(Style::default())).map_err(|error| RecordError::File(path, error))
 }
 
 impl Shared {

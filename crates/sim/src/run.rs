@@ -6,9 +6,9 @@ use std::time::Duration;
 use periplus_dynamics::Diverged;
 use periplus_host::{Stopwatch, sleep};
 
+use crate::Simulation;
 use crate::pace::Pace;
 use crate::services::Services;
-use crate::Simulation;
 
 /// While a world stands still, its services are looked at this often.
 const PAUSED_WAIT: Duration = Duration::from_millis(5);

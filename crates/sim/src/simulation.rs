@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use periplus_base::Pose;
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostics;
 use periplus_dynamics::{Diverged, Mode, ModelId};
 use periplus_graph::Graph;
 use periplus_host::Stopwatch;
@@ -104,9 +104,6 @@ impl Simulation {
             files,
             options,
         };
-        let mut findings = Diagnostics::new();
-        let rate_hz = simulation.options.clock_rate_hz;
-        composition.files[0].diagnostics.append(findings);
         for member in composition.members.clone() {
             let file = member.file;
             let findings = simulation.spawn(member);
@@ -142,7 +139,7 @@ impl Simulation {
     }
 
     /// Changes the step \[s\].
-    pub(crate) fn set_step(&mut self, step_s: f64) {
+    pub fn set_step(&mut self, step_s: f64) {
         self.step_ns = nanoseconds(step_s).max(SHORTEST_STEP_NS);
     }
 

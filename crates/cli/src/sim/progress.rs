@@ -47,7 +47,8 @@ impl Line {
             }
             None => {
                 self.bar.tick();
-                self.bar.set_message(format!("{time_s:.1} s, {factor:.1} x real time; Ctrl-C ends"));
+                self.bar
+                    .set_message(format!("{time_s:.1} s, {factor:.1} x real time; Ctrl-C ends"));
             }
         }
     }

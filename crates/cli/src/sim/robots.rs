@@ -64,16 +64,17 @@ impl FromArgMatches for Robots {
             }
             robots.push((index, Placement { file, arguments, ..Placement::default() }));
         }
-        let mut told = |id: &'static str, tell: &mut dyn FnMut(&mut Placement, &str) -> Result<(), String>| {
-            for (group, index) in groups(matches, id) {
-                let before = robots.iter_mut().rev().find(|(place, _)| *place < index);
-                let Some((_, robot)) = before else {
-                    return Err(wrong(format!("--{id} belongs to a --robot before it")));
-                };
-                tell(robot, &group.concat()).map_err(wrong)?;
-            }
-            Ok(())
-        };
+        let mut told =
+            |id: &'static str, tell: &mut dyn FnMut(&mut Placement, &str) -> Result<(), String>| {
+                for (group, index) in groups(matches, id) {
+                    let before = robots.iter_mut().rev().find(|(place, _)| *place < index);
+                    let Some((_, robot)) = before else {
+                        return Err(wrong(format!("--{id} belongs to a --robot before it")));
+                    };
+                    tell(robot, &group.concat()).map_err(wrong)?;
+                }
+                Ok(())
+            };
         told(NAME, &mut |robot, word| {
             robot.name = Some(word.to_owned());
             Ok(())
@@ -152,7 +153,9 @@ mod tests {
 
     #[test]
     fn slips_are_told() {
-        assert!(read("sim world --pose 1,2,3").unwrap_err().contains("--pose belongs to a --robot"));
+        assert!(
+            read("sim world --pose 1,2,3").unwrap_err().contains("--pose belongs to a --robot")
+        );
         assert!(read("sim world --robot a.urdf b.urdf").unwrap_err().contains("own --robot"));
         assert!(read("sim world --robot a.urdf --pose 1,x").unwrap_err().contains("X,Y,YAW"));
     }
