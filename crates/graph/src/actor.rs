@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use periplus_msgs::{Message, Service};
 
 use crate::agenda::{Agenda, Event, Key, Rank};
-use crate::common::lock;
+use crate::common::{Common, lock};
 use crate::inlet::Reaction;
 use crate::node::{Node, NodeCore};
 use crate::payload::Payload;
@@ -152,6 +152,8 @@ impl<S: Send + 'static> Actor<S> {
             period_ns,
             agenda: agenda.clone(),
             is_over: AtomicBool::new(false),
+            common: self.node.0.core.common.clone(),
+            is_live: self.node.0.core.live.is_some(),
             react: Box::new(move || act(&mut |react, state, io| react(state, io))),
         });
         agenda.add(key.clone(), timer.clone());
@@ -207,7 +209,15 @@ struct Timer {
     period_ns: i64,
     agenda: Arc<Agenda>,
     is_over: AtomicBool,
+    common: Arc<Common>,
+    is_live: bool,
     react: Box<dyn Fn() + Send + Sync>,
+}
+
+impl Timer {
+    fn live_now_ns(&self) -> Option<i64> {
+        self.is_live.then(|| self.common.clock.now_ns())
+    }
 }
 
 impl Event for Timer {
@@ -216,7 +226,13 @@ impl Event for Timer {
         if self.is_over.load(Ordering::Acquire) {
             return;
         }
-        let time_ns = key.time_ns.saturating_add(self.period_ns);
+        let mut time_ns = key.time_ns.saturating_add(self.period_ns);
+        if let Some(now_ns) = self.live_now_ns()
+            && time_ns < now_ns
+        {
+            // Too slow for its period: what is missed is left out, the phase stays.
+            time_ns = now_ns + (time_ns - now_ns).rem_euclid(self.period_ns);
+        }
         self.agenda.add(Key { time_ns, ..key.clone() }, this);
         (self.react)();
     }

@@ -48,6 +48,7 @@ pub(crate) struct Agenda {
 #[derive(Default)]
 struct State {
     events: BTreeMap<Key, Arc<dyn Event>>,
+    is_closed: bool,
 }
 
 impl Agenda {
@@ -56,7 +57,11 @@ impl Agenda {
     }
 
     pub(crate) fn add(&self, key: Key, event: Arc<dyn Event>) {
-        self.lock().events.insert(key, event);
+        let mut state = self.lock();
+        if !state.is_closed {
+            state.events.insert(key, event);
+        }
+        drop(state);
         self.changed.notify_one();
     }
 
@@ -70,6 +75,40 @@ impl Agenda {
         let mut state = self.lock();
         let first = state.events.first_entry()?;
         (first.key().time_ns <= now_ns).then(|| first.remove_entry())
+    }
+
+    /// Waits for what is due, in live; none when the agenda is closed. Messages are always due: one
+    /// published just before the clock jumped back must not wait for the old time.
+    pub(crate) fn wait_due(&self, now_ns: impl Fn() -> i64) -> Option<(Key, Arc<dyn Event>)> {
+        let mut state = self.lock();
+        loop {
+            if state.is_closed {
+                return None;
+            }
+            let now_ns = now_ns();
+            let is_due = |key: &&Key| key.time_ns <= now_ns || key.rank != Rank::Timer;
+            if let Some(key) = state.events.keys().find(is_due).cloned() {
+                return state.events.remove_entry(&key);
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Time moved.
+    pub(crate) fn wake(&self) {
+        // Who is about to wait has read the old time under the lock.
+        drop(self.lock());
+        self.changed.notify_one();
+    }
+
+    /// Nothing happens any more.
+    pub(crate) fn close(&self) {
+        let mut state = self.lock();
+        state.is_closed = true;
+        let events = std::mem::take(&mut state.events);
+        drop(state);
+        self.changed.notify_one();
+        drop(events);
     }
 
     /// Takes a timer out.

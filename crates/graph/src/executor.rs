@@ -27,6 +27,12 @@ pub(crate) fn advance(core: &Core, time_ns: i64) {
     if time_ns < clock.now_ns() && !clock.is_paused() {
         return jump(core, time_ns);
     }
+    if let Some(live) = &core.live {
+        if !clock.is_paused() {
+            clock.set(time_ns);
+        }
+        return live.wake();
+    }
     let turn = match core.turn.try_lock() {
         Ok(turn) => turn,
         Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
@@ -81,6 +87,10 @@ fn refuse(core: &Core) {
 
 pub(crate) fn jump(core: &Core, time_ns: i64) {
     let clock = &core.common.clock;
+    if let Some(live) = &core.live {
+        clock.set(time_ns);
+        return live.rebase(time_ns);
+    }
     advance(core, clock.now_ns());
     let _turn = match core.turn.try_lock() {
         Ok(turn) => turn,

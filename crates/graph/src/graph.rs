@@ -7,11 +7,12 @@ use periplus_diagnostics::Diagnostics;
 use crate::agenda::Agenda;
 use crate::common::{Common, lock};
 use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
+use crate::live::Live;
 use crate::node::Node;
 use crate::registry::Registry;
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
-use crate::{GraphError, executor};
+use crate::{GraphError, executor, live};
 
 /// A graph of nodes. This is a handle: clones mean the same graph. There can be several graphs in
 /// one program, and they know nothing of each other.
@@ -26,6 +27,16 @@ pub(crate) struct Core {
     pub(crate) agenda: Arc<Agenda>,
     /// Held while time moves.
     pub(crate) turn: Mutex<executor::Turn>,
+    /// The threads, in live.
+    pub(crate) live: Option<Live>,
+}
+
+impl Drop for Core {
+    fn drop(&mut self) {
+        for tap in &lock(&self.registry).taps {
+            tap.close();
+        }
+    }
 }
 
 impl Graph {
@@ -33,6 +44,22 @@ impl Graph {
     #[must_use]
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// An empty graph in live, at time 0: every [`crate::Actor`]'s node and every tap has a thread
+    /// of its own, and [`Graph::advance_to`] only tells the time. Who is slow loses messages by its
+    /// QoS and holds up nobody.
+    #[must_use]
+    pub fn live() -> Self {
+        let mut core = Core::default();
+        core.live = Some(Live::default());
+        Self(Arc::new(core))
+    }
+
+    /// Whether nodes have threads of their own.
+    #[must_use]
+    pub fn is_live(&self) -> bool {
+        self.0.live.is_some()
     }
 
     /// The time of the graph \[ns\].
@@ -52,7 +79,12 @@ impl Graph {
     /// Adds a tap. It sees the chosen topics, those that are there and those to come, and gets what
     /// latched topics hold.
     pub fn tap(&self, sink: Box<dyn Sink>) -> TapId {
-        let tap = lock(&self.0.registry).add_tap(sink, &self.0.common);
+        let is_live = self.is_live();
+        let tap = lock(&self.0.registry).add_tap(sink, is_live, &self.0.common);
+        if is_live {
+            let (tap, common) = (tap.clone(), self.0.common.clone());
+            live::spawn("tap", move || tap.feed(&common));
+        }
         tap.flush();
         tap.id
     }
@@ -60,7 +92,16 @@ impl Graph {
     /// Ends a tap: its sink is dropped when its last message is taken.
     pub fn untap(&self, id: TapId) {
         let gone = lock(&self.0.registry).remove_tap(id, &self.0.common);
-        drop(gone);
+        if let Some(tap) = gone {
+            tap.close();
+        }
+    }
+
+    /// How many messages a tap lost because its sink is too slow; always 0 in lockstep.
+    #[must_use]
+    pub fn tap_dropped(&self, id: TapId) -> u64 {
+        let registry = lock(&self.0.registry);
+        registry.taps.iter().find(|tap| tap.id == id).map_or(0, |tap| tap.dropped())
     }
 
     /// Lets time go on to `time_ns`. Everything that is due by then happens, in the order of time,
@@ -68,6 +109,8 @@ impl Graph {
     /// A time before now is a jump back, as [`Graph::jump_to`].
     ///
     /// While the graph is paused, time stands still, and what is due now happens.
+    ///
+    /// In live the clock is set, and who waits for that is woken.
     pub fn advance_to(&self, time_ns: i64) {
         executor::advance(&self.0, time_ns);
     }

@@ -33,6 +33,7 @@ mod executor;
 mod graph;
 mod info;
 mod inlet;
+mod live;
 mod mailbox;
 mod name;
 mod node;

@@ -1,7 +1,7 @@
 //! Nodes: what publishes, subscribes, answers and calls.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use periplus_msgs::{Message, Service};
 
@@ -29,6 +29,8 @@ pub(crate) struct NodeCore {
     pub(crate) core: Arc<Core>,
     /// Counts what it made, to tell equal things apart.
     ordinal: AtomicU64,
+    /// What is to happen in its thread, in live.
+    own_agenda: OnceLock<Arc<Agenda>>,
 }
 
 impl Node {
@@ -38,7 +40,13 @@ impl Node {
             return Err(GraphError::NodeExists { node: full_name.to_string() });
         }
         let core = graph.0.clone();
-        Ok(Self(Arc::new(NodeCore { names, full_name, core, ordinal: 0.into() })))
+        Ok(Self(Arc::new(NodeCore {
+            names,
+            full_name,
+            core,
+            ordinal: 0.into(),
+            own_agenda: OnceLock::new(),
+        })))
     }
 
     /// Namespace and name, such as `/demo/scan`.
@@ -141,6 +149,9 @@ impl std::fmt::Debug for Node {
 impl Drop for NodeCore {
     fn drop(&mut self) {
         lock(&self.core.registry).nodes.remove(&self.full_name);
+        if let Some(agenda) = self.own_agenda.get() {
+            agenda.close();
+        }
     }
 }
 
@@ -188,8 +199,12 @@ impl Drop for OwnInlet {
 }
 
 impl NodeCore {
+    /// Where its reactions are put: in lockstep the one agenda of the graph, in live its own, whose
+    /// thread starts with the first.
     pub(crate) fn agenda(&self) -> Arc<Agenda> {
-        self.core.agenda.clone()
+        let Some(live) = &self.core.live else { return self.core.agenda.clone() };
+        let start = || live.start(&self.full_name, &self.core.common);
+        self.own_agenda.get_or_init(start).clone()
     }
 
     pub(crate) fn next_ordinal(&self) -> u64 {

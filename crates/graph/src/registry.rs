@@ -22,7 +22,7 @@ pub(crate) struct Registry {
     pub(crate) nodes: BTreeSet<Arc<str>>,
     pub(crate) topics: BTreeMap<Arc<str>, TopicEntry>,
     pub(crate) services: BTreeMap<Arc<str>, ServiceEntry>,
-    taps: Vec<Arc<Tap>>,
+    pub(crate) taps: Vec<Arc<Tap>>,
     next_id: u64,
 }
 
@@ -200,8 +200,13 @@ impl Registry {
     }
 
     /// Adds a tap; it gets what the topics keep for latecomers.
-    pub(crate) fn add_tap(&mut self, sink: Box<dyn Sink>, common: &Common) -> Arc<Tap> {
-        let tap = Arc::new(Tap::new(TapId(self.next_id().0), sink));
+    pub(crate) fn add_tap(
+        &mut self,
+        sink: Box<dyn Sink>,
+        is_live: bool,
+        common: &Common,
+    ) -> Arc<Tap> {
+        let tap = Arc::new(Tap::new(TapId(self.next_id().0), sink, is_live));
         self.taps.push(tap.clone());
         let mut kept = Vec::new();
         for entry in self.topics.values_mut().filter(|entry| entry.is_used()) {

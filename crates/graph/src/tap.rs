@@ -1,9 +1,11 @@
 //! Taps: recorders, wires and viewers, which see the topics that they choose.
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError, TryLockError};
 
-use crate::common::lock;
+use periplus_diagnostics::Diagnostic;
+
+use crate::common::{Common, lock};
 use crate::info::TopicInfo;
 use crate::sample::Sample;
 
@@ -12,6 +14,12 @@ pub trait Sink: Send + Sync {
     /// Whether it takes this topic. It then counts as a listener. Asked once for each topic, when
     /// the topic or the tap is new; it must not call the graph.
     fn wants(&self, topic: &TopicInfo) -> bool;
+
+    /// How many messages may wait for it in live, where it has a thread of its own; when more come,
+    /// the oldest are dropped and a finding says so.
+    fn depth(&self) -> usize {
+        10_000
+    }
 
     /// A message. In lockstep it is called before the publisher goes on, so that nothing is ever
     /// lost; never by two threads at once.
@@ -25,30 +33,89 @@ pub struct TapId(pub(crate) u64);
 pub(crate) struct Tap {
     pub(crate) id: TapId,
     pub(crate) sink: Box<dyn Sink>,
-    queue: Mutex<VecDeque<(Arc<TopicInfo>, Sample)>>,
+    queue: Mutex<Queue>,
+    /// In live, wakes the thread that feeds the sink.
+    filled: Option<Condvar>,
     /// Held by whoever feeds the sink.
     feeding: Mutex<()>,
 }
 
+#[derive(Default)]
+struct Queue {
+    samples: VecDeque<(Arc<TopicInfo>, Sample)>,
+    dropped: u64,
+    is_closed: bool,
+}
+
 impl Tap {
-    pub(crate) fn new(id: TapId, sink: Box<dyn Sink>) -> Self {
-        Self { id, sink, queue: Mutex::default(), feeding: Mutex::default() }
+    pub(crate) fn new(id: TapId, sink: Box<dyn Sink>, is_live: bool) -> Self {
+        let filled = is_live.then(Condvar::new);
+        Self { id, sink, queue: Mutex::default(), filled, feeding: Mutex::default() }
     }
 
     pub(crate) fn push(&self, topic: &Arc<TopicInfo>, sample: &Sample) {
-        lock(&self.queue).push_back((topic.clone(), sample.clone()));
+        let mut queue = lock(&self.queue);
+        if self.filled.is_some() && queue.samples.len() >= self.sink.depth().max(1) {
+            queue.samples.pop_front();
+            queue.dropped += 1;
+        }
+        queue.samples.push_back((topic.clone(), sample.clone()));
+    }
+
+    /// How many messages it lost.
+    pub(crate) fn dropped(&self) -> u64 {
+        lock(&self.queue).dropped
+    }
+
+    /// No more will come; what waits is still taken.
+    pub(crate) fn close(&self) {
+        lock(&self.queue).is_closed = true;
+        if let Some(filled) = &self.filled {
+            filled.notify_one();
+        }
+    }
+
+    /// Feeds the sink in a thread of its own until the tap is closed.
+    pub(crate) fn feed(&self, common: &Common) {
+        let Some(filled) = &self.filled else { return };
+        let mut told = false;
+        loop {
+            let mut queue = lock(&self.queue);
+            let (topic, sample) = loop {
+                match queue.samples.pop_front() {
+                    Some(next) => break next,
+                    None if queue.is_closed => return,
+                    None => queue = filled.wait(queue).unwrap_or_else(PoisonError::into_inner),
+                }
+            };
+            let is_slow = queue.dropped > 0;
+            drop(queue);
+            if is_slow && !told {
+                told = true;
+                let message = "a recorder or wire is too slow and loses messages".to_owned();
+                common.report(Diagnostic::warning("slow-tap", message).help(
+                    "choose fewer topics for it, lower the rates, or run in lockstep, where it \
+                     is waited for",
+                ));
+            }
+            self.sink.take(&topic, &sample);
+        }
     }
 
     /// Feeds the sink, unless somebody does already: then that one goes on until all is taken.
     pub(crate) fn flush(&self) {
-        while !lock(&self.queue).is_empty() {
+        if let Some(filled) = &self.filled {
+            filled.notify_one();
+            return;
+        }
+        while !lock(&self.queue).samples.is_empty() {
             let _feeding = match self.feeding.try_lock() {
                 Ok(feeding) => feeding,
                 Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
                 Err(TryLockError::WouldBlock) => return,
             };
             loop {
-                let Some((topic, sample)) = lock(&self.queue).pop_front() else { break };
+                let Some((topic, sample)) = lock(&self.queue).samples.pop_front() else { break };
                 self.sink.take(&topic, &sample);
             }
         }

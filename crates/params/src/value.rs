@@ -49,7 +49,41 @@ impl Value {
                 }
             }
         };
-        let numbers = match &value {
+        value.check_range(parameter)?;
+        Ok(value)
+    }
+
+    /// A value that came as one, from a wire: it must be of the kind of the parameter and in its
+    /// range. A whole number is a number, too.
+    ///
+    /// # Errors
+    /// The rest of the sentence "the value ...", as [`Value::read`].
+    pub fn fit(self, parameter: &Parameter) -> Result<Self, String> {
+        let value = match (parameter.kind, self) {
+            (Kind::Number, Self::Integer(integer)) => Self::Number(integer as f64),
+            (Kind::Choice(_), Self::Text(text)) => Self::read(parameter, &text)?,
+            (Kind::Number | Kind::NumberList, Self::Number(number)) if number.is_nan() => {
+                return Err("is not a number".into());
+            }
+            (Kind::NumberList, Self::Numbers(list)) if list.iter().any(|n| n.is_nan()) => {
+                return Err("is not a list of numbers: one of them is none".into());
+            }
+            (Kind::Bool, value @ Self::Bool(_))
+            | (Kind::Integer, value @ Self::Integer(_))
+            | (Kind::Number, value @ Self::Number(_))
+            | (Kind::Text, value @ Self::Text(_))
+            | (Kind::NumberList, value @ Self::Numbers(_))
+            | (Kind::TextList, value @ Self::Texts(_)) => value,
+            (kind, value) => {
+                return Err(format!("is of another kind: {value} where {kind} belongs"));
+            }
+        };
+        value.check_range(parameter)?;
+        Ok(value)
+    }
+
+    fn check_range(&self, parameter: &Parameter) -> Result<(), String> {
+        let numbers = match self {
             Self::Integer(integer) => vec![*integer as f64],
             Self::Number(number) => vec![*number],
             Self::Numbers(numbers) => numbers.clone(),
@@ -61,7 +95,7 @@ impl Value {
             let unit = parameter.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
             return Err(format!("is out of range: {number}{unit} must be {range}"));
         }
-        Ok(value)
+        Ok(())
     }
 }
 
@@ -221,6 +255,19 @@ mod tests {
         assert_eq!(reason("nan"), "is not a number");
         assert_eq!(reason(""), "is empty; write a number");
         assert_eq!(reason("0"), "is out of range: 0 m must be above 0");
+    }
+
+    #[test]
+    fn values_from_a_wire_must_fit() {
+        let length = number("length", "m", "").above(0.0);
+        assert_eq!(Value::Integer(2).fit(&length), Ok(Value::Number(2.0)));
+        let reason = |value: Value| value.fit(&length).unwrap_err();
+        assert_eq!(reason(Value::Number(0.0)), "is out of range: 0 m must be above 0");
+        assert_eq!(reason(Value::Number(f64::NAN)), "is not a number");
+        assert_eq!(reason(Value::Bool(true)), "is of another kind: true where number belongs");
+        let side = choice("side", &["left", "right"], "");
+        assert_eq!(Value::Text("Left".into()).fit(&side), Ok(Value::Text("left".into())));
+        assert!(Value::Text("up".into()).fit(&side).is_err());
     }
 
     #[test]

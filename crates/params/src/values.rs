@@ -26,6 +26,15 @@ impl Values {
         Self { table, given }
     }
 
+    /// Sets a value that fits ([`Value::fit`]), in place of all that were given. False when the
+    /// table does not declare the name.
+    pub fn set(&mut self, name: &str, value: Value) -> bool {
+        let Some(parameter) = self.table.find(name) else { return false };
+        let located = Located { value, origin: Origin::default() };
+        self.given.insert(parameter.name, vec![located]);
+        true
+    }
+
     /// The table.
     #[must_use]
     pub fn table(&self) -> &'static Table {
