@@ -16,6 +16,8 @@ pub(crate) struct Common {
 pub(crate) struct Clock {
     now_ns: AtomicI64,
     is_paused: AtomicBool,
+    /// Whether it tells the time of the machine, not of a simulation.
+    is_real: AtomicBool,
 }
 
 impl Clock {
@@ -25,6 +27,14 @@ impl Clock {
 
     pub(crate) fn set(&self, now_ns: i64) {
         self.now_ns.store(now_ns, Ordering::Release);
+    }
+
+    pub(crate) fn is_simulated(&self) -> bool {
+        !self.is_real.load(Ordering::Acquire)
+    }
+
+    pub(crate) fn set_simulated(&self, is_simulated: bool) {
+        self.is_real.store(!is_simulated, Ordering::Release);
     }
 
     pub(crate) fn is_paused(&self) -> bool {
@@ -47,6 +57,6 @@ impl Common {
 }
 
 /// Locks; a panic elsewhere must not spread.
-pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(crate) fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

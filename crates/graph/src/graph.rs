@@ -131,6 +131,12 @@ impl Graph {
         self.0.common.clock.set_paused(is_paused);
     }
 
+    /// Whether the time that it is told is that of a simulation (so it is at first) or that of the
+    /// machine. It is what the parameter `use_sim_time` of all nodes says.
+    pub fn set_simulated_time(&self, is_simulated: bool) {
+        self.0.common.clock.set_simulated(is_simulated);
+    }
+
     /// Whether time stands still.
     #[must_use]
     pub fn is_paused(&self) -> bool {

@@ -3,6 +3,7 @@
 //! A [`Graph`] has nodes; a [`Node`] has publishers, subscriptions, servers and clients. Who only
 //! looks from time to time polls: [`Mailbox`], [`Calls`]. Who reacts is an [`Actor`]: a state and
 //! closures. Recorders, wires and viewers are taps ([`Sink`]).
+//! [`Parameters`] come from a table and are set through the services that ROS 2 knows.
 //!
 //! ```
 //! use periplus_graph::{Graph, NodeSettings, Qos};
@@ -38,6 +39,7 @@ mod mailbox;
 mod name;
 mod node;
 mod outlet;
+mod parameters;
 mod payload;
 mod publisher;
 mod qos;
@@ -63,6 +65,7 @@ pub use name::{
     valid_node_name, valid_topic_name,
 };
 pub use node::Node;
+pub use parameters::Parameters;
 pub use publisher::{Publisher, RawPublisher};
 pub use qos::{Durability, History, Liveliness, Policy, Qos, Reliability};
 pub use sample::{EndpointId, Sample};

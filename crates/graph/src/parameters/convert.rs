@@ -1,0 +1,95 @@
+//! Values and descriptions of parameters as messages.
+
+use periplus_msgs::rcl_interfaces::{
+    FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterType, ParameterValue,
+};
+use periplus_params::{Kind, Parameter, Value};
+
+pub(super) fn to_message(value: Value) -> ParameterValue {
+    let r#type = kind(&value);
+    let blank = ParameterValue { r#type, ..Default::default() };
+    match value {
+        Value::Bool(bool_value) => ParameterValue { bool_value, ..blank },
+        Value::Integer(integer_value) => ParameterValue { integer_value, ..blank },
+        Value::Number(double_value) => ParameterValue { double_value, ..blank },
+        Value::Text(string_value) => ParameterValue { string_value, ..blank },
+        Value::Numbers(double_array_value) => ParameterValue { double_array_value, ..blank },
+        Value::Texts(string_array_value) => ParameterValue { string_array_value, ..blank },
+    }
+}
+
+fn kind(value: &Value) -> u8 {
+    match value {
+        Value::Bool(_) => ParameterType::PARAMETER_BOOL,
+        Value::Integer(_) => ParameterType::PARAMETER_INTEGER,
+        Value::Number(_) => ParameterType::PARAMETER_DOUBLE,
+        Value::Text(_) => ParameterType::PARAMETER_STRING,
+        Value::Numbers(_) => ParameterType::PARAMETER_DOUBLE_ARRAY,
+        Value::Texts(_) => ParameterType::PARAMETER_STRING_ARRAY,
+    }
+}
+
+/// The error is the rest of the sentence "the value ...".
+pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
+    Ok(match value.r#type {
+        ParameterType::PARAMETER_BOOL => Value::Bool(value.bool_value),
+        ParameterType::PARAMETER_INTEGER => Value::Integer(value.integer_value),
+        ParameterType::PARAMETER_DOUBLE => Value::Number(value.double_value),
+        ParameterType::PARAMETER_STRING => Value::Text(value.string_value.clone()),
+        ParameterType::PARAMETER_INTEGER_ARRAY => {
+            Value::Numbers(value.integer_array_value.iter().map(|one| *one as f64).collect())
+        }
+        ParameterType::PARAMETER_DOUBLE_ARRAY => Value::Numbers(value.double_array_value.clone()),
+        ParameterType::PARAMETER_STRING_ARRAY => Value::Texts(value.string_array_value.clone()),
+        ParameterType::PARAMETER_NOT_SET => {
+            return Err("is not set; parameters of a table cannot be taken away".into());
+        }
+        other => return Err(format!("is of the kind {other}, which no parameter here has")),
+    })
+}
+
+/// What a table says of a parameter.
+pub(super) fn describe(parameter: &Parameter) -> ParameterDescriptor {
+    let unit = parameter.unit.map(|unit| format!(" [{unit}]")).unwrap_or_default();
+    let mut descriptor = ParameterDescriptor {
+        name: parameter.name.to_owned(),
+        r#type: type_of(parameter.kind),
+        description: format!("{}{unit}", parameter.doc),
+        ..Default::default()
+    };
+    if let Kind::Choice(words) = parameter.kind {
+        descriptor.additional_constraints = format!("one of {}", words.join(", "));
+    }
+    let Some(range) = parameter.range else { return descriptor };
+    // Messages know neither an open end nor a range of lists, so the words say it, too.
+    descriptor.additional_constraints = range.to_string();
+    match parameter.kind {
+        Kind::Integer => descriptor.integer_range.push(IntegerRange {
+            // Conversions saturate, so no end becomes the greatest number.
+            #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+            from_value: range.min as i64 + i64::from(range.above),
+            #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+            to_value: range.max as i64,
+            step: 0,
+        }),
+        Kind::Number => descriptor.floating_point_range.push(FloatingPointRange {
+            from_value: range.min.max(f64::MIN),
+            to_value: range.max.min(f64::MAX),
+            step: 0.0,
+        }),
+        _ => {}
+    }
+    descriptor
+}
+
+pub(super) fn type_of(kind: Kind) -> u8 {
+    match kind {
+        Kind::Bool => ParameterType::PARAMETER_BOOL,
+        Kind::Integer => ParameterType::PARAMETER_INTEGER,
+        Kind::Number => ParameterType::PARAMETER_DOUBLE,
+        Kind::Text | Kind::Choice(_) => ParameterType::PARAMETER_STRING,
+        Kind::NumberList => ParameterType::PARAMETER_DOUBLE_ARRAY,
+        Kind::TextList => ParameterType::PARAMETER_STRING_ARRAY,
+        Kind::Group => ParameterType::PARAMETER_NOT_SET,
+    }
+}

@@ -1,0 +1,156 @@
+//! Parameters, as others see them.
+#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+
+use std::sync::Arc;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_graph::{Graph, Node, NodeSettings, Qos};
+use periplus_msgs::Service;
+use periplus_msgs::rcl_interfaces::{
+    DescribeParameters, DescribeParametersRequest, GetParameters, GetParametersRequest,
+    ListParameters, ListParametersRequest, Parameter, ParameterEvent, ParameterType,
+    ParameterValue, SetParameters, SetParametersAtomically, SetParametersAtomicallyRequest,
+    SetParametersRequest,
+};
+use periplus_params::{Given, Table, Values, choice, number};
+
+static LAMP: Table = Table {
+    name: "lamp",
+    doc: "A lamp that blinks.",
+    parameters: &[
+        number("blink.period", "s", "Time from flash to flash.").or("2").above(0.0),
+        choice("colour", &["red", "green"], "What it looks like.").or("red"),
+        number("height", "m", "Where it hangs."),
+    ],
+};
+
+fn values() -> Values {
+    let mut diagnostics = Diagnostics::new();
+    let values = LAMP.check([Given::new("blink.period", "0.5")], None, &mut diagnostics);
+    assert!(diagnostics.is_empty());
+    values
+}
+
+fn ask<S: Service>(graph: &Graph, user: &Node, name: &str, request: S::Request) -> S::Response {
+    let client = user.client::<S>(name).unwrap();
+    let pending = client.call(request);
+    graph.settle();
+    (*pending.take().unwrap().unwrap()).clone()
+}
+
+fn double(name: &str, double_value: f64) -> Parameter {
+    let r#type = ParameterType::PARAMETER_DOUBLE;
+    let value = ParameterValue { r#type, double_value, ..Default::default() };
+    Parameter { name: name.into(), value }
+}
+
+fn word(name: &str, text: &str) -> Parameter {
+    let r#type = ParameterType::PARAMETER_STRING;
+    let value = ParameterValue { r#type, string_value: text.into(), ..Default::default() };
+    Parameter { name: name.into(), value }
+}
+
+#[test]
+fn others_list_read_and_describe_them() {
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("lamp")).unwrap();
+    let _parameters = node.parameters(values()).unwrap();
+    let user = graph.node(NodeSettings::new("user")).unwrap();
+    let list = ListParametersRequest::default();
+    let listed = ask::<ListParameters>(&graph, &user, "/lamp/list_parameters", list).result;
+    assert_eq!(listed.names, ["blink.period", "colour", "height", "use_sim_time"]);
+    assert_eq!(listed.prefixes, ["blink"]);
+
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let get = GetParametersRequest { names: names(&["blink.period", "height", "use_sim_time"]) };
+    let got = ask::<GetParameters>(&graph, &user, "/lamp/get_parameters", get).values;
+    assert_eq!(got[0].double_value, 0.5);
+    assert_eq!(got[1].r#type, ParameterType::PARAMETER_NOT_SET);
+    assert!(got[2].bool_value);
+
+    let describe = DescribeParametersRequest { names: names(&["blink.period", "colour"]) };
+    let name = "/lamp/describe_parameters";
+    let described = ask::<DescribeParameters>(&graph, &user, name, describe).descriptors;
+    assert_eq!(described[0].description, "Time from flash to flash. [s]");
+    assert_eq!(described[0].additional_constraints, "above 0");
+    assert_eq!(described[0].floating_point_range[0].to_value, f64::MAX);
+    assert_eq!(described[1].additional_constraints, "one of red, green");
+}
+
+#[test]
+fn others_set_them_and_the_node_may_refuse() {
+    let graph = Graph::new();
+    let mut lamp = graph.node(NodeSettings::new("lamp")).unwrap().actor(0.0);
+    let parameters = lamp
+        .parameters(values(), |period, values, _| {
+            let wanted = values.number("blink.period").unwrap();
+            if wanted > 10.0 {
+                return Err("nobody waits so long".into());
+            }
+            *period = wanted;
+            Ok(())
+        })
+        .unwrap();
+    let user = graph.node(NodeSettings::new("user")).unwrap();
+    let events = user.mailbox::<ParameterEvent>("/parameter_events", Qos::parameters()).unwrap();
+    let set = |parameters: Vec<Parameter>| {
+        let request = SetParametersRequest { parameters };
+        let response = ask::<SetParameters>(&graph, &user, "/lamp/set_parameters", request);
+        response.results.into_iter().map(|one| one.reason).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        set(vec![
+            double("blink.period", 4.0),
+            double("blink.period", 0.0),
+            double("blink.period", 11.0),
+            double("blink.perod", 1.0),
+            word("blink.period", "fast"),
+            word("colour", "Green"),
+            word("colour", "blue"),
+        ]),
+        [
+            "",
+            "`blink.period`: the value is out of range: 0 s must be above 0",
+            "nobody waits so long",
+            "/lamp has no parameter `blink.perod`, did you mean `blink.period`?",
+            "`blink.period`: the value is of another kind: fast where number belongs",
+            "",
+            "`colour`: the value is none of `red`, `green`",
+        ]
+    );
+    assert_eq!(lamp.with(|period| *period), 4.0);
+    assert_eq!(parameters.generation(), 2);
+    assert_eq!(parameters.values().text("colour"), Some("green".into()));
+    let changed: Vec<Arc<ParameterEvent>> = events.drain();
+    assert_eq!(changed.len(), 2);
+    assert_eq!(changed[0].changed_parameters, [double("blink.period", 4.0)]);
+    assert_eq!(changed[0].node, "/lamp");
+
+    // All or none.
+    let request = SetParametersAtomicallyRequest {
+        parameters: vec![double("blink.period", 3.0), word("colour", "blue")],
+    };
+    let name = "/lamp/set_parameters_atomically";
+    let response = ask::<SetParametersAtomically>(&graph, &user, name, request);
+    assert!(!response.result.successful);
+    assert_eq!(lamp.with(|period| *period), 4.0);
+}
+
+#[test]
+fn one_program_has_one_time() {
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("lamp")).unwrap();
+    let _parameters = node.parameters(values()).unwrap();
+    let r#type = ParameterType::PARAMETER_BOOL;
+    let value = ParameterValue { r#type, bool_value: false, ..Default::default() };
+    let set = Parameter { name: "use_sim_time".into(), value };
+    let request = SetParametersRequest { parameters: vec![set] };
+    let name = "/lamp/set_parameters";
+    let response = ask::<SetParameters>(&graph, &node, name, request.clone());
+    assert_eq!(
+        response.results[0].reason,
+        "`use_sim_time` is true: all nodes of this program run on simulated time"
+    );
+    graph.set_simulated_time(false);
+    assert!(ask::<SetParameters>(&graph, &node, name, request).results[0].successful);
+}
