@@ -1,5 +1,7 @@
 //! Nodes that react: a state, and closures for messages, timers and calls.
 
+mod jump;
+
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
@@ -14,6 +16,8 @@ use crate::registry::TypeOf;
 use crate::service::{CallError, Client, Reply, Request, ServerReaction, read_answer};
 use crate::{GraphError, Qos};
 
+pub(crate) use jump::Jumps;
+
 /// A node with a state, as long as this is there. Its closures get the state, what happened, and an
 /// [`Io`]; never two of them at once.
 #[must_use = "the node stops reacting when this is dropped"]
@@ -21,7 +25,7 @@ pub struct Actor<S> {
     state: Arc<Mutex<S>>,
     node: Node,
     /// Ends of topics and services, and timers.
-    parts: Vec<Box<dyn Send>>,
+    parts: Vec<Box<dyn Send + Sync>>,
 }
 
 /// Something that is done with a closure and the state.

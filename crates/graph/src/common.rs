@@ -5,9 +5,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
+use crate::actor::Jumps;
+
 #[derive(Default)]
 pub(crate) struct Common {
     pub(crate) clock: Clock,
+    pub(crate) jumps: Jumps,
     findings: Mutex<Diagnostics>,
 }
 

@@ -89,7 +89,8 @@ pub(crate) fn jump(core: &Core, time_ns: i64) {
     let clock = &core.common.clock;
     if let Some(live) = &core.live {
         clock.set(time_ns);
-        return live.rebase(time_ns);
+        live.rebase(time_ns);
+        return core.common.jumps.tell(time_ns);
     }
     advance(core, clock.now_ns());
     let _turn = match core.turn.try_lock() {
@@ -99,4 +100,5 @@ pub(crate) fn jump(core: &Core, time_ns: i64) {
     };
     clock.set(time_ns);
     core.agenda.rebase(time_ns);
+    core.common.jumps.tell(time_ns);
 }

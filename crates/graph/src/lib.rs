@@ -69,6 +69,8 @@ pub use parameters::Parameters;
 pub use publisher::{Publisher, RawPublisher};
 pub use qos::{Durability, History, Liveliness, Policy, Qos, Reliability};
 pub use sample::{EndpointId, Sample};
-pub use service::{Call, CallError, Calls, Client, Pending};
+pub use service::{
+    Call, CallError, Calls, Client, Pending, RawCall, RawCalls, RawClient, RawMessage,
+};
 pub use settings::{NodeNames, NodeSettings};
 pub use tap::{Sink, TapId};

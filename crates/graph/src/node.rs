@@ -156,7 +156,7 @@ impl Drop for NodeCore {
 }
 
 impl TypeOf {
-    fn new(name: &str, hash: Option<&str>) -> Self {
+    pub(crate) fn new(name: &str, hash: Option<&str>) -> Self {
         Self { name: name.to_owned(), hash: hash.map(str::to_owned) }
     }
 

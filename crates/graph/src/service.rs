@@ -1,5 +1,7 @@
 //! Services: a call and its answer.
 
+mod raw;
+
 use std::collections::VecDeque;
 use std::fmt;
 use std::marker::PhantomData;
@@ -8,12 +10,14 @@ use std::sync::{Arc, Mutex};
 use periplus_msgs::Service;
 
 use crate::GraphError;
+
 use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::{Common, lock};
 use crate::node::NodeCore;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 use crate::sample::EndpointId;
+pub use raw::{RawCall, RawCalls, RawClient, RawMessage};
 
 /// Why a call has no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]

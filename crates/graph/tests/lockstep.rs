@@ -113,12 +113,13 @@ fn a_circle_is_broken_and_named() {
 fn a_reset_starts_timers_anew() {
     let graph = Graph::new();
     let notes = Notes::default();
-    let _a = noter(&graph, "a", 10, &notes);
+    let mut a = noter(&graph, "a", 10, &notes);
+    a.on_jump(|notes, io| notes.lock().unwrap().push(format!("{} jump", io.now_ns())));
     graph.advance_to(25);
     graph.advance_to(0);
     assert_eq!(graph.now_ns(), 0);
     graph.advance_to(12);
-    assert_eq!(*notes.lock().unwrap(), ["10 a tick", "20 a tick", "10 a tick"]);
+    assert_eq!(*notes.lock().unwrap(), ["10 a tick", "20 a tick", "0 jump", "10 a tick"]);
 }
 
 #[test]
@@ -192,6 +193,40 @@ fn calls_between_actors_are_answered_in_the_same_instant() {
     drop(server);
     let services = graph.services();
     assert_eq!((services[0].server.clone(), services[0].clients[0].as_str()), (None, "/caller"));
+}
+
+#[test]
+fn wires_pass_calls_on_as_bytes() {
+    let graph = Graph::new();
+    let (wire, node) =
+        (graph.node(NodeSettings::new("w")).unwrap(), graph.node(NodeSettings::new("n")).unwrap());
+    let mut server = node.actor(());
+    server
+        .serve::<SetBool>("light", |(), request, _| SetBoolResponse {
+            success: request.data,
+            message: String::new(),
+        })
+        .unwrap();
+    let inward = wire.raw_client("light", "std_srvs/srv/SetBool", None).unwrap();
+    let answers = Arc::new(Mutex::new(Vec::new()));
+    for cdr in [vec![0, 1, 0, 0, 1], vec![0, 1]] {
+        let answers = answers.clone();
+        inward.call(cdr, move |answer| {
+            let answer = answer.map(|answer| answer.cdr().unwrap().to_vec());
+            answers.lock().unwrap().push(answer.map_err(|error| error.to_string()));
+        });
+    }
+    graph.settle();
+    let answers = std::mem::take(&mut *answers.lock().unwrap());
+    assert_eq!(answers[0], Ok(vec![0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]));
+    assert!(answers[1].as_ref().unwrap_err().contains("`/light` cannot be read"));
+
+    let outward = wire.raw_server("far", "std_srvs/srv/SetBool", None).unwrap();
+    let pending = node.client::<SetBool>("far").unwrap().call(SetBoolRequest { data: true });
+    let call = outward.take().unwrap();
+    assert_eq!(call.request.cdr().unwrap(), [0, 1, 0, 0, 1]);
+    call.answer(answers[0].clone().unwrap());
+    assert!(pending.take().unwrap().unwrap().success);
 }
 
 #[test]
