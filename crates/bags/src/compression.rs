@@ -81,19 +81,30 @@ impl Packer {
 /// # Errors
 /// When the bytes are damaged, or more or fewer come out.
 pub(crate) fn unpack(compression: Compression, packed: &[u8], length: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    match compression {
-        Compression::None => bytes.extend_from_slice(packed),
-        Compression::Lz4 => read(FrameDecoder::new(packed), length, &mut bytes)?,
-        Compression::Zstd => {
-            read(zstd::stream::read::Decoder::with_buffer(packed)?, length, &mut bytes)?;
-        }
-    }
+    let damaged = |why: String| io::Error::new(io::ErrorKind::InvalidData, why);
+    let (bytes, outcome) = unpack_some(compression, packed, length);
+    outcome.map_err(|error| damaged(format!("a chunk cannot be unpacked: {error}")))?;
     if bytes.len() as u64 != length {
-        let wrong = format!("the chunk announces {length} bytes and holds {}", bytes.len());
-        return Err(io::Error::new(io::ErrorKind::InvalidData, wrong));
+        let many = bytes.len();
+        return Err(damaged(format!("a chunk announces {length} bytes and holds {many}")));
     }
     Ok(bytes)
+}
+
+/// As much as comes out, at most one byte more than `length`, and why no more.
+pub(crate) fn unpack_some(
+    compression: Compression,
+    packed: &[u8],
+    length: u64,
+) -> (Vec<u8>, io::Result<()>) {
+    let mut bytes = Vec::new();
+    let outcome = match compression {
+        Compression::None => read(packed, length, &mut bytes),
+        Compression::Lz4 => read(FrameDecoder::new(packed), length, &mut bytes),
+        Compression::Zstd => zstd::stream::read::Decoder::with_buffer(packed)
+            .and_then(|decoder| read(decoder, length, &mut bytes)),
+    };
+    (bytes, outcome)
 }
 
 fn read(source: impl Read, length: u64, bytes: &mut Vec<u8>) -> io::Result<()> {

@@ -1,8 +1,9 @@
 //! Recordings of topics.
 //!
 //! A [`Writer`] makes MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and Lichtblick
-//! open; [`BagInfo`] is the `metadata.yaml` beside them. Nothing here opens files: sinks and
-//! sources come in.
+//! open; [`BagInfo`] is the `metadata.yaml` beside them. A [`Reader`] gives the messages of any MCAP
+//! file in the order of their times, also of one that was cut off. Nothing here opens files: sinks
+//! and sources come in.
 //!
 //! ```
 //! use periplus_bags::{QosProfile, Settings, Stamp, Topic, Writer};
@@ -24,6 +25,7 @@ mod check;
 mod compression;
 mod metadata;
 mod qos;
+mod read;
 mod record;
 mod write;
 
@@ -31,4 +33,5 @@ pub use check::{Fault, check};
 pub use compression::Compression;
 pub use metadata::{BagInfo, FileInfo, Style, TopicInfo};
 pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
+pub use read::{BagTopic, Limits, Message, Messages, ReadError, Reader, Selection};
 pub use write::{Settings, Stamp, Topic, TopicId, WriteError, Writer};

@@ -59,7 +59,7 @@ pub struct TopicInfo {
 pub struct FileInfo {
     /// Its name beside `metadata.yaml`.
     pub path: String,
-    /// Time of the first message and of the last [ns]; none without messages.
+    /// Time of the first message and of the last \[ns\]; none without messages.
     pub span_ns: Option<(i64, i64)>,
     /// Number of messages.
     pub messages: u64,
@@ -72,7 +72,7 @@ impl BagInfo {
         self.topics.iter().map(|topic| topic.messages).sum()
     }
 
-    /// Time of the first message and of the last [ns]; none without messages.
+    /// Time of the first message and of the last \[ns\]; none without messages.
     #[must_use]
     pub fn span_ns(&self) -> Option<(i64, i64)> {
         let spans = self.files.iter().filter_map(|file| file.span_ns);

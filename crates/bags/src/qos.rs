@@ -18,13 +18,13 @@ pub struct QosProfile {
     pub reliability: Reliability,
     /// Whether who comes later gets what was sent before.
     pub durability: Durability,
-    /// The longest time between messages [ns]; none is without end.
+    /// The longest time between messages \[ns\]; none is without end.
     pub deadline_ns: Option<u64>,
-    /// How long a message is of use [ns]; none is without end.
+    /// How long a message is of use \[ns\]; none is without end.
     pub lifespan_ns: Option<u64>,
     /// How a publisher shows that it is alive.
     pub liveliness: Liveliness,
-    /// How long it counts as alive [ns]; none is without end.
+    /// How long it counts as alive \[ns\]; none is without end.
     pub lease_ns: Option<u64>,
 }
 

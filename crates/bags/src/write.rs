@@ -30,7 +30,7 @@ pub struct Settings {
     pub compression: Compression,
     /// For which readers the metadata is written.
     pub style: Style,
-    /// A chunk is closed before its messages span this time [ns].
+    /// A chunk is closed before its messages span this time \[ns\].
     pub chunk_span_ns: u64,
     /// A chunk is closed when it holds this many bytes, before they are packed.
     pub chunk_bytes: usize,
@@ -59,16 +59,16 @@ impl Settings {
 /// When a message was sent and recorded, in simulated nanoseconds, and which one it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
-    /// When it was recorded [ns]; bags are played in this order.
+    /// When it was recorded \[ns\]; bags are played in this order.
     pub log_ns: i64,
-    /// When it was sent [ns].
+    /// When it was sent \[ns\].
     pub publish_ns: i64,
     /// Its number among the messages of its publisher; none counts them here, from 1.
     pub sequence: Option<u32>,
 }
 
 impl Stamp {
-    /// Sent and recorded at one time [ns].
+    /// Sent and recorded at one time \[ns\].
     #[must_use]
     pub fn at(time_ns: i64) -> Self {
         Self { log_ns: time_ns, publish_ns: time_ns, sequence: None }
@@ -80,7 +80,7 @@ impl Stamp {
 pub enum WriteError {
     /// The sink does not take the bytes. Everything after that is lost.
     Sink(io::Error),
-    /// Times of bags begin at zero [ns].
+    /// Times of bags begin at zero \[ns\].
     NegativeTime(i64),
     /// A bag holds at most 65535 topics and as many types.
     TooManyTopics,

@@ -1,0 +1,246 @@
+//! Reading a file, whatever state it is in.
+//!
+//! A file with a good summary is opened by it. One without, or with one that is damaged, is walked
+//! from front to back: what is complete is read, of a chunk that is cut as much as can be unpacked.
+//! Chunks are unpacked when their time comes, so memory does not grow with the file.
+
+mod block;
+mod messages;
+mod source;
+mod summary;
+mod walk;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::{self, Read, Seek};
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_interfaces::{Dialect, TypeName};
+use periplus_msgs::TypeRegistry;
+
+use block::Block;
+use source::Source;
+
+pub use messages::{Message, Messages, Selection};
+
+use crate::Fault;
+use crate::record::{Channel, MAGIC, Schema};
+
+/// How much memory a file may ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// The largest chunk, unpacked \[bytes\]; a larger one is left out.
+    pub chunk: u64,
+    /// All chunks that are unpacked at one time, because their times overlap \[bytes\].
+    pub unpacked: u64,
+}
+
+impl Default for Limits {
+    /// 256 MiB and 1 GiB: far above what recorders write (1 to 10 MiB).
+    fn default() -> Self {
+        Self { chunk: 256 << 20, unpacked: 1 << 30 }
+    }
+}
+
+/// Why a file cannot be read.
+#[derive(Debug)]
+pub enum ReadError {
+    /// The source fails.
+    Source(io::Error),
+    /// The file does not begin as MCAP does; what it is instead, if that can be seen.
+    NotMcap(Option<&'static str>),
+    /// The chunks of one moment need more memory than [`Limits::unpacked`].
+    TooLarge(u64),
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Source(error) => write!(f, "the bag cannot be read: {error}"),
+            Self::NotMcap(Some(other)) => write!(f, "this is not an MCAP file but {other}"),
+            Self::NotMcap(None) => write!(f, "this is not an MCAP file"),
+            Self::TooLarge(bytes) => write!(
+                f,
+                "the chunks of one moment need {bytes} bytes: the times of the bag overlap too much"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
+        Self::Source(error)
+    }
+}
+
+/// A topic of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BagTopic {
+    /// Its full name.
+    pub name: String,
+    /// The full name of its type; empty when the file does not tell it.
+    pub type_name: String,
+    /// How its messages are encoded: `cdr`, `ros1`, `json`, ...
+    pub encoding: String,
+    /// What kind of text defines the type: `ros2msg`, `ros2idl`, `ros1msg`, `jsonschema`, ...
+    pub schema_encoding: String,
+    /// That text.
+    pub schema: Vec<u8>,
+    /// What else the file tells of it, such as `offered_qos_profiles`.
+    pub metadata: BTreeMap<String, String>,
+}
+
+/// A file of messages.
+pub struct Reader<R> {
+    source: Source<R>,
+    limits: Limits,
+    topics: Vec<BagTopic>,
+    /// Which topic a channel is.
+    by_channel: BTreeMap<u16, usize>,
+    blocks: Vec<Block>,
+    faults: Vec<Fault>,
+    has_summary: bool,
+    messages: Option<u64>,
+}
+
+/// What opening a file finds, by its summary or by a walk.
+#[derive(Default)]
+struct Contents {
+    schemas: BTreeMap<u16, Schema>,
+    channels: BTreeMap<u16, Channel>,
+    blocks: Vec<Block>,
+    messages: Option<u64>,
+}
+
+impl<R: Read + Seek> Reader<R> {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// When the source fails or is no MCAP file. Damage further in is no error but a
+    /// [fault](Self::faults).
+    pub fn open(source: R) -> Result<Self, ReadError> {
+        Self::open_within(source, Limits::default())
+    }
+
+    /// As [`Reader::open`], with other limits.
+    ///
+    /// # Errors
+    /// As [`Reader::open`].
+    pub fn open_within(source: R, limits: Limits) -> Result<Self, ReadError> {
+        let mut source = Source::new(source)?;
+        let start = source.bytes(0, 16)?;
+        if !start.starts_with(&MAGIC) {
+            return Err(ReadError::NotMcap(other_format(&start)));
+        }
+        let mut faults = Vec::new();
+        let by_summary = summary::read(&mut source, &limits, &mut faults)?;
+        let has_summary = by_summary.is_some();
+        let contents = match by_summary {
+            Some(contents) => contents,
+            None => walk::all(&mut source, &limits, &mut faults)?,
+        };
+        let (topics, by_channel) = name_topics(&contents);
+        let Contents { mut blocks, messages, .. } = contents;
+        blocks.sort_by_key(|block| (block.start, block.offset));
+        Ok(Self { source, limits, topics, by_channel, blocks, faults, has_summary, messages })
+    }
+
+    /// The topics, in the order of their channels.
+    #[must_use]
+    pub fn topics(&self) -> &[BagTopic] {
+        &self.topics
+    }
+
+    /// What is damaged, as far as anyone looked: chunks are looked at when they are read.
+    #[must_use]
+    pub fn faults(&self) -> &[Fault] {
+        &self.faults
+    }
+
+    /// Whether the file was closed properly: it has a summary, and that is in order.
+    #[must_use]
+    pub fn has_summary(&self) -> bool {
+        self.has_summary
+    }
+
+    /// How many messages there are, if the file tells it or was walked through.
+    #[must_use]
+    pub fn message_count(&self) -> Option<u64> {
+        self.messages
+    }
+
+    /// Time of the first message and of the last \[ns\]; none without messages.
+    #[must_use]
+    pub fn span_ns(&self) -> Option<(i64, i64)> {
+        let start = self.blocks.iter().map(|block| block.start).min()?;
+        let end = self.blocks.iter().map(|block| block.end).max()?;
+        Some((signed(start), signed(end)))
+    }
+
+    /// Messages in the order of their log times; those of one time in the order of the file.
+    pub fn messages(&mut self, selection: Selection) -> Messages<'_, R> {
+        Messages::new(self, selection)
+    }
+
+    /// The types of the topics, ready to decode their messages. What cannot be used is left out,
+    /// and the findings say why.
+    #[must_use]
+    pub fn types(&self, sources: &mut SourceMap, diagnostics: &mut Diagnostics) -> TypeRegistry {
+        let mut registry = periplus_interfaces::Registry::new();
+        for topic in &self.topics {
+            let dialect = match topic.schema_encoding.as_str() {
+                "ros2msg" => Dialect::Ros2,
+                "ros1msg" => Dialect::Ros1,
+                _ => continue,
+            };
+            let Some(name) = TypeName::read(&topic.type_name) else { continue };
+            let text = String::from_utf8_lossy(&topic.schema).into_owned();
+            let file = sources.add(format!("schema of {}", topic.name), text);
+            registry.add_schema(&name, file, sources, dialect, diagnostics);
+        }
+        TypeRegistry::new(registry, diagnostics)
+    }
+}
+
+/// What else a file may be, by its first bytes.
+fn other_format(start: &[u8]) -> Option<&'static str> {
+    let known: [(&[u8], &str); 3] = [
+        (b"SQLite format 3", "a database of rosbag2 (sqlite3); convert it to MCAP"),
+        (b"#ROSBAG V", "a bag of ROS 1; convert it to MCAP"),
+        (b"rosbag2_bagfile", "the metadata.yaml of a bag; name the .mcap file"),
+    ];
+    known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
+}
+
+fn name_topics(contents: &Contents) -> (Vec<BagTopic>, BTreeMap<u16, usize>) {
+    let mut by_channel = BTreeMap::new();
+    let mut topics = Vec::new();
+    for channel in contents.channels.values() {
+        let schema = contents.schemas.get(&channel.schema);
+        by_channel.insert(channel.id, topics.len());
+        topics.push(BagTopic {
+            name: channel.topic.clone(),
+            type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
+            encoding: channel.encoding.clone(),
+            schema_encoding: schema.map(|schema| schema.encoding.clone()).unwrap_or_default(),
+            schema: schema.map(|schema| schema.data.clone()).unwrap_or_default(),
+            metadata: channel.metadata.clone(),
+        });
+    }
+    (topics, by_channel)
+}
+
+fn signed(time: u64) -> i64 {
+    i64::try_from(time).unwrap_or(i64::MAX)
+}
+
+/// More faults than this are not kept.
+const MOST_FAULTS: usize = 100;
+
+fn fault(faults: &mut Vec<Fault>, offset: u64, message: impl Into<String>) {
+    if faults.len() < MOST_FAULTS {
+        faults.push(Fault { offset, message: message.into() });
+    }
+}

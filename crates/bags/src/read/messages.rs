@@ -1,0 +1,184 @@
+//! Messages in the order of their times.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::io::{Read, Seek};
+use std::ops::RangeInclusive;
+
+use super::block::{Block, messages};
+use super::{ReadError, Reader, fault, signed};
+use crate::record::{Cursor, MessageHead};
+
+/// Which messages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Selection {
+    /// Names of topics; none are all.
+    pub topics: Option<BTreeSet<String>>,
+    /// From when to when, by log time \[ns\].
+    pub span_ns: RangeInclusive<i64>,
+}
+
+impl Default for Selection {
+    /// All.
+    fn default() -> Self {
+        Self { topics: None, span_ns: i64::MIN..=i64::MAX }
+    }
+}
+
+impl Selection {
+    /// All messages of some topics.
+    pub fn topics<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let topics = names.into_iter().map(str::to_owned).collect();
+        Self { topics: Some(topics), ..Self::default() }
+    }
+}
+
+/// One message of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Message<'a> {
+    /// Which of the [topics](Reader::topics).
+    pub topic: usize,
+    /// Its number among the messages of its publisher.
+    pub sequence: u32,
+    /// When it was recorded \[ns\].
+    pub log_ns: i64,
+    /// When it was sent \[ns\].
+    pub publish_ns: i64,
+    /// Its bytes.
+    pub data: &'a [u8],
+}
+
+/// A piece that is unpacked: its selected messages, the next one last.
+struct Open {
+    records: Vec<u8>,
+    ahead: Vec<(u64, usize)>,
+}
+
+/// Messages of a [`Reader`], in the order of their times.
+pub struct Messages<'r, R> {
+    reader: &'r mut Reader<R>,
+    channels: BTreeSet<u16>,
+    span: RangeInclusive<u64>,
+    /// The pieces that are still to be unpacked, the earliest last.
+    blocks: Vec<Block>,
+    open: BTreeMap<usize, Open>,
+    /// Next time, place in the file, and number among `open` of each open piece.
+    heads: BinaryHeap<Reverse<(u64, u64, usize)>>,
+    unpacked: u64,
+    opened: usize,
+    /// The piece of the message that was given last.
+    finished: Option<usize>,
+}
+
+impl<'r, R: Read + Seek> Messages<'r, R> {
+    pub(super) fn new(reader: &'r mut Reader<R>, selection: Selection) -> Self {
+        let is_wanted = |topic: usize| {
+            let name = &reader.topics[topic].name;
+            selection.topics.as_ref().is_none_or(|names| names.contains(name))
+        };
+        let channels: BTreeSet<u16> = reader
+            .by_channel
+            .iter()
+            .filter(|(_, topic)| is_wanted(**topic))
+            .map(|(channel, _)| *channel)
+            .collect();
+        let unsigned = |time_ns: i64| u64::try_from(time_ns).unwrap_or(0);
+        let (from, to) = (*selection.span_ns.start(), *selection.span_ns.end());
+        // The end of time is that of the file.
+        let last = if to == i64::MAX { u64::MAX } else { unsigned(to) };
+        #[expect(clippy::reversed_empty_ranges, reason = "a range without times")]
+        let span = if to < 0 { 1..=0 } else { unsigned(from)..=last };
+        let mut blocks: Vec<Block> = reader
+            .blocks
+            .iter()
+            .filter(|block| block.start <= *span.end() && block.end >= *span.start())
+            .filter(|block| block.channels.as_ref().is_none_or(|all| !all.is_disjoint(&channels)))
+            .cloned()
+            .collect();
+        blocks.reverse();
+        Self {
+            reader,
+            channels,
+            span,
+            blocks,
+            open: BTreeMap::new(),
+            heads: BinaryHeap::new(),
+            unpacked: 0,
+            opened: 0,
+            finished: None,
+        }
+    }
+
+    /// The next message. A damaged piece is left out and becomes a [fault](Reader::faults).
+    ///
+    /// # Errors
+    /// When the source fails, or too many pieces would have to be unpacked at one time.
+    #[expect(clippy::should_implement_trait, reason = "a message borrows from its chunk")]
+    pub fn next(&mut self) -> Result<Option<Message<'_>>, ReadError> {
+        if let Some(done) = self.finished.take() {
+            self.close(done);
+        }
+        while let Some(block) = self.blocks.last() {
+            if self.heads.peek().is_some_and(|Reverse((time, ..))| *time < block.start) {
+                break;
+            }
+            if let Some(block) = self.blocks.pop() {
+                self.open(&block)?;
+            }
+        }
+        let Some(Reverse((_, offset, number))) = self.heads.pop() else { return Ok(None) };
+        let Some(open) = self.open.get_mut(&number) else { return Ok(None) };
+        let Some((_, at)) = open.ahead.pop() else { return Ok(None) };
+        match open.ahead.last() {
+            Some(&(time, _)) => self.heads.push(Reverse((time, offset, number))),
+            // Its memory is still lent to the caller.
+            None => self.finished = Some(number),
+        }
+        let record = open.records.get(at..).and_then(|bytes| Cursor::new(bytes).record());
+        let Some((head, data)) = record.and_then(|(_, content)| MessageHead::parse(content)) else {
+            return Ok(None);
+        };
+        Ok(Some(Message {
+            topic: self.reader.by_channel.get(&head.channel).copied().unwrap_or_default(),
+            sequence: head.sequence,
+            log_ns: signed(head.log_time),
+            publish_ns: signed(head.publish_time),
+            data,
+        }))
+    }
+
+    fn open(&mut self, block: &Block) -> Result<(), ReadError> {
+        let unpacked = self.unpacked.saturating_add(block.length);
+        if unpacked > self.reader.limits.unpacked {
+            return Err(ReadError::TooLarge(unpacked));
+        }
+        let records = match block.load(&mut self.reader.source, self.reader.limits.chunk) {
+            Ok(records) => records,
+            Err(error) if error.kind() == std::io::ErrorKind::InvalidData => {
+                fault(&mut self.reader.faults, block.offset, error.to_string());
+                return Ok(());
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let mut ahead: Vec<(u64, usize)> = messages(&records)
+            .filter(|(_, head)| self.channels.contains(&head.channel))
+            .filter(|(_, head)| self.span.contains(&head.log_time))
+            .map(|(at, head)| (head.log_time, at))
+            .collect();
+        ahead.sort_unstable_by(|a, b| b.cmp(a));
+        if let Some(&(time, _)) = ahead.last() {
+            let number = self.opened;
+            self.opened += 1;
+            self.heads.push(Reverse((time, block.offset, number)));
+            self.unpacked += records.len() as u64;
+            self.open.insert(number, Open { records, ahead });
+        }
+        Ok(())
+    }
+
+    fn close(&mut self, number: usize) {
+        if let Some(open) = self.open.remove(&number) {
+            self.unpacked -= open.records.len() as u64;
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! A file that is read here and there.
+
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+
+pub(super) struct Source<R> {
+    inner: BufReader<R>,
+    at: u64,
+    pub(super) length: u64,
+}
+
+impl<R: Read + Seek> Source<R> {
+    pub(super) fn new(mut inner: R) -> io::Result<Self> {
+        let length = inner.seek(SeekFrom::End(0))?;
+        inner.seek(SeekFrom::Start(0))?;
+        Ok(Self { inner: BufReader::with_capacity(1 << 16, inner), at: 0, length })
+    }
+
+    /// Bytes from `offset` on; fewer where the file ends. Memory grows with what is there.
+    pub(super) fn bytes(&mut self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
+        let length = length.min(self.length.saturating_sub(offset));
+        // Small steps stay in the buffer.
+        match i64::try_from(i128::from(offset) - i128::from(self.at)) {
+            Ok(0) => {}
+            Ok(step) => self.inner.seek_relative(step)?,
+            Err(_) => {
+                self.inner.seek(SeekFrom::Start(offset))?;
+            }
+        }
+        let mut bytes = Vec::new();
+        self.inner.by_ref().take(length).read_to_end(&mut bytes)?;
+        self.at = offset + bytes.len() as u64;
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,126 @@
+//! What a file says about itself at its end.
+
+use std::io::{Read, Seek};
+
+use super::block::{Block, Kind};
+use super::source::Source;
+use super::{Contents, Limits, ReadError, fault, walk};
+use crate::Fault;
+use crate::record::{
+    Channel, ChunkIndex, Cursor, FOOTER, Footer, MAGIC, PREFIX, Schema, Statistics, op,
+};
+
+/// The contents by the summary; none when there is none or it cannot be believed.
+pub(super) fn read<R: Read + Seek>(
+    source: &mut Source<R>,
+    limits: &Limits,
+    faults: &mut Vec<Fault>,
+) -> Result<Option<Contents>, ReadError> {
+    let tail = (FOOTER + MAGIC.len()) as u64;
+    let Some(footer_at) = source.length.checked_sub(tail) else { return Ok(None) };
+    let tail = source.bytes(footer_at, tail)?;
+    let footer = match Cursor::new(&tail).record() {
+        Some((op::FOOTER, content)) if tail.ends_with(&MAGIC) => Footer::parse(content),
+        _ => None,
+    };
+    let Some(footer) = footer else {
+        fault(faults, source.length, "the file was not closed: its summary is missing");
+        return Ok(None);
+    };
+    if footer.summary == 0 {
+        return Ok(None);
+    }
+    if footer.summary < MAGIC.len() as u64 || footer.summary > footer_at {
+        fault(faults, footer_at, "the footer names a summary outside of the file");
+        return Ok(None);
+    }
+    let mut bytes = source.bytes(footer.summary, footer_at - footer.summary)?;
+    let length = bytes.len();
+    bytes.extend_from_slice(&tail[..PREFIX + 16]);
+    if footer.crc != 0 && footer.crc != crc32fast::hash(&bytes) {
+        fault(faults, footer_at, "the sum over the summary is wrong");
+        return Ok(None);
+    }
+    let Some((contents, chunks)) = parse(&bytes[..length]) else {
+        fault(faults, footer.summary, "the summary is damaged");
+        return Ok(None);
+    };
+    complete(source, contents, chunks, footer.summary, limits, faults)
+}
+
+fn parse(summary: &[u8]) -> Option<(Contents, Vec<ChunkIndex>)> {
+    let mut contents = Contents::default();
+    let mut chunks = Vec::new();
+    let mut cursor = Cursor::new(summary);
+    while !cursor.rest().is_empty() {
+        let (opcode, content) = cursor.record()?;
+        match opcode {
+            op::SCHEMA => {
+                let schema = Schema::parse(content)?;
+                contents.schemas.insert(schema.id, schema);
+            }
+            op::CHANNEL => {
+                let channel = Channel::parse(content)?;
+                contents.channels.insert(channel.id, channel);
+            }
+            op::STATISTICS => contents.messages = Some(Statistics::parse(content)?.messages),
+            op::CHUNK_INDEX => chunks.push(ChunkIndex::parse(content)?),
+            _ => {}
+        }
+    }
+    Some((contents, chunks))
+}
+
+/// Adds what the summary does not name: messages that stand in no chunk. None when it does not
+/// name enough to trust it.
+fn complete<R: Read + Seek>(
+    source: &mut Source<R>,
+    mut contents: Contents,
+    mut chunks: Vec<ChunkIndex>,
+    end: u64,
+    limits: &Limits,
+    faults: &mut Vec<Fault>,
+) -> Result<Option<Contents>, ReadError> {
+    // Repeating types and topics is a choice of the writer, and so is indexing the chunks.
+    let has_names = chunks
+        .iter()
+        .all(|chunk| chunk.indexes.keys().all(|channel| contents.channels.contains_key(channel)));
+    let has_types = contents
+        .channels
+        .values()
+        .all(|channel| channel.schema == 0 || contents.schemas.contains_key(&channel.schema));
+    if !has_names || !has_types || contents.channels.is_empty() || chunks.is_empty() {
+        return Ok(None);
+    }
+    chunks.sort_by_key(|chunk| chunk.offset);
+    let mut at = MAGIC.len() as u64;
+    for chunk in chunks {
+        let next = chunk
+            .offset
+            .checked_add(chunk.stored)
+            .and_then(|next| next.checked_add(chunk.indexes_length))
+            .filter(|&next| chunk.offset >= at && next <= end);
+        let Some(next) = next else {
+            fault(faults, chunk.offset, "the summary names a chunk where none can be");
+            return Ok(None);
+        };
+        if chunk.length > limits.chunk {
+            let wrong = format!("a chunk holds {} bytes, more than is allowed", chunk.length);
+            fault(faults, chunk.offset, wrong);
+        } else {
+            contents.blocks.push(Block {
+                offset: chunk.offset,
+                stored: chunk.stored,
+                start: chunk.start,
+                end: chunk.end,
+                length: chunk.length,
+                kind: Kind::Chunk,
+                // Without indexes nothing is known of the channels.
+                channels: (!chunk.indexes.is_empty()).then(|| chunk.indexes.into_keys().collect()),
+            });
+        }
+        contents = walk::gap(source, at, chunk.offset, contents, faults)?;
+        at = next;
+    }
+    walk::gap(source, at, end, contents, faults).map(Some)
+}

@@ -1,0 +1,334 @@
+//! YAML trees in which every node knows its place.
+//!
+//! What a scalar means is for the one who asks: `1e5` is a number to [`Node::number`] and a text to
+//! [`Node::text`]. Anchors and aliases work; merge keys (`<<`) do not and are ordinary names.
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::{Diagnostic, FileId, SourceMap, Span};
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle, StrInput};
+
+/// How deep lists and mappings may nest.
+const DEEPEST: usize = 60;
+
+/// How many values a file may hold, aliases counted each time.
+const MOST_VALUES: usize = 1_000_000;
+
+/// A value and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Where.
+    pub span: Span,
+    /// What.
+    pub value: Value,
+}
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A text, number, truth value or nothing, as written.
+    Scalar {
+        /// What is written, without quotes.
+        text: String,
+        /// Whether it stands there without quotes.
+        is_plain: bool,
+    },
+    /// A list.
+    List(Vec<Node>),
+    /// Names and values, in the order in which they are written. A name may come twice.
+    Map(Vec<(Node, Node)>),
+}
+
+impl Node {
+    /// The text of a scalar.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        match &self.value {
+            Value::Scalar { text, .. } => Some(text),
+            _ => None,
+        }
+    }
+
+    fn plain(&self) -> Option<&str> {
+        match &self.value {
+            Value::Scalar { text, is_plain: true } => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Whether nothing is there: an empty value, `~` or `null`.
+    #[must_use]
+    pub fn is_null(&self) -> bool {
+        self.plain().is_some_and(|text| matches!(text, "" | "~" | "null" | "Null" | "NULL"))
+    }
+
+    /// A decimal number without quotes. `.inf` and `.nan` are none.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        let text = self.plain()?;
+        // Rust reads "inf" and "nan" as well, which YAML takes for texts.
+        let is_number = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        text.parse().ok().filter(|number: &f64| is_number && number.is_finite())
+    }
+
+    /// A whole decimal number without quotes.
+    #[must_use]
+    pub fn integer(&self) -> Option<i64> {
+        self.plain()?.parse().ok()
+    }
+
+    /// A truth value, by the names of YAML 1.1.
+    #[must_use]
+    pub fn truth(&self) -> Option<bool> {
+        match self.plain()?.to_ascii_lowercase().as_str() {
+            "true" | "yes" | "on" => Some(true),
+            "false" | "no" | "off" => Some(false),
+            _ => None,
+        }
+    }
+
+    /// The elements of a list.
+    #[must_use]
+    pub fn list(&self) -> Option<&[Node]> {
+        match &self.value {
+            Value::List(list) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// The names and values of a mapping.
+    #[must_use]
+    pub fn entries(&self) -> Option<&[(Node, Node)]> {
+        match &self.value {
+            Value::Map(entries) => Some(entries),
+            _ => None,
+        }
+    }
+
+    /// The first value of a name in a mapping.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Node> {
+        self.entries()?.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| value)
+    }
+
+    /// What it is, in words for messages.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match &self.value {
+            Value::Scalar { .. } if self.is_null() => "nothing",
+            Value::Scalar { .. } if self.number().is_some() => "a number",
+            Value::Scalar { .. } if self.truth().is_some() => "a truth value",
+            Value::Scalar { .. } => "a text",
+            Value::List(_) => "a list",
+            Value::Map(_) => "a mapping",
+        }
+    }
+}
+
+/// Reads the first document of a text; none when there is nothing in it.
+///
+/// # Errors
+/// Where it is no YAML, and why.
+pub fn parse(file: FileId, sources: &SourceMap) -> Result<Option<Node>, Box<Diagnostic>> {
+    let whole = sources.whole(file);
+    let text = sources.text(whole);
+    let mut reader = Reader {
+        parser: Parser::new_from_str(text),
+        text,
+        whole,
+        at: (0, 0),
+        anchors: BTreeMap::new(),
+        values: 0,
+    };
+    loop {
+        match reader.next()? {
+            (Event::DocumentStart(_), _) => {
+                let (event, span) = reader.next()?;
+                return reader.node(event, span, 0).map(Some);
+            }
+            (Event::StreamEnd, _) => return Ok(None),
+            _ => {}
+        }
+    }
+}
+
+struct Reader<'t> {
+    parser: Parser<'t, StrInput<'t>>,
+    text: &'t str,
+    whole: Span,
+    /// A place that is known both in characters and in bytes.
+    at: (usize, usize),
+    anchors: BTreeMap<usize, (Node, usize)>,
+    values: usize,
+}
+
+impl<'t> Reader<'t> {
+    /// The byte of a marker, which counts characters. Markers hardly ever go back, so this is
+    /// linear in the text.
+    fn byte(&mut self, marker: &Marker) -> usize {
+        let (mut index, mut byte) = self.at;
+        while index < marker.index() {
+            let Some(character) = self.text[byte..].chars().next() else { break };
+            (index, byte) = (index + 1, byte + character.len_utf8());
+        }
+        while index > marker.index() {
+            let Some(character) = self.text[..byte].chars().next_back() else { break };
+            (index, byte) = (index - 1, byte - character.len_utf8());
+        }
+        self.at = (index, byte);
+        byte
+    }
+
+    fn next(&mut self) -> Result<(Event<'t>, Span), Box<Diagnostic>> {
+        match self.parser.next_event() {
+            Some(Ok((event, span))) => {
+                let start = self.byte(&span.start);
+                let end = self.byte(&span.end);
+                Ok((event, self.whole.part(start, end)))
+            }
+            Some(Err(error)) => {
+                let at = self.byte(error.marker());
+                let wrong = format!("this is not YAML: {}", error.info());
+                Err(bad(&wrong, self.whole.part(at, at + 1)))
+            }
+            None => Ok((Event::StreamEnd, self.whole)),
+        }
+    }
+
+    fn node(
+        &mut self,
+        event: Event<'t>,
+        span: Span,
+        depth: usize,
+    ) -> Result<Node, Box<Diagnostic>> {
+        let fail = |message: &str| Err(bad(message, span));
+        self.values += 1;
+        if depth > DEEPEST || self.values > MOST_VALUES {
+            return fail("the file is nested too deeply or too large");
+        }
+        let before = self.values;
+        let (value, anchor, span) = match event {
+            Event::Scalar(text, style, anchor, _) => {
+                let is_plain = style == ScalarStyle::Plain;
+                (Value::Scalar { text: text.into_owned(), is_plain }, anchor, span)
+            }
+            Event::SequenceStart(anchor, _) => {
+                let mut items = Vec::new();
+                let end = loop {
+                    match self.next()? {
+                        (Event::SequenceEnd, end) => break end,
+                        (event, span) => items.push(self.node(event, span, depth + 1)?),
+                    }
+                };
+                (Value::List(items), anchor, around(span, end))
+            }
+            Event::MappingStart(anchor, _) => {
+                let mut entries = Vec::new();
+                let end = loop {
+                    match self.next()? {
+                        (Event::MappingEnd, end) => break end,
+                        (event, span) => {
+                            let key = self.node(event, span, depth + 1)?;
+                            let (event, span) = self.next()?;
+                            entries.push((key, self.node(event, span, depth + 1)?));
+                        }
+                    }
+                };
+                (Value::Map(entries), anchor, around(span, end))
+            }
+            Event::Alias(anchor) => {
+                let Some((node, size)) = self.anchors.get(&anchor).cloned() else {
+                    return fail("an alias names an anchor that is still open");
+                };
+                // What it stands for is shown where it is used.
+                self.values += size;
+                return Ok(Node { span, ..node });
+            }
+            _ => return fail("a value is missing here"),
+        };
+        let node = Node { span, value };
+        if anchor != 0 {
+            self.anchors.insert(anchor, (node.clone(), 1 + self.values - before));
+        }
+        Ok(node)
+    }
+}
+
+fn bad(message: &str, span: Span) -> Box<Diagnostic> {
+    Box::new(Diagnostic::error("bad-yaml", message).at(span))
+}
+
+fn around(start: Span, end: Span) -> Span {
+    Span { end: end.end.max(start.end), ..start }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn read(text: &str) -> (SourceMap, Result<Option<Node>, Box<Diagnostic>>) {
+        let mut sources = SourceMap::new();
+        let file = sources.add("a.yaml", text);
+        let node = parse(file, &sources);
+        (sources, node)
+    }
+
+    #[test]
+    fn every_node_knows_its_place() {
+        let (sources, node) = read("- {at: 0.5, ü: [1, two]}\n- 'é': \"x\"\n");
+        let node = node.unwrap().unwrap();
+        let list = node.list().unwrap();
+        let shown = |node: &Node| sources.text(node.span).to_owned();
+        assert_eq!(shown(list[0].get("at").unwrap()), "0.5");
+        assert_eq!(shown(list[0].get("ü").unwrap()), "[1, two]");
+        assert_eq!(shown(&list[0]), "{at: 0.5, ü: [1, two]}");
+        assert_eq!(shown(list[1].get("é").unwrap()), "\"x\"");
+        assert_eq!(list[0].get("at").unwrap().number(), Some(0.5));
+        assert_eq!(sources.locate(list[1].get("é").unwrap().span).1.line, 2);
+    }
+
+    #[test]
+    fn scalars_are_what_they_are_asked_for() {
+        let (_, node) = read("[1e5, .inf, '1', yes, ~, nan, -3]");
+        let node = node.unwrap().unwrap();
+        let list = node.list().unwrap();
+        let numbers: Vec<_> = list.iter().map(Node::number).collect();
+        assert_eq!(numbers, [Some(1e5), None, None, None, None, None, Some(-3.0)]);
+        let kinds: Vec<_> = list.iter().map(Node::kind).collect();
+        let text = "a text";
+        assert_eq!(kinds, ["a number", text, text, "a truth value", "nothing", text, "a number"]);
+        assert_eq!(list[3].truth(), Some(true));
+        assert_eq!(list[6].integer(), Some(-3));
+    }
+
+    #[test]
+    fn mistakes_have_a_place() {
+        let (sources, node) = read("a: 1\nb: [1, 2\n");
+        let wrong = node.unwrap_err();
+        assert!(sources.locate(wrong.span.unwrap()).1.line >= 2, "{wrong:?}");
+        assert_eq!(read("").1, Ok(None));
+        assert_eq!(read("# nothing\n").1, Ok(None));
+    }
+
+    #[test]
+    fn an_alias_bomb_is_refused() {
+        let mut text = String::from("a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n");
+        for level in 1..12 {
+            let before = level - 1;
+            text += &format!("a{level}: &a{level} [{}]\n", format!("*a{before}, ").repeat(10));
+        }
+        assert!(read(&text).1.unwrap_err().message.contains("too large"));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_is_too_strange(text in "[a-z0-9:{}\\[\\], &*!'\"#\n\r\té|>-]{0,60}") {
+            if let (sources, Ok(Some(node))) = read(&text) {
+                prop_assert!(node.span.end as usize <= text.len());
+                let _ = sources.text(node.span);
+            }
+        }
+    }
+}
