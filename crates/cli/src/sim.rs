@@ -66,6 +66,9 @@ pub(crate) struct SimOptions {
     /// Copy the oddities of Gazebo too, such as periods of whole milliseconds
     #[arg(long)]
     gz_quirks: bool,
+    /// Measure the beams of a lidar one after the other while the robot moves, as real ones do
+    #[arg(long)]
+    rolling_scans: bool,
     /// Rename a topic, service or node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
@@ -184,6 +187,7 @@ impl SimOptions {
             step_s: self.step,
             threads: self.threads.unwrap_or_else(terminal::processors),
             quirks: if self.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },
+            rolling_scans: self.rolling_scans,
             remaps: self.remaps.clone(),
             ..Options::default()
         }

@@ -7,6 +7,7 @@
 mod build;
 mod device;
 mod naming;
+mod sensors;
 mod setting;
 mod stamp;
 mod views;

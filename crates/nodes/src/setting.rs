@@ -29,6 +29,8 @@ pub struct Setting<'a> {
     pub seed: u64,
     /// Which oddities of Gazebo are wanted.
     pub quirks: Quirks,
+    /// Whether beams of a lidar are measured one after the other while the robot moves.
+    pub rolling_scans: bool,
     /// The time at which it begins \[ns\].
     pub start_ns: i64,
 }

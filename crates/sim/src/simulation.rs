@@ -35,6 +35,8 @@ pub struct Options {
     pub threads: usize,
     /// Which oddities of Gazebo are wanted.
     pub quirks: Quirks,
+    /// Whether beams of a lidar are measured one after the other while the robot moves.
+    pub rolling_scans: bool,
     /// `from:=to` for all nodes.
     pub remaps: Vec<String>,
     /// Messages on `/clock` per simulated second \[Hz\].
@@ -49,6 +51,7 @@ impl Default for Options {
             step_s: None,
             threads: 1,
             quirks: Quirks::default(),
+            rolling_scans: false,
             remaps: Vec::new(),
             clock_rate_hz: 100.0,
         }
@@ -183,6 +186,7 @@ impl Simulation {
             remaps: &self.options.remaps,
             seed: self.options.seed,
             quirks: self.options.quirks,
+            rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,
         };
         let description = member.description.as_deref();

@@ -1,0 +1,73 @@
+//! Sensors with those who publish what they measure.
+//!
+//! A sensor publishes through its plugins, as each of them would in Gazebo; one without any under
+//! the topic that Gazebo's own sensors have. What nobody hears is not measured.
+
+mod cloud;
+mod lidar;
+mod post;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_plugins::{Site, interpret};
+use periplus_scene::{Model, SensorKind};
+
+use crate::{Device, Setting};
+use post::Post;
+
+/// The sensors of a model. `sites` are all its plugins.
+pub(crate) fn build(
+    setting: &Setting<'_>,
+    sites: &[Site<'_>],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Box<dyn Device>> {
+    let mut devices = Vec::new();
+    each_post(setting, setting.root, "", sites, &mut |post| {
+        devices.extend(device(&post, diagnostics));
+    });
+    devices
+}
+
+/// Visits the sensors on links, those of nested models after those of the model itself.
+fn each_post(
+    setting: &Setting<'_>,
+    model: &Model,
+    scope: &str,
+    sites: &[Site<'_>],
+    visit: &mut dyn FnMut(Post<'_>),
+) {
+    for link in &model.links {
+        let scoped = format!("{scope}{}", link.name);
+        let Some(id) = setting.world.find_link(setting.model, &scoped) else { continue };
+        for sensor in &link.sensors {
+            let own = |site: &&Site<'_>| {
+                site.context.sensor.is_some_and(|other| std::ptr::eq(other, sensor))
+            };
+            let own: Vec<Site<'_>> = sites.iter().filter(own).copied().collect();
+            visit(Post { setting, model, scoped: &scoped, link, id, sensor, sites: &own });
+        }
+    }
+    for inner in &model.models {
+        each_post(setting, inner, &format!("{scope}{}::", inner.name), sites, visit);
+    }
+}
+
+fn device(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Option<Box<dyn Device>> {
+    // What is wrong with a parameter was told when the file was checked.
+    let plugins: Vec<_> = post
+        .sites
+        .iter()
+        .filter_map(|site| interpret(site.plugin, &site.context, &mut Diagnostics::new()))
+        .collect();
+    match &post.sensor.kind {
+        SensorKind::Lidar(spec) => lidar::build(post, spec, &plugins, diagnostics),
+        _ => {
+            let told = format!(
+                "sensor `{}` of type `{}` is not measured",
+                post.sensor.name, post.sensor.type_name
+            );
+            diagnostics
+                .push(Diagnostic::warning("sensor-not-measured", told).at(post.sensor.origin));
+            None
+        }
+    }
+}
