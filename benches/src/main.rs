@@ -12,6 +12,7 @@
 mod files;
 mod loading;
 mod peers;
+mod physics;
 mod world;
 
 use std::path::PathBuf;
@@ -20,6 +21,41 @@ use std::process::ExitCode;
 use serde_json::json;
 
 fn main() -> ExitCode {
+    let words: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    match words.split_first() {
+        Some((first, rest)) if first.as_os_str() == "physics" => physics(rest),
+        _ => loading(),
+    }
+}
+
+/// `physics ORACLES ODE PYTHON RESULT.json`
+fn physics(words: &[PathBuf]) -> ExitCode {
+    let [oracles, ode, python, result] = words else {
+        eprintln!("usage: periplus-benches physics ORACLES ODE PYTHON RESULT.json");
+        return ExitCode::from(2);
+    };
+    let (table, figures) = match physics::run(oracles, ode, python) {
+        Ok(done) => done,
+        Err(why) => {
+            eprintln!("{why}");
+            return ExitCode::FAILURE;
+        }
+    };
+    println!("{table}");
+    write(result, &figures)
+}
+
+fn write(path: &std::path::Path, result: &serde_json::Value) -> ExitCode {
+    match std::fs::write(path, format!("{result:#}\n")) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("cannot write {}: {error}", path.display());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn loading() -> ExitCode {
     let Some(oracles) = std::env::args_os().nth(1).map(PathBuf::from) else {
         eprintln!(
             "usage: periplus-benches ORACLES [RESULT.json]; `cargo xtask bench` knows the folder"
@@ -40,10 +76,7 @@ fn main() -> ExitCode {
             if let Some(path) = std::env::args_os().nth(2) {
                 let result = json!({ "loading": rows_json(&rows), "large_world": {
                     "megabytes": large.megabytes, "models": large.models, "seconds": large.seconds } });
-                if let Err(error) = std::fs::write(&path, format!("{result:#}\n")) {
-                    eprintln!("cannot write {}: {error}", PathBuf::from(path).display());
-                    return ExitCode::FAILURE;
-                }
+                return write(std::path::Path::new(&path), &result);
             }
             ExitCode::SUCCESS
         }

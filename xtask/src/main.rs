@@ -12,6 +12,7 @@ mod determinism;
 mod docs;
 mod fuzz;
 mod layers;
+mod physics;
 mod pictures;
 mod step;
 #[cfg(test)]
@@ -19,7 +20,7 @@ mod tidy;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::step::{Failed, cargo, run, timed};
 
@@ -54,7 +55,10 @@ enum Task {
     /// The corpus of real files, against libsdformat, liburdfdom and PyPI's xacro
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
-    Bench,
+    Bench {
+        /// Only this: `loading`, or `physics` (needs nothing of `corpus`)
+        only: Option<Contest>,
+    },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
     Codegen {
         /// Only say whether the code is what the texts say
@@ -73,6 +77,13 @@ enum Task {
         /// Which targets; all when none is named
         targets: Vec<String>,
     },
+}
+
+/// What can be raced.
+#[derive(Clone, Copy, ValueEnum)]
+enum Contest {
+    Loading,
+    Physics,
 }
 
 fn main() -> ExitCode {
@@ -95,7 +106,11 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
-        Task::Bench => corpus::bench(),
+        Task::Bench { only } => match only {
+            Some(Contest::Loading) => corpus::bench(),
+            Some(Contest::Physics) => physics::bench(),
+            None => corpus::bench().and_then(|()| physics::bench()),
+        },
         Task::Codegen { check } => codegen::run(*check),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),

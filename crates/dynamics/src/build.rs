@@ -1,10 +1,13 @@
 //! From a model as plain data to the records of a world.
 
+mod between;
 mod bodies;
 mod collisions;
+mod gears;
 mod joints;
 mod surface;
 
+pub(crate) use between::join;
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Model;
@@ -80,8 +83,7 @@ impl Builder<'_, '_> {
             return None;
         }
         let group_of_link = self.groups(model.is_static);
-        let driven = self.driven();
-        self.bodies(model, &group_of_link, driven)?;
+        self.bodies(model, &group_of_link)?;
         self.collisions(model, meshes);
         for number in 0..self.flat.joints.len() {
             let (scope, joint) = self.flat.joints[number].clone();

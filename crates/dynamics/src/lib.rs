@@ -11,7 +11,9 @@
 //!   own moment of inertia is far smaller (hundreds of times) than mass times arm squared: impulses
 //!   then travel too slowly through the joint.
 //! - A follower (`mimic`) is driven after its leader, and the leader does not feel it.
-//! - A universal joint has a small cross between its hinges, made of a tenth of the child's mass.
+//! - A universal joint has a small cross between its hinges, made of a tenth of the child's mass; so
+//!   has a screw, which turns as told and slides as its thread says, but is not turned by pushing.
+//! - The child of a gearbox follows its parent, and the parent does not feel it.
 //! - Friction of a pair is the **smaller** of the two coefficients, as in ODE; where `mu` and `mu2`
 //!   of one surface differ, the smaller holds in every direction, and a warning says so.
 //! - A **wheel** (a cylinder or sphere that turns about its own axis) touches with one point, in

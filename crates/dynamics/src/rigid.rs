@@ -19,6 +19,13 @@ const SUBSTEPS: usize = 4;
 /// How deep bodies may lie in each other without being pushed apart [m].
 const SLOP_M: f64 = 1e-4;
 
+/// What is slower than this for a second, with all that touches it, is at rest and stays so until
+/// something pushes it. The solver's own 0.05 m/s would stop what slides slowly.
+const ASLEEP_M_S: f64 = 1e-3;
+/// The same for what has no shape.
+const ASLEEP_RAD_S: f64 = 1e-3;
+const ASLEEP_AFTER_S: f64 = 1.0;
+
 /// The solver, and its names for our records. A body or joint without a name is gone.
 pub(crate) struct Rigid {
     pub(crate) solver: PhysicsWorld,
@@ -38,6 +45,14 @@ impl Rigid {
         // A body that flies off is told, not slowed down.
         parameters.normalized_max_linear_velocity = f64::MAX;
         Self { solver, bodies: Vec::new(), axes: Vec::new(), pushed: false }
+    }
+
+    /// Changes gravity, which wakes all that rests.
+    pub(crate) fn set_gravity(&mut self, gravity_m_s2: DVec3) {
+        self.solver.gravity = gravity_m_s2;
+        for handle in self.bodies.iter().flatten() {
+            self.solver.bodies[*handle].wake_up(true);
+        }
     }
 
     pub(crate) fn insert(&mut self, records: &Records, after: Mark) {
@@ -133,6 +148,15 @@ impl Rigid {
         true
     }
 
+    /// Keeps a body from falling asleep; it is told to move.
+    pub(crate) fn keep_awake(&mut self, handle: RigidBodyHandle) {
+        let body = &self.solver.bodies[handle];
+        // Asking for a body to be changed costs more than looking.
+        if body.is_dynamic() && body.activation().time_since_can_sleep > ASLEEP_AFTER_S / 2.0 {
+            self.solver.bodies[handle].wake_up(true);
+        }
+    }
+
     /// The solver's own step [s], of which it makes several in one of ours.
     pub(crate) fn substep_s(&self) -> f64 {
         self.solver.integration_parameters.dt / SUBSTEPS as f64
@@ -146,7 +170,7 @@ fn built(body: &Body, number: usize) -> RigidBody {
         BodyKind::Dynamic => RigidBodyType::Dynamic,
     };
     let mass = body.mass.mass();
-    RigidBodyBuilder::new(kind)
+    let mut built = RigidBodyBuilder::new(kind)
         .pose(rapier_pose(body.world_from_body))
         .additional_mass_properties(body.mass)
         .gravity_scale(if mass > 0.0 { body.weight_share / mass } else { 0.0 })
@@ -154,7 +178,14 @@ fn built(body: &Body, number: usize) -> RigidBody {
         .angular_damping(body.damping[1].max(0.0))
         .can_sleep(body.can_sleep)
         .user_data(number as u128)
-        .build()
+        .build();
+    let activation = built.activation_mut();
+    if body.can_sleep {
+        activation.normalized_linear_threshold = ASLEEP_M_S;
+        activation.angular_threshold = ASLEEP_RAD_S;
+        activation.time_until_sleep = ASLEEP_AFTER_S;
+    }
+    built
 }
 
 /// Pushes a body at a point of the world. The solver's own way would trust a centre of mass that

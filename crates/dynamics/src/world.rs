@@ -8,7 +8,7 @@ use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Model;
 
-use crate::build::append;
+use crate::build::{append, join};
 use crate::engine::Engine;
 use crate::exact::Exact;
 use crate::records::{Mark, Records};
@@ -79,15 +79,11 @@ impl World {
         for model in &world.models {
             diagnostics.append(made.add(model, model.parent_from_model, meshes).diagnostics);
         }
+        let before = made.records.mark();
         for joint in &world.joints {
-            diagnostics.push(
-                Diagnostic::warning(
-                    "joint-not-simulated",
-                    format!("joint `{}` between models is not simulated", joint.name),
-                )
-                .at(joint.origin),
-            );
+            join(&mut made.records, joint, &mut diagnostics);
         }
+        made.engine.insert(&made.records, before);
         (made, diagnostics)
     }
 
@@ -167,7 +163,7 @@ impl World {
         if gravity_m_s2.is_finite() {
             self.gravity_m_s2 = gravity_m_s2;
             if let Engine::Rigid(rigid) = &mut self.engine {
-                rigid.solver.gravity = gravity_m_s2;
+                rigid.set_gravity(gravity_m_s2);
             }
         }
     }

@@ -59,13 +59,31 @@ fn two_turns_on_the_spot() {
 
 #[test]
 fn at_rest_it_does_not_creep() {
-    let (mut world, _) = settled();
+    let (mut world, wheels) = settled();
     let start = base(&world);
     run(&mut world, 10.0);
     let (metres, radians) = start.distance_to(base(&world));
     println!("rest: {metres} m {radians} rad in 10 s");
-    // Under a millimetre in a minute.
-    assert!(metres < 1e-3 / 6.0 && radians < 1e-3, "{metres} {radians}");
+    // Under a tenth of a millimetre in a minute: it falls asleep.
+    assert!(metres < 1e-4 / 6.0 && radians < 1e-4, "{metres} {radians}");
+    assert_eq!(state(&world, "robot", "base").linear_m_s, DVec3::ZERO);
+    // A slow command wakes it, and it stays awake under it: 0.1 rad/s on 0.1 m for 10 s.
+    wheels.turn(&mut world, 0.1, 0.1);
+    run(&mut world, 10.0);
+    let way = start.inverse() * base(&world);
+    assert!((way.translation.x - 0.1).abs() < 0.002, "{way:?}");
+    // So does one far below what counts as rest.
+    let start = base(&world);
+    wheels.turn(&mut world, 0.005, 0.005);
+    run(&mut world, 20.0);
+    let way = start.inverse() * base(&world);
+    assert!((way.translation.x - 0.01).abs() < 0.002, "{way:?}");
+    // And a change of gravity.
+    wheels.turn(&mut world, 0.0, 0.0);
+    run(&mut world, 3.0);
+    world.set_gravity(DVec3::new(0.0, 0.0, 1.0));
+    run(&mut world, 1.0);
+    assert!(base(&world).translation.z > 0.5);
 }
 
 #[test]

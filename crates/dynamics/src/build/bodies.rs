@@ -1,6 +1,5 @@
 //! Which links are one body.
 
-use periplus_diagnostics::Diagnostic;
 use periplus_scene::{JointKind, Model};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
@@ -10,11 +9,6 @@ use crate::places::End;
 use crate::records::{Body, BodyKind, LinkRecord};
 
 impl Builder<'_, '_> {
-    /// Whether some joint of the model can move: then it must not fall asleep under a command.
-    pub(super) fn driven(&self) -> bool {
-        self.flat.joints.iter().any(|(_, joint)| joint.kind != JointKind::Fixed)
-    }
-
     /// For each link, the lowest link on the same rigid body; `None` in the world's.
     pub(super) fn groups(&mut self, is_static: bool) -> Vec<Option<usize>> {
         let count = self.flat.links.len();
@@ -31,20 +25,7 @@ impl Builder<'_, '_> {
             member
         }
         for (scope, joint) in &self.flat.joints {
-            let rigid = match joint.kind {
-                JointKind::Fixed => true,
-                JointKind::Screw | JointKind::Gearbox => {
-                    self.diagnostics.push(
-                        Diagnostic::warning(
-                            "joint-not-simulated",
-                            format!("joint `{scope}{}` is of a kind that is not simulated; it is held fast", joint.name),
-                        )
-                        .at(joint.origin),
-                    );
-                    true
-                }
-                _ => false,
-            };
+            let rigid = joint.kind == JointKind::Fixed;
             let number = |end: Option<End>| match end {
                 Some(End::World) => Some(count),
                 Some(End::Link(link, _)) => Some(link),
@@ -64,12 +45,7 @@ impl Builder<'_, '_> {
         (0..count).map(|link| Some(find(&mut above, link)).filter(|&root| root != count)).collect()
     }
 
-    pub(super) fn bodies(
-        &mut self,
-        model: &Model,
-        group_of_link: &[Option<usize>],
-        driven: bool,
-    ) -> Option<()> {
+    pub(super) fn bodies(&mut self, model: &Model, group_of_link: &[Option<usize>]) -> Option<()> {
         let mut refused = false;
         let mut body_of_group: Vec<Option<usize>> = vec![None; self.flat.links.len() + 1];
         for (number, group) in group_of_link.iter().enumerate() {
@@ -91,7 +67,7 @@ impl Builder<'_, '_> {
                         mass: MassProperties::default(),
                         weight_share: 0.0,
                         damping: link.velocity_decay,
-                        can_sleep: model.allow_auto_disable && !driven,
+                        can_sleep: model.allow_auto_disable,
                         colliders: Vec::new(),
                         removed: false,
                     });

@@ -49,10 +49,8 @@ impl Builder<'_, '_> {
             name,
             axes: self.records.axes.len()..self.records.axes.len(),
         };
-        let rigid = matches!(
-            joint.kind,
-            JointKind::Fixed | JointKind::Floating | JointKind::Screw | JointKind::Gearbox
-        );
+        let rigid =
+            matches!(joint.kind, JointKind::Fixed | JointKind::Floating | JointKind::Gearbox);
         let world_from_joint = self.world_from_model * model_from_child * joint.child_from_joint;
         if !world_from_joint.is_finite() {
             self.diagnostics.push(
@@ -82,42 +80,6 @@ impl Builder<'_, '_> {
         record.axes.end = self.records.axes.len();
         self.records.joints.push(record);
         Some(())
-    }
-
-    /// Binds followers to what they follow.
-    pub(super) fn mimics(&mut self) {
-        let mine = |record: &JointRecord| record.model == self.number;
-        for (scope, joint) in &self.flat.joints {
-            for (which, axis) in [&joint.axis, &joint.axis2].into_iter().enumerate() {
-                let Some(mimic) = axis.as_ref().and_then(|axis| axis.mimic.as_ref()) else {
-                    continue;
-                };
-                let find = |name: &str| {
-                    let scoped = format!("{scope}{name}");
-                    let records = &self.records.joints;
-                    records.iter().find(|record| mine(record) && record.name == scoped)
-                };
-                let leader = find(&mimic.joint).and_then(|leader| {
-                    let second = usize::from(mimic.axis == "axis2");
-                    leader.axes.clone().nth(second)
-                });
-                let follower =
-                    find(&joint.name).and_then(|follower| follower.axes.clone().nth(which));
-                match (leader, follower) {
-                    (Some(leader), Some(follower)) if leader != follower => {
-                        self.records.axes[follower].follows = Some(crate::joints::Follow {
-                            leader,
-                            multiplier: mimic.multiplier,
-                            offset: mimic.offset - mimic.multiplier * mimic.reference,
-                        });
-                    }
-                    _ => self.diagnostics.push(
-                        Diagnostic::warning("mimic-of-nothing", format!("joint `{}` follows `{}`, which does not move here; it moves freely", joint.name, mimic.joint))
-                            .at(joint.origin),
-                    ),
-                }
-            }
-        }
     }
 
     pub(super) fn warn_of_steep_masses(&mut self) {

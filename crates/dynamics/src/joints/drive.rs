@@ -91,6 +91,11 @@ impl AxisRecord {
                 }
             },
         };
+        let goes = matches!(self.command, Command::Velocity { target, .. } if target != 0.0);
+        if goes {
+            let ends = [rigid.bodies[self.body1], rigid.bodies[self.body2]];
+            ends.into_iter().flatten().for_each(|end| rigid.keep_awake(end));
+        }
         let before = self.data;
         match wanted {
             Some((speed, most)) => {

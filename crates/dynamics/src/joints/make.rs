@@ -1,5 +1,7 @@
 //! From a joint as plain data to axes and what holds them.
 
+use std::f64::consts::TAU;
+
 use periplus_base::{DQuat, DVec3, Pose};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Axis, Joint, JointKind};
@@ -8,7 +10,7 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
 use super::drive::{MOTOR_STIFFNESS, set_turning_limits};
-use super::{AxisRecord, AxisState, Command, Hold};
+use super::{AxisRecord, AxisState, Command, Follow, Hold};
 use crate::build::{rapier_pose, split};
 use crate::records::{Body, BodyKind, Records};
 
@@ -38,7 +40,10 @@ pub(crate) fn axes_of(
     let axis = joint.axis.as_ref().unwrap_or(&standard);
     let axis2 = joint.axis2.as_ref().unwrap_or(&standard);
     let two = matches!(joint.kind, JointKind::Universal | JointKind::Revolute2);
-    let needs_axis = joint.kind != JointKind::Ball;
+    let needs_axis = !matches!(joint.kind, JointKind::Ball | JointKind::Fixed);
+    if matches!(joint.kind, JointKind::Floating | JointKind::Gearbox) {
+        return Some(());
+    }
     if needs_axis && !sound(axis) || two && !sound(axis2) {
         diagnostics.push(
             Diagnostic::error(
@@ -53,12 +58,25 @@ pub(crate) fn axes_of(
         return None;
     }
     let free = match joint.kind {
+        // Only between models: inside one, links on fixed joints are one body.
+        JointKind::Fixed => JointAxesMask::empty(),
         JointKind::Ball => JointAxesMask::ANG_AXES,
         JointKind::Planar => JointAxesMask::LIN_Y | JointAxesMask::LIN_Z | JointAxesMask::ANG_X,
         JointKind::Universal | JointKind::Revolute2 => {
             let cross = cross_body(&place, records);
             hinge(axis, false, Axes { child: cross, ..place }, records);
             hinge(axis2, false, Axes { parent: cross, ..place }, records);
+            return Some(());
+        }
+        JointKind::Screw => {
+            let cross = cross_body(&place, records);
+            let turn = records.axes.len();
+            hinge(axis, false, Axes { child: cross, ..place }, records);
+            let way = Axis { direction_in_joint: axis.direction_in_joint, ..Axis::default() };
+            hinge(&way, true, Axes { parent: cross, ..place }, records);
+            let pitch_m = joint.thread_pitch_m.filter(|pitch| pitch.is_finite()).unwrap_or(1.0);
+            records.axes[turn + 1].follows =
+                Some(Follow { leader: turn, multiplier: pitch_m / TAU, offset: 0.0 });
             return Some(());
         }
         kind => {

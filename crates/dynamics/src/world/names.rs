@@ -24,6 +24,17 @@ impl World {
         self.joints(model).find(|&joint| self.joint_name(joint) == Some(name))
     }
 
+    /// A joint between models, by its name in the world.
+    #[must_use]
+    pub fn find_world_joint(&self, name: &str) -> Option<JointId> {
+        let mut joints = self.records.joints.iter().enumerate();
+        let found = joints.find(|(number, joint)| {
+            let model = self.records.present(joint.model);
+            joint.name == name && model.is_some_and(|it| !it.joints.contains(&(*number as u32)))
+        });
+        found.map(|(number, _)| JointId(number as u32))
+    }
+
     /// The links of a model, in the order of the file.
     pub fn links(&self, model: ModelId) -> impl Iterator<Item = LinkId> + use<> {
         self.records.present(model.0).map_or(0..0, |model| model.links.clone()).map(LinkId)
