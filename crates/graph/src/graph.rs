@@ -155,6 +155,13 @@ impl Graph {
         self.0.common.take_findings()
     }
 
+    /// Changes whenever a node, publisher, subscription, server or client comes or goes; a wire
+    /// looks at it to know when to look at the rest.
+    #[must_use]
+    pub fn generation(&self) -> u64 {
+        lock(&self.0.registry).changes
+    }
+
     /// The topics that somebody publishes or subscribes to, by name.
     #[must_use]
     pub fn topics(&self) -> Vec<TopicInfo> {

@@ -36,9 +36,12 @@ pub(crate) struct NodeCore {
 impl Node {
     pub(crate) fn new(graph: &Graph, names: NodeNames) -> Result<Self, GraphError> {
         let full_name: Arc<str> = names.full_name().into();
-        if !lock(&graph.0.registry).nodes.insert(full_name.clone()) {
+        let mut registry = lock(&graph.0.registry);
+        if !registry.nodes.insert(full_name.clone()) {
             return Err(GraphError::NodeExists { node: full_name.to_string() });
         }
+        registry.changes += 1;
+        drop(registry);
         let core = graph.0.clone();
         Ok(Self(Arc::new(NodeCore {
             names,
@@ -148,7 +151,10 @@ impl std::fmt::Debug for Node {
 
 impl Drop for NodeCore {
     fn drop(&mut self) {
-        lock(&self.core.registry).nodes.remove(&self.full_name);
+        let mut registry = lock(&self.core.registry);
+        registry.nodes.remove(&self.full_name);
+        registry.changes += 1;
+        drop(registry);
         if let Some(agenda) = self.own_agenda.get() {
             agenda.close();
         }

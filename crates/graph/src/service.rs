@@ -1,5 +1,7 @@
-//! Services: a call and its answer.
+//! Services: a call, its answer, and who answers.
 
+mod client;
+mod error;
 mod raw;
 
 use std::collections::VecDeque;
@@ -16,55 +18,10 @@ use crate::common::{Common, lock};
 use crate::node::NodeCore;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
-use crate::sample::EndpointId;
+pub(crate) use client::{Caller, read_answer};
+pub use client::{Client, Pending};
+pub use error::CallError;
 pub use raw::{RawCall, RawCalls, RawClient, RawMessage};
-
-/// Why a call has no answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum CallError {
-    /// Nobody answers this service.
-    NoServer {
-        /// Its full name.
-        service: String,
-        /// The service that may be meant.
-        near: Option<String>,
-    },
-    /// Who answers it went away, or let the call fall.
-    Unanswered {
-        /// Full name of the service.
-        service: String,
-    },
-    /// The question or the answer is no such message.
-    Undecodable {
-        /// Full name of the service.
-        service: String,
-        /// What is wrong with it.
-        reason: String,
-    },
-}
-
-impl fmt::Display for CallError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoServer { service, near } => {
-                write!(f, "nobody answers the service `{service}`")?;
-                match near {
-                    Some(near) => write!(f, ", did you mean `{near}`?"),
-                    None => Ok(()),
-                }
-            }
-            Self::Unanswered { service } => {
-                write!(f, "who answers the service `{service}` went away without an answer")
-            }
-            Self::Undecodable { service, reason } => {
-                write!(f, "a message of the service `{service}` cannot be read: {reason}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for CallError {}
 
 pub(crate) type Answer = Result<Arc<Payload>, CallError>;
 
@@ -181,52 +138,12 @@ pub(crate) struct OwnServer {
 impl Drop for OwnServer {
     fn drop(&mut self) {
         let mut registry = lock(&self.node.core.registry);
+        registry.changes += 1;
         let entry = registry.services.get_mut(&self.server.name);
         let gone = entry.and_then(|entry| entry.server.take());
         drop(registry);
         drop(gone);
         self.server.withdraw();
-    }
-}
-
-/// The end that calls.
-pub(crate) struct Caller {
-    id: EndpointId,
-    pub(crate) name: Arc<str>,
-    pub(crate) node: Arc<NodeCore>,
-}
-
-impl Caller {
-    fn server(&self) -> Option<Arc<Server>> {
-        let registry = lock(&self.node.core.registry);
-        registry.services.get(&self.name).and_then(|entry| entry.server.clone())
-    }
-
-    pub(crate) fn call(&self, payload: Payload, reply: Reply) {
-        match self.server() {
-            Some(server) => {
-                let request = Request { payload: Arc::new(payload), reply };
-                server.push(request, &self.node.core.common);
-            }
-            None => reply.send(Err(self.no_server())),
-        }
-    }
-
-    fn no_server(&self) -> CallError {
-        let registry = lock(&self.node.core.registry);
-        let served = registry.services.iter().filter(|(_, entry)| entry.server.is_some());
-        let names = served.map(|(name, _)| &**name);
-        let near = periplus_diagnostics::closest(&self.name, names).map(str::to_owned);
-        CallError::NoServer { service: self.name.to_string(), near }
-    }
-}
-
-impl Drop for Caller {
-    fn drop(&mut self) {
-        let mut registry = lock(&self.node.core.registry);
-        if let Some(entry) = registry.services.get_mut(&self.name) {
-            entry.remove_client(self.id);
-        }
     }
 }
 
@@ -244,18 +161,6 @@ impl NodeCore {
             Arc::new(Server { node, name: name.clone(), reaction, waiting: Mutex::default() });
         registry.service(&name, type_of, &self.full_name)?.set_server(server.clone())?;
         Ok(OwnServer { server, node: self.clone() })
-    }
-
-    pub(crate) fn caller(
-        self: &Arc<Self>,
-        name: &str,
-        type_of: TypeOf,
-    ) -> Result<Caller, GraphError> {
-        let name: Arc<str> = self.names.service(name)?.into();
-        let mut registry = lock(&self.core.registry);
-        let id = registry.next_id();
-        registry.service(&name, type_of, &self.full_name)?.add_client(id, self.full_name.clone());
-        Ok(Caller { id, name, node: self.clone() })
     }
 }
 
@@ -303,66 +208,4 @@ impl<S: Service> Call<S> {
     pub fn answer(self, response: S::Response) {
         self.reply.send(Ok(Arc::new(Payload::typed(Arc::new(response)))));
     }
-}
-
-/// Calls a service.
-pub struct Client<S> {
-    pub(crate) caller: Caller,
-    of: PhantomData<fn(S)>,
-}
-
-impl<S: Service> Client<S> {
-    pub(crate) fn new(caller: Caller) -> Self {
-        Self { caller, of: PhantomData }
-    }
-
-    /// Asks. The answer comes when who answers has had time to; in lockstep, when the graph goes on.
-    #[must_use]
-    pub fn call(&self, request: S::Request) -> Pending<S> {
-        let slot = Arc::new(Mutex::new(None));
-        let send = slot.clone();
-        let name = self.caller.name.clone();
-        let reply = Reply::new(name.clone(), move |answer| *lock(&send) = Some(answer));
-        self.caller.call(Payload::typed(Arc::new(request)), reply);
-        Pending { slot, name, of: PhantomData }
-    }
-
-    /// Whether somebody answers.
-    #[must_use]
-    pub fn is_ready(&self) -> bool {
-        self.caller.server().is_some()
-    }
-
-    /// Full name of the service.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.caller.name
-    }
-}
-
-/// A call whose answer is on its way.
-pub struct Pending<S> {
-    slot: Arc<Mutex<Option<Answer>>>,
-    name: Arc<str>,
-    of: PhantomData<fn() -> S>,
-}
-
-impl<S: Service> Pending<S> {
-    /// The answer, once, when it is there.
-    #[must_use]
-    pub fn take(&self) -> Option<Result<Arc<S::Response>, CallError>> {
-        let answer = lock(&self.slot).take()?;
-        Some(read_answer::<S>(answer, &self.name))
-    }
-}
-
-/// The answer as a value.
-pub(crate) fn read_answer<S: Service>(
-    answer: Answer,
-    service: &str,
-) -> Result<Arc<S::Response>, CallError> {
-    answer?.message().map_err(|error| CallError::Undecodable {
-        service: service.to_owned(),
-        reason: error.to_string(),
-    })
 }

@@ -159,7 +159,9 @@ fn who_goes_is_gone() {
     let (graph, publisher, mailbox) = pair(Qos::reliable(1), Qos::reliable(1));
     assert!(publisher.is_heard());
     assert_eq!(graph.nodes()[1].subscribes, ["/x"]);
+    let before = graph.generation();
     drop(mailbox);
+    assert!(before < graph.generation());
     assert!(!publisher.is_heard());
     assert_eq!(graph.nodes().len(), 1);
     drop(publisher);
@@ -299,6 +301,17 @@ fn two_graphs_know_nothing_of_each_other() {
     assert!(mailbox.latest().is_none());
     one.advance_to(5);
     assert_eq!((one.now_ns(), two.now_ns()), (5, 0));
+}
+
+#[test]
+fn handles_go_from_thread_to_thread() {
+    fn check<T: Send + Sync>() {}
+    check::<Graph>();
+    check::<Publisher<Int32>>();
+    check::<periplus_graph::Mailbox<Int32>>();
+    check::<Sample>();
+    check::<periplus_graph::Actor<Int32>>();
+    check::<periplus_graph::Parameters>();
 }
 
 #[test]
