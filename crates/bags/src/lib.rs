@@ -27,11 +27,13 @@ mod metadata;
 mod qos;
 mod read;
 mod record;
+mod repair;
 mod write;
 
 pub use check::{Fault, check};
 pub use compression::Compression;
-pub use metadata::{BagInfo, FileInfo, Style, TopicInfo};
+pub use metadata::{BagInfo, FileInfo, Metadata, Style, TopicInfo, read_metadata};
 pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
 pub use read::{BagTopic, Limits, Message, Messages, ReadError, Reader, Selection};
+pub use repair::{RepairError, repair};
 pub use write::{Settings, Stamp, Topic, TopicId, WriteError, Writer};

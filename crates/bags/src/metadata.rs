@@ -1,9 +1,13 @@
 //! `metadata.yaml`: what is in a recording, as rosbag2 writes it.
 
+mod read;
+
 use std::fmt::Write as _;
 
 use crate::QosProfile;
 use crate::qos;
+
+pub use read::{Metadata, read_metadata};
 
 /// For which readers the metadata is written. All messages are the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

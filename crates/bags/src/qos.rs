@@ -5,6 +5,9 @@
 
 use std::fmt::Write as _;
 
+use periplus_diagnostics::SourceMap;
+use periplus_yaml::Node;
+
 use crate::Style;
 
 /// The quality of service that one publisher offered.
@@ -44,6 +47,12 @@ macro_rules! policy {
 
             fn name(self) -> &'static str {
                 match self { $(Self::$one => $text,)* }
+            }
+
+            /// From a name or a number.
+            fn read(text: &str) -> Option<Self> {
+                $(if text == $text || text == stringify!($number) { return Some(Self::$one); })*
+                None
             }
         }
     };
@@ -178,6 +187,40 @@ pub(crate) fn to_yaml(profiles: &[QosProfile], style: Style, indent: usize) -> S
     yaml
 }
 
+/// The profiles of a list, by names or numbers. What is missing or strange is unknown.
+pub(crate) fn from_yaml(list: &Node) -> Vec<QosProfile> {
+    let profiles = list.list().unwrap_or_default().iter();
+    profiles
+        .map(|node| {
+            let text = |name| node.get(name).and_then(Node::text).unwrap_or_default();
+            let duration_ns = |name| {
+                let part = |unit| node.get(name)?.get(unit)?.integer()?.try_into().ok();
+                let all_ns = u64::saturating_mul(part("sec")?, 1_000_000_000);
+                Some(all_ns.saturating_add(part("nsec")?)).filter(|&all_ns| all_ns < ENDLESS_NS)
+            };
+            let depth = node.get("depth").and_then(Node::integer).unwrap_or(0);
+            QosProfile {
+                history: History::read(text("history")).unwrap_or(History::Unknown),
+                depth: u64::try_from(depth).unwrap_or(0),
+                reliability: Reliability::read(text("reliability")).unwrap_or(Reliability::Unknown),
+                durability: Durability::read(text("durability")).unwrap_or(Durability::Unknown),
+                deadline_ns: duration_ns("deadline"),
+                lifespan_ns: duration_ns("lifespan"),
+                liveliness: Liveliness::read(text("liveliness")).unwrap_or(Liveliness::Unknown),
+                lease_ns: duration_ns("liveliness_lease_duration"),
+            }
+        })
+        .collect()
+}
+
+/// The profiles of a text inside of a bag.
+pub(crate) fn from_text(text: &str) -> Vec<QosProfile> {
+    let mut sources = SourceMap::new();
+    let file = sources.add("offered_qos_profiles", text);
+    let node = periplus_yaml::parse(file, &sources).ok().flatten();
+    node.map(|node| from_yaml(&node)).unwrap_or_default()
+}
+
 fn put_duration(yaml: &mut String, pad: &str, name: &str, duration_ns: Option<u64>) {
     let all_ns = duration_ns.unwrap_or(ENDLESS_NS);
     let (sec, nsec) = (all_ns / 1_000_000_000, all_ns % 1_000_000_000);
@@ -189,6 +232,17 @@ mod tests {
     use expect_test::expect;
 
     use super::*;
+
+    #[test]
+    fn profiles_read_back() {
+        let deadline = QosProfile { deadline_ns: Some(1_500_000_000), ..QosProfile::reliable(3) };
+        let all = [QosProfile::sensor_data(), QosProfile::latched(1), deadline];
+        for style in [Style::Humble, Style::Jazzy] {
+            assert_eq!(from_text(&to_yaml(&all, style, 0)), all);
+        }
+        assert_eq!(from_text("[]"), []);
+        assert_eq!(from_text("{"), []);
+    }
 
     #[test]
     fn names_and_numbers() {

@@ -19,7 +19,7 @@ use topics::Topics;
 pub use topics::{Topic, TopicId};
 
 use crate::record::MessageHead;
-use crate::{BagInfo, Compression, Style};
+use crate::{BagInfo, BagTopic, Compression, Style};
 
 /// How a file is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -152,7 +152,15 @@ impl<W: Write + Send + 'static> Writer<W> {
         self.topics.add(topic, self.settings.style, &mut self.chunk.preamble)
     }
 
-    /// Records a message, encoded as CDR.
+    /// Adds a topic of another file as it is there, whatever its encoding.
+    ///
+    /// # Errors
+    /// When there are too many of them.
+    pub fn copy_topic(&mut self, topic: &BagTopic) -> Result<TopicId, WriteError> {
+        self.topics.copy(topic, &mut self.chunk.preamble)
+    }
+
+    /// Records a message, encoded as its topic says.
     ///
     /// # Errors
     /// When the bag cannot hold it. An error of the sink may be that of an earlier message, and

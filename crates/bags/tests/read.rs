@@ -4,7 +4,8 @@
 use std::io::Cursor;
 
 use periplus_bags::{
-    Compression, Limits, QosProfile, ReadError, Reader, Selection, Settings, Stamp, Topic, Writer,
+    Compression, Limits, QosProfile, ReadError, Reader, Selection, Settings, Stamp, Style, Topic,
+    Writer, read_metadata, repair,
 };
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::std_msgs::UInt32;
@@ -191,7 +192,47 @@ fn memory_is_limited() {
     assert!(matches!(result, Err(ReadError::TooLarge(_))));
 }
 
+#[test]
+fn a_cut_file_is_made_whole() {
+    let (bytes, all) = numbers(Compression::Zstd);
+    // Behind the first chunk, in the middle of the second.
+    let cut = &bytes[..find_record(&bytes, 0x07) + 250];
+    let mut reader = Reader::open(Cursor::new(cut)).unwrap();
+    let settings = Settings { is_threaded: false, ..Settings::new("repaired.mcap") };
+    let (repaired, info) = repair(&mut reader, Vec::new(), settings).unwrap();
+    assert_eq!(periplus_bags::check(&repaired), []);
+    assert_eq!(read(&repaired), read(cut));
+    assert!(info.messages() >= 10 && info.messages() < all.len() as u64);
+    assert_eq!(info.topics[0].qos, [QosProfile::latched(1)]);
+    assert!(info.topics[0].type_hash.starts_with("RIHS01_"));
+    // What is whole stays as it is, but for the metadata.
+    let mut reader = Reader::open(Cursor::new(&*bytes)).unwrap();
+    let (again, _) = repair(&mut reader, Vec::new(), Settings::new("n.mcap")).unwrap();
+    assert_eq!(read(&again), all);
+}
+
+#[test]
+fn metadata_reads_back() {
+    for text in
+        [include_str!("data/metadata_humble.yaml"), include_str!("data/metadata_jazzy.yaml")]
+    {
+        let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
+        let file = sources.add("metadata.yaml", text);
+        let metadata = read_metadata(file, &sources, &mut findings).unwrap();
+        assert!(findings.is_empty(), "{findings:?}");
+        assert_eq!(metadata.storage, "mcap");
+        let style = if metadata.version == 5 { Style::Humble } else { Style::Jazzy };
+        assert_eq!(metadata.info.to_yaml(style), text);
+    }
+    let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
+    let file = sources.add("metadata.yaml", "rosbag2_bagfile_information:\n  files: 7\n");
+    assert!(read_metadata(file, &sources, &mut findings).is_none());
+    assert!(findings.has_errors());
+}
+
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
     #[test]
     fn damaged_files_are_read_without_harm(
         changes in prop::collection::vec((0_usize..6_000, any::<u8>()), 1..20),

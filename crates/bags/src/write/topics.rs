@@ -6,7 +6,7 @@ use periplus_msgs::Message;
 
 use super::WriteError;
 use crate::record::{Channel, Schema};
-use crate::{QosProfile, Style, TopicInfo};
+use crate::{BagTopic, QosProfile, Style, TopicInfo, qos};
 
 /// A topic to record.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,34 +62,11 @@ impl Topics {
         style: Style,
         preamble: &mut Vec<u8>,
     ) -> Result<TopicId, WriteError> {
-        let key = (topic.name.clone(), topic.type_name.clone());
-        if let Some(&id) = self.by_name.get(&key) {
-            return Ok(TopicId(id));
-        }
         for text in [&topic.name, &topic.type_name, &topic.schema_text, &topic.type_hash] {
             if u32::try_from(text.len()).is_err() {
                 return Err(WriteError::TooLong("a name or type".into()));
             }
         }
-        // Number 0 is no schema; channels are counted from 1 as well, as rosbag2 does.
-        let number = |count: usize| u16::try_from(count + 1).map_err(|_| WriteError::TooManyTopics);
-        let id = number(self.channels.len())?;
-        let known = self.schemas.iter().find(|schema| {
-            schema.name == topic.type_name && schema.data == topic.schema_text.as_bytes()
-        });
-        let schema = if let Some(schema) = known {
-            schema.id
-        } else {
-            let schema = Schema {
-                id: number(self.schemas.len())?,
-                name: topic.type_name.clone(),
-                encoding: "ros2msg".into(),
-                data: topic.schema_text.into_bytes(),
-            };
-            schema.put(preamble);
-            self.schemas.push(schema);
-            self.schemas[self.schemas.len() - 1].id
-        };
         let info = TopicInfo {
             name: topic.name,
             type_name: topic.type_name,
@@ -102,8 +79,60 @@ impl Topics {
             ("offered_qos_profiles".to_owned(), info.qos_text(style)),
             ("topic_type_hash".to_owned(), info.type_hash.clone()),
         ]);
-        let encoding = info.encoding.clone();
-        let channel = Channel { id, schema, topic: info.name.clone(), encoding, metadata };
+        self.insert(info, "ros2msg", topic.schema_text.into_bytes(), metadata, preamble)
+    }
+
+    /// A topic of another file, of whatever encoding.
+    pub(super) fn copy(
+        &mut self,
+        topic: &BagTopic,
+        preamble: &mut Vec<u8>,
+    ) -> Result<TopicId, WriteError> {
+        let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
+        let info = TopicInfo {
+            name: topic.name.clone(),
+            type_name: topic.type_name.clone(),
+            type_hash: about("topic_type_hash").into(),
+            encoding: topic.encoding.clone(),
+            qos: qos::from_text(about("offered_qos_profiles")),
+            messages: 0,
+        };
+        let metadata = topic.metadata.clone();
+        self.insert(info, &topic.schema_encoding, topic.schema.clone(), metadata, preamble)
+    }
+
+    fn insert(
+        &mut self,
+        info: TopicInfo,
+        schema_encoding: &str,
+        data: Vec<u8>,
+        metadata: BTreeMap<String, String>,
+        preamble: &mut Vec<u8>,
+    ) -> Result<TopicId, WriteError> {
+        let key = (info.name.clone(), info.type_name.clone());
+        if let Some(&id) = self.by_name.get(&key) {
+            return Ok(TopicId(id));
+        }
+        // Number 0 is no schema; channels are counted from 1 as well, as rosbag2 does.
+        let number = |count: usize| u16::try_from(count + 1).map_err(|_| WriteError::TooManyTopics);
+        let id = number(self.channels.len())?;
+        let schema = self
+            .schemas
+            .iter()
+            .find(|schema| schema.name == info.type_name && schema.data == data)
+            .map(|schema| schema.id);
+        let schema = if let Some(schema) = schema {
+            schema
+        } else {
+            let id = number(self.schemas.len())?;
+            let encoding = schema_encoding.to_owned();
+            let schema = Schema { id, name: info.type_name.clone(), encoding, data };
+            schema.put(preamble);
+            self.schemas.push(schema);
+            id
+        };
+        let (topic, encoding) = (info.name.clone(), info.encoding.clone());
+        let channel = Channel { id, schema, topic, encoding, metadata };
         channel.put(preamble);
         self.channels.push(channel);
         self.infos.push(info);

@@ -1,0 +1,98 @@
+//! `metadata.yaml` as rosbag2 wrote it, of any version.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
+use periplus_yaml::Node;
+
+use super::{BagInfo, FileInfo, TopicInfo};
+use crate::qos;
+
+/// What `metadata.yaml` says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Metadata {
+    /// Its version.
+    pub version: i64,
+    /// How the files are stored: `mcap` or `sqlite3`.
+    pub storage: String,
+    /// How whole files or messages are packed once more, such as `zstd`; mostly empty.
+    pub compression: String,
+    /// What is in the recording.
+    pub info: BagInfo,
+}
+
+/// Reads `metadata.yaml`. None, with findings, when it does not name the files.
+pub fn read_metadata(
+    file: FileId,
+    sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+) -> Option<Metadata> {
+    let node = match periplus_yaml::parse(file, sources) {
+        Ok(node) => node,
+        Err(wrong) => {
+            diagnostics.push(*wrong);
+            return None;
+        }
+    };
+    let bag = node.as_ref().and_then(|node| node.get("rosbag2_bagfile_information"));
+    let paths = bag.and_then(|bag| bag.get("relative_file_paths")).and_then(Node::list);
+    let (Some(bag), Some(paths)) = (bag, paths) else {
+        let wrong = "this is no metadata of a recording: it names no files";
+        let at = bag.map_or_else(|| sources.whole(file), |bag| bag.span);
+        let help = "`ros2 bag reindex` makes it anew; or name the .mcap file itself";
+        diagnostics.push(Diagnostic::error("bad-metadata", wrong).at(at).help(help));
+        return None;
+    };
+    let texts = |list: &[Node]| -> Vec<String> {
+        list.iter().filter_map(Node::text).map(str::to_owned).collect()
+    };
+    let about = bag.get("files").and_then(Node::list).unwrap_or_default();
+    let files = texts(paths).into_iter().map(|path| file_info(path, about)).collect();
+    let topics = bag.get("topics_with_message_count").and_then(Node::list).unwrap_or_default();
+    let info = BagInfo {
+        topics: topics.iter().map(topic_info).collect(),
+        files,
+        ros_distro: text(bag, "ros_distro"),
+    };
+    Some(Metadata {
+        version: bag.get("version").and_then(Node::integer).unwrap_or(0),
+        storage: text(bag, "storage_identifier"),
+        compression: text(bag, "compression_format"),
+        info,
+    })
+}
+
+fn text(node: &Node, name: &str) -> String {
+    node.get(name).and_then(Node::text).unwrap_or_default().to_owned()
+}
+
+fn count(node: &Node) -> u64 {
+    let count = node.get("message_count").and_then(Node::integer).unwrap_or(0);
+    u64::try_from(count).unwrap_or(0)
+}
+
+fn file_info(path: String, about: &[Node]) -> FileInfo {
+    let node = about.iter().find(|node| text(node, "path") == path);
+    let span_ns = node.filter(|node| count(node) > 0).and_then(|node| {
+        let start_ns = node.get("starting_time")?.get("nanoseconds_since_epoch")?.integer()?;
+        let duration_ns = node.get("duration")?.get("nanoseconds")?.integer()?;
+        Some((start_ns, start_ns.saturating_add(duration_ns)))
+    });
+    FileInfo { path, span_ns, messages: node.map_or(0, count) }
+}
+
+fn topic_info(node: &Node) -> TopicInfo {
+    let about = node.get("topic_metadata").unwrap_or(node);
+    // A list since version 9, a text with a list in it before.
+    let profiles = about.get("offered_qos_profiles");
+    let qos = match profiles.and_then(Node::text) {
+        Some(text) => qos::from_text(text),
+        None => profiles.map(qos::from_yaml).unwrap_or_default(),
+    };
+    TopicInfo {
+        name: text(about, "name"),
+        type_name: text(about, "type"),
+        type_hash: text(about, "type_description_hash"),
+        encoding: text(about, "serialization_format"),
+        qos,
+        messages: count(node),
+    }
+}
