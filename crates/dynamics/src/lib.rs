@@ -20,7 +20,7 @@
 //!   the middle of its tread: see [`wheel`](World#wheels). Contact stiffness (`kp`, `kd`), slip and
 //!   torsional friction are not modelled.
 //! - Meshes are exact where they are static, and their convex hull where they move. Ellipsoids are
-//!   hulls of 162 points on their surface.
+//!   hulls of 162 points on their surface. Outlines are prisms in convex pieces, with their holes.
 //!
 //! In [`Mode::Kinematic`] the same world moves without physics: robots follow their twists on flat
 //! ground exactly ([`Kinematic`]), joints their commands, in steps of any length. Nothing touches,
@@ -37,6 +37,7 @@ mod hooks;
 mod inertia;
 mod joints;
 mod kinematic;
+mod outline;
 mod places;
 mod records;
 mod rigid;

@@ -2,10 +2,13 @@
 
 use periplus_base::{DQuat, DVec3, Pose};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_scene::{Collision, Heightmap, Mesh, Shape};
+use periplus_scene::{Collision, Heightmap, Mesh, Polyline, Shape};
 use rapier3d_f64::geometry::SharedShape;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::utils::Array2;
+
+use crate::build::rapier_pose;
+use crate::outline::pieces;
 
 /// Triangles of a mesh, scaled and in the mesh's own frame.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -144,7 +147,7 @@ fn make(shape: &Shape, moves: bool, meshes: &dyn Meshes) -> Result<Option<Placed
             };
             ground(&heights)
         }
-        Shape::Polylines(_) => Err((Unsupported, "is a polyline".into())),
+        Shape::Polylines(outlines) => prism(outlines),
         Shape::Image(_) => Err((Unsupported, "is extruded from an image".into())),
         Shape::Unknown(element) => {
             Err((Unsupported, format!("has a shape of unknown kind, <{}>", element.name)))
@@ -180,6 +183,17 @@ fn mesh_shape(
         Ok(shape) => Ok(Some((Pose::IDENTITY, shape))),
         Err(error) => Err((Broken, format!("has a mesh that cannot be used: {error}"))),
     }
+}
+
+fn prism(outlines: &[Polyline]) -> Result<Option<Placed>, (Kind, String)> {
+    let pieces = pieces(outlines).map_err(|why| (Broken, why))?;
+    // A piece without volume, between corners that nearly agree, touches nothing.
+    let hulls = pieces.iter().filter_map(|corners| SharedShape::convex_hull(corners));
+    let parts: Vec<_> = hulls.map(|hull| (rapier_pose(Pose::IDENTITY), hull)).collect();
+    if parts.is_empty() {
+        return Err((Broken, "encloses nothing".into()));
+    }
+    Ok(Some((Pose::IDENTITY, SharedShape::compound(parts))))
 }
 
 fn hull(points: &[Vector]) -> Result<Option<Placed>, (Kind, String)> {
