@@ -6,10 +6,12 @@
 
 mod build;
 mod device;
+pub mod drives;
 mod naming;
 mod sensors;
 mod setting;
 mod stamp;
+pub mod states;
 mod views;
 
 pub use build::devices;

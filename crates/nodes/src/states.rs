@@ -1,0 +1,46 @@
+//! Publishers of states: odometry, joints, poses, frames and the clock.
+
+mod clock;
+mod geometry;
+mod gz_odometry;
+mod gz_poses;
+mod joint_state_publisher;
+mod joint_states;
+mod noise;
+mod odometry;
+mod p3d;
+mod robot_state_publisher;
+mod tree;
+
+pub use clock::ClockPublisher;
+pub(crate) use geometry::{from_vector, planar_twist, transform, vector};
+pub use joint_state_publisher::{JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource};
+pub use joint_states::JointStatePublisher;
+pub(crate) use joint_states::JointStates;
+pub(crate) use odometry::{TF_QOS, Teller, planar_covariance};
+pub(crate) use robot_state_publisher::RobotFrames;
+pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateOptions, RobotStatePublisher};
+
+use periplus_diagnostics::Diagnostics;
+
+use crate::Device;
+use crate::drives::Order;
+
+/// The device of a plugin that publishes states. `Err` if there is none for it here.
+pub(crate) fn build(
+    order: &Order<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Result<Option<Box<dyn Device>>, ()> {
+    fn boxed<D: Device + 'static>(device: Option<D>) -> Option<Box<dyn Device>> {
+        device.map(|device| Box::new(device) as Box<dyn Device>)
+    }
+    Ok(match order.plugin.known.id {
+        "gazebo_ros_joint_state_publisher" | "gz-sim-joint-state-publisher-system" => {
+            boxed(joint_states::plugin(order, diagnostics))
+        }
+        "gazebo_ros_p3d" => boxed(p3d::build(order, diagnostics)),
+        "gz-sim-odometry-publisher-system" => boxed(gz_odometry::build(order, diagnostics)),
+        "gz-sim-pose-publisher-system" => boxed(gz_poses::build(order, diagnostics)),
+        _ => return Err(()),
+    })
+}

@@ -1,0 +1,46 @@
+//! `/clock`.
+
+use periplus_graph::{Graph, GraphError, NodeSettings, Publisher, Qos};
+use periplus_msgs::rosgraph_msgs;
+
+use crate::drives::Beat;
+use crate::{Device, Moment, stamp};
+
+/// Publishes the simulated time on `/clock`, best effort with depth 1 as `rclcpp::ClockQoS` asks.
+pub struct ClockPublisher {
+    publisher: Publisher<rosgraph_msgs::Clock>,
+    tells: Beat,
+}
+
+impl ClockPublisher {
+    /// At a rate \[Hz\]; 0 is each step, as in gz-sim. Classic's are 10 (ROS 2) and 100 (ROS 1).
+    ///
+    /// # Errors
+    /// When the graph has a node `/clock` already.
+    pub fn new(graph: &Graph, rate_hz: f64, start_ns: i64) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new("clock"))?;
+        let publisher = node.publisher("/clock", Qos::clock())?;
+        Ok(Self { publisher, tells: Beat::telling(rate_hz, start_ns) })
+    }
+}
+
+impl Device for ClockPublisher {
+    fn name(&self) -> &str {
+        "clock"
+    }
+
+    fn sense(&mut self, moment: &mut Moment<'_>) {
+        let now_ns = moment.time_ns();
+        if self.tells.due(now_ns) {
+            self.publisher.publish(rosgraph_msgs::Clock { clock: stamp(now_ns) });
+        }
+    }
+
+    fn next_ns(&self) -> Option<i64> {
+        self.tells.next_ns().filter(|_| self.publisher.is_heard())
+    }
+
+    fn reset(&mut self, time_ns: i64) {
+        self.tells.restart(time_ns);
+    }
+}

@@ -1,0 +1,210 @@
+//! `joint_state_publisher`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
+use periplus_msgs::sensor_msgs;
+use periplus_params::{Table, Values, flag, number, texts};
+use periplus_scene::{JointKind, Mimic, Model};
+
+use crate::header;
+
+/// Parameters of [`JointStateSource`].
+pub static JOINT_STATE_PUBLISHER: Table = Table {
+    name: "joint_state_publisher",
+    doc: "Publishes joint states from default positions and from other topics.",
+    parameters: &[
+        number("rate", "Hz", "Messages per second.").or("10").within(1e-3, 1e6),
+        texts("source_list", "Topics of joint states that are passed on."),
+        flag("use_mimic_tags", "Whether joints that follow others are worked out.").or("true"),
+        flag("publish_default_positions", "Whether positions are published.").or("true"),
+        flag("publish_default_velocities", "Whether velocities of zero are published.").or("false"),
+        flag("publish_default_efforts", "Whether efforts of zero are published.").or("false"),
+    ],
+};
+
+/// What a [`JointStateSource`] may be told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointStateOptions {
+    /// Messages per second \[Hz\].
+    pub rate_hz: f64,
+    /// Topics of joint states that are passed on.
+    pub source_list: Vec<String>,
+    /// Whether joints that follow others are worked out.
+    pub use_mimic_tags: bool,
+    /// Whether positions are published.
+    pub publish_default_positions: bool,
+    /// Whether velocities of zero are published.
+    pub publish_default_velocities: bool,
+    /// Whether efforts of zero are published.
+    pub publish_default_efforts: bool,
+    /// Positions at the start, by joint, in the place of zero \[rad or m\].
+    pub zeros: BTreeMap<String, f64>,
+}
+
+impl Default for JointStateOptions {
+    fn default() -> Self {
+        Self {
+            rate_hz: 10.0,
+            source_list: Vec::new(),
+            use_mimic_tags: true,
+            publish_default_positions: true,
+            publish_default_velocities: false,
+            publish_default_efforts: false,
+            zeros: BTreeMap::new(),
+        }
+    }
+}
+
+impl JointStateOptions {
+    /// From parameters of [`JOINT_STATE_PUBLISHER`].
+    #[must_use]
+    pub fn read(values: &Values) -> Self {
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        Self {
+            rate_hz: values.number("rate").unwrap_or(10.0),
+            source_list: values.texts("source_list"),
+            use_mimic_tags: flag("use_mimic_tags"),
+            publish_default_positions: flag("publish_default_positions"),
+            publish_default_velocities: flag("publish_default_velocities"),
+            publish_default_efforts: flag("publish_default_efforts"),
+            zeros: BTreeMap::new(),
+        }
+    }
+}
+
+/// Publishes the states of all joints of a robot on `joint_states` at a rate: zero (or the middle
+/// of the limits where zero is outside them) until one of the sources tells otherwise.
+///
+/// Source: `joint_state_publisher.py` of ROS 2.
+pub struct JointStateSource {
+    actor: Actor<State>,
+}
+
+struct State {
+    joints: Vec<JointEntry>,
+    has_velocities: bool,
+    has_efforts: bool,
+    options: JointStateOptions,
+    publisher: Publisher<sensor_msgs::JointState>,
+}
+
+#[derive(Clone, Debug)]
+struct JointEntry {
+    name: String,
+    mimic: Option<Mimic>,
+    position: f64,
+    velocity: f64,
+    effort: f64,
+}
+
+impl JointStateSource {
+    /// As a node of a graph, of the joints of a model.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type, or the rate is not above 0.
+    pub fn new(node: Node, model: &Model, options: JointStateOptions) -> Result<Self, GraphError> {
+        let mut joints = Vec::new();
+        collect(model, "", &options, &mut joints);
+        let publisher = node.publisher("joint_states", Qos::reliable(10))?;
+        let (sources, rate_hz) = (options.source_list.clone(), options.rate_hz);
+        let (has_velocities, has_efforts) =
+            (options.publish_default_velocities, options.publish_default_efforts);
+        let state = State { joints, has_velocities, has_efforts, options, publisher };
+        let mut actor = node.actor(state);
+        for source in &sources {
+            actor.subscribe::<sensor_msgs::JointState>(
+                source,
+                Qos::reliable(10),
+                |state, message, _| state.hear(&message),
+            )?;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+        let period_ns = (1e9 / rate_hz) as i64;
+        actor.timer(period_ns, |state, io| state.tell(io.now_ns()))?;
+        Ok(Self { actor })
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+}
+
+/// The joints of a model and of those inside it that one coordinate moves, in order.
+fn collect(model: &Model, scope: &str, options: &JointStateOptions, joints: &mut Vec<JointEntry>) {
+    for joint in &model.joints {
+        let kinds = [JointKind::Revolute, JointKind::Continuous, JointKind::Prismatic];
+        let Some(axis) = joint.axis.as_ref().filter(|_| kinds.contains(&joint.kind)) else {
+            continue;
+        };
+        let name = format!("{scope}{}", joint.name);
+        let is_free = joint.kind == JointKind::Continuous;
+        let usual = if is_free || (axis.lower <= 0.0 && 0.0 <= axis.upper) {
+            0.0
+        } else {
+            (axis.lower + axis.upper) / 2.0
+        };
+        let position = options.zeros.get(&name).copied().unwrap_or(usual);
+        let mimic = axis.mimic.clone().filter(|_| options.use_mimic_tags);
+        joints.push(JointEntry { name, mimic, position, velocity: 0.0, effort: 0.0 });
+    }
+    for inner in &model.models {
+        collect(inner, &format!("{scope}{}::", inner.name), options, joints);
+    }
+}
+
+impl State {
+    fn hear(&mut self, message: &Arc<sensor_msgs::JointState>) {
+        for (index, name) in message.name.iter().enumerate() {
+            let joint = self.joints.iter_mut().find(|joint| joint.name == *name);
+            let Some(joint) = joint.filter(|joint| joint.mimic.is_none()) else { continue };
+            if let Some(&position) = message.position.get(index) {
+                joint.position = position;
+            }
+            if let Some(&velocity) = message.velocity.get(index) {
+                joint.velocity = velocity;
+                self.has_velocities = true;
+            }
+            if let Some(&effort) = message.effort.get(index) {
+                joint.effort = effort;
+                self.has_efforts = true;
+            }
+        }
+    }
+
+    fn tell(&self, now_ns: i64) {
+        let mut message =
+            sensor_msgs::JointState { header: header(now_ns, ""), ..Default::default() };
+        for joint in &self.joints {
+            let Some((position, velocity)) = self.state_of(joint, self.joints.len()) else {
+                continue;
+            };
+            message.name.push(joint.name.clone());
+            if self.options.publish_default_positions || !self.options.source_list.is_empty() {
+                message.position.push(position);
+            }
+            if self.has_velocities {
+                message.velocity.push(velocity);
+            }
+            if self.has_efforts {
+                message.effort.push(joint.effort);
+            }
+        }
+        if !message.name.is_empty() {
+            self.publisher.publish(message);
+        }
+    }
+
+    /// Position and velocity; those of a follower come from its leader. None of a circle of
+    /// followers, which is longer than all joints.
+    fn state_of(&self, joint: &JointEntry, most: usize) -> Option<(f64, f64)> {
+        let Some(mimic) = &joint.mimic else { return Some((joint.position, joint.velocity)) };
+        let leader = self.joints.iter().find(|other| other.name == mimic.joint)?;
+        let (position, velocity) = self.state_of(leader, most.checked_sub(1)?)?;
+        let Mimic { multiplier, offset, reference, .. } = mimic;
+        Some((multiplier * (position - reference) + offset, multiplier * velocity))
+    }
+}

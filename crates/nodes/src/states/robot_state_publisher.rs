@@ -1,0 +1,202 @@
+//! `robot_state_publisher`.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
+use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
+use periplus_params::{Table, Values, flag, number, text};
+use periplus_scene::Model;
+
+use super::geometry::transform;
+use super::odometry::TF_QOS;
+use super::tree::FrameTree;
+use crate::{Device, Setting, plain_node};
+
+/// Parameters of [`RobotStatePublisher`].
+pub static ROBOT_STATE_PUBLISHER: Table = Table {
+    name: "robot_state_publisher",
+    doc: "Publishes the frames of a robot from its description and its joint states.",
+    parameters: &[
+        text("robot_description", "The robot as URDF."),
+        number("publish_frequency", "Hz", "Most messages per second for the joints that move.")
+            .or("20")
+            .within(1e-3, 1000.0),
+        text("frame_prefix", "Before the name of every frame.").or(""),
+        flag("ignore_timestamp", "Whether joint states count whatever their time.").or("false"),
+    ],
+};
+
+/// What a [`RobotStatePublisher`] may be told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotStateOptions {
+    /// Most messages per second on `/tf`, above 0 \[Hz\].
+    pub publish_frequency_hz: f64,
+    /// Before the name of every frame.
+    pub frame_prefix: String,
+    /// Whether joint states count whatever their time.
+    pub ignore_timestamp: bool,
+}
+
+impl Default for RobotStateOptions {
+    fn default() -> Self {
+        Self { publish_frequency_hz: 20.0, frame_prefix: String::new(), ignore_timestamp: false }
+    }
+}
+
+impl RobotStateOptions {
+    /// From parameters of [`ROBOT_STATE_PUBLISHER`].
+    #[must_use]
+    pub fn read(values: &Values) -> Self {
+        let usual = Self::default();
+        Self {
+            publish_frequency_hz: values
+                .number("publish_frequency")
+                .unwrap_or(usual.publish_frequency_hz),
+            frame_prefix: values.text("frame_prefix").unwrap_or_default(),
+            ignore_timestamp: values.flag("ignore_timestamp").unwrap_or_default(),
+        }
+    }
+}
+
+/// Tells where the frames of a robot are: those that never move on `/tf_static`, once and kept for
+/// latecomers; those on joints on `/tf`, when `joint_states` come, at most at a rate. The
+/// description itself is on `robot_description`, kept as well.
+///
+/// Source: `robot_state_publisher.cpp` of ROS 2. As there, joints that are not in a message are not
+/// told, joints that follow others are worked out, and a jump back in time starts anew.
+pub struct RobotStatePublisher {
+    actor: Actor<State>,
+}
+
+struct State {
+    tree: FrameTree,
+    options: RobotStateOptions,
+    tf: Publisher<tf2_msgs::TFMessage>,
+    /// Kept, so that what was said before stays.
+    _description: Publisher<std_msgs::String>,
+    _tf_static: Publisher<tf2_msgs::TFMessage>,
+    /// Times of the states that were told last, by joint [ns].
+    told_ns: BTreeMap<String, i64>,
+    last_ns: i64,
+}
+
+impl RobotStatePublisher {
+    /// As a node of a graph. `description` is the URDF; the frames are those of `model`, which was
+    /// made from it.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type.
+    pub fn new(
+        node: Node,
+        description: impl Into<String>,
+        model: &Model,
+        options: RobotStateOptions,
+    ) -> Result<Self, GraphError> {
+        let tree = FrameTree::of(model);
+        let described = node.publisher("robot_description", Qos::latched(1))?;
+        let tf_static = node.publisher("/tf_static", Qos::latched(1))?;
+        let tf = node.publisher("/tf", TF_QOS)?;
+        described.publish(std_msgs::String { data: description.into() });
+        let now_ns = node.now_ns();
+        tf_static.publish(fixed_transforms(&tree, &options.frame_prefix, now_ns));
+        let state = State {
+            tree,
+            options,
+            tf,
+            _description: described,
+            _tf_static: tf_static,
+            told_ns: BTreeMap::new(),
+            last_ns: now_ns,
+        };
+        let mut actor = node.actor(state);
+        actor.subscribe::<sensor_msgs::JointState>(
+            "joint_states",
+            Qos::sensor_data(),
+            |state, message, io| state.hear(&message, io.now_ns()),
+        )?;
+        Ok(Self { actor })
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+}
+
+fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TFMessage {
+    let transforms = tree.fixed.iter().map(|edge| {
+        let (parent, child) =
+            (format!("{prefix}{}", edge.parent), format!("{prefix}{}", edge.child));
+        transform(now_ns, &parent, &child, edge.parent_from_child)
+    });
+    tf2_msgs::TFMessage { transforms: transforms.collect() }
+}
+
+impl State {
+    fn hear(&mut self, message: &Arc<sensor_msgs::JointState>, now_ns: i64) {
+        let sensor_msgs::JointState { header, name, position, .. } = &**message;
+        if name.len() != position.len() {
+            return;
+        }
+        if now_ns < self.last_ns {
+            self.told_ns.clear();
+        }
+        self.last_ns = now_ns;
+        let stamp_ns =
+            i64::from(header.stamp.sec) * 1_000_000_000 + i64::from(header.stamp.nanosec);
+        let oldest_ns = name.iter().map(|name| self.told_ns.get(name).copied().unwrap_or(0)).min();
+        let Some(oldest_ns) = oldest_ns.map(|oldest_ns| oldest_ns.min(now_ns)) else { return };
+        // In whole milliseconds, as the original counts.
+        #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+        let interval_ms = (1000.0 / self.options.publish_frequency_hz) as i64;
+        let due_ns = oldest_ns.saturating_add(interval_ms.saturating_mul(1_000_000));
+        if !self.options.ignore_timestamp && stamp_ns < due_ns {
+            return;
+        }
+        let mut positions: BTreeMap<String, f64> =
+            name.iter().cloned().zip(position.iter().copied()).collect();
+        self.tree.complete(&mut positions);
+        let prefix = &self.options.frame_prefix;
+        let transforms = positions.iter().filter(|(_, position)| position.is_finite());
+        let transforms = transforms.filter_map(|(joint, position)| {
+            let moving = self.tree.moving.get(joint)?;
+            let (parent, child) = (
+                format!("{prefix}{}", moving.edge.parent),
+                format!("{prefix}{}", moving.edge.child),
+            );
+            Some(transform(stamp_ns, &parent, &child, moving.parent_from_child(*position)))
+        });
+        self.tf.publish(tf2_msgs::TFMessage { transforms: transforms.collect() });
+        for name in name {
+            self.told_ns.insert(name.clone(), stamp_ns);
+        }
+    }
+}
+
+/// A [`RobotStatePublisher`] of a simulated robot, in its namespace.
+pub(crate) struct RobotFrames {
+    name: String,
+    /// It reacts as long as it is kept.
+    _publisher: RobotStatePublisher,
+}
+
+impl RobotFrames {
+    pub(crate) fn new(setting: &Setting<'_>, description: &str) -> Result<Self, GraphError> {
+        let node = plain_node(setting, "robot_state_publisher")?;
+        let options = RobotStateOptions::default();
+        let publisher = RobotStatePublisher::new(node, description, setting.root, options)?;
+        let name = format!("{}::robot_state_publisher", setting.model_name);
+        Ok(Self { name, _publisher: publisher })
+    }
+}
+
+impl Device for RobotFrames {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// It notices by itself when time goes back.
+    fn reset(&mut self, _time_ns: i64) {}
+}
