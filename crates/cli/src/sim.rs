@@ -12,8 +12,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use periplus_host::Stopwatch;
 use periplus_sim::{
-    Composition, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation, Wanted,
-    compose,
+    Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
+    Wanted, compose,
 };
 
 use crate::options::{SearchOptions, split};
@@ -108,6 +108,17 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
         );
         return Ok(ExitCode::from(2));
     };
+    let (mut driver, findings) = match &options.cmd {
+        Some(path) => Driver::read(path),
+        None => Default::default(),
+    };
+    let mut err = anstream::stderr().lock();
+    terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
+    drop(err);
+    if findings.diagnostics.has_errors() {
+        terminal::complain("the script cannot be driven");
+        return Ok(ExitCode::FAILURE);
+    }
     let search = &options.search.resource_path;
     let mut composition = terminal::with_setting(search, arguments, |setting| {
         compose(world, &options.robots.0, setting)
@@ -136,6 +147,10 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
             return Ok(ExitCode::FAILURE);
         }
     };
+    if let Err(error) = driver.join(&simulation) {
+        terminal::complain(&format!("the script cannot be driven: {error}"));
+        return Ok(ExitCode::FAILURE);
+    }
     let stop = stop_on_ctrl_c();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
@@ -146,7 +161,8 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     let start_up = start.elapsed();
     let mut line = progress::Line::new(options.duration, options.quiet || options.json);
     let stopwatch = Stopwatch::start();
-    let outcome = run.go(&mut simulation, &mut services, &mut |progress| line.show(progress));
+    let outcome =
+        run.go(&mut simulation, &mut services, &mut driver, &mut |progress| line.show(progress));
     let wall = stopwatch.elapsed();
     line.clear();
     let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use periplus_diagnostics::{Diagnostic, Severity, Style, render};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, render};
 use periplus_formats::{Loaded, Setting};
 use periplus_host::Machine;
 use periplus_resources::Resolver;
@@ -15,13 +15,22 @@ pub(crate) fn complain(words: &str) {
 
 /// Writes the findings of a file; colours are taken out on the way where nobody can see them.
 pub(crate) fn findings(out: &mut dyn Write, loaded: &Loaded) -> io::Result<()> {
-    for diagnostic in loaded.diagnostics.iter() {
-        writeln!(out, "{}", render(diagnostic, &loaded.sources, Style::Colour))?;
+    diagnostics(out, &loaded.diagnostics, &loaded.sources)
+}
+
+/// Writes findings with the texts that they point into.
+pub(crate) fn diagnostics(
+    out: &mut dyn Write,
+    diagnostics: &Diagnostics,
+    sources: &SourceMap,
+) -> io::Result<()> {
+    for diagnostic in diagnostics.iter() {
+        writeln!(out, "{}", render(diagnostic, sources, Style::Colour))?;
     }
-    let unkept = loaded.diagnostics.unkept();
+    let unkept = diagnostics.unkept();
     if unkept > 0 {
         let more = Diagnostic::hint("more", format!("{unkept} more findings are not shown"));
-        writeln!(out, "{}", render(&more, &loaded.sources, Style::Colour))?;
+        writeln!(out, "{}", render(&more, sources, Style::Colour))?;
     }
     Ok(())
 }

@@ -2,9 +2,10 @@
 //!
 //! [`compose`] reads files, [`Simulation`] makes nodes of what is in them and steps them, [`Run`]
 //! goes on until it is time, at the pace that is asked for. A [`Recorder`] writes what is published
-//! into a bag, [`Services`] let others change the world.
+//! into a bag, a [`Driver`] drives without a person, [`Services`] let others change the world.
 
 mod compose;
+mod drive;
 mod files;
 mod ground;
 mod pace;
@@ -15,6 +16,7 @@ mod shares;
 mod simulation;
 
 pub use compose::{Composition, Member, Placement, Standing, compose};
+pub use drive::{Driver, ScriptFindings};
 pub use files::ShapeFiles;
 pub use pace::Pace;
 pub use periplus_dynamics::{Diverged, Mode};

@@ -6,9 +6,9 @@ use std::time::Duration;
 use periplus_dynamics::Diverged;
 use periplus_host::{Stopwatch, sleep};
 
-use crate::Simulation;
 use crate::pace::Pace;
 use crate::services::Services;
+use crate::{Driver, Simulation};
 
 /// While a world stands still, its services are looked at this often.
 const PAUSED_WAIT: Duration = Duration::from_millis(5);
@@ -45,6 +45,7 @@ impl Run<'_> {
         &self,
         simulation: &mut Simulation,
         services: &mut Services,
+        driver: &mut Driver,
         watch: &mut dyn FnMut(Progress),
     ) -> Result<(), Diverged> {
         services.set_paused(self.paused);
@@ -57,6 +58,7 @@ impl Run<'_> {
             let before_ns = simulation.time_ns();
             services.serve(simulation);
             if simulation.time_ns() < before_ns {
+                driver.restart();
                 pace.restart(simulation.time_ns());
             }
             if !services.may_step() {
@@ -64,7 +66,9 @@ impl Run<'_> {
                 pace.restart(simulation.time_ns());
                 continue;
             }
-            simulation.step_until(self.end_ns.unwrap_or(i64::MAX))?;
+            driver.play(simulation);
+            let next_ns = driver.next_ns().unwrap_or(i64::MAX);
+            simulation.step_until(next_ns.min(self.end_ns.unwrap_or(i64::MAX)))?;
             let wall = stopwatch.elapsed();
             watch(progress(simulation.time_ns(), start_ns, wall));
             pace.wait(simulation.time_ns());

@@ -162,6 +162,22 @@ impl Simulation {
         self.running.iter().map(|running| running.member.name.as_str())
     }
 
+    /// `from:=to` for all nodes.
+    #[must_use]
+    pub fn remaps(&self) -> &[String] {
+        &self.options.remaps
+    }
+
+    /// Where the first robot is: the first model of a description, or else the first that can
+    /// move.
+    #[must_use]
+    pub fn robot_pose(&self) -> Option<Pose> {
+        let described = |running: &&Running| running.member.description.is_some();
+        let moves = |running: &&Running| !running.member.model.is_static;
+        let running = self.running.iter().find(described).or(self.running.iter().find(moves))?;
+        self.motion.model_pose(running.model)
+    }
+
     /// The names of all devices, in the order in which they act.
     pub fn devices(&self) -> impl Iterator<Item = &str> {
         let own = self.running.iter().flat_map(|running| &running.devices);
@@ -280,7 +296,8 @@ impl Simulation {
         let step_ns = self.step_ns;
         let left_ns = end_ns.saturating_sub(self.time_ns).max(1);
         if self.options.mode == Mode::Rigid {
-            return step_ns.min(left_ns);
+            // Always whole: physics with another step is another physics.
+            return step_ns;
         }
         let start_ns = self.time_ns;
         let longest_ns = LONGEST_STEP_NS.max(step_ns);

@@ -80,14 +80,13 @@ impl Post<'_> {
         if same(self.link_from_sensor(), Pose::IDENTITY) {
             return self.link.name.clone();
         }
-        let frames = self.model.frames.iter().filter(|frame| {
+        let mut frames = self.model.frames.iter().filter(|frame| {
             same(frame.parent_from_frame, sensor)
                 && periplus_scene::carrying_link(self.model, &frame.name).as_ref()
                     == Some(&self.link.name)
         });
         // Of several in one place the last is the sensor's own: the links before it lead there.
-        if let Some(frame) = frames.filter(|frame| frame.role != FrameRole::MergedJoint).next_back()
-        {
+        if let Some(frame) = frames.rfind(|frame| frame.role != FrameRole::MergedJoint) {
             return frame.name.clone();
         }
         let away = self.link_from_sensor().translation.length();
