@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use periplus_base::Pose;
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_dynamics::{Diverged, Mode, ModelId};
 use periplus_graph::Graph;
 use periplus_host::Stopwatch;
+use periplus_nodes::states::ClockPublisher;
 use periplus_nodes::{Device, Moment, Setting, Span, Views};
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
@@ -107,6 +108,13 @@ impl Simulation {
             files,
             options,
         };
+        match ClockPublisher::new(&simulation.graph, simulation.options.clock_rate_hz, 0) {
+            Ok(clock) => simulation.world_devices.push(Box::new(clock)),
+            // Cannot be: the graph is new.
+            Err(error) => composition.files[0]
+                .diagnostics
+                .push(Diagnostic::error("no-clock", error.to_string())),
+        }
         for member in composition.members.clone() {
             let file = member.file;
             let findings = simulation.spawn(member);
