@@ -2,7 +2,8 @@
 //!
 //! [`Surroundings`] puts the collision or the visual shapes of a world into one
 //! [`raycast::World`](periplus_raycast::World), moves them with their links, and tells of every hit
-//! what it is: model, link, colour, brightness to a laser, label. Shapes of files come from
+//! what it is: model, link, colour, brightness to a laser, label. [`Surroundings::take`] takes
+//! pictures: colour, depth and labels in one pass, with lights and shadows. Shapes of files come from
 //! [`Shapes`], so nothing here reads a file.
 //!
 //! ```
@@ -32,9 +33,12 @@ mod body;
 mod ground;
 mod image;
 mod label;
+mod lens;
+mod light;
 mod look;
 mod mesh;
 mod outline;
+mod picture;
 mod shapes;
 mod store;
 mod surroundings;
@@ -42,7 +46,9 @@ mod walk;
 
 pub use ground::{Ground, ground};
 pub use image::{BadImage, Grey, Image};
+pub use lens::Lens;
 pub use mesh::{Selected, select};
+pub use picture::{Picture, Shot, Wanted};
 pub use shapes::{NoShapes, Shapes};
 pub use surroundings::{
     Geometry, ModelId, PartGroup, PartId, Parts, SHADOW_MASK, Surface, Surroundings, filter,

@@ -46,7 +46,7 @@ impl Default for Look {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "colours need no more than single precision")]
-fn rgb(Colour([r, g, b, _]): Colour) -> [f32; 3] {
+pub(crate) fn rgb(Colour([r, g, b, _]): Colour) -> [f32; 3] {
     [r, g, b].map(|x| if x.is_finite() { x.clamp(0.0, 1.0) as f32 } else { 0.0 })
 }
 

@@ -1,6 +1,7 @@
 //! The shapes of a world, as rays meet them.
 
 mod assemble;
+mod detail;
 mod lookup;
 mod rebuild;
 
@@ -14,6 +15,7 @@ use periplus_scene::Model;
 pub use lookup::Surface;
 
 use crate::body::Body;
+use crate::light::Lamp;
 use crate::look::Look;
 use crate::shapes::Shapes;
 use crate::store::Store;
@@ -89,6 +91,8 @@ pub struct Surroundings {
     store: Store,
     /// How many instances each label has.
     instances_of_label: [u16; 256],
+    lamps: Vec<Lamp>,
+    sky: detail::Sky,
     moves: Vec<(InstanceId, Pose)>,
 }
 
@@ -149,6 +153,8 @@ impl Surroundings {
             rays: rebuild::nothing(),
             store: Store::default(),
             instances_of_label: [0; 256],
+            lamps: Vec::new(),
+            sky: detail::Sky::default(),
             moves: Vec::new(),
         }
     }
@@ -176,15 +182,18 @@ impl Surroundings {
                 .at(actor.origin),
             );
         }
-        made.rebuild(&mut diagnostics);
+        made.sky = detail::Sky::of(world);
+        world.lights.iter().for_each(|light| made.set_light(light));
+        made.build(&mut diagnostics);
         (made, diagnostics)
     }
 
     /// Adds a model with its frame somewhere in the world.
     pub fn add(&mut self, model: &Model, world_from_model: Pose, shapes: &dyn Shapes) -> Parts {
         let mut diagnostics = Diagnostics::new();
+        let first = self.things.len();
         let id = self.assemble(model, world_from_model, shapes, &mut diagnostics);
-        self.rebuild(&mut diagnostics);
+        self.insert(first..self.things.len(), &mut diagnostics);
         Parts { model: id, parts: self.parts(id).collect(), diagnostics }
     }
 
@@ -194,19 +203,24 @@ impl Surroundings {
         if std::mem::replace(&mut record.removed, true) {
             return;
         }
-        for part in &self.parts[range(&record.parts)] {
+        let parts = record.parts.clone();
+        let mut gone = Vec::new();
+        for part in &self.parts[range(&parts)] {
             for thing in &mut self.things[range(&part.things)] {
+                gone.extend(thing.instance.take());
                 thing.body = None;
                 thing.looks = Vec::new();
             }
         }
-        self.rebuild(&mut Diagnostics::new());
+        let removed = self.rays.remove(&gone);
+        debug_assert!(removed.is_ok(), "every thing knows its own instance");
+        self.lamps.retain(|lamp| lamp.part.is_none_or(|part| !parts.contains(&part)));
     }
 
-    /// Moves links. What is not finite or was removed stays as it is. A link of a static model is
-    /// taken out of the fixed triangles when it is first moved, which takes a rebuild.
+    /// Moves links. What is not finite or was removed stays as it is. A link of a static model
+    /// leaves the fixed triangles when it is first moved.
     pub fn place(&mut self, poses: &[(PartId, Pose)]) {
-        let mut loosened = false;
+        let mut loosened = Vec::new();
         self.moves.clear();
         for &(PartId(number), world_from_link) in poses {
             let Some(part) = self.parts.get_mut(number as usize) else { continue };
@@ -214,18 +228,26 @@ impl Surroundings {
                 continue;
             }
             part.world_from_link = world_from_link;
-            loosened |= std::mem::replace(&mut part.fixed, false);
+            if std::mem::replace(&mut part.fixed, false) {
+                loosened.push(range(&part.things));
+                continue;
+            }
             for thing in &self.things[range(&part.things)] {
                 if let Some(instance) = thing.instance {
                     self.moves.push((instance, world_from_link * thing.link_from_body));
                 }
             }
         }
-        if loosened {
-            self.rebuild(&mut Diagnostics::new());
-        } else if !self.moves.is_empty() {
+        if !self.moves.is_empty() {
             let moved = self.rays.move_to(&self.moves);
             debug_assert!(moved.is_ok(), "fixed triangles have no part in moves");
+        }
+        for things in loosened {
+            let gone: Vec<InstanceId> =
+                self.things[things.clone()].iter_mut().filter_map(|t| t.instance.take()).collect();
+            let removed = self.rays.remove(&gone);
+            debug_assert!(removed.is_ok(), "every thing knows its own instance");
+            self.insert(things, &mut Diagnostics::new());
         }
     }
 

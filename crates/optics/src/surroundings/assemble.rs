@@ -13,6 +13,7 @@ use super::{Geometry, Label, ModelId, ModelRecord, PartRecord, SHADOW_MASK, Surr
 use crate::body::{Body, Problem, body_of};
 use crate::image::Image;
 use crate::label::label_of;
+use crate::light::Lamp;
 use crate::look::Look;
 use crate::shapes::Shapes;
 use crate::walk::{Walked, walk};
@@ -54,6 +55,8 @@ impl Surroundings {
                     .at(walked.link.origin),
                 );
             }
+            let lights = walked.link.lights.iter().cloned();
+            self.lamps.extend(lights.map(|light| Lamp { light, part: Some(part) }));
             self.parts.push(PartRecord {
                 model: number,
                 name: walked.name,

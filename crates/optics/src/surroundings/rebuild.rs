@@ -1,5 +1,7 @@
 //! From things to the world that rays meet.
 
+use std::ops::Range;
+
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_raycast::{BadInstance, InstanceId, Tags, World, WorldBuilder};
@@ -14,37 +16,69 @@ pub(super) fn nothing() -> World {
 }
 
 impl Surroundings {
-    /// Makes the rays' world from all things.
-    pub(super) fn rebuild(&mut self, diagnostics: &mut Diagnostics) {
+    /// Makes the rays' world from all things, static meshes in one tree.
+    pub(super) fn build(&mut self, diagnostics: &mut Diagnostics) {
+        let (builder, numbers) = self.collect(0..self.things.len(), diagnostics);
+        match builder.build(self.threads) {
+            Ok(world) => {
+                self.rays = world;
+                self.number(0, &numbers);
+            }
+            Err(error) => too_many(error, diagnostics),
+        }
+    }
+
+    /// Adds things to the rays' world; the trees that are there stay.
+    pub(super) fn insert(&mut self, things: Range<usize>, diagnostics: &mut Diagnostics) {
+        let (builder, numbers) = self.collect(things, diagnostics);
+        match self.rays.insert(builder, self.threads) {
+            Ok(InstanceId(first)) => self.number(first, &numbers),
+            Err(error) => too_many(error, diagnostics),
+        }
+    }
+
+    /// What is to be built of some things, and which of them are in it.
+    fn collect(
+        &self,
+        things: Range<usize>,
+        diagnostics: &mut Diagnostics,
+    ) -> (WorldBuilder, Vec<usize>) {
         let mut builder = World::builder();
-        self.thing_of.clear();
-        for (number, thing) in (0_u32..).zip(&mut self.things) {
-            thing.instance = None;
+        let mut numbers = Vec::new();
+        for number in things {
+            let thing = &self.things[number];
             let Some(body) = &thing.body else { continue };
             let part = &self.parts[thing.part as usize];
             let world_from_body = part.world_from_link * thing.link_from_body;
             let added =
                 put(&mut builder, body, part.fixed, &world_from_body, thing.tags, self.threads);
             match added {
-                Ok(instance) => {
-                    thing.instance = Some(instance);
-                    self.thing_of.push(number);
-                }
+                Ok(_) => numbers.push(number),
                 Err(error) => diagnostics.push(Diagnostic::error(
                     "shape-impossible",
                     format!("`{}::{}`: {error}", part.name, thing.name),
                 )),
             }
         }
-        self.rays = builder.build(self.threads).unwrap_or_else(|error| {
-            diagnostics.push(
-                Diagnostic::error("too-many-triangles", format!("nothing can be seen: {error}"))
-                    .help("use simpler meshes for static models"),
-            );
-            self.thing_of.clear();
-            nothing()
-        });
+        (builder, numbers)
     }
+
+    /// Writes down which instances from `first` on are which things.
+    fn number(&mut self, first: u32, things: &[usize]) {
+        for (instance, &thing) in (first..).zip(things) {
+            self.things[thing].instance = Some(InstanceId(instance));
+            // Things are counted in 32 bits.
+            #[expect(clippy::cast_possible_truncation, reason = "see above")]
+            self.thing_of.push(thing as u32);
+        }
+    }
+}
+
+fn too_many(error: BadInstance, diagnostics: &mut Diagnostics) {
+    diagnostics.push(
+        Diagnostic::error("too-many-triangles", format!("no sensor sees these: {error}"))
+            .help("use simpler meshes"),
+    );
 }
 
 /// Adds a body to what is to be built.

@@ -1,0 +1,230 @@
+//! From pixels to directions.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use periplus_scene::{Camera, CameraKind, DVec3, Distortion, Element};
+
+/// No sensor has more pixels than 8192 by 8192.
+const MOST_PIXELS: u64 = 1 << 26;
+/// Steps within which the inverse of a sensible lens is found.
+const STEPS: usize = 64;
+
+/// A lens and the pixels behind it. It looks along x of its own frame, y to the left, z up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lens {
+    width: u32,
+    height: u32,
+    kind: Kind,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    /// Focal length in pixels.
+    Pinhole(f64),
+    /// A direction for every pixel; none where the lens sees nothing.
+    Table(Vec<Option<DVec3>>),
+}
+
+impl Lens {
+    /// An ideal pinhole: the image plane at a distance of `width / (2 tan(fov / 2))` pixels, its
+    /// middle between the middle pixels.
+    ///
+    /// # Errors
+    /// When there are no pixels or too many, or the angle is not between 0 and π.
+    pub fn pinhole(width: u32, height: u32, horizontal_fov_rad: f64) -> Result<Self, String> {
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels == 0 || pixels > MOST_PIXELS {
+            return Err(format!("an image of {width} by {height} pixels cannot be taken"));
+        }
+        if !(1e-6..PI - 1e-6).contains(&horizontal_fov_rad) {
+            return Err(format!(
+                "a view of {horizontal_fov_rad} rad cannot be taken through a pinhole: it has to \
+                 be more than 0 and less than π"
+            ));
+        }
+        let focal_px = f64::from(width) / (2.0 * libm::tan(horizontal_fov_rad / 2.0));
+        Ok(Self { width, height, kind: Kind::Pinhole(focal_px) })
+    }
+
+    /// That of a camera: pinhole, pinhole with Brown's distortion, or wide angle.
+    ///
+    /// # Errors
+    /// What about it is impossible.
+    pub fn of(camera: &Camera) -> Result<Self, String> {
+        let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
+        if camera.kind == CameraKind::WideAngle {
+            return wide_angle(camera);
+        }
+        let lens = Self::pinhole(width, height, fov)?;
+        let distortion =
+            camera.distortion.filter(|d| [d.k1, d.k2, d.k3, d.p1, d.p2].iter().any(|&k| k != 0.0));
+        let (Some(distortion), Kind::Pinhole(focal_px)) = (distortion, &lens.kind) else {
+            return Ok(lens);
+        };
+        let [center_x, center_y] = distortion.center;
+        let numbers = [
+            distortion.k1,
+            distortion.k2,
+            distortion.k3,
+            distortion.p1,
+            distortion.p2,
+            center_x,
+            center_y,
+        ];
+        if numbers.iter().any(|number| !number.is_finite()) {
+            return Err("the distortion has a number that is not finite".into());
+        }
+        let middle = [center_x * f64::from(width), center_y * f64::from(height)];
+        let off = [
+            (middle[0] - f64::from(width) / 2.0) / focal_px,
+            (middle[1] - f64::from(height) / 2.0) / focal_px,
+        ];
+        let table = pixels(width, height).map(|[u, v]| {
+            let bent = [(u - middle[0]) / focal_px, (v - middle[1]) / focal_px];
+            let [x, y] = straighten(&distortion, bent)?;
+            Some(DVec3::new(1.0, -(x + off[0]), -(y + off[1])))
+        });
+        Ok(Self { width, height, kind: Kind::Table(table.collect()) })
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Where the middle of a pixel looks, in the frame of the camera, of any length; through a
+    /// pinhole of length 1 along x, so that distances in these lengths are depths.
+    #[must_use]
+    pub fn direction(&self, column: u32, row: u32) -> Option<DVec3> {
+        match &self.kind {
+            Kind::Pinhole(focal_px) => {
+                let right = f64::from(column) + 0.5 - f64::from(self.width) / 2.0;
+                let down = f64::from(row) + 0.5 - f64::from(self.height) / 2.0;
+                Some(DVec3::new(1.0, -right / focal_px, -down / focal_px))
+            }
+            Kind::Table(table) => {
+                *table.get(row as usize * self.width as usize + column as usize)?
+            }
+        }
+    }
+}
+
+/// The middles of all pixels, row by row.
+fn pixels(width: u32, height: u32) -> impl Iterator<Item = [f64; 2]> {
+    (0..height).flat_map(move |row| {
+        (0..width).map(move |column| [f64::from(column) + 0.5, f64::from(row) + 0.5])
+    })
+}
+
+/// Where Brown's model bends a point of the image plane at a distance of 1.
+fn bend(d: &Distortion, [x, y]: [f64; 2]) -> [f64; 2] {
+    let r2 = x * x + y * y;
+    let radial = 1.0 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
+    [
+        x * radial + 2.0 * d.p1 * x * y + d.p2 * (r2 + 2.0 * x * x),
+        y * radial + d.p1 * (r2 + 2.0 * y * y) + 2.0 * d.p2 * x * y,
+    ]
+}
+
+/// The point that is bent to this one, by going back as far as the last try was off. None where
+/// the lens folds the image over.
+fn straighten(d: &Distortion, bent: [f64; 2]) -> Option<[f64; 2]> {
+    let mut point = bent;
+    for _ in 0..STEPS {
+        let tried = bend(d, point);
+        let off = [bent[0] - tried[0], bent[1] - tried[1]];
+        point = [point[0] + off[0], point[1] + off[1]];
+        if off[0].abs().max(off[1].abs()) < 1e-12 {
+            return Some(point);
+        }
+        if !(point[0].is_finite() && point[1].is_finite()) {
+            return None;
+        }
+    }
+    None
+}
+
+/// Lenses of SDF's `<lens>` by their names: how far from the middle an angle θ is seen, in focal
+/// lengths, and back.
+fn wide_angle(camera: &Camera) -> Result<Lens, String> {
+    let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
+    // Also checks the number of pixels.
+    let Lens { .. } = Lens::pinhole(width, height, 1.0)?;
+    if !(1e-6..=2.0 * PI).contains(&fov) {
+        return Err(format!("a view of {fov} rad is impossible"));
+    }
+    let lens = camera.extra.iter().find(|element| element.name == "lens");
+    let child = |name: &str| lens.and_then(|lens| lens.elements().find(|e| e.name == name));
+    let text = |name: &str| child(name).map(Element::text);
+    let kind =
+        text("type").map_or_else(|| "stereographic".to_owned(), |text| text.trim().to_owned());
+    let cutoff =
+        text("cutoff_angle").and_then(|text| text.trim().parse().ok()).unwrap_or(FRAC_PI_2);
+    type Law = fn(f64) -> f64;
+    let (seen, angle): (Law, Law) = match kind.as_str() {
+        "gnomonical" => (libm::tan, libm::atan),
+        "stereographic" => (|a| 2.0 * libm::tan(a / 2.0), |r| 2.0 * libm::atan(r / 2.0)),
+        "equidistant" => (|a| a, |r| r),
+        "equisolid_angle" => (|a| 2.0 * libm::sin(a / 2.0), |r| 2.0 * libm::asin(r / 2.0)),
+        "orthographic" => (libm::sin, libm::asin),
+        _ => {
+            return Err(format!(
+                "lens type `{kind}` is not known here; use gnomonical, stereographic, \
+                 equidistant, equisolid_angle or orthographic"
+            ));
+        }
+    };
+    let scale = seen(fov / 2.0);
+    if !(scale.is_finite() && scale > 0.0) {
+        return Err(format!("a {kind} lens cannot see {fov} rad"));
+    }
+    let focal_px = f64::from(width) / 2.0 / scale;
+    let (middle_u, middle_v) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
+    let table = pixels(width, height).map(|[u, v]| {
+        let (right, down) = ((u - middle_u) / focal_px, (v - middle_v) / focal_px);
+        let radius = libm::sqrt(right * right + down * down);
+        let theta = angle(radius);
+        // The law may have no angle for it.
+        if theta.is_nan() || theta > f64::min(cutoff, PI) {
+            return None;
+        }
+        let (sine, cosine) = libm::sincos(theta);
+        let side = if radius > 0.0 { sine / radius } else { 1.0 };
+        Some(DVec3::new(cosine, -right * side, -down * side))
+    });
+    Ok(Lens { width, height, kind: Kind::Table(table.collect()) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_right_angle_ends_at_the_rim() {
+        // f = 2 px; the outer pixels' middles are half a pixel further in.
+        let lens = Lens::pinhole(4, 2, FRAC_PI_2).unwrap();
+        let first = lens.direction(0, 0).unwrap();
+        assert!((first - DVec3::new(1.0, 0.75, 0.25)).length() < 1e-12, "{first}");
+        assert!(Lens::pinhole(0, 2, 1.0).is_err());
+        assert!(Lens::pinhole(2, 2, PI).is_err());
+        assert!(Lens::pinhole(2, 2, f64::NAN).is_err());
+        assert!(Lens::pinhole(1 << 20, 1 << 20, 1.0).is_err());
+    }
+
+    #[test]
+    fn bending_undoes_straightening() {
+        let d =
+            Distortion { k1: -0.25, k2: 0.12, k3: 0.01, p1: 0.001, p2: -0.002, center: [0.5, 0.5] };
+        for point in [[0.0, 0.0], [0.4, -0.3], [-0.5, 0.5]] {
+            let [x, y] = bend(&d, straighten(&d, point).unwrap());
+            assert!((x - point[0]).abs() < 1e-11 && (y - point[1]).abs() < 1e-11);
+        }
+    }
+}
