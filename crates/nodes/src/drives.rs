@@ -32,8 +32,8 @@ use periplus_plugins::{Interpreted, Role, Site, Support};
 use crate::{Device, Setting, states};
 
 /// The device of a plugin that drives, controls joints or publishes states. None for plugins of
-/// other kinds and those that are only kept; none, with errors that tell where and why, for those
-/// that cannot work; none, with a warning, for those that are not run yet.
+/// other kinds; none, with errors that tell where and why, for those that cannot work; none, with a
+/// warning, for those that are known and not run, effects such as slip among them.
 #[must_use]
 pub fn build(
     setting: &Setting<'_>,
@@ -44,11 +44,14 @@ pub fn build(
     fn boxed<D: Device + 'static>(device: Option<D>) -> Option<Box<dyn Device>> {
         device.map(|device| Box::new(device) as Box<dyn Device>)
     }
+    let order = &Order { setting, site, plugin };
     let moves = matches!(plugin.known.role, Role::Drive | Role::Control | Role::State);
+    if plugin.known.support == Support::Kept && (moves || plugin.known.role == Role::Effect) {
+        diagnostics.push(not_run(order));
+    }
     if !moves || plugin.known.support != Support::Simulated {
         return None;
     }
-    let order = &Order { setting, site, plugin };
     match plugin.known.id {
         "gazebo_ros_diff_drive" | "gazebo_ros_skid_steer_drive" => {
             boxed(wheels::build(order, diagnostics))
@@ -71,12 +74,15 @@ pub fn build(
     }
 }
 
-/// A plugin that the tables promise and that nobody runs yet.
+/// A plugin that is known and not run.
 fn not_run(order: &Order<'_>) -> Diagnostic {
     let name = &order.site.plugin.name;
-    let finding = Diagnostic::warning("plugin-not-run", format!("plugin `{name}` is not run yet"))
+    let finding = Diagnostic::warning("plugin-not-run", format!("plugin `{name}` is not run"))
         .at(order.origin());
     match order.plugin.known.id {
+        "gazebo_ros_wheel_slip" | "WheelSlipPlugin" | "gz-sim-wheel-slip-system" => {
+            finding.note("wheels hold the ground by friction alone")
+        }
         "gz_ros2_control-system" | "gazebo_ros2_control" | "gazebo_ros_control" => finding
             .note("controllers of ros2_control are not loaded, so its joints move freely")
             .help(

@@ -1,6 +1,6 @@
 //! Odometry from wheels.
 
-use periplus_dynamics::{JointId, World, drives::Odometry};
+use periplus_dynamics::{Command, JointId, Twist, World, drives::Odometry};
 
 /// A left and a right wheel that are counted.
 #[derive(Clone, Debug)]
@@ -32,6 +32,15 @@ impl Encoders {
         if let Some(before) = self.before_rad.replace(now) {
             let [left_m, right_m] = [0, 1].map(|side| (now[side] - before[side]) * self.radius_m);
             self.odometry = self.odometry.moved(left_m, right_m, self.separation_m, dt_s);
+        }
+    }
+
+    /// Turns the wheels as ground would that passes below at a twist.
+    pub(crate) fn roll(&self, world: &mut World, twist: Twist) {
+        for (joint, sign) in self.wheels.into_iter().zip([-1.0, 1.0]) {
+            let speed_m_s = twist.x_m_s + sign * twist.yaw_rad_s * self.separation_m / 2.0;
+            let target = speed_m_s / self.radius_m;
+            world.command(joint, Command::Velocity { target, max_effort: f64::INFINITY });
         }
     }
 

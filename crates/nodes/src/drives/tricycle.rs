@@ -226,7 +226,10 @@ impl Device for Tricycle {
         world.command(self.steering, steer);
         if self.wheel_base_m.abs() > 1e-6 {
             let twist = self.law.twist(target, at_rad, self.wheel_base_m);
-            world.follow_about(self.model, self.centre_m, twist);
+            if world.follow_about(self.model, self.centre_m, twist) {
+                // Without physics nothing rolls the counted wheels along.
+                self.encoders.roll(world, twist);
+            }
         }
     }
 

@@ -320,14 +320,24 @@ const TRICYCLE: &str = r#"
 /// √½ m/s of 1 m/s go ahead, and it turns by √2 rad/s.
 #[test]
 fn a_tricycle_steered_by_45_degrees() {
+    for source in ["", ENCODERS] {
+        tricycle_steered_by_45_degrees(source);
+    }
+}
+
+fn tricycle_steered_by_45_degrees(source: &str) {
     let plugin = "<plugin name='tri' filename='libgazebo_ros_tricycle_drive.so'>
         <steering_joint>s</steering_joint><actuated_wheel_joint>f</actuated_wheel_joint>
         <encoder_wheel_left_joint>l</encoder_wheel_left_joint>
         <encoder_wheel_right_joint>r</encoder_wheel_right_joint>
         <actuated_wheel_diameter>0.2</actuated_wheel_diameter>
+        <encoder_wheel_diameter>0.2</encoder_wheel_diameter>
         <publish_odom>true</publish_odom>
         <publish_wheel_joint_state>true</publish_wheel_joint_state></plugin>";
-    let mut bench = Bench::of(&format!("{TRICYCLE}{plugin}"), Mode::Kinematic);
+    let mut bench = Bench::of(
+        &format!("{TRICYCLE}{}", plugin.replace("</plugin>", &format!("{source}</plugin>"))),
+        Mode::Kinematic,
+    );
     let odometry = bench.hear::<nav_msgs::Odometry>("/odom");
     let states = bench.hear::<sensor_msgs::JointState>("/joint_states");
     bench.say("/cmd_vel").publish(twist(1.0, 0.0, std::f64::consts::FRAC_PI_4));

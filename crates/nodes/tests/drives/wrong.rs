@@ -118,7 +118,7 @@ fn what_is_not_run_yet_is_told() {
            name='gz_ros2_control::GazeboSimROS2ControlPlugin'/>",
     );
     expect![[r#"
-        warning[plugin-not-run]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` is not run yet
+        warning[plugin-not-run]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` is not run
           --> robot.sdf:36:1
            |
         36 | <plugin filename='gz_ros2_control-system'
