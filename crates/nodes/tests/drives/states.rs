@@ -209,3 +209,23 @@ fn the_clock() {
     assert_eq!((heard[149].clock.sec, heard[149].clock.nanosec), (1, 500_000_000));
     assert!(bench.topics().contains("/clock -> /clock rosgraph_msgs/msg/Clock best"));
 }
+
+/// A robot from a URDF: its joints are told though no plugin does, and so its frames come.
+#[test]
+fn a_whole_robot_tells_its_frames() {
+    let mut bench = Bench::exact(TURNING);
+    let mut found = periplus_diagnostics::Diagnostics::new();
+    bench.devices.clear();
+    let devices = periplus_nodes::devices(&bench.setting(), Some("<robot/>"), &mut found);
+    bench.devices = devices;
+    assert!(found.is_empty(), "{found:?}");
+    let tf = bench.hear::<tf2_msgs::TFMessage>("/tf");
+    bench.run(1.0);
+    let heard = tf.drain();
+    // Joint states come every 20 ms, frames every 50 ms at most: with every third state.
+    assert_eq!(heard.len(), 16);
+    let wheels: Vec<&str> = heard[15].transforms.iter().map(|one| &*one.child_frame_id).collect();
+    assert_eq!(wheels, ["left", "right"]);
+    let names: Vec<String> = bench.graph.nodes().into_iter().map(|node| node.name).collect();
+    assert!(names.contains(&"/robot_state_publisher".to_owned()), "{names:?}");
+}
