@@ -13,9 +13,10 @@ mod files;
 mod loading;
 mod peers;
 mod physics;
+mod rays;
 mod world;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::json;
@@ -24,6 +25,8 @@ fn main() -> ExitCode {
     let words: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
     match words.split_first() {
         Some((first, rest)) if first.as_os_str() == "physics" => physics(rest),
+        Some((first, rest)) if first.as_os_str() == "rays" => tell(race_rays(rest)),
+        Some((first, rest)) if first.as_os_str() == "cast" => tell(cast_rays(rest)),
         _ => loading(),
     }
 }
@@ -80,6 +83,49 @@ fn loading() -> ExitCode {
             }
             ExitCode::SUCCESS
         }
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// `rays ENGINES FOLDER RESULTS.md [TURNS]`
+fn race_rays(words: &[PathBuf]) -> Result<(), String> {
+    let [engines, folder, results, turns @ ..] = words else {
+        return Err("usage: periplus-benches rays ENGINES FOLDER RESULTS.md [TURNS]".to_owned());
+    };
+    let turns = turns.first().and_then(|turns| turns.to_str()?.parse().ok()).unwrap_or(2);
+    let tables = rays::compare(engines, folder, turns)?;
+    println!("{tables}");
+    replace_section(results, &tables).map_err(|error| format!("{}: {error}", results.display()))
+}
+
+/// `cast SCENES SCENE OUT`: us alone.
+fn cast_rays(words: &[PathBuf]) -> Result<(), String> {
+    let [scenes, scene, out] = words else {
+        return Err("usage: periplus-benches cast SCENES SCENE OUT".to_owned());
+    };
+    rays::cast(scenes, &scene.to_string_lossy(), out).map_err(|error| error.to_string())
+}
+
+const SECTION: [&str; 2] =
+    ["<!-- rays: written by `cargo xtask bench rays` -->\n", "<!-- end of rays -->\n"];
+
+/// Puts new tables where the old ones were, or at the end.
+fn replace_section(results: &Path, tables: &str) -> std::io::Result<()> {
+    let text = std::fs::read_to_string(results)?;
+    let [start, end] = SECTION;
+    let (before, after) = match (text.split_once(start), text.split_once(end)) {
+        (Some((before, _)), Some((_, after))) => (before, after),
+        _ => (&*text, ""),
+    };
+    std::fs::write(results, format!("{before}{start}\n{tables}\n{end}{after}"))
+}
+
+fn tell(result: Result<(), String>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("{why}");
             ExitCode::FAILURE

@@ -14,6 +14,7 @@ mod fuzz;
 mod layers;
 mod physics;
 mod pictures;
+mod rays;
 mod step;
 #[cfg(test)]
 mod tidy;
@@ -56,7 +57,7 @@ enum Task {
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
     Bench {
-        /// Only this: `loading`, or `physics` (needs nothing of `corpus`)
+        /// Only this: `loading`; or `physics` or `rays` (which need nothing of `corpus`)
         only: Option<Contest>,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
@@ -84,6 +85,7 @@ enum Task {
 enum Contest {
     Loading,
     Physics,
+    Rays,
 }
 
 fn main() -> ExitCode {
@@ -109,7 +111,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Bench { only } => match only {
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Physics) => physics::bench(),
-            None => corpus::bench().and_then(|()| physics::bench()),
+            Some(Contest::Rays) => rays::bench(),
+            None => corpus::bench().and_then(|()| physics::bench()).and_then(|()| rays::bench()),
         },
         Task::Codegen { check } => codegen::run(*check),
         Task::Determinism => determinism::check(),

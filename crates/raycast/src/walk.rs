@@ -42,37 +42,54 @@ pub(crate) fn walk<V: V8>(
     let mut height = 0_usize;
     loop {
         let (mut hits, enter) = test.children(node, V::splat(limit));
+        // Where to go on: straight to the nearest child, without a detour through the stack.
+        let mut next = None;
         if hits != 0 {
-            let enter = enter.store();
             let words = &node.0[6];
-            let bottom = height;
-            while hits != 0 {
-                let slot = hits.trailing_zeros() as usize & 7;
-                hits &= hits - 1;
-                let key =
-                    u64::from(enter.0[slot].to_bits()) << 32 | u64::from(words.0[slot].to_bits());
-                // The farthest lies lowest.
-                let mut place = height;
-                while place > bottom && stack[(place - 1) % STACK] < key {
-                    stack[place % STACK] = stack[(place - 1) % STACK];
-                    place -= 1;
+            let first = hits.trailing_zeros() as usize & 7;
+            hits &= hits - 1;
+            if hits == 0 {
+                next = Some(words.0[first].to_bits());
+            } else {
+                let enter = enter.store();
+                let key = |slot: usize| {
+                    u64::from(enter.0[slot].to_bits()) << 32 | u64::from(words.0[slot].to_bits())
+                };
+                let mut nearest = key(first);
+                let bottom = height;
+                while hits != 0 {
+                    let slot = hits.trailing_zeros() as usize & 7;
+                    hits &= hits - 1;
+                    let own = key(slot);
+                    let (near, far) = if own < nearest { (own, nearest) } else { (nearest, own) };
+                    nearest = near;
+                    // The farthest lies lowest.
+                    let mut place = height;
+                    while place > bottom && stack[(place - 1) % STACK] < far {
+                        stack[place % STACK] = stack[(place - 1) % STACK];
+                        place -= 1;
+                    }
+                    stack[place % STACK] = far;
+                    height += 1;
                 }
-                stack[place % STACK] = key;
-                height += 1;
+                next = Some(word_of(nearest));
             }
         }
-        // The next node to open; leaves on the way are dealt with at once.
         node = loop {
-            if height == 0 {
-                return;
-            }
-            height -= 1;
-            let key = stack[height % STACK];
-            #[expect(clippy::cast_possible_truncation, reason = "the two halves")]
-            let (enter, word) = (f32::from_bits((key >> 32) as u32), key as u32);
-            if enter > limit {
-                continue;
-            }
+            let word = match next.take() {
+                Some(word) => word,
+                None => {
+                    if height == 0 {
+                        return;
+                    }
+                    height -= 1;
+                    let key = stack[height % STACK];
+                    if f32::from_bits((key >> 32) as u32) > limit {
+                        continue;
+                    }
+                    word_of(key)
+                }
+            };
             if word & LEAF == 0 {
                 break &nodes[word as usize];
             }
@@ -83,4 +100,10 @@ pub(crate) fn walk<V: V8>(
             }
         };
     }
+}
+
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half")]
+fn word_of(key: u64) -> u32 {
+    key as u32
 }

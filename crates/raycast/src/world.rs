@@ -5,6 +5,7 @@ mod change;
 mod instances;
 mod many;
 mod near;
+mod order;
 mod query;
 mod shares;
 

@@ -328,7 +328,7 @@ fn split<V: V8>(
     if !forced {
         // A leaf costs as much with eight triangles as with one: only less area pays.
         let worth = |cut: &Cut| {
-            cut.left.half_area() + cut.right.half_area() < 0.9 * range.bounds.half_area()
+            cut.left.half_area() + cut.right.half_area() < 0.7 * range.bounds.half_area()
         };
         if !best.as_ref().is_some_and(worth) {
             return None;

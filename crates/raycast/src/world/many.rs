@@ -1,5 +1,6 @@
 //! Many rays at a time.
 
+use super::order::Loose;
 use super::query::{Found, Scratch, single_above};
 use super::shares::in_shares;
 use super::{Body, Filter, World};
@@ -16,6 +17,8 @@ const WIDEST: f32 = 0.5;
 /// The same where triangles are many and a wide pyramid meets far more than its rays do.
 const WIDEST_AMONG_MANY: f32 = 0.1;
 const MANY_TRIANGLES: usize = 50_000;
+/// From here on a tree is so large that rays without order wait for memory most of their time.
+const FAR_TOO_MANY: usize = 500_000;
 
 /// How rays are gathered by eights: so many columns, so many rows.
 #[derive(Clone, Copy)]
@@ -106,6 +109,9 @@ impl<F: FnMut(usize, &Found)> Task for Many<'_, F> {
     #[inline(always)]
     fn run<V: V8>(mut self) {
         let mut scratch = Scratch::new();
+        let fixed = &self.world.fixed;
+        let mut loose = Loose::new(fixed.low_m, fixed.high_m);
+        let sorts = fixed.len() > FAR_TOO_MANY;
         let columns = self.columns;
         let rows = self.rays.len().div_ceil(columns);
         let tile = if rows > 1 { PATCH } else { LINE };
@@ -122,23 +128,26 @@ impl<F: FnMut(usize, &Found)> Task for Many<'_, F> {
                         }
                     }
                 }
-                self.tile::<V>(&picked[..count], &mut scratch);
+                let picked = &picked[..count];
+                if self.packet::<V>(picked, &mut scratch) {
+                    continue;
+                }
+                for &index in picked {
+                    match u32::try_from(index) {
+                        Ok(place) if sorts => loose.push(place, &self.rays[index]),
+                        _ => self.single::<V>(index, &mut scratch),
+                    }
+                }
+                if loose.is_full() {
+                    self.singles::<V>(&mut loose, &mut scratch);
+                }
             }
         }
+        self.singles::<V>(&mut loose, &mut scratch);
     }
 }
 
 impl<F: FnMut(usize, &Found)> Many<'_, F> {
-    #[inline(always)]
-    fn tile<V: V8>(&mut self, picked: &[usize], scratch: &mut Scratch) {
-        if self.packet::<V>(picked, scratch) {
-            return;
-        }
-        for &index in picked {
-            self.single::<V>(index, scratch);
-        }
-    }
-
     /// False when the rays do not go together; then nothing was done.
     #[inline(always)]
     fn packet<V: V8>(&mut self, picked: &[usize], scratch: &mut Scratch) -> bool {
@@ -162,6 +171,13 @@ impl<F: FnMut(usize, &Found)> Many<'_, F> {
             (self.give)(index, &found[lane]);
         }
         true
+    }
+
+    #[inline(always)]
+    fn singles<V: V8>(&mut self, loose: &mut Loose, scratch: &mut Scratch) {
+        for index in loose.sorted() {
+            self.single::<V>(index, scratch);
+        }
     }
 
     #[inline(always)]

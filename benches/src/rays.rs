@@ -1,0 +1,70 @@
+//! Rays per CPU second, beside the peers.
+//!
+//! Every turn runs us and all peers one after the other over the same files, so that a busy moment
+//! of the machine hits all alike; of each the best turn counts.
+
+mod ours;
+mod peers;
+mod table;
+
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+pub(crate) use ours::run as cast;
+
+const SCENES: [&str; 4] = ["tutorial", "house", "warehouse", "city"];
+
+/// Races everybody over the scenes in `work`, made by scripts in `engines`; writes
+/// `work/rays.jsonl` and gives the tables. With no turn, tables of the race before.
+pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<String, String> {
+    let failed = |error: std::io::Error| format!("{}: {error}", work.display());
+    let record = work.join("rays.jsonl");
+    if turns == 0 {
+        let text = std::fs::read_to_string(&record).map_err(failed)?;
+        let lines: Vec<Value> =
+            text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        return Ok(table::tables(&lines));
+    }
+    let out = work.join("out");
+    std::fs::create_dir_all(&out).map_err(failed)?;
+    peers::make_scenes(engines, work)?;
+    let peers = peers::all(engines, work)?;
+    let own = std::env::current_exe().map_err(failed)?;
+    let ours = |scene: &str| {
+        let mut command = Command::new(&own);
+        command.arg("cast").arg(work.join("scenes")).arg(scene).arg(&out);
+        command
+    };
+    let mut lines: Vec<Value> = Vec::new();
+    for turn in 1..=turns {
+        lines.extend(answers(&mut ours("dynamic"))?);
+        for scene in SCENES {
+            eprintln!("{scene}, turn {turn} of {turns}");
+            lines.extend(answers(&mut ours(scene))?);
+            if scene == "tutorial" {
+                lines.extend(answers(&mut ours("tutorial-prim"))?);
+            }
+            for peer in peers.iter().filter(|peer| peer.takes(scene)) {
+                eprintln!("  {}", peer.name());
+                lines.extend(answers(&mut peer.command(scene))?);
+            }
+        }
+    }
+    let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
+    std::fs::write(record, text).map_err(failed)?;
+    Ok(table::tables(&lines))
+}
+
+/// The JSON lines that a program prints.
+fn answers(command: &mut Command) -> Result<Vec<Value>, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| format!("{name}: {error}"))?;
+    if !output.status.success() {
+        let why = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("{name} failed: {why}"));
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
+}
