@@ -4,15 +4,28 @@
 //! the topic that Gazebo's own sensors have. What nobody hears is not measured.
 
 mod cloud;
+mod contact;
+mod imu;
 mod lidar;
+mod logical;
+mod mount;
+mod navsat;
+mod order;
+mod port;
 mod post;
+mod scalar;
+mod sonar;
+mod timer;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostics;
 use periplus_plugins::{Site, interpret};
 use periplus_scene::{Model, SensorKind};
 
 use crate::{Device, Setting};
+use mount::Mount;
+use order::{Failed, Made, Order};
 use post::Post;
+use timer::Timer;
 
 /// The sensors of a model. `sites` are all its plugins.
 pub(crate) fn build(
@@ -60,14 +73,6 @@ fn device(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Option<Box<dyn Devi
         .collect();
     match &post.sensor.kind {
         SensorKind::Lidar(spec) => lidar::build(post, spec, &plugins, diagnostics),
-        _ => {
-            let told = format!(
-                "sensor `{}` of type `{}` is not measured",
-                post.sensor.name, post.sensor.type_name
-            );
-            diagnostics
-                .push(Diagnostic::warning("sensor-not-measured", told).at(post.sensor.origin));
-            None
-        }
+        _ => order::build(post, diagnostics),
     }
 }

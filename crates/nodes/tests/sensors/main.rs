@@ -1,0 +1,198 @@
+//! What sensors publish: topics, frames, rates and numbers.
+#![allow(missing_docs, reason = "tests")]
+
+mod bench;
+
+use bench::Bench;
+use periplus_msgs::gazebo_msgs::ContactsState;
+use periplus_msgs::geometry_msgs::Vector3Stamped;
+use periplus_msgs::ros_gz_interfaces::{Altimeter, Contacts, LogicalCameraImage};
+use periplus_msgs::sensor_msgs::{FluidPressure, Imu, MagneticField, NavSatFix, Range};
+
+/// At rest on the floor the box feels 9.8 m/s² upwards, at the sensor's own rate.
+#[test]
+fn an_imu_of_ros_2() {
+    let mut bench = Bench::with(
+        "<sensor name='imu' type='imu'><update_rate>100</update_rate>
+           <pose>0 0 0.1 0 0 0</pose>
+           <imu><angular_velocity><x><noise type='gaussian'><stddev>0.01</stddev></noise></x>
+             </angular_velocity></imu>
+           <plugin name='imu_plugin' filename='libgazebo_ros_imu_sensor.so'>
+             <ros><namespace>/demo</namespace><remapping>~/out:=imu</remapping></ros>
+             <frame_name>imu_link</frame_name></plugin></sensor>",
+    );
+    assert_eq!(bench.said, "");
+    assert_eq!(bench.topics(), ["/demo/imu sensor_msgs/msg/Imu"]);
+    let heard = bench.hear::<Imu>("/demo/imu");
+    bench.run(1.0);
+    let messages = heard.drain();
+    assert_eq!(messages.len(), 100);
+    let last = messages.last().unwrap();
+    assert_eq!(last.header.frame_id, "imu_link");
+    assert!((last.linear_acceleration.z - 9.8).abs() < 0.01, "{last:?}");
+    assert!((last.orientation.w.abs() - 1.0).abs() < 1e-6);
+    assert_eq!(last.angular_velocity_covariance[0], 1e-4);
+    let spread = messages.iter().map(|it| it.angular_velocity.x.abs()).sum::<f64>() / 100.0;
+    assert!((0.005..0.012).contains(&spread), "{spread}");
+}
+
+/// The same bytes after a reset.
+#[test]
+fn a_reset_brings_the_same_noise() {
+    let mut bench = Bench::with(
+        "<sensor name='imu' type='imu'><update_rate>50</update_rate><topic>imu</topic>
+           <imu><linear_acceleration><x><noise type='gaussian'><stddev>1</stddev>
+             <bias_mean>2</bias_mean></noise></x></linear_acceleration></imu></sensor>",
+    );
+    let heard = bench.hear::<Imu>("/imu");
+    let mut run = || {
+        bench.run(0.2);
+        let values: Vec<Imu> = heard.drain().iter().map(|it| (**it).clone()).collect();
+        bench.reset();
+        values
+    };
+    let first = run();
+    assert_eq!(first.len(), 10);
+    assert_eq!(first, run());
+}
+
+#[test]
+fn an_imu_of_ros_1() {
+    let mut bench = Bench::with(
+        "<sensor name='imu' type='imu'><always_on>1</always_on><update_rate>200</update_rate>
+           <plugin name='p' filename='libgazebo_ros_imu_sensor.so'>
+             <topicName>imu/data</topicName><frameName>imu_link</frameName>
+             <updateRateHZ>20</updateRateHZ></plugin></sensor>",
+    );
+    let heard = bench.hear::<Imu>("/imu/data");
+    bench.run(1.0);
+    assert_eq!(heard.drain().len(), 20);
+}
+
+#[test]
+fn a_receiver_knows_where_the_world_lies() {
+    let mut bench = Bench::in_world(
+        "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model>
+           <latitude_deg>47.5</latitude_deg><longitude_deg>8.5</longitude_deg>
+           <elevation>400</elevation><heading_deg>0</heading_deg></spherical_coordinates>",
+        "<sensor name='gps' type='gps'><update_rate>10</update_rate>
+           <plugin name='gps' filename='libgazebo_ros_gps_sensor.so'/></sensor>",
+    );
+    assert_eq!(bench.topics().len(), 2);
+    let (fix, velocity) =
+        (bench.hear::<NavSatFix>("/gps/out"), bench.hear::<Vector3Stamped>("/gps/vel"));
+    bench.run(0.5);
+    let last = fix.latest().unwrap();
+    assert!((last.latitude - 47.5).abs() < 1e-9 && (last.longitude - 8.5).abs() < 1e-9);
+    assert!((last.altitude - 400.2).abs() < 1e-3, "{last:?}");
+    assert_eq!(last.header.frame_id, "base");
+    assert!(velocity.latest().unwrap().vector.x.abs() < 1e-3);
+}
+
+#[test]
+fn a_receiver_nowhere_is_told() {
+    let bench = Bench::with("<sensor name='n' type='navsat'><topic>fix</topic></sensor>");
+    assert!(bench.said.contains("does not say where it lies"), "{}", bench.said);
+    assert!(bench.said.contains("hall.sdf:"), "{}", bench.said);
+}
+
+#[test]
+fn fields_of_todays_gazebo() {
+    let mut bench = Bench::in_world(
+        "<magnetic_field>1e-5 2e-5 -3e-5</magnetic_field>",
+        "<sensor name='mag' type='magnetometer'><update_rate>10</update_rate></sensor>
+         <sensor name='alt' type='altimeter'><update_rate>10</update_rate></sensor>
+         <sensor name='air' type='air_pressure'><update_rate>10</update_rate>
+           <topic>air</topic></sensor>",
+    );
+    assert_eq!(bench.said, "");
+    let at = "/world/hall/model/robot/link/base/sensor";
+    let magnetic = bench.hear::<MagneticField>(&format!("{at}/mag/magnetometer"));
+    let height = bench.hear::<Altimeter>(&format!("{at}/alt/altimeter"));
+    let air = bench.hear::<FluidPressure>("/air");
+    bench.run(0.3);
+    let field = magnetic.latest().unwrap().magnetic_field.clone();
+    assert!((field.x - 1e-5).abs() < 1e-9 && (field.z + 3e-5).abs() < 1e-9, "{field:?}");
+    let height = height.latest().unwrap();
+    assert!(height.vertical_position.abs() < 1e-3);
+    assert!((height.vertical_reference - 0.2).abs() < 1e-3);
+    assert!((air.latest().unwrap().fluid_pressure - 101_322.6).abs() < 0.5);
+}
+
+/// The box of 2 kg presses on the floor with 19.6 N.
+#[test]
+fn a_bumper_feels_the_floor() {
+    let mut bench = Bench::with(
+        "<sensor name='bump' type='contact'><update_rate>50</update_rate>
+           <contact><collision>body</collision></contact>
+           <plugin name='p' filename='libgazebo_ros_bumper.so'>
+             <ros><remapping>bumper_states:=bumps</remapping></ros></plugin></sensor>
+         <sensor name='touch' type='contact'><contact><collision>body</collision>
+           <topic>/touched</topic></contact></sensor>",
+    );
+    let (bumps, touched) =
+        (bench.hear::<ContactsState>("/bumps"), bench.hear::<Contacts>("/touched"));
+    bench.run(1.0);
+    let bumps = bumps.latest().unwrap();
+    assert_eq!(bumps.header.frame_id, "world");
+    let up: f64 = bumps.states.iter().map(|state| state.total_wrench.force.z).sum();
+    assert!((up - 19.6).abs() < 0.5, "{bumps:?}");
+    assert_eq!(bumps.states[0].collision1_name, "robot::base::body");
+    assert_eq!(bumps.states[0].collision2_name, "floor::link::plane");
+    assert!(bumps.states[0].contact_normals[0].z > 0.99);
+    let touched = touched.latest().unwrap();
+    assert_eq!(touched.contacts[0].collision2.name, "floor::link::plane");
+}
+
+#[test]
+fn a_bumper_without_its_collision_is_told() {
+    let bench = Bench::with(
+        "<sensor name='bump' type='contact'><contact><collision>nose</collision></contact></sensor>",
+    );
+    assert!(bench.said.contains("watches `nose`"), "{}", bench.said);
+    assert!(bench.said.contains("body"), "{}", bench.said);
+}
+
+#[test]
+fn a_sonar_finds_the_wall() {
+    let mut bench = Bench::with(
+        "<sensor name='sonar' type='sonar'><update_rate>10</update_rate><pose>0.2 0 1 0 0 0</pose>
+           <sonar><min>0.1</min><max>4</max><radius>0.5</radius></sonar></sensor>",
+    );
+    let topic = "/world/hall/model/robot/link/base/sensor/sonar/sonar";
+    let heard = bench.hear::<Range>(topic);
+    bench.run(0.2);
+    let range = heard.latest().unwrap();
+    assert!((range.range - 2.8).abs() < 1e-3, "{range:?}");
+    assert_eq!(range.radiation_type, Range::ULTRASOUND);
+}
+
+#[test]
+fn a_logical_camera_names_the_wall() {
+    let mut bench = Bench::with(
+        "<sensor name='logic' type='logical_camera'><topic>seen</topic>
+           <update_rate>10</update_rate><logical_camera><near>0.1</near><far>5</far>
+           <horizontal_fov>1</horizontal_fov><aspect_ratio>1</aspect_ratio></logical_camera>
+         </sensor>",
+    );
+    let heard = bench.hear::<LogicalCameraImage>("/seen");
+    bench.run(0.2);
+    let seen = heard.latest().unwrap();
+    assert_eq!(seen.model.len(), 1);
+    assert_eq!(seen.model[0].name, "wall");
+    assert!((seen.model[0].pose.position.x - 3.5).abs() < 1e-3);
+}
+
+#[test]
+fn what_is_not_measured_is_told_and_the_rest_runs() {
+    let bench = Bench::with(
+        "<sensor name='odd' type='air_flow'/>
+         <sensor name='logic' type='logical_camera'><logical_camera><near>5</near><far>1</far>
+           <horizontal_fov>1</horizontal_fov><aspect_ratio>1</aspect_ratio></logical_camera>
+         </sensor>
+         <sensor name='imu' type='imu'><topic>imu</topic></sensor>",
+    );
+    assert!(bench.said.contains("`odd` of type `air_flow` is not measured"), "{}", bench.said);
+    assert!(bench.said.contains("span no frustum"), "{}", bench.said);
+    assert_eq!(bench.topics(), ["/imu sensor_msgs/msg/Imu"]);
+}
