@@ -3,6 +3,7 @@
 //! A sensor publishes through its plugins, as each of them would in Gazebo; one without any under
 //! the topic that Gazebo's own sensors have. What nobody hears is not measured.
 
+mod camera;
 mod cloud;
 mod contact;
 mod imu;

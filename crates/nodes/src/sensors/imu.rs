@@ -5,7 +5,7 @@ use periplus_graph::Publisher;
 use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs;
 use periplus_scene::{Noise, NoiseKind};
-use periplus_sensors::{Imu, OrientationReference};
+use periplus_sensors::{Imu, Motion, OrientationReference};
 
 use super::port::{Port, Style};
 use super::{Made, Mount, Order, Timer};
@@ -15,6 +15,8 @@ struct ImuDevice {
     mount: Mount,
     timer: Timer,
     imu: Imu,
+    /// How it moved when it was made, and moves again after a reset.
+    start: Option<Motion>,
     outs: Vec<(String, Publisher<sensor_msgs::Imu>)>,
 }
 
@@ -34,13 +36,15 @@ pub(super) fn device(order: Order<'_, '_>, spec: &periplus_scene::Imu) -> Made {
         outs.push((port.frame.clone(), port.publisher(&port.topic(order.post, "/imu"))?));
     }
     let mut imu = Imu::new(&spec, Some(reference), order.mount.streams());
-    if let Some(motion) = order.mount.motion(order.post.setting.world) {
-        imu.pass(order.post.setting.start_ns, &motion);
+    let start = order.mount.motion(order.post.setting.world);
+    if let Some(start) = &start {
+        imu.pass(order.post.setting.start_ns, start);
     }
     Ok(Box::new(ImuDevice {
         timer: Timer::new(order.post, &order.ports),
         mount: order.mount,
         imu,
+        start,
         outs,
     }))
 }
@@ -112,6 +116,9 @@ impl Device for ImuDevice {
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
         self.imu.reset();
+        if let Some(start) = &self.start {
+            self.imu.pass(time_ns, start);
+        }
     }
 }
 

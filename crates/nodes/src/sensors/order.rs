@@ -5,7 +5,7 @@ use periplus_graph::GraphError;
 use periplus_scene::{Sensor, SensorKind};
 
 use super::port::{Port, ports};
-use super::{Mount, Post, contact, imu, logical, navsat, scalar, sonar};
+use super::{Mount, Post, camera, contact, imu, logical, navsat, scalar, sonar};
 use crate::Device;
 
 /// What a sensor's device is made from.
@@ -74,9 +74,9 @@ fn made(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Made {
         SensorKind::Contact { .. } => contact::device(order, diagnostics),
         SensorKind::Sonar { .. } => sonar::device(order),
         SensorKind::LogicalCamera { .. } => logical::device(order),
-        SensorKind::Camera(_)
-        | SensorKind::Lidar(_)
-        | SensorKind::ForceTorque { .. }
-        | SensorKind::Other => Err(Failed::not_measured(sensor)),
+        SensorKind::Camera(spec) => camera::device(order, spec, diagnostics),
+        SensorKind::Lidar(_) | SensorKind::ForceTorque { .. } | SensorKind::Other => {
+            Err(Failed::not_measured(sensor))
+        }
     }
 }

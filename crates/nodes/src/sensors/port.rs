@@ -50,10 +50,12 @@ pub(super) fn ports(
             continue;
         }
         let outs = topics(&plugin, &site.context).into_iter().map(|topic| topic.inside).collect();
-        let named = ["frame_name", "frameName"].into_iter().find_map(|name| {
-            let given = plugin.values.table().find(name).is_some() && plugin.values.is_given(name);
-            plugin.values.text(name).filter(|text| given && !text.is_empty())
-        });
+        let frame_names = ["frame_name", "frameName"].into_iter();
+        let named = frame_names
+            .filter(|name| plugin.values.table().find(name).is_some())
+            .find(|name| plugin.values.is_given(name))
+            .and_then(|name| plugin.values.text(name))
+            .filter(|text| !text.is_empty());
         let frame = post.frame_id(named, diagnostics);
         let node = node_of(post.setting, &plugin)?;
         ports.push(Port { style, node, plugin: Some(plugin), outs, frame });
@@ -126,5 +128,25 @@ impl Port {
     pub(super) fn text(&self, name: &str) -> String {
         let known = self.plugin.as_ref().filter(|it| it.values.table().find(name).is_some());
         known.and_then(|plugin| plugin.values.text(name)).unwrap_or_default()
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.plugin.as_ref().is_some_and(|it| it.values.table().find(name).is_some())
+    }
+
+    /// A number with its default; 0 where the plugin has no such parameter.
+    pub(super) fn number(&self, name: &str) -> f64 {
+        let known = self.plugin.as_ref().filter(|_| self.has(name));
+        known.and_then(|plugin| plugin.values.number(name)).unwrap_or_default()
+    }
+
+    pub(super) fn numbers(&self, name: &str) -> Vec<f64> {
+        let known = self.plugin.as_ref().filter(|_| self.has(name));
+        known.map(|plugin| plugin.values.numbers(name)).unwrap_or_default()
+    }
+
+    /// The topic of the plugin that ends so.
+    pub(super) fn out_named(&self, end: &str) -> Option<&str> {
+        self.outs.iter().map(String::as_str).find(|topic| topic.ends_with(end))
     }
 }

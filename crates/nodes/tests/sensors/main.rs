@@ -1,5 +1,5 @@
 //! What sensors publish: topics, frames, rates and numbers.
-#![allow(missing_docs, reason = "tests")]
+#![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 mod bench;
 
@@ -7,7 +7,9 @@ use bench::Bench;
 use periplus_msgs::gazebo_msgs::ContactsState;
 use periplus_msgs::geometry_msgs::Vector3Stamped;
 use periplus_msgs::ros_gz_interfaces::{Altimeter, Contacts, LogicalCameraImage};
-use periplus_msgs::sensor_msgs::{FluidPressure, Imu, MagneticField, NavSatFix, Range};
+use periplus_msgs::sensor_msgs::{
+    CameraInfo, FluidPressure, Image, Imu, MagneticField, NavSatFix, PointCloud2, Range,
+};
 
 /// At rest on the floor the box feels 9.8 m/s² upwards, at the sensor's own rate.
 #[test]
@@ -26,7 +28,8 @@ fn an_imu_of_ros_2() {
     let heard = bench.hear::<Imu>("/demo/imu");
     bench.run(1.0);
     let messages = heard.drain();
-    assert_eq!(messages.len(), 100);
+    // One at the first step, and one each 10 ms.
+    assert_eq!(messages.len(), 101);
     let last = messages.last().unwrap();
     assert_eq!(last.header.frame_id, "imu_link");
     assert!((last.linear_acceleration.z - 9.8).abs() < 0.01, "{last:?}");
@@ -52,7 +55,7 @@ fn a_reset_brings_the_same_noise() {
         values
     };
     let first = run();
-    assert_eq!(first.len(), 10);
+    assert_eq!(first.len(), 11);
     assert_eq!(first, run());
 }
 
@@ -66,7 +69,7 @@ fn an_imu_of_ros_1() {
     );
     let heard = bench.hear::<Imu>("/imu/data");
     bench.run(1.0);
-    assert_eq!(heard.drain().len(), 20);
+    assert_eq!(heard.drain().len(), 21);
 }
 
 #[test]
@@ -195,4 +198,79 @@ fn what_is_not_measured_is_told_and_the_rest_runs() {
     assert!(bench.said.contains("`odd` of type `air_flow` is not measured"), "{}", bench.said);
     assert!(bench.said.contains("span no frustum"), "{}", bench.said);
     assert_eq!(bench.topics(), ["/imu sensor_msgs/msg/Imu"]);
+}
+
+fn float(bytes: &[u8], at: usize) -> f32 {
+    f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+}
+
+/// Classic's depth camera 3 m before the wall: optical frame, x right, y down, z ahead.
+#[test]
+fn a_depth_camera_of_ros_2() {
+    let mut bench = Bench::with(
+        "<sensor name='depth' type='depth'><update_rate>10</update_rate><pose>0 0 1 0 0 0</pose>
+           <camera name='c'><horizontal_fov>1.5707963267948966</horizontal_fov>
+             <image><width>64</width><height>48</height></image>
+             <clip><near>0.05</near><far>8</far></clip></camera>
+           <plugin name='plug' filename='libgazebo_ros_camera.so'>
+             <ros><namespace>/demo</namespace></ros><camera_name>eye</camera_name>
+             <frame_name>eye_optical</frame_name><hack_baseline>0.07</hack_baseline>
+             <min_depth>0.1</min_depth><max_depth>3.2</max_depth></plugin></sensor>",
+    );
+    assert_eq!(bench.said, "");
+    let depth = bench.hear::<Image>("/demo/eye/depth/image_raw");
+    let info = bench.hear::<CameraInfo>("/demo/eye/camera_info");
+    let points = bench.hear::<PointCloud2>("/demo/eye/points");
+    let colour = bench.hear::<Image>("/demo/eye/image_raw");
+    bench.run(0.05);
+    let depth = depth.latest().unwrap();
+    assert_eq!((depth.width, depth.height, depth.step), (64, 48, 256));
+    assert_eq!((depth.encoding.as_str(), depth.header.frame_id.as_str()), ("32FC1", "eye_optical"));
+    for pixel in 0..64 * 48 {
+        assert!((float(&depth.data, pixel * 4) - 3.0).abs() < 1e-5);
+    }
+    let info = info.latest().unwrap();
+    assert!((info.k[0] - 32.0).abs() < 1e-9 && info.k[2] == 32.5 && info.k[5] == 24.5);
+    assert!((info.p[3] + 32.0 * 0.07).abs() < 1e-9, "{:?}", info.p);
+    let points = points.latest().unwrap();
+    assert_eq!((points.point_step, points.row_step, points.is_dense), (32, 32 * 64, true));
+    // The first pixel looks 31.5 / 32 to the left and 23.5 / 32 up.
+    let first: Vec<f32> = [0, 4, 8].iter().map(|&at| float(&points.data, at)).collect();
+    let expected = [-3.0 * 31.5 / 32.0, -3.0 * 23.5 / 32.0, 3.0];
+    assert!(first.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5), "{first:?}");
+    assert_eq!(colour.latest().unwrap().encoding, "rgb8");
+}
+
+/// Today's Gazebo: topics below the sensor's own, points x ahead, and nothing beyond the clip.
+#[test]
+fn an_rgbd_camera_of_todays_gazebo() {
+    let mut bench = Bench::with(
+        "<sensor name='eye' type='rgbd_camera'><update_rate>10</update_rate><topic>eye</topic>
+           <pose>0 0 1 0 0 0</pose>
+           <camera><horizontal_fov>1.5707963267948966</horizontal_fov>
+             <image><width>8</width><height>8</height></image>
+             <clip><near>0.1</near><far>10</far></clip>
+             <depth_camera><clip><near>0.1</near><far>2.5</far></clip></depth_camera>
+             <optical_frame_id>eye_optical</optical_frame_id></camera></sensor>",
+    );
+    let (depth, points) =
+        (bench.hear::<Image>("/eye/depth_image"), bench.hear::<PointCloud2>("/eye/points"));
+    let info = bench.hear::<CameraInfo>("/eye/camera_info");
+    bench.run(0.05);
+    let depth = depth.latest().unwrap();
+    assert_eq!(depth.header.frame_id, "eye_optical");
+    assert_eq!(float(&depth.data, 0), f32::INFINITY);
+    let points = points.latest().unwrap();
+    assert_eq!((points.point_step, points.is_dense), (24, false));
+    assert_eq!(points.header.frame_id, "base");
+    assert_eq!(info.latest().unwrap().k[2], 4.0);
+}
+
+#[test]
+fn an_impossible_camera_is_told() {
+    let bench = Bench::with(
+        "<sensor name='c' type='camera'><camera><horizontal_fov>4</horizontal_fov></camera></sensor>",
+    );
+    assert!(bench.said.contains("hall.sdf:"), "{}", bench.said);
+    assert!(!bench.topics().iter().any(|topic| topic.contains("Image")), "{:?}", bench.topics());
 }
