@@ -140,7 +140,7 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
             }
         },
     };
-    let mut services = match Services::new(&simulation) {
+    let mut services = match Services::new(&simulation, terminal::search(search)) {
         Ok(services) => services,
         Err(error) => {
             terminal::complain(&format!("cannot offer the world's services: {error}"));

@@ -7,6 +7,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, 
 use periplus_formats::{Loaded, Setting};
 use periplus_host::Machine;
 use periplus_resources::Resolver;
+use periplus_sim::Search;
 
 /// Writes one line about the command itself to stderr.
 pub(crate) fn complain(words: &str) {
@@ -50,6 +51,13 @@ pub(crate) fn counts(loaded: &Loaded) -> String {
 /// Where the user stands.
 pub(crate) fn working_folder() -> PathBuf {
     std::env::current_dir().unwrap_or_default()
+}
+
+/// Where things are looked for that a running world is told to spawn.
+pub(crate) fn search(resource_path: &[PathBuf]) -> Search {
+    let working_folder = working_folder();
+    let folders = resource_path.iter().map(|folder| working_folder.join(folder)).collect();
+    Search { folders, working_folder }
 }
 
 /// Threads that the machine can run side by side.

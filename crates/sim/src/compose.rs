@@ -202,12 +202,12 @@ fn absolute(namespace: &str) -> String {
 }
 
 /// The models of a file, wherever they stand in it.
-fn models_of(scene: Scene) -> Vec<Model> {
+pub(crate) fn models_of(scene: Scene) -> Vec<Model> {
     scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models).collect()
 }
 
 /// The URDF that a file is, macros expanded.
-fn description_of(loaded: &Loaded) -> Option<String> {
+pub(crate) fn description_of(loaded: &Loaded) -> Option<String> {
     loaded.robot.as_ref()?;
     loaded.document.as_ref().map(write_document)
 }

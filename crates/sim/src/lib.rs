@@ -23,6 +23,6 @@ pub use periplus_dynamics::{Diverged, Mode};
 pub use periplus_sensors::Quirks;
 pub use record::{RecordError, Recorder, Recording, Wanted};
 pub use run::{Progress, Run};
-pub use services::Services;
+pub use services::{Search, Services};
 pub use shares::{Shares, Work};
 pub use simulation::{Options, Simulation};

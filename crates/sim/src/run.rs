@@ -61,13 +61,16 @@ impl Run<'_> {
                 driver.restart();
                 pace.restart(simulation.time_ns());
             }
+            if let Some(factor) = services.take_factor() {
+                pace = Pace::new(factor, simulation.time_ns());
+            }
             if !services.may_step() {
                 sleep(PAUSED_WAIT);
                 pace.restart(simulation.time_ns());
                 continue;
             }
             driver.play(simulation);
-            let next_ns = driver.next_ns().unwrap_or(i64::MAX);
+            let next_ns = driver.next_ns().unwrap_or(i64::MAX).min(services.until_ns());
             simulation.step_until(next_ns.min(self.end_ns.unwrap_or(i64::MAX)))?;
             let wall = stopwatch.elapsed();
             watch(progress(simulation.time_ns(), start_ns, wall));

@@ -1,63 +1,213 @@
-//! What others may do to the world.
+//! What others may do to the world, and ask of it: Gazebo's services under the names of all its
+//! generations.
+//!
+//! | names | from |
+//! |---|---|
+//! | `/pause_physics`, `/spawn_entity`, `/get_entity_state`, `/set_physics_properties`, ... | ROS 2 with Classic |
+//! | `/gazebo/pause_physics`, `/gazebo/spawn_urdf_model`, `/gazebo/set_model_state`, ... | ROS 1 |
+//! | `/world/<world>/control`, `create`, `remove`, `set_pose`, `set_physics`, `light_config` | Harmonic |
+//!
+//! What cannot be done is answered with `success = false` and the reason; where an answer has no
+//! place for a reason, it is among the [findings](Services::take_findings).
 
-use periplus_graph::{Calls, GraphError, Node, NodeSettings};
+mod convert;
+mod entity;
+mod factory;
+mod forces;
+mod harmonic;
+mod light;
+mod metrics;
+mod offer;
+mod physics;
+mod properties;
+mod reading;
+mod spawn;
+mod state;
+mod state_plugin;
+mod tempo;
+mod topics;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_graph::{GraphError, NodeSettings};
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
+use self::factory::Factory;
+use self::forces::Forces;
+use self::harmonic::{Harmonic, name_of};
+use self::metrics::Metrics;
+use self::offer::Offer;
+use self::physics::{Factor, Physics};
+use self::properties::Properties;
+use self::state::State;
+use self::state_plugin::StatePlugin;
+use self::tempo::Tempo;
+use self::topics::StateTopics;
 use crate::Simulation;
 
-/// The services of the world. They are looked at between steps.
+pub(crate) use self::entity::Entity;
+pub use self::reading::Search;
+
+/// The services of a world. They are looked at between steps.
 pub struct Services {
-    pause: Calls<Empty>,
-    unpause: Calls<Empty>,
-    reset_simulation: Calls<Empty>,
-    reset_world: Calls<Empty>,
-    is_paused: bool,
+    tempo: Tempo,
+    search: Search,
+    new_factor: Option<Factor>,
+    log: Log,
+    pause: Offer<Empty>,
+    unpause: Offer<Empty>,
+    reset_simulation: Offer<Empty>,
+    reset_world: Offer<Empty>,
+    factory: Factory,
+    state: State,
+    properties: Properties,
+    physics: Physics,
+    forces: Forces,
+    harmonic: Harmonic,
+    topics: StateTopics,
+    metrics: Metrics,
+    last_ns: i64,
 }
 
 impl Services {
-    /// Offers them on the graph of a simulation, under the names that `gazebo_ros` gives them.
+    /// Offers them on the graph of a simulation. What a spawned text mentions is looked for with
+    /// `search`.
     ///
     /// # Errors
-    /// When a node of the world's name is there.
-    pub fn new(simulation: &Simulation) -> Result<Self, GraphError> {
-        let node: Node = simulation.graph().node(NodeSettings::new("gazebo"))?;
+    /// When the graph has a node `/gazebo`, or one of the services.
+    pub fn new(simulation: &Simulation, search: Search) -> Result<Self, GraphError> {
+        let node = simulation.graph().node(NodeSettings::new("gazebo"))?;
+        let (scene, now_ns) = (&simulation.scene, simulation.time_ns());
+        let states = StatePlugin::of(scene, "gazebo_ros_state");
+        let properties = StatePlugin::of(scene, "gazebo_ros_properties");
+        let offer = |name: &str| {
+            Offer::new(&node, [format!("/{name}").as_str(), format!("/gazebo/{name}").as_str()])
+        };
         Ok(Self {
-            pause: node.server("/pause_physics")?,
-            unpause: node.server("/unpause_physics")?,
-            reset_simulation: node.server("/reset_simulation")?,
-            reset_world: node.server("/reset_world")?,
-            is_paused: false,
+            tempo: Tempo::default(),
+            search,
+            new_factor: None,
+            log: Log::default(),
+            pause: offer("pause_physics")?,
+            unpause: offer("unpause_physics")?,
+            reset_simulation: offer("reset_simulation")?,
+            reset_world: offer("reset_world")?,
+            factory: Factory::new(&node)?,
+            state: State::new(&node, &states)?,
+            properties: Properties::new(&node, &properties)?,
+            physics: Physics::new(&node, &properties, &name_of(&scene.name, "set_physics"))?,
+            forces: Forces::new(&node)?,
+            harmonic: Harmonic::new(&node, &scene.name)?,
+            topics: StateTopics::new(&node, &states, now_ns)?,
+            metrics: Metrics::new(&node, &scene.name, now_ns),
+            last_ns: now_ns,
         })
     }
 
     /// Stops time, or lets it go on.
     pub fn set_paused(&mut self, is_paused: bool) {
-        self.is_paused = is_paused;
+        self.tempo.set_paused(is_paused);
     }
 
-    /// Whether time goes on.
+    /// Whether the next step may be taken.
     #[must_use]
     pub fn may_step(&self) -> bool {
-        !self.is_paused
+        self.tempo.may_step()
     }
 
-    /// Does what was asked since the last time.
+    /// Where the next step must end at the latest \[ns\]: somebody asked for so many steps.
+    #[must_use]
+    pub fn until_ns(&self) -> i64 {
+        self.tempo.until_ns()
+    }
+
+    /// Simulated seconds per second of the wall, if somebody asked for another pace; none inside is
+    /// as fast as can be.
+    #[must_use]
+    pub fn take_factor(&mut self) -> Option<Option<f64>> {
+        self.new_factor.take()
+    }
+
+    /// What was refused since this was last asked, and why.
+    pub fn take_findings(&mut self) -> Diagnostics {
+        std::mem::take(&mut self.log.0)
+    }
+
+    /// Does what was asked since the last time, and publishes states that are due. Call it before
+    /// each step, and from time to time while no step may be taken.
     pub fn serve(&mut self, simulation: &mut Simulation) {
-        while let Some(call) = self.pause.take() {
-            self.is_paused = true;
-            call.answer(EmptyResponse::default());
-        }
-        while let Some(call) = self.unpause.take() {
-            self.is_paused = false;
-            call.answer(EmptyResponse::default());
-        }
-        while let Some(call) = self.reset_simulation.take() {
+        self.tempo.arrived(simulation.time_ns());
+        self.pause.answer(|_| {
+            self.tempo.set_paused(true);
+            EmptyResponse::default()
+        });
+        self.reset_simulation.answer(|_| {
             simulation.reset();
-            call.answer(EmptyResponse::default());
-        }
-        while let Some(call) = self.reset_world.take() {
+            EmptyResponse::default()
+        });
+        self.reset_world.answer(|_| {
             simulation.reset_models();
-            call.answer(EmptyResponse::default());
+            EmptyResponse::default()
+        });
+        self.factory.serve(simulation, &self.search);
+        self.state.serve(simulation, &mut self.log);
+        self.properties.serve(simulation);
+        let new_factor = self.physics.serve(simulation, self.tempo);
+        self.new_factor = new_factor.or(self.new_factor);
+        self.harmonic.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
+        self.unpause.answer(|_| {
+            self.tempo.set_paused(false);
+            EmptyResponse::default()
+        });
+        if simulation.time_ns() < self.last_ns {
+            self.forces.forget();
+        }
+        if simulation.time_ns() != self.last_ns {
+            self.metrics.count_step();
+        }
+        self.last_ns = simulation.time_ns();
+        self.forces.serve(simulation);
+        self.publish(simulation);
+        if self.tempo.may_step() {
+            self.forces.push(simulation);
+        } else {
+            // Who waits for an answer hears it though time stands still.
+            simulation.graph().settle();
+        }
+    }
+
+    fn publish(&mut self, simulation: &Simulation) {
+        if let Err(error) = self.topics.publish(simulation) {
+            self.log.refused("model_states", &error.to_string());
+        }
+        if let Err(error) = self.metrics.publish(simulation, self.tempo) {
+            self.log.refused("performance_metrics", &error.to_string());
+        }
+    }
+}
+
+/// What was refused where the answer has no place for a reason.
+#[derive(Debug, Default)]
+struct Log(Diagnostics);
+
+impl Log {
+    /// Keeps the reason of what was not done; whether it was.
+    fn note(&mut self, call: &str, done: Result<(), String>) -> bool {
+        if let Err(why) = &done {
+            self.refused(call, why);
+        }
+        done.is_ok()
+    }
+
+    fn refused(&mut self, call: &str, why: &str) {
+        let message = format!("`{call}` was refused: {}", why.trim_end());
+        self.0.push(Diagnostic::warning("call-refused", message));
+    }
+
+    /// Keeps what is to be said about something that was done.
+    fn notes(&mut self, call: &str, notes: &str) {
+        if !notes.trim().is_empty() {
+            let message = format!("`{call}`: {}", notes.trim_end());
+            self.0.push(Diagnostic::warning("call-findings", message));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! A world that runs.
 
+mod change;
+
 use std::sync::Arc;
 
 use periplus_base::Pose;
@@ -80,6 +82,8 @@ pub struct Simulation {
     views: Views,
     files: Arc<ShapeFiles>,
     options: Options,
+    /// Whether the seed is another than that with which devices were made.
+    has_new_seed: bool,
     step_ns: i64,
     time_ns: i64,
     shares: Shares,
@@ -98,6 +102,7 @@ impl Simulation {
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
             world_devices: Vec::new(),
+            has_new_seed: false,
             running: Vec::new(),
             time_ns: 0,
             shares: Shares::default(),
@@ -199,6 +204,18 @@ impl Simulation {
         let mut findings = added.diagnostics;
         let Some(model) = added.model else { return findings };
         self.views.add(Arc::new(member.model.clone()), model, &self.motion);
+        let devices = self.devices_of(&member, model, &mut findings);
+        self.running.push(Running { member, model, devices });
+        findings
+    }
+
+    /// Makes what acts and measures on a model.
+    fn devices_of(
+        &self,
+        member: &Member,
+        model: ModelId,
+        findings: &mut Diagnostics,
+    ) -> Vec<Box<dyn Device>> {
         let setting = Setting {
             graph: &self.graph,
             world: &self.motion,
@@ -213,10 +230,7 @@ impl Simulation {
             rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,
         };
-        let description = member.description.as_deref();
-        let devices = periplus_nodes::devices(&setting, description, &mut findings);
-        self.running.push(Running { member, model, devices });
-        findings
+        periplus_nodes::devices(&setting, member.description.as_deref(), findings)
     }
 
     /// Takes a model out. False if there is none of that name.
@@ -251,9 +265,7 @@ impl Simulation {
     pub fn reset_models(&mut self) {
         self.motion.reset();
         self.views.moved();
-        let time_ns = self.time_ns;
-        let own = self.running.iter_mut().flat_map(|running| &mut running.devices);
-        self.world_devices.iter_mut().chain(own).for_each(|device| device.reset(time_ns));
+        self.restart_devices();
     }
 
     pub(crate) fn place_of(&self, name: &str) -> Option<usize> {
