@@ -4,6 +4,6 @@ mod depth;
 mod noise;
 mod pinhole;
 
-pub use depth::{Depth, clip_depths};
+pub use depth::clip_depths;
 pub use noise::ImageNoise;
 pub use pinhole::{Calibration, MOST_PIXELS, Pinhole};

@@ -23,7 +23,7 @@ mod sweep;
 mod touch;
 mod view;
 
-pub use camera::{Calibration, Depth, ImageNoise, MOST_PIXELS, Pinhole, clip_depths};
+pub use camera::{Calibration, ImageNoise, MOST_PIXELS, Pinhole, clip_depths};
 pub use field::{Altimeter, AltimeterReading, Barometer, Magnetometer, standard_pressure_pa};
 pub use force_torque::{ForceFrame, ForceTorque, Wrench};
 pub use geodesy::{Ellipsoid, Geodetic, Globe};

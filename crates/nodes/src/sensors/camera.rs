@@ -170,7 +170,8 @@ impl Device for CameraDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns()
+        let is_heard = self.eyes.iter().any(|eye| eye.outs.iter().any(Out::is_heard));
+        self.timer.next_ns().filter(|_| is_heard)
     }
 
     fn reset(&mut self, time_ns: i64) {

@@ -102,6 +102,15 @@ fn own(order: &Order<'_, '_>, wanted: &[String], diagnostics: &mut Diagnostics) 
     own
 }
 
+impl Out {
+    fn is_heard(&self) -> bool {
+        match self {
+            Self::Classic { publisher, .. } => publisher.is_heard(),
+            Self::Gz { publisher, .. } => publisher.is_heard(),
+        }
+    }
+}
+
 impl Device for ContactDevice {
     fn name(&self) -> &str {
         &self.mount.name
@@ -109,11 +118,7 @@ impl Device for ContactDevice {
 
     fn sense(&mut self, moment: &mut Moment<'_>) {
         let time_ns = moment.time_ns();
-        let heard = |out: &Out| match out {
-            Out::Classic { publisher, .. } => publisher.is_heard(),
-            Out::Gz { publisher, .. } => publisher.is_heard(),
-        };
-        if self.timer.due(time_ns).is_none() || !self.outs.iter().any(heard) {
+        if self.timer.due(time_ns).is_none() || !self.outs.iter().any(Out::is_heard) {
             return;
         }
         let world = moment.world;
@@ -136,7 +141,8 @@ impl Device for ContactDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns()
+        let is_heard = self.outs.iter().any(Out::is_heard);
+        self.timer.next_ns().filter(|_| is_heard)
     }
 
     fn reset(&mut self, time_ns: i64) {

@@ -252,7 +252,7 @@ impl LidarDevice {
             rays: seen.rays(),
             filter: filter(self.visibility_mask, None),
             own_group: part.map_or(0, |part| part.group().0),
-            retro: Some(&retro),
+            retro: if seen.has_laser_retro() { Some(&retro) } else { None },
             threads,
         };
         let (start_ns, poses) = self.swept(now_ns);

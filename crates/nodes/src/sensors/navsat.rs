@@ -82,6 +82,12 @@ fn nowhere(order: &Order<'_, '_>) -> Diagnostic {
         .help("add `<spherical_coordinates>` to the world")
 }
 
+impl Out {
+    fn is_heard(&self) -> bool {
+        self.fix.is_heard() || self.velocity.as_ref().is_some_and(Publisher::is_heard)
+    }
+}
+
 impl Device for NavSatDevice {
     fn name(&self) -> &str {
         &self.mount.name
@@ -90,10 +96,7 @@ impl Device for NavSatDevice {
     fn sense(&mut self, moment: &mut Moment<'_>) {
         let time_ns = moment.time_ns();
         let Some(tick) = self.timer.due(time_ns) else { return };
-        let heard = |out: &Out| {
-            out.fix.is_heard() || out.velocity.as_ref().is_some_and(Publisher::is_heard)
-        };
-        if !self.outs.iter().any(heard) {
+        if !self.outs.iter().any(Out::is_heard) {
             return;
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
@@ -122,7 +125,8 @@ impl Device for NavSatDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns()
+        let is_heard = self.outs.iter().any(Out::is_heard);
+        self.timer.next_ns().filter(|_| is_heard)
     }
 
     fn reset(&mut self, time_ns: i64) {

@@ -71,7 +71,8 @@ impl Device for SonarDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns()
+        let is_heard = self.outs.iter().any(|(_, out)| out.is_heard());
+        self.timer.next_ns().filter(|_| is_heard)
     }
 
     fn reset(&mut self, time_ns: i64) {

@@ -34,6 +34,15 @@ impl Bench {
 
     /// The same with more in the world.
     pub(crate) fn in_world(in_world: &str, on_base: &str) -> Self {
+        Self::of(in_world, on_base, Mode::Rigid)
+    }
+
+    /// The same without physics: everything stays exactly where it is.
+    pub(crate) fn still(in_world: &str, on_base: &str) -> Self {
+        Self::of(in_world, on_base, Mode::Kinematic)
+    }
+
+    fn of(in_world: &str, on_base: &str, mode: Mode) -> Self {
         let text = format!(
             r#"<sdf version="1.9"><world name="hall">{in_world}
             <model name="floor"><static>true</static><link name="link">
@@ -56,7 +65,7 @@ impl Bench {
         let mut context =
             Context { sources: &mut sources, diagnostics: &mut found, includes: &mut NoIncludes };
         let scene = read_document(&document, &mut context).worlds.remove(0);
-        let (world, _) = World::new(&scene, Mode::Rigid, &NoMeshes);
+        let (world, _) = World::new(&scene, mode, &NoMeshes);
         let graph = Graph::new();
         let mut views = Views::new(Arc::new(NoShapes), 1);
         for (model, (id, _)) in scene.models.iter().zip(world.models()) {

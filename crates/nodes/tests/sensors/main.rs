@@ -274,3 +274,30 @@ fn an_impossible_camera_is_told() {
     assert!(bench.said.contains("hall.sdf:"), "{}", bench.said);
     assert!(!bench.topics().iter().any(|topic| topic.contains("Image")), "{:?}", bench.topics());
 }
+
+/// The floor 1 m below a camera: row by row, depth = f / (rows below the middle).
+#[test]
+fn depths_follow_the_pinhole_formula() {
+    let mut bench = Bench::still(
+        "<model name='ground'><static>true</static><link name='l'><visual name='v'><geometry>
+           <plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></visual></link>
+         </model>",
+        "<sensor name='down' type='depth_camera'><update_rate>10</update_rate><topic>d</topic>
+           <pose>0 0 0.8 0 0 3.141592653589793</pose>
+           <camera><horizontal_fov>1.2</horizontal_fov>
+             <image><width>64</width><height>48</height></image>
+             <clip><near>0.1</near><far>10</far></clip></camera></sensor>",
+    );
+    let heard = bench.hear::<Image>("/d");
+    bench.run(0.001);
+    let depth = heard.latest().unwrap();
+    let focal = 32.0 / libm::tan(0.6);
+    for pixel in 0..64 * 48 {
+        let (below, seen) = ((pixel / 64) as f64 - 23.5, float(&depth.data, pixel * 4));
+        if below > 0.0 && focal / below < 10.0 {
+            assert!((f64::from(seen) - focal / below).abs() < 1e-5, "{pixel}: {seen}");
+        } else {
+            assert_eq!(seen, f32::INFINITY);
+        }
+    }
+}

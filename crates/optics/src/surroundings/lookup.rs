@@ -61,6 +61,12 @@ impl Surroundings {
         self.thing(instance).laser_retro
     }
 
+    /// Whether anything here has a brightness to a laser other than 0; if not, nobody need ask.
+    #[must_use]
+    pub fn has_laser_retro(&self) -> bool {
+        self.things.iter().any(|thing| thing.body.is_some() && thing.laser_retro != 0.0)
+    }
+
     pub(super) fn thing(&self, InstanceId(number): InstanceId) -> &Thing {
         &self.things[self.thing_of[number as usize] as usize]
     }
