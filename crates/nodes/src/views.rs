@@ -15,6 +15,8 @@ pub struct Views {
     threads: usize,
     /// Models that are there, in the order of coming.
     models: Vec<(ModelId, Arc<scene::Model>)>,
+    /// Lights and colours of the sky.
+    sky: scene::World,
     collision: Option<View>,
     visual: Option<View>,
     findings: Diagnostics,
@@ -38,9 +40,58 @@ impl Views {
             shapes,
             threads,
             models: Vec::new(),
+            sky: scene::World::empty(""),
             collision: None,
             visual: None,
             findings: Diagnostics::new(),
+        }
+    }
+
+    /// Under the sky and in the light of a world.
+    #[must_use]
+    pub fn under(self, world: &scene::World) -> Self {
+        let sky = scene::World {
+            ambient: world.ambient,
+            background: world.background,
+            shadows: world.shadows,
+            lights: world.lights.clone(),
+            ..scene::World::empty("")
+        };
+        Self { sky, ..self }
+    }
+
+    /// Adds a light to the world, or puts it in place of the one of its name.
+    pub fn set_light(&mut self, light: &scene::Light) {
+        self.sky.lights.retain(|known| known.name != light.name);
+        self.sky.lights.push(light.clone());
+        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+            view.surroundings.set_light(light);
+        }
+    }
+
+    /// Takes a light of the world away.
+    pub fn remove_light(&mut self, name: &str) {
+        self.sky.lights.retain(|known| known.name != name);
+        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+            view.surroundings.remove_light(name);
+        }
+    }
+
+    /// Puts a light in place of the one of its name on a link of an outermost model.
+    pub fn set_light_on(&mut self, link: LinkId, light: &scene::Light, world: &World) {
+        let (Some(id), Some(name)) = (world.model_of(link), world.link_name(link)) else { return };
+        // Views that are made later read the model.
+        let model = self.models.iter_mut().find(|(model, _)| *model == id);
+        let model = model.map(|(_, model)| Arc::make_mut(model));
+        let links = model.into_iter().flat_map(|model| &mut model.links);
+        let lights = links.filter(|link| link.name == name).flat_map(|link| &mut link.lights);
+        for known in lights.filter(|known| known.name == light.name) {
+            known.clone_from(light);
+        }
+        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+            if let Some((_, part)) = view.links.iter().find(|(known, _)| *known == link) {
+                view.surroundings.set_light_on(*part, light);
+            }
         }
     }
 
@@ -84,6 +135,7 @@ impl Views {
         let view = slot.get_or_insert_with(|| {
             View::new(
                 geometry,
+                &self.sky,
                 &self.models,
                 world,
                 &*self.shapes,
@@ -115,6 +167,7 @@ impl Views {
 impl View {
     fn new(
         geometry: Geometry,
+        sky: &scene::World,
         models: &[(ModelId, Arc<scene::Model>)],
         world: &World,
         shapes: &dyn Shapes,
@@ -126,7 +179,7 @@ impl View {
             scene::Model { parent_from_model, ..(**model).clone() }
         });
         // All at once: the trees of fixed shapes are then built only once.
-        let together = scene::World { models: placed.collect(), ..scene::World::empty("") };
+        let together = scene::World { models: placed.collect(), ..sky.clone() };
         let (surroundings, wrong) = Surroundings::new(&together, geometry, shapes, threads);
         findings.append(wrong);
         let seen: Vec<_> = surroundings.models().collect();

@@ -98,7 +98,7 @@ impl Simulation {
         let step_s = options.step_s.unwrap_or_else(|| step_of(&scene));
         let motion = periplus_dynamics::World::empty(scene.gravity_m_s2, options.mode);
         let graph = Graph::new();
-        let views = Views::new(Arc::clone(&files) as _, options.threads);
+        let views = Views::new(Arc::clone(&files) as _, options.threads).under(&scene);
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
             world_devices: Vec::new(),

@@ -13,7 +13,7 @@ use periplus_msgs::ros_gz_interfaces::{
     self, ControlWorld, ControlWorldRequest, EntityFactory, SetEntityPose, SetEntityPoseRequest,
     WorldControl, WorldReset, WorldStatistics,
 };
-use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::sensor_msgs::{Image, LaserScan};
 use periplus_msgs::std_srvs::{Empty, EmptyRequest};
 use periplus_msgs::{Encapsulation, Format, Message, Service, encode};
 use periplus_resources::{MemoryHost, Resolver};
@@ -342,6 +342,48 @@ fn lights_are_known_and_set() {
     let request = DeleteLightRequest { light_name: "lamp".into() };
     assert!(lab.call::<DeleteLight>("/gazebo/delete_light", request).success);
     assert_eq!(lab.simulation.lights().len(), 1);
+}
+
+/// The brightness of the middle of the next picture.
+fn picture(lab: &mut Lab, pictures: &Mailbox<Image>) -> u8 {
+    let _ = pictures.drain();
+    lab.run(12);
+    let image = pictures.latest().expect("a picture");
+    image.data[image.data.len() / 2 + 13]
+}
+
+#[test]
+fn the_next_picture_shows_the_light() {
+    let camera = r#"<sdf version="1.9"><model name="camera"><static>true</static><link name="head">
+        <light name="torch" type="point"><diffuse>0.8 0.8 0.8 1</diffuse>
+          <attenuation><range>20</range><constant>1</constant></attenuation></light>
+        <sensor name="s" type="camera"><topic>picture</topic><update_rate>10</update_rate>
+          <camera><horizontal_fov>0.3</horizontal_fov>
+            <image><width>8</width><height>8</height></image>
+            <clip><near>0.1</near><far>20</far></clip></camera></sensor>
+      </link></model></sdf>"#;
+    let mut lab = Lab::new();
+    assert!(lab.spawn("", camera, "", [0.0, 0.0, 1.0]).0);
+    assert!(lab.spawn("wall", BOX, "", [3.0, 0.0, 1.0]).0);
+    let pictures = lab.node.mailbox::<Image>("/picture", Qos::reliable(5)).unwrap();
+    let lit = picture(&mut lab, &pictures);
+    let request = SetLightPropertiesRequest {
+        light_name: "camera::head::torch".into(),
+        attenuation_constant: 1.0,
+        ..Default::default()
+    };
+    let done = lab.call::<SetLightProperties>("/set_light_properties", request);
+    assert!(done.success, "{}", done.status_message);
+    let dark = picture(&mut lab, &pictures);
+    assert!(dark < lit, "{dark} < {lit}");
+    let lamp = r#"<sdf version="1.9"><light name="lamp" type="point">
+        <diffuse>0.8 0.8 0.8 1</diffuse>
+        <attenuation><range>20</range><constant>1</constant></attenuation></light></sdf>"#;
+    assert!(lab.spawn("", lamp, "", [0.0, 0.0, 1.0]).0);
+    assert_eq!(picture(&mut lab, &pictures), lit);
+    let request = DeleteEntityRequest { name: "lamp".into() };
+    assert!(lab.call::<DeleteEntity>("/delete_entity", request).success);
+    assert_eq!(picture(&mut lab, &pictures), dark);
 }
 
 #[test]

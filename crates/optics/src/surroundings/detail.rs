@@ -44,6 +44,13 @@ impl Surroundings {
         self.lamps.push(Lamp { light: light.clone(), part: None });
     }
 
+    /// Puts a light in place of the one of its name on a link; false if there is none.
+    pub fn set_light_on(&mut self, PartId(part): PartId, light: &Light) -> bool {
+        let mut lamps = self.lamps.iter_mut().filter(|lamp| lamp.part == Some(part));
+        let known = lamps.find(|lamp| lamp.light.name == light.name);
+        known.map(|lamp| lamp.light = light.clone()).is_some()
+    }
+
     /// Takes a light of the world away; false if there is none of this name.
     pub fn remove_light(&mut self, name: &str) -> bool {
         let before = self.lamps.len();

@@ -12,7 +12,7 @@ use periplus_nodes::header;
 
 use super::offer::Offer;
 use super::reading::{Search, Source};
-use super::spawn::{Spawned, Standing, Wish, delete, delete_light, lights, spawn};
+use super::spawn::{Spawned, Standing, Wish, delete, lights, spawn};
 use super::{convert, entity};
 use crate::Simulation;
 
@@ -75,7 +75,7 @@ impl Factory {
         });
         self.delete_light.answer(|asked| {
             let name = &asked.light_name;
-            let deleted = delete_light(simulation, name).then_some(());
+            let deleted = simulation.delete_light(name).then_some(());
             let deleted = deleted
                 .ok_or_else(|| format!("there is no light `{name}` ({})", lights(simulation)));
             let (success, status_message) = gone(deleted, name);

@@ -12,7 +12,7 @@ use periplus_nodes::gz_topic;
 use super::convert::{pose, time_ns};
 use super::offer::Offer;
 use super::reading::{Search, Source};
-use super::spawn::{Spawned, Standing, Wish, copy, delete, delete_light, lights, spawn};
+use super::spawn::{Spawned, Standing, Wish, copy, delete, lights, spawn};
 use super::tempo::Tempo;
 use super::{Log, entity, light};
 use crate::Simulation;
@@ -149,7 +149,8 @@ fn create(
 fn remove(simulation: &mut Simulation, asked: &Entity) -> Result<(), String> {
     let name = named(asked)?;
     match asked.r#type {
-        Entity::LIGHT => delete_light(simulation, name)
+        Entity::LIGHT => simulation
+            .delete_light(name)
             .then_some(())
             .ok_or_else(|| format!("there is no light `{name}` ({})", lights(simulation))),
         Entity::MODEL if simulation.delete(name) => Ok(()),

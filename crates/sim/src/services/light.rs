@@ -90,5 +90,6 @@ pub(super) fn configure(
     known.attenuation = Attenuation { range_m, constant, linear, quadratic };
     known.cast_shadows = message.cast_shadows;
     known.intensity = intensity;
+    simulation.show_light(&message.name);
     Ok(())
 }

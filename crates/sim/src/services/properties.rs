@@ -246,5 +246,6 @@ fn set_light(simulation: &mut Simulation, asked: &SetLightPropertiesRequest) -> 
     light.attenuation.constant = constant;
     light.attenuation.linear = linear;
     light.attenuation.quadratic = quadratic;
+    simulation.show_light(&asked.light_name);
     Ok(())
 }

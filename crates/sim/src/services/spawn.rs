@@ -53,7 +53,7 @@ pub(super) fn spawn(
             let name = free_name(simulation, wish, &light.name)?;
             let parent_from_light = place(light.parent_from_light);
             let light = Light { name: name.clone(), parent_from_light, ..*light };
-            simulation.scene.lights.push(light);
+            simulation.add_light(light);
             Ok(Spawned { name, notes: told(&findings, &sources) })
         }
         Found::Model { mut model, description } => {
@@ -106,20 +106,13 @@ pub(super) fn copy(
 /// # Errors
 /// What to name instead.
 pub(super) fn delete(simulation: &mut Simulation, name: &str) -> Result<(), String> {
-    if simulation.delete(name) || delete_light(simulation, name) {
+    if simulation.delete(name) || simulation.delete_light(name) {
         return Ok(());
     }
     Err(match entity::find(simulation, name) {
         Ok(_) => format!("`{name}` is a part of a model; only whole models and lights can go"),
         Err(_) => format!("{}; {}", entity::unknown(simulation, name), lights(simulation)),
     })
-}
-
-/// Takes a light out of the world. False if there is none of that name.
-pub(super) fn delete_light(simulation: &mut Simulation, name: &str) -> bool {
-    let lights = &mut simulation.scene.lights;
-    let place = lights.iter().position(|light| light.name == name);
-    place.map(|place| lights.remove(place)).is_some()
 }
 
 /// The names of the lights, to be told.

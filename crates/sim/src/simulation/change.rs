@@ -92,6 +92,39 @@ impl Simulation {
         centre.unwrap_or(DVec3::ZERO)
     }
 
+    /// Adds a light to the world.
+    pub(crate) fn add_light(&mut self, light: scene::Light) {
+        self.views.set_light(&light);
+        self.scene.lights.push(light);
+    }
+
+    /// Takes a light out of the world. False if there is none of that name.
+    pub(crate) fn delete_light(&mut self, name: &str) -> bool {
+        let lights = &mut self.scene.lights;
+        let Some(place) = lights.iter().position(|light| light.name == name) else { return false };
+        lights.remove(place);
+        self.views.remove_light(name);
+        true
+    }
+
+    /// Lets a light be seen as it is now: it was changed. One on a link is `model::link::light`.
+    pub(crate) fn show_light(&mut self, name: &str) {
+        if let Some(light) = self.scene.lights.iter().find(|light| light.name == name) {
+            self.views.set_light(light);
+            return;
+        }
+        let Some((model, rest)) = name.split_once("::") else { return };
+        let Some((link, name)) = rest.split_once("::") else { return };
+        let Some(place) = self.place_of(model) else { return };
+        let running = &self.running[place];
+        let Some(id) = self.motion.find_link(running.model, link) else { return };
+        let lights = running.member.model.lights();
+        let mut lights = lights.filter(|(on, light)| on.name == link && light.name == name);
+        if let Some((_, light)) = lights.next() {
+            self.views.set_light_on(id, light, &self.motion);
+        }
+    }
+
     /// All lights that are lit, with `world_from_light`, as they are now: those of the world, and
     /// those that links carry.
     #[must_use]
