@@ -11,7 +11,7 @@ use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs::{Bool, Empty};
 use periplus_optics::{Geometry, Lens, Picture, Shot, Wanted};
 use periplus_scene::{Camera, CameraKind};
-use periplus_sensors::{ImageNoise, Pinhole};
+use periplus_sensors::{ImageNoise, Pinhole, Streams};
 
 use self::outs::{Out, outs};
 use super::port::Style;
@@ -34,6 +34,8 @@ struct Eye {
     near_m: f64,
     far_m: f64,
     visibility_mask: u32,
+    /// Of its own, so that nothing depends on who hears the others of one sensor.
+    streams: Streams,
     noise: Option<ImageNoise>,
     /// Whether the noise is of depths \[m\] (gz's depth cameras) instead of colours.
     noisy_depths: bool,
@@ -110,6 +112,12 @@ fn eye(
         near_m,
         far_m,
         visibility_mask: camera.visibility_mask,
+        streams: match name {
+            Some(name) => {
+                Streams::new(order.post.setting.seed, format!("{}::{name}", order.mount.name))
+            }
+            None => order.mount.streams().clone(),
+        },
         noise: ImageNoise::new(&camera.noise),
         noisy_depths: camera.kind == CameraKind::Depth
             && order.ports.iter().all(|port| port.style == Style::Gz),
@@ -146,7 +154,6 @@ impl Device for CameraDevice {
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let threads = moment.threads;
-        let mut stream = self.mount.streams().tick(tick.number);
         for eye in &mut self.eyes {
             let wanted = eye.wanted();
             if wanted != Wanted::default() {
@@ -161,7 +168,7 @@ impl Device for CameraDevice {
                     threads,
                 };
                 moment.seen(Geometry::Visual).take(&shot, &mut eye.picture);
-                eye.spoil(&mut stream);
+                eye.spoil(&mut eye.streams.tick(tick.number));
             }
             for out in &eye.outs {
                 out.publish(&eye.picture, &eye.pinhole, time_ns);
