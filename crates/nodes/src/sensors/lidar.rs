@@ -86,7 +86,7 @@ pub(super) fn build(
                 .push(Diagnostic::error("sensor-topic", error.to_string()).at(post.sensor.origin)),
         }
         // The velodyne plugin and its like throttle below the sensor's own rate.
-        let throttle = plugin.values.number("updateRate").filter(|rate| *rate > 0.0);
+        let throttle = number(plugin, "updateRate").filter(|rate| *rate > 0.0);
         rate_hz = throttle
             .filter(|rate| *rate < post.sensor.update_rate_hz || post.sensor.update_rate_hz <= 0.0);
     }
@@ -149,12 +149,12 @@ fn output(
         }
         "gazebo_ros_laser" | "gazebo_ros_gpu_laser" => {
             told.frame_id = ros1_frame(post, plugin, diagnostics);
-            told.least_intensity = values.number("hokuyoMinIntensity").unwrap_or(0.0);
+            told.least_intensity = number(plugin, "hokuyoMinIntensity").unwrap_or(0.0);
             Channel::Rows(ros1_publisher(post, plugin, "/world")?)
         }
         "gazebo_ros_block_laser" => {
             told.frame_id = ros1_frame(post, plugin, diagnostics);
-            told.least_intensity = values.number("hokuyoMinIntensity").unwrap_or(101.0);
+            told.least_intensity = number(plugin, "hokuyoMinIntensity").unwrap_or(101.0);
             Channel::OldPoints(ros1_publisher(post, plugin, "/world")?)
         }
         "gazebo_ros_velodyne_laser" | "gazebo_ros_velodyne_gpu_laser" => {
@@ -173,7 +173,15 @@ fn output(
 }
 
 fn ros1_frame(post: &Post<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) -> String {
-    post.frame_id(plugin.values.text("frameName"), diagnostics)
+    // The default of these plugins, `world`, would put every scan at the origin.
+    let given = plugin.values.is_given("frameName");
+    post.frame_id(plugin.values.text("frameName").filter(|_| given), diagnostics)
+}
+
+/// A number of a plugin; none where it has no such parameter.
+fn number(plugin: &Interpreted, name: &str) -> Option<f64> {
+    plugin.values.table().find(name)?;
+    plugin.values.number(name)
 }
 
 /// ROS 1 topics are given by a parameter, and know no QoS: reliable, as TCP is.

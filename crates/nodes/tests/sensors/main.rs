@@ -8,7 +8,8 @@ use periplus_msgs::gazebo_msgs::ContactsState;
 use periplus_msgs::geometry_msgs::Vector3Stamped;
 use periplus_msgs::ros_gz_interfaces::{Altimeter, Contacts, LogicalCameraImage};
 use periplus_msgs::sensor_msgs::{
-    CameraInfo, FluidPressure, Image, Imu, MagneticField, NavSatFix, PointCloud2, Range,
+    CameraInfo, FluidPressure, Image, Imu, LaserScan, MagneticField, NavSatFix, PointCloud,
+    PointCloud2, Range,
 };
 
 /// At rest on the floor the box feels 9.8 m/s² upwards, at the sensor's own rate.
@@ -300,4 +301,70 @@ fn depths_follow_the_pinhole_formula() {
             assert_eq!(seen, f32::INFINITY);
         }
     }
+}
+
+/// Every plugin of a lidar, 2.8 m before a wall: `ray` meets what touches (retro 50), `gpu_ray` what
+/// is seen (70).
+#[test]
+fn lidars_through_every_plugin() {
+    let lidar = |name: &str, kind: &str, plugin: &str| {
+        format!(
+            "<sensor name='{name}' type='{kind}'><update_rate>10</update_rate>
+               <pose>0.2 0 1 0 0 0</pose>
+               <ray><scan><horizontal><samples>3</samples><min_angle>-0.1</min_angle>
+                 <max_angle>0.1</max_angle></horizontal></scan>
+                 <range><min>0.1</min><max>10</max></range></ray>{plugin}</sensor>"
+        )
+    };
+    let ros2 = |name: &str, output: &str| {
+        let plugin = format!(
+            "<plugin name='{name}' filename='libgazebo_ros_ray_sensor.so'>
+               <ros><remapping>~/out:={name}</remapping></ros><frame_name>front</frame_name>
+               <output_type>sensor_msgs/{output}</output_type></plugin>"
+        );
+        lidar(name, "ray", &plugin)
+    };
+    let ros1 = |name: &str, kind: &str, library: &str| {
+        let plugin = format!(
+            "<plugin name='{name}' filename='libgazebo_ros_{library}.so'>
+               <topicName>{name}</topicName><frameName>/front</frameName></plugin>"
+        );
+        lidar(name, kind, &plugin)
+    };
+    let all = [
+        ros2("scan", "LaserScan"),
+        ros2("points", "PointCloud2"),
+        ros2("old_points", "PointCloud"),
+        ros2("nearest", "Range"),
+        ros1("laser", "ray", "laser"),
+        ros1("gpu", "gpu_ray", "gpu_laser"),
+        ros1("block", "ray", "block_laser"),
+        ros1("range", "ray", "range"),
+        lidar("plain", "gpu_lidar", "<topic>plain</topic>"),
+    ];
+    let mut bench = Bench::with(&all.concat());
+    let scans = ["scan", "laser", "gpu", "plain"]
+        .map(|name| (name, bench.hear::<LaserScan>(&format!("/{name}"))));
+    let ranges = ["nearest", "range"].map(|name| bench.hear::<Range>(&format!("/{name}")));
+    let clouds = ["old_points", "block"].map(|name| bench.hear::<PointCloud>(&format!("/{name}")));
+    let points = bench.hear::<PointCloud2>("/points");
+    let rings = bench.hear::<PointCloud2>("/plain/points");
+    bench.run(0.05);
+    for (name, heard) in scans {
+        let scan = heard.latest().unwrap_or_else(|| panic!("{name}"));
+        assert!((scan.ranges[1] - 2.8).abs() < 1e-5, "{name}: {scan:?}");
+        let is_seen = matches!(name, "gpu" | "plain");
+        assert_eq!(scan.intensities[1], if is_seen { 70.0 } else { 50.0 }, "{name}");
+        if name != "plain" {
+            assert_eq!(scan.header.frame_id, "front", "{name}");
+        }
+    }
+    for heard in ranges {
+        assert!((heard.latest().unwrap().range - 2.8).abs() < 1e-5);
+    }
+    for heard in clouds {
+        assert_eq!(heard.latest().unwrap().points.len(), 3);
+    }
+    assert_eq!(points.latest().unwrap().point_step, 16);
+    assert_eq!(rings.latest().unwrap().point_step, 32);
 }
