@@ -72,7 +72,7 @@ impl Report<'_> {
 
 #[expect(clippy::cast_precision_loss, reason = "a run lasts less than 2^53 ns")]
 fn seconds(time_ns: i64) -> f64 {
-    time_ns as f64 * 1e-9
+    time_ns as f64 / 1e9
 }
 
 fn percent(shares: &Shares, work: Work) -> f64 {
