@@ -15,7 +15,7 @@ const RUN: [&str; 11] = [
     "--cmd",
     "worlds/drives/circle.yaml",
     "--duration",
-    "1.5",
+    "0.6",
     "--seed",
     "7",
     "--quiet",

@@ -15,6 +15,7 @@ mod layers;
 mod physics;
 mod pictures;
 mod rays;
+mod runs;
 mod step;
 #[cfg(test)]
 mod tidy;
@@ -57,7 +58,7 @@ enum Task {
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
     Bench {
-        /// Only this: `loading`; or `physics` or `rays` (which need nothing of `corpus`)
+        /// Only this: `loading`; or `physics`, `rays` or `sim` (which need nothing of `corpus`)
         only: Option<Contest>,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
@@ -86,6 +87,8 @@ enum Contest {
     Loading,
     Physics,
     Rays,
+    /// Whole runs of `periplus sim`
+    Sim,
 }
 
 fn main() -> ExitCode {
@@ -112,7 +115,11 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Physics) => physics::bench(),
             Some(Contest::Rays) => rays::bench(),
-            None => corpus::bench().and_then(|()| physics::bench()).and_then(|()| rays::bench()),
+            Some(Contest::Sim) => runs::bench(),
+            None => corpus::bench()
+                .and_then(|()| physics::bench())
+                .and_then(|()| rays::bench())
+                .and_then(|()| runs::bench()),
         },
         Task::Codegen { check } => codegen::run(*check),
         Task::Determinism => determinism::check(),
