@@ -32,7 +32,7 @@ impl Magnetometer {
         spoil(&mut self.noise, motion.in_sensor(world_field_t), dt_s, stream)
     }
 
-    /// Variances along x, y, z [T²].
+    /// Variances along x, y, z \[T²\].
     #[must_use]
     pub fn variances_t2(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.noise[axis].spec().stddev * self.noise[axis].spec().stddev)
@@ -113,7 +113,7 @@ impl Barometer {
         self.noise.apply(standard_pressure_pa(altitude_m), dt_s, stream)
     }
 
-    /// Variance [Pa²].
+    /// Variance \[Pa²\].
     #[must_use]
     pub fn variance_pa2(&self) -> f64 {
         self.noise.spec().stddev * self.noise.spec().stddev

@@ -64,7 +64,7 @@ impl NavSat {
         NavSatReading { place, velocity_m_s }
     }
 
-    /// Variances of the position to the east, north and up [m²].
+    /// Variances of the position to the east, north and up \[m²\].
     #[must_use]
     pub fn position_variances_m2(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.position[axis].spec().stddev * self.position[axis].spec().stddev)
