@@ -10,6 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
+use periplus_diagnostics::SourceMap;
 use periplus_host::Stopwatch;
 use periplus_sim::{
     Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
@@ -165,6 +166,12 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
         run.go(&mut simulation, &mut services, &mut driver, &mut |progress| line.show(progress));
     let wall = stopwatch.elapsed();
     line.clear();
+    if !options.quiet {
+        let mut err = anstream::stderr().lock();
+        for findings in [simulation.take_findings(), services.take_findings()] {
+            terminal::diagnostics(&mut err, &findings, &SourceMap::new())?;
+        }
+    }
     let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {
         Ok(recording) => recording,
         Err(error) => {

@@ -170,6 +170,24 @@ impl Simulation {
         &mut self.shares
     }
 
+    /// What was found wrong on the way since this was last asked: connections that do not fit,
+    /// shapes that cannot be seen. Models of many files are in one world, so no finding has a
+    /// place.
+    pub fn take_findings(&mut self) -> Diagnostics {
+        let mut findings = Diagnostics::new();
+        for found in [self.graph.take_findings(), self.views.take_findings()] {
+            for diagnostic in found.iter() {
+                findings.push(Diagnostic {
+                    span: None,
+                    related: Vec::new(),
+                    replacement: None,
+                    ..diagnostic.clone()
+                });
+            }
+        }
+        findings
+    }
+
     /// The names of the models that are there, in the order of coming.
     pub fn models(&self) -> impl Iterator<Item = &str> {
         self.running.iter().map(|running| running.member.name.as_str())

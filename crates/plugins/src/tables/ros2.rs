@@ -266,7 +266,9 @@ pub(super) static PLUGINS: &[Known] = &[
         World,
         BuiltIn,
         "Publishes and sets the states of models and links.",
-        [number("update_rate", "Hz", "Messages per second; 0 is one each step.").or("100").min(0.0)]
+        [number("update_rate", "Hz", "Messages per second; 0 is one each step.")
+            .or("100")
+            .min(0.0)]
     ),
     of_ros2!(
         "gazebo_ros_properties",

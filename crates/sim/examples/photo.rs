@@ -1,0 +1,74 @@
+//! A photo of a world: `photo WORLD X,Y,Z,ROLL,PITCH,YAW OUT.png`, from there along x.
+#![allow(clippy::print_stderr, clippy::expect_used, reason = "a small program for people")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use periplus_base::{Pose, Rpy};
+use periplus_formats::Setting;
+use periplus_host::Machine;
+use periplus_optics::{Geometry, Lens, Picture, Shot, Wanted};
+use periplus_resources::Resolver;
+use periplus_sim::{ShapeFiles, compose};
+
+const WIDTH: u32 = 960;
+const HEIGHT: u32 = 540;
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [world, pose, out] = words.as_slice() else {
+        eprintln!("usage: photo WORLD X,Y,Z,ROLL,PITCH,YAW OUT.png");
+        std::process::exit(2);
+    };
+    let numbers: Vec<f64> = pose.split(',').filter_map(|word| word.parse().ok()).collect();
+    let [x, y, z, roll, pitch, yaw] = numbers[..] else {
+        eprintln!("`{pose}` is no pose");
+        std::process::exit(2);
+    };
+    let world_from_camera = Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw });
+    let picture = take(Path::new(world), world_from_camera);
+    let file = std::fs::File::create(out).expect("a place to write to");
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), WIDTH, HEIGHT);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&picture.rgb).expect("a whole image");
+}
+
+fn take(world: &Path, world_from_camera: Pose) -> Picture {
+    let resolver = Resolver::new(&Machine, &[]);
+    let setting = Setting {
+        host: &Machine,
+        resolver: &resolver,
+        working_folder: std::env::current_dir().unwrap_or_else(|_| PathBuf::new()),
+        arguments: Vec::new(),
+        open_meshes: false,
+    };
+    let composition = compose(world, &[], &setting);
+    let files = Arc::new(ShapeFiles::default());
+    let mut motion = periplus_dynamics::World::empty(
+        composition.world.gravity_m_s2,
+        periplus_dynamics::Mode::Kinematic,
+    );
+    let mut views =
+        periplus_nodes::Views::new(Arc::clone(&files) as _, 2).under(&composition.world);
+    for member in &composition.members {
+        let added = motion.add(&member.model, member.world_from_model, &*files);
+        if let Some(id) = added.model {
+            views.add(Arc::new(member.model.clone()), id, &motion);
+        }
+    }
+    let lens = Lens::pinhole(WIDTH, HEIGHT, 1.2).expect("a lens");
+    let shot = Shot {
+        lens: &lens,
+        world_from_camera,
+        near_m: 0.05,
+        far_m: 100.0,
+        visibility_mask: u32::MAX,
+        own: None,
+        wanted: Wanted { colour: true, ..Wanted::default() },
+        threads: 2,
+    };
+    let mut picture = Picture::default();
+    views.at(Geometry::Visual, 0, &motion).take(&shot, &mut picture);
+    picture
+}
