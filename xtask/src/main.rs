@@ -10,6 +10,7 @@ mod codegen;
 mod corpus;
 mod determinism;
 mod docs;
+mod drive;
 mod fuzz;
 mod layers;
 mod physics;
@@ -67,6 +68,8 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Every robot of the corpus with a drive, driven for five simulated seconds
+    Drive,
     /// The same bag from every build and number of threads
     Determinism,
     /// The pictures in the documentation, from the program itself
@@ -122,6 +125,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
                 .and_then(|()| runs::bench()),
         },
         Task::Codegen { check } => codegen::run(*check),
+        Task::Drive => drive::corpus(),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),

@@ -6,7 +6,7 @@ mod common;
 use common::*;
 use periplus_diagnostics::{Origin, Severity, SourceMap};
 use periplus_dynamics::{Mode, NoMeshes, World};
-use periplus_scene::{Axis, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
+use periplus_scene::{Axis, DVec3, Friction, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
 use proptest::prelude::*;
 
 /// Adds a model and answers whether it was taken, and the findings' codes.
@@ -182,4 +182,17 @@ proptest! {
 fn world_of_nan_gravity() {
     let world = World::empty(DVec3::ZERO, Mode::Rigid);
     assert_eq!(world.gravity_m_s2(), DVec3::ZERO);
+}
+
+#[test]
+fn rough_ground_may_be_rougher_one_way() {
+    let with = |is_static: bool, mu: f64, mu2: f64| {
+        let mut link = heavy(1.0);
+        link.collisions[0].surface.friction = Friction { mu, mu2, ..Friction::default() };
+        check(&Model { is_static, ..model("m", vec![link], vec![]) }).1
+    };
+    // As nearly every world has it.
+    assert_eq!(with(true, 100.0, 50.0), Vec::<&str>::new());
+    assert_eq!(with(true, 100.0, 0.5), ["friction-one-direction"]);
+    assert_eq!(with(false, 100.0, 50.0), ["friction-one-direction"]);
 }

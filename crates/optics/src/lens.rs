@@ -151,6 +151,52 @@ fn straighten(d: &Distortion, bent: [f64; 2]) -> Option<[f64; 2]> {
     None
 }
 
+/// From angles to distances from the middle, or back.
+type Law = fn(f64) -> f64;
+
+/// SDF's `<custom_function>`: an angle θ is seen `c1 f fun(θ / c2 + c3)` from the middle. As the
+/// picture is stretched to its field of view, `c1` and `f` cancel out.
+#[derive(Clone, Copy)]
+struct Custom {
+    c2: f64,
+    c3: f64,
+    law: Law,
+    back: Law,
+}
+
+impl Custom {
+    fn read(function: Option<&Element>) -> Result<Self, String> {
+        let text = |name: &str| {
+            let child = function.and_then(|it| it.elements().find(|e| e.name == name));
+            child.map(|child| child.text().trim().to_owned())
+        };
+        let number = |name: &str, usual: f64| match text(name) {
+            Some(text) => text.parse().ok().filter(|number: &f64| number.is_finite()),
+            None => Some(usual),
+        };
+        let (law, back): (Law, Law) = match text("fun").as_deref() {
+            None | Some("tan") => (libm::tan, libm::atan),
+            Some("sin") => (libm::sin, libm::asin),
+            Some("id") => (|a| a, |r| r),
+            Some(other) => {
+                return Err(format!("a lens by the function `{other}`: use sin, tan or id"));
+            }
+        };
+        match (number("c2", 1.0).filter(|c2| *c2 != 0.0), number("c3", 0.0)) {
+            (Some(c2), Some(c3)) => Ok(Self { c2, c3, law, back }),
+            _ => Err("c2 or c3 of the lens is no number that can be used".to_owned()),
+        }
+    }
+
+    fn seen(self, angle_rad: f64) -> f64 {
+        (self.law)(angle_rad / self.c2 + self.c3)
+    }
+
+    fn angle(self, seen: f64) -> f64 {
+        ((self.back)(seen) - self.c3) * self.c2
+    }
+}
+
 /// Lenses of SDF's `<lens>` by their names: how far from the middle an angle θ is seen, in focal
 /// lengths, and back.
 fn wide_angle(camera: &Camera) -> Result<Lens, String> {
@@ -167,17 +213,25 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
         text("type").map_or_else(|| "stereographic".to_owned(), |text| text.trim().to_owned());
     let cutoff =
         text("cutoff_angle").and_then(|text| text.trim().parse().ok()).unwrap_or(FRAC_PI_2);
-    type Law = fn(f64) -> f64;
-    let (seen, angle): (Law, Law) = match kind.as_str() {
-        "gnomonical" => (libm::tan, libm::atan),
-        "stereographic" => (|a| 2.0 * libm::tan(a / 2.0), |r| 2.0 * libm::atan(r / 2.0)),
-        "equidistant" => (|a| a, |r| r),
-        "equisolid_angle" => (|a| 2.0 * libm::sin(a / 2.0), |r| 2.0 * libm::asin(r / 2.0)),
-        "orthographic" => (libm::sin, libm::asin),
+    type AnyLaw = Box<dyn Fn(f64) -> f64>;
+    let (seen, angle): (AnyLaw, AnyLaw) = match kind.as_str() {
+        "gnomonical" => (Box::new(libm::tan), Box::new(libm::atan)),
+        "stereographic" => {
+            (Box::new(|a| 2.0 * libm::tan(a / 2.0)), Box::new(|r| 2.0 * libm::atan(r / 2.0)))
+        }
+        "equidistant" => (Box::new(|a| a), Box::new(|r| r)),
+        "equisolid_angle" => {
+            (Box::new(|a| 2.0 * libm::sin(a / 2.0)), Box::new(|r| 2.0 * libm::asin(r / 2.0)))
+        }
+        "orthographic" => (Box::new(libm::sin), Box::new(libm::asin)),
+        "custom" => {
+            let custom = Custom::read(child("custom_function"))?;
+            (Box::new(move |a| custom.seen(a)), Box::new(move |r| custom.angle(r)))
+        }
         _ => {
             return Err(format!(
                 "lens type `{kind}` is not known here; use gnomonical, stereographic, \
-                 equidistant, equisolid_angle or orthographic"
+                 equidistant, equisolid_angle, orthographic or custom"
             ));
         }
     };

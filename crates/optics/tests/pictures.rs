@@ -3,8 +3,8 @@
 
 use periplus_optics::{Geometry, Lens, NoShapes, Picture, Shot, Surroundings, Wanted};
 use periplus_scene::{
-    Attenuation, Camera, CameraKind, Colour, DVec3, Distortion, Light, LightKind, Link, Material,
-    Model, Noise, Origin, Pose, Shape, Visual,
+    Attenuation, Camera, CameraKind, Colour, DVec3, Distortion, Element, Light, LightKind, Link,
+    Material, Model, Noise, Origin, Pose, Shape, Visual,
 };
 
 const ALL: Wanted = Wanted { colour: true, depth: true, labels: true };
@@ -231,4 +231,21 @@ fn lenses_bend_the_image_and_keep_depth() {
             assert!((depth - 2.5).abs() < 1e-5, "{depth}");
         }
     }
+}
+
+#[test]
+fn a_custom_lens_with_the_tangent_is_a_pinhole() {
+    let child = |name: &str, text: &str| Element::new(name).with_text(text);
+    let wide = |children: &[(&str, &str)]| {
+        let own = Element::new("custom_function");
+        let own = children.iter().fold(own, |own, (name, text)| own.with_child(child(name, text)));
+        let lens = Element::new("lens").with_child(child("type", "custom")).with_child(own);
+        Lens::of(&Camera { extra: vec![lens], ..camera(CameraKind::WideAngle, None) })
+    };
+    let plain = Lens::of(&camera(CameraKind::Depth, None)).unwrap();
+    let own = wide(&[("c1", "3"), ("f", "2"), ("fun", "tan")]).unwrap();
+    let first = |lens: &Lens| lens.direction(0, 0).unwrap().normalize();
+    assert!((first(&own) - first(&plain)).length() < 1e-12, "{}", first(&own));
+    assert!(wide(&[("c2", "0")]).is_err());
+    assert!(wide(&[("fun", "cosh")]).is_err());
 }

@@ -62,7 +62,7 @@ pub struct Composition {
     pub world: World,
     /// Models, those of the world first.
     pub members: Vec<Member>,
-    /// The files with what is wrong in them; the world's comes first.
+    /// The files with what is wrong in them; the one that was given as the world comes first.
     pub files: Vec<Loaded>,
 }
 
@@ -113,8 +113,18 @@ pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Com
         );
     }
     let lonely = scene.worlds.is_empty();
-    let mut world = if lonely { plain_world(setting) } else { scene.worlds.remove(0) };
     let description = description_of(&first);
+    let mut files = vec![first];
+    let mut world = if lonely {
+        // A file of its own, for its findings point into its own text.
+        let mut plain = plain_world(setting);
+        let world = plain.scene.as_mut().and_then(|scene| scene.worlds.pop());
+        files.push(plain);
+        world.unwrap_or_else(|| World::empty("default"))
+    } else {
+        scene.worlds.remove(0)
+    };
+    let file_of_world = files.len() - 1;
     let mut members: Vec<Member> = Vec::new();
     let add = |model: Model, placed: Placed<'_>, file: usize, members: &mut Vec<Member>| {
         let taken = |name: &str| members.iter().any(|member| member.name == name);
@@ -136,14 +146,13 @@ pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Com
         members.push(Member { model, name, namespace, world_from_model, description, file });
     };
     for model in std::mem::take(&mut world.models) {
-        add(model, Placed::default(), 0, &mut members);
+        add(model, Placed::default(), file_of_world, &mut members);
     }
     for model in std::mem::take(&mut scene.models) {
         let is_robot = description.is_some();
         let description = description.clone();
         add(model, Placed { is_robot, description, ..Placed::default() }, 0, &mut members);
     }
-    let mut files = vec![first];
     for robot in robots {
         let own = Setting { arguments: robot.arguments.clone(), ..setting.clone() };
         let mut loaded = load(&robot.file, &own);
@@ -176,10 +185,8 @@ pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Com
 }
 
 /// The plane in the sun.
-fn plain_world(setting: &Setting<'_>) -> World {
-    let loaded = load_bytes("plain.world".as_ref(), ground::PLAIN_WORLD.as_bytes(), setting);
-    let world = loaded.scene.and_then(|scene| scene.worlds.into_iter().next());
-    world.unwrap_or_else(|| World::empty("default"))
+fn plain_world(setting: &Setting<'_>) -> Loaded {
+    load_bytes("plain.world".as_ref(), ground::PLAIN_WORLD.as_bytes(), setting)
 }
 
 #[derive(Default)]

@@ -72,7 +72,7 @@ impl Builder<'_, '_> {
                     only_reports: collision.surface.contact.collide_without_contact,
                     part,
                 };
-                let surface = Surface::of(collision, &scoped, self.diagnostics);
+                let surface = Surface::of(collision, &scoped, moves, self.diagnostics);
                 let mut push = |solid: SharedShape, pose: Pose, tag: Tag| {
                     let collider = surface.collider(solid, pose, tag, several);
                     self.records.bodies[body].colliders.push(collider);

@@ -21,12 +21,19 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    pub(super) fn of(collision: &Collision, name: &str, diagnostics: &mut Diagnostics) -> Self {
+    pub(super) fn of(
+        collision: &Collision,
+        name: &str,
+        moves: bool,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
         let (friction, contact) = (&collision.surface.friction, &collision.surface.contact);
         // ODE takes a negative coefficient for infinite.
         let endless = |mu: f64| if mu < 0.0 { f64::INFINITY } else { mu };
         let (mu, mu2) = (endless(friction.mu), endless(friction.mu2));
-        if mu != mu2 && mu2.is_finite() {
+        // The ground of nearly every world says 100 and 50: what stands on it decides.
+        let is_rough_ground = !moves && mu.min(mu2) >= 1.0;
+        if mu != mu2 && mu2.is_finite() && !is_rough_ground {
             diagnostics.push(
                 Diagnostic::warning(
                     "friction-one-direction",

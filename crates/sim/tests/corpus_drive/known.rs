@@ -1,0 +1,38 @@
+//! Robots that do not do what they are told, and why that is right.
+
+/// Part of the robot's name in the table, part of what is seen, and the reason.
+pub(crate) type Known = (&'static str, &'static str, &'static str);
+
+pub(crate) const KNOWN: &[Known] = &[
+    (
+        "gazebo_models/pioneer",
+        "",
+        "its drive is Gazebo Classic's own and listens to Gazebo's transport, not to ROS",
+    ),
+    ("set_model_state_test_p2dx", "", "the same pioneer2dx"),
+    ("conveyor.sdf::conveyor", "", "a belt, not a robot; it takes no Twist and is not run yet"),
+    ("gz_ros2_control/", "", "its joints are for controllers of ros2_control, which are not run"),
+    (
+        "tunnel.sdf::vehicle (Rigid)",
+        "falls",
+        "the tunnel is fetched from Fuel; without it there is nothing to stand on",
+    ),
+    (
+        "mecanum.urdf::mogi_bot (Rigid)",
+        "stood",
+        "friction along one direction only is not simulated: the rollers slide every way",
+    ),
+    (
+        "/model-1_4",
+        "stood",
+        "in SDF 1.4 an axis is in the model's frame, so these wheels turn about the vertical; the \
+         same text as 1.8 drives",
+    ),
+    ("mecanum_drive.sdf::vehicle_blue (Rigid)", "stood", "rollers, as above"),
+    ("skid_steer_mecanum.sdf::vehicle_blue (Rigid)", "stood", "rollers, as above"),
+];
+
+/// The reason for a fault of a robot, if it is known.
+pub(crate) fn reason(robot: &str, fault: &str) -> Option<Known> {
+    KNOWN.iter().find(|(who, what, _)| robot.contains(who) && fault.contains(what)).copied()
+}
