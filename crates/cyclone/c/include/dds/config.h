@@ -1,0 +1,21 @@
+/* What the platform has. Upstream, cmake asks the compiler; the systems that we build for all have
+   the same, so it stands here. */
+#ifndef DDS_CONFIG_H
+#define DDS_CONFIG_H
+
+#define DDSRT_HAVE_DYNLIB 1
+#define DDSRT_HAVE_FILESYSTEM 1
+#define DDSRT_HAVE_NETSTAT 1
+#define DDSRT_HAVE_RUSAGE 1
+#define DDSRT_HAVE_IPV6 1
+#define DDSRT_HAVE_DNS 1
+#define DDSRT_HAVE_GETADDRINFO 1
+#define DDSRT_HAVE_GETHOSTNAME 1
+#define DDSRT_HAVE_INET_NTOP 1
+#define DDSRT_HAVE_INET_PTON 1
+#if defined(__linux__)
+#define DDSRT_HAVE_GETHOSTBYNAME_R 1
+#define DDSRT_HAVE_CONDATTR_SETCLOCK 1
+#endif
+
+#endif

@@ -1,0 +1,149 @@
+//! Who takes part.
+
+use std::ffi::CString;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crate::discovery::{Discovery, Kind};
+use crate::error::check;
+use crate::reader::Reader;
+use crate::waitset::Waitset;
+use crate::writer::Writer;
+use crate::{Config, Error, Guid, Qos, ffi};
+
+/// An entity of Cyclone, deleted when this is dropped.
+pub(crate) struct Entity(pub(crate) i32);
+
+impl Drop for Entity {
+    fn drop(&mut self) {
+        // SAFETY: a number; one that is gone already is refused.
+        let _ = unsafe { ffi::pp_delete(self.0) };
+    }
+}
+
+/// One taking part in a domain, with sockets and threads of its own: two in one program meet over
+/// the network as those of two programs do. A handle: clones mean the same one, and everything made
+/// by it keeps it.
+#[derive(Clone)]
+pub struct Participant(pub(crate) Arc<Core>);
+
+pub(crate) struct Core {
+    pub(crate) entity: i32,
+    guid: Guid,
+    /// The participant goes with it.
+    _domain: Entity,
+}
+
+impl Participant {
+    /// Joins a domain. `user_data` is what others see of it.
+    ///
+    /// # Errors
+    /// When there is no such network, no free port, or the configuration is wrong.
+    pub fn open(config: &Config, user_data: &[u8]) -> Result<Self, Error> {
+        // Cyclone knows one domain of a number in a program; its number on the wire is in the
+        // configuration.
+        static NEXT: AtomicU32 = AtomicU32::new(1);
+        ffi::init();
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let what = || format!("to join domain {}", config.domain_id);
+        let xml = text(&config.xml(), what)?;
+        // SAFETY: a live string.
+        let domain = Entity(check(unsafe { ffi::pp_domain(number, xml.as_ptr()) }, what)?);
+        // SAFETY: live bytes of this size.
+        let code = unsafe { ffi::pp_participant(number, user_data.as_ptr(), user_data.len()) };
+        let entity = check(code, what)?;
+        Ok(Self(Arc::new(Core { entity, guid: guid(entity)?, _domain: domain })))
+    }
+
+    /// Its name in the network.
+    #[must_use]
+    pub fn guid(&self) -> Guid {
+        self.0.guid
+    }
+
+    /// Writes samples of a topic.
+    ///
+    /// # Errors
+    /// When a name is not valid or the QoS contradicts itself.
+    pub fn writer(
+        &self,
+        topic: &str,
+        type_name: &str,
+        qos: &Qos,
+        user_data: &[u8],
+    ) -> Result<Writer, Error> {
+        let made = self.endpoint(topic, type_name, qos, user_data, ffi::pp_writer)?;
+        Ok(Writer::new(made, self.clone()))
+    }
+
+    /// Takes samples of a topic.
+    ///
+    /// # Errors
+    /// As [`Participant::writer`].
+    pub fn reader(
+        &self,
+        topic: &str,
+        type_name: &str,
+        qos: &Qos,
+        user_data: &[u8],
+    ) -> Result<Reader, Error> {
+        let made = self.endpoint(topic, type_name, qos, user_data, ffi::pp_reader)?;
+        Ok(Reader::new(made, self.clone()))
+    }
+
+    fn endpoint(
+        &self,
+        topic: &str,
+        type_name: &str,
+        qos: &Qos,
+        user_data: &[u8],
+        make: unsafe extern "C" fn(i32, i32, *const ffi::Qos, *const u8, usize) -> i32,
+    ) -> Result<Endpoint, Error> {
+        let what = || format!("the topic `{topic}` of type `{type_name}`");
+        let (name, type_name) = (text(topic, what)?, text(type_name, what)?);
+        // SAFETY: live strings.
+        let code = unsafe { ffi::pp_topic(self.0.entity, name.as_ptr(), type_name.as_ptr()) };
+        let topic = Entity(check(code, what)?);
+        let qos = qos.to_ffi();
+        let (data, size) = (user_data.as_ptr(), user_data.len());
+        // SAFETY: live data of these sizes.
+        let code = unsafe { make(self.0.entity, topic.0, &raw const qos, data, size) };
+        let entity = Entity(check(code, what)?);
+        Ok(Endpoint { guid: guid(entity.0)?, entity, _topic: topic })
+    }
+
+    /// Tells who else is there.
+    ///
+    /// # Errors
+    /// When memory is short.
+    pub fn discovery(&self, kind: Kind) -> Result<Discovery, Error> {
+        Discovery::new(self.clone(), kind)
+    }
+
+    /// Waits for things to happen.
+    ///
+    /// # Errors
+    /// When memory is short.
+    pub fn waitset(&self) -> Result<Waitset, Error> {
+        Waitset::new(self.clone())
+    }
+}
+
+/// A writer or reader, dropped before its topic.
+pub(crate) struct Endpoint {
+    pub(crate) guid: Guid,
+    pub(crate) entity: Entity,
+    _topic: Entity,
+}
+
+fn guid(entity: i32) -> Result<Guid, Error> {
+    let mut guid = Guid::default();
+    // SAFETY: it writes sixteen bytes.
+    let code = unsafe { ffi::pp_guid(entity, guid.0.as_mut_ptr()) };
+    check(code, || "to tell the name of an entity".to_owned())?;
+    Ok(guid)
+}
+
+fn text(text: &str, what: impl FnOnce() -> String) -> Result<CString, Error> {
+    CString::new(text).map_err(|_| Error::new(what(), "it has a zero byte"))
+}

@@ -1,0 +1,112 @@
+//! Sleeping until something happens.
+
+use std::sync::Arc;
+
+use crate::discovery::Discovery;
+use crate::error::check;
+use crate::participant::{Entity, Participant};
+use crate::reader::Reader;
+use crate::writer::Writer;
+use crate::{Error, ffi};
+
+/// Events of `shim.h`.
+const GUARD: i32 = 0;
+const DATA: i32 = 1;
+const MATCHED: i32 = 2;
+
+/// As many things are told at once; more are told at the next look.
+const ROOM: usize = 256;
+
+/// Token of the waker.
+const WOKEN: isize = -1;
+
+/// Lets a thread sleep until one of the watched has something new.
+pub struct Waitset {
+    waitset: Entity,
+    guard: Arc<Entity>,
+    participant: Participant,
+}
+
+/// Ends the sleep of a [`Waitset`] from another thread.
+#[derive(Clone)]
+pub struct Waker {
+    guard: Arc<Entity>,
+    _participant: Participant,
+}
+
+impl Waker {
+    /// Ends it.
+    pub fn wake(&self) {
+        // SAFETY: a number.
+        let _ = unsafe { ffi::pp_guard_set(self.guard.0, 1) };
+    }
+}
+
+impl Waitset {
+    pub(crate) fn new(participant: Participant) -> Result<Self, Error> {
+        let what = || "to wait".to_owned();
+        let of = participant.0.entity;
+        // SAFETY: numbers.
+        let waitset = Entity(check(unsafe { ffi::pp_waitset(of) }, what)?);
+        // SAFETY: numbers.
+        let guard = Arc::new(Entity(check(unsafe { ffi::pp_guard(of) }, what)?));
+        // SAFETY: numbers.
+        check(unsafe { ffi::pp_watch(waitset.0, guard.0, GUARD, WOKEN) }, what)?;
+        Ok(Self { waitset, guard, participant })
+    }
+
+    /// What wakes it.
+    #[must_use]
+    pub fn waker(&self) -> Waker {
+        Waker { guard: self.guard.clone(), _participant: self.participant.clone() }
+    }
+
+    fn watch(&self, entity: i32, event: i32, token: u32) -> Result<(), Error> {
+        // SAFETY: numbers.
+        let code = unsafe { ffi::pp_watch(self.waitset.0, entity, event, token as isize) };
+        check(code, || "to wait for an entity".to_owned()).map(drop)
+    }
+
+    /// Watches for samples. Drop a reader and it is watched no more.
+    ///
+    /// # Errors
+    /// When it is watched already.
+    pub fn watch_reader(&self, reader: &Reader, token: u32) -> Result<(), Error> {
+        self.watch(reader.entity(), DATA, token)
+    }
+
+    /// Watches for readers that come and go; [`Writer::readers`] tells how many there are then.
+    ///
+    /// # Errors
+    /// When it is watched already.
+    pub fn watch_writer(&self, writer: &Writer, token: u32) -> Result<(), Error> {
+        self.watch(writer.entity(), MATCHED, token)
+    }
+
+    /// Watches for others.
+    ///
+    /// # Errors
+    /// When it is watched already.
+    pub fn watch_discovery(&self, discovery: &Discovery, token: u32) -> Result<(), Error> {
+        self.watch(discovery.entity(), DATA, token)
+    }
+
+    /// Sleeps, at most so long, and gives the tokens of what has something new; none when it was
+    /// woken or time was up.
+    ///
+    /// # Errors
+    /// When memory is short.
+    pub fn wait(&self, timeout_ns: i64) -> Result<Vec<u32>, Error> {
+        let mut tokens = [0_isize; ROOM];
+        // SAFETY: room for so many.
+        let code =
+            unsafe { ffi::pp_wait(self.waitset.0, tokens.as_mut_ptr(), ROOM, timeout_ns.max(0)) };
+        let count = check(code, || "to wait".to_owned())?;
+        let count = usize::try_from(count).unwrap_or(0).min(ROOM);
+        if tokens[..count].contains(&WOKEN) {
+            // SAFETY: a number.
+            let _ = unsafe { ffi::pp_guard_set(self.guard.0, 0) };
+        }
+        Ok(tokens[..count].iter().filter_map(|token| u32::try_from(*token).ok()).collect())
+    }
+}

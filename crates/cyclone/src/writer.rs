@@ -1,0 +1,99 @@
+//! Writing.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::error::check;
+use crate::participant::{Endpoint, Participant};
+use crate::{Error, Guid, Identity, ffi};
+
+/// What owns the bytes of a sample. They are sent from where they are, now and when somebody asks
+/// for them again.
+pub trait Bytes: Send + Sync + 'static {
+    /// The bytes: CDR with the four in front that say how it is coded.
+    fn bytes(&self) -> &[u8];
+}
+
+impl Bytes for Vec<u8> {
+    fn bytes(&self) -> &[u8] {
+        self
+    }
+}
+
+/// Writes samples of one topic.
+pub struct Writer {
+    endpoint: Endpoint,
+    writing: Mutex<()>,
+    participant: Participant,
+}
+
+impl Writer {
+    pub(crate) fn new(endpoint: Endpoint, participant: Participant) -> Self {
+        Self { endpoint, writing: Mutex::default(), participant }
+    }
+
+    /// Its name in the network.
+    #[must_use]
+    pub fn guid(&self) -> Guid {
+        self.endpoint.guid
+    }
+
+    /// Writes a sample and gives its number. `related` is the sample that it answers; only Fast DDS
+    /// looks at it. A reliable writer whose readers are slow waits as long as its QoS says.
+    ///
+    /// # Errors
+    /// When it has waited too long, or the bytes are no sample.
+    pub fn write(&self, bytes: impl Bytes, related: Option<Identity>) -> Result<i64, Error> {
+        let owner: ffi::Owner = Box::new(bytes);
+        let what = || "to write a sample".to_owned();
+        let size = owner.bytes().len();
+        if size < 4 || u32::try_from(size).is_err() {
+            let why = format!("{size} bytes are no sample, which has 4 to 4294967295");
+            return Err(Error::new(what(), why));
+        }
+        let related =
+            related.map(|one| ffi::Identity { guid: one.writer.0, sequence: one.sequence });
+        let related = related.as_ref().map_or(std::ptr::null(), std::ptr::from_ref);
+        let mut sequence = 0;
+        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        let owner = Box::into_raw(Box::new(owner));
+        // SAFETY: just made, and read only; the box does not move until C gives it back.
+        let bytes = unsafe { (*owner).bytes() };
+        // SAFETY: the bytes live as long as their owner, which is C's from here on.
+        let code = unsafe {
+            ffi::pp_write(
+                self.endpoint.entity.0,
+                bytes.as_ptr(),
+                size.min(bytes.len()),
+                owner.cast(),
+                related,
+                &raw mut sequence,
+            )
+        };
+        check(code, what)?;
+        Ok(sequence)
+    }
+
+    /// How many readers are matched now.
+    #[must_use]
+    pub fn readers(&self) -> usize {
+        // SAFETY: a number.
+        let count = unsafe { ffi::pp_matched(self.endpoint.entity.0, 1) };
+        usize::try_from(count).unwrap_or(0)
+    }
+
+    /// Says that it lives, without a sample.
+    pub fn assert_liveliness(&self) {
+        // SAFETY: a number.
+        let _ = unsafe { ffi::pp_assert_liveliness(self.endpoint.entity.0) };
+    }
+
+    /// Whose it is.
+    #[must_use]
+    pub fn participant(&self) -> &Participant {
+        &self.participant
+    }
+
+    pub(crate) fn entity(&self) -> i32 {
+        self.endpoint.entity.0
+    }
+}
