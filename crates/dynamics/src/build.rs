@@ -4,6 +4,7 @@ mod between;
 mod bodies;
 mod collisions;
 mod gears;
+mod grain;
 mod joints;
 mod surface;
 

@@ -33,6 +33,7 @@ mod contacts;
 pub mod drives;
 mod engine;
 mod exact;
+mod grain;
 mod hooks;
 mod inertia;
 mod joints;

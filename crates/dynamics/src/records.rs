@@ -6,6 +6,7 @@ use periplus_base::Pose;
 use rapier3d_f64::geometry::ColliderBuilder;
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
+use crate::grain::Grain;
 use crate::joints::{AxisRecord, Hold};
 
 /// The body that joints to the world hold on to.
@@ -30,6 +31,8 @@ pub(crate) struct Body {
     pub(crate) damping: [f64; 2],
     pub(crate) can_sleep: bool,
     pub(crate) colliders: Vec<ColliderBuilder>,
+    /// Which of the colliders are rougher one way.
+    pub(crate) grains: Vec<(usize, Grain)>,
     /// Its model was taken out.
     pub(crate) removed: bool,
 }
@@ -46,6 +49,7 @@ impl Body {
             damping: [0.0; 2],
             can_sleep: true,
             colliders: Vec::new(),
+            grains: Vec::new(),
             removed: false,
         }
     }

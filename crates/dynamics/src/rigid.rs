@@ -1,5 +1,6 @@
 //! Physics: rapier, as this house sets it up.
 
+mod grain;
 mod step;
 
 use std::ops::Range;
@@ -8,10 +9,11 @@ use periplus_base::{DVec3, Pose};
 use rapier3d_f64::dynamics::{
     FrictionModel, ImpulseJointHandle, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
-use rapier3d_f64::prelude::PhysicsWorld;
+use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
 use crate::build::{rapier_pose, scene_pose};
 use crate::engine::BodyMotion;
+use crate::grain::Grain;
 use crate::records::{Body, BodyKind, Mark, Records};
 
 /// Steps of the solver in one of ours.
@@ -31,6 +33,8 @@ pub(crate) struct Rigid {
     pub(crate) solver: PhysicsWorld,
     pub(crate) bodies: Vec<Option<RigidBodyHandle>>,
     pub(crate) axes: Vec<Option<ImpulseJointHandle>>,
+    /// What is rougher one way.
+    pub(crate) grains: Vec<(ColliderHandle, Grain)>,
     pub(crate) pushed: bool,
 }
 
@@ -44,7 +48,7 @@ impl Rigid {
         parameters.normalized_allowed_linear_error = SLOP_M;
         // A body that flies off is told, not slowed down.
         parameters.normalized_max_linear_velocity = f64::MAX;
-        Self { solver, bodies: Vec::new(), axes: Vec::new(), pushed: false }
+        Self { solver, bodies: Vec::new(), axes: Vec::new(), grains: Vec::new(), pushed: false }
     }
 
     /// Changes gravity, which wakes all that rests.
@@ -59,8 +63,11 @@ impl Rigid {
         for (number, body) in records.bodies.iter().enumerate().skip(after.bodies) {
             let handle = (!body.removed).then(|| {
                 let handle = self.solver.insert_body(built(body, number));
-                for collider in &body.colliders {
-                    self.solver.insert_collider(collider.clone(), Some(handle));
+                let mut grains = body.grains.iter().peekable();
+                for (index, collider) in body.colliders.iter().enumerate() {
+                    let placed = self.solver.insert_collider(collider.clone(), Some(handle));
+                    let grain = grains.next_if(|(of, _)| *of == index);
+                    self.grains.extend(grain.map(|&(_, grain)| (placed, grain)));
                 }
                 handle
             });
@@ -89,6 +96,7 @@ impl Rigid {
                 self.solver.remove_body(handle);
             }
         }
+        self.grains.retain(|(collider, _)| self.solver.colliders.contains(*collider));
     }
 
     pub(crate) fn body(&self, number: usize) -> Option<BodyMotion> {

@@ -23,8 +23,12 @@ pub struct Friction {
     pub mu: f64,
     /// Coefficient along the second.
     pub mu2: f64,
-    /// The first direction in the collision's frame; zero lets the engine choose.
+    /// The first direction in the collision's frame, or in that of [`Self::fdir1_expressed_in`];
+    /// zero lets the engine choose.
     pub fdir1: DVec3,
+    /// The link or frame of the model that the first direction stands still in
+    /// (`gz:expressed_in`), as wheels with rollers need it.
+    pub fdir1_expressed_in: Option<String>,
     /// Slip along the first direction [m/(N s)].
     pub slip1: f64,
     /// Slip along the second.
@@ -54,7 +58,14 @@ pub struct Contact {
 
 impl Default for Friction {
     fn default() -> Self {
-        Self { mu: 1.0, mu2: 1.0, fdir1: DVec3::ZERO, slip1: 0.0, slip2: 0.0 }
+        Self {
+            mu: 1.0,
+            mu2: 1.0,
+            fdir1: DVec3::ZERO,
+            fdir1_expressed_in: None,
+            slip1: 0.0,
+            slip2: 0.0,
+        }
     }
 }
 

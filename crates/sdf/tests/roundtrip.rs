@@ -137,6 +137,8 @@ fn surfaces() -> impl Strategy<Value = Surface> {
             surface.friction.mu = mu;
             surface.friction.mu2 = mu2;
             surface.friction.fdir1 = fdir1;
+            let framed = flag && fdir1 != DVec3::ZERO;
+            surface.friction.fdir1_expressed_in = framed.then(|| "chassis".to_owned());
             surface.contact.kp = kp;
             surface.contact.collide_without_contact = flag;
             surface.contact.collide_bitmask = mask;

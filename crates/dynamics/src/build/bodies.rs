@@ -69,6 +69,7 @@ impl Builder<'_, '_> {
                         damping: link.velocity_decay,
                         can_sleep: model.allow_auto_disable,
                         colliders: Vec::new(),
+                        grains: Vec::new(),
                         removed: false,
                     });
                     self.records.bodies.len() - 1

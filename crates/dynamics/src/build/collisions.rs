@@ -73,9 +73,16 @@ impl Builder<'_, '_> {
                     part,
                 };
                 let surface = Surface::of(collision, &scoped, moves, self.diagnostics);
+                let grain = self.grain(number, collision, &scoped);
+                let grain = grain.unwrap_or_else(|missing| {
+                    self.diagnostics.push(*missing);
+                    None
+                });
                 let mut push = |solid: SharedShape, pose: Pose, tag: Tag| {
                     let collider = surface.collider(solid, pose, tag, several);
-                    self.records.bodies[body].colliders.push(collider);
+                    let body = &mut self.records.bodies[body];
+                    body.grains.extend(grain.map(|grain| (body.colliders.len(), grain)));
+                    body.colliders.push(collider);
                 };
                 let found = axle
                     .and_then(|axle| wheel(&collision.shape, collision.link_from_collision, axle));

@@ -1,6 +1,6 @@
 //! Friction and bounce.
 
-use periplus_base::Pose;
+use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Collision;
 use rapier3d_f64::dynamics::CoefficientCombineRule;
@@ -11,6 +11,14 @@ use rapier3d_f64::pipeline::ActiveHooks;
 
 use super::rapier_pose;
 use crate::hooks::{Part, Tag};
+
+/// Beyond this no slope is too steep, and products stay finite.
+const ROUGHEST: f64 = 1e6;
+
+/// A coefficient as the solver can use it; ODE takes a negative one for infinite.
+pub(super) fn coefficient(mu: f64) -> f64 {
+    if mu < 0.0 { ROUGHEST } else { mu.min(ROUGHEST) }
+}
 
 /// Friction and bounce of one collision.
 pub(super) struct Surface {
@@ -28,27 +36,26 @@ impl Surface {
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let (friction, contact) = (&collision.surface.friction, &collision.surface.contact);
-        // ODE takes a negative coefficient for infinite.
-        let endless = |mu: f64| if mu < 0.0 { f64::INFINITY } else { mu };
-        let (mu, mu2) = (endless(friction.mu), endless(friction.mu2));
+        let (mu, mu2) = (coefficient(friction.mu), coefficient(friction.mu2));
         // The ground of nearly every world says 100 and 50: what stands on it decides.
         let is_rough_ground = !moves && mu.min(mu2) >= 1.0;
-        if mu != mu2 && mu2.is_finite() && !is_rough_ground {
+        if mu != mu2 && friction.fdir1 == DVec3::ZERO && !is_rough_ground {
             diagnostics.push(
                 Diagnostic::warning(
                     "friction-one-direction",
                     format!("collision `{name}` has friction {mu} one way and {mu2} the other"),
                 )
                 .at(collision.origin)
-                .note("the smaller one holds in every direction"),
+                .note(
+                    "the smaller one holds in every direction; `<fdir1>` says which way is which",
+                ),
             );
         }
         // Gazebo bounces only above a threshold, whose default nothing ever reaches.
         let bounces = contact.bounce_threshold_m_s < 1000.0 && !contact.restitution.is_nan();
         let restitution = if bounces { contact.restitution.clamp(0.0, 1.0) } else { 0.0 };
         Self {
-            // Beyond this no slope is too steep, and products stay finite.
-            friction: mu.min(mu2).min(1e6),
+            friction: mu.min(mu2),
             restitution,
             mask: contact.collide_bitmask,
             reports: contact.collide_without_contact,

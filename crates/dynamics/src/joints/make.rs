@@ -187,6 +187,7 @@ fn cross_body(place: &Axes, records: &mut Records) -> usize {
         damping: body.damping,
         can_sleep: body.can_sleep,
         colliders: Vec::new(),
+        grains: Vec::new(),
         removed: false,
     };
     records.bodies[place.child].weight_share *= 1.0 - CROSS_SHARE;

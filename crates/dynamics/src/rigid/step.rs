@@ -25,6 +25,7 @@ impl Rigid {
                 records.axes[number].follows.map(|follow| records.axes[follow.leader].state);
             records.axes[number].drive(leader, dt_s, self.axes[number], self, &records.bodies);
         }
+        self.rub(dt_s);
         self.solver.step_with_events(&Hooks { model_of_link: &records.model_of_link }, &());
         let mut pushed = false;
         for (number, axis) in records.axes.iter_mut().enumerate() {

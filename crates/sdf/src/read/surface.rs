@@ -46,10 +46,19 @@ fn read_friction(ode: &mut Fields<'_, '_>) -> Friction {
     Friction {
         mu: coefficient("mu"),
         mu2: coefficient("mu2"),
+        fdir1_expressed_in: expressed_in(ode.element),
         fdir1: ode.vector("fdir1", DVec3::ZERO),
         slip1: ode.number("slip1", 0.0),
         slip2: ode.number("slip2", 0.0),
     }
+}
+
+/// The frame of `<fdir1>`; Gazebo reads it under the name of its own and under the older one.
+fn expressed_in(ode: &Element) -> Option<String> {
+    let fdir1 = ode.child("fdir1")?;
+    let named = ["gz:expressed_in", "ignition:expressed_in"];
+    let frame = named.iter().find_map(|name| fdir1.attribute(name))?;
+    Some(frame.value.to_string()).filter(|frame| !frame.is_empty())
 }
 
 fn read_contact(fields: &mut Fields<'_, '_>, contact: &mut Contact) {

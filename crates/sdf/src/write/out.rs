@@ -72,6 +72,15 @@ impl Out {
         self.text(name, numbers(&value.to_array()));
     }
 
+    /// A direction, and the frame it is told in.
+    pub(super) fn vector_in(&mut self, name: &str, value: DVec3, frame: Option<&str>) {
+        let mut element = Element::new(name).with_text(numbers(&value.to_array()));
+        if let Some(frame) = frame {
+            element = element.with_attribute("gz:expressed_in", frame);
+        }
+        self.push(element);
+    }
+
     pub(super) fn colour(&mut self, name: &str, colour: Colour) {
         self.text(name, numbers(&colour.0));
     }

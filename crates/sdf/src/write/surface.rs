@@ -24,7 +24,7 @@ fn write_friction(friction: &Friction) -> Element {
     ode.number("mu", friction.mu, 1.0);
     ode.number("mu2", friction.mu2, 1.0);
     if friction.fdir1 != DVec3::ZERO {
-        ode.vector("fdir1", friction.fdir1);
+        ode.vector_in("fdir1", friction.fdir1, friction.fdir1_expressed_in.as_deref());
     }
     ode.number("slip1", friction.slip1, 0.0);
     ode.number("slip2", friction.slip2, 0.0);

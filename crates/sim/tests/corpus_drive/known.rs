@@ -18,18 +18,11 @@ pub(crate) const KNOWN: &[Known] = &[
         "the tunnel is fetched from Fuel; without it there is nothing to stand on",
     ),
     (
-        "mecanum.urdf::mogi_bot (Rigid)",
-        "stood",
-        "friction along one direction only is not simulated: the rollers slide every way",
-    ),
-    (
         "/model-1_4",
         "stood",
         "in SDF 1.4 an axis is in the model's frame, so these wheels turn about the vertical; the \
          same text as 1.8 drives",
     ),
-    ("mecanum_drive.sdf::vehicle_blue (Rigid)", "stood", "rollers, as above"),
-    ("skid_steer_mecanum.sdf::vehicle_blue (Rigid)", "stood", "rollers, as above"),
 ];
 
 /// The reason for a fault of a robot, if it is known.
