@@ -1,14 +1,18 @@
-//! Pictures of the terminal, drawn from what the program really prints.
+//! Pictures for the documents: the terminal, from what the program really prints, and the worlds, as
+//! cameras see them.
 
 use anstyle_svg::Term;
 
-use crate::step::{Failed, cargo, root};
+use crate::step::{Failed, cargo, root, run};
 
 /// Each picture, and the words after `periplus` that it shows.
 const PICTURES: &[(&str, &[&str])] = &[(
     "check",
     &["check", "misspelt_property.urdf.xacro", "remap_in_ros_element.urdf", "silent_lidar.sdf"],
 )];
+
+/// Each photo: its name, the world, and where the camera stands.
+const PHOTOS: &[(&str, &str, &str)] = &[("house", "worlds/house.sdf", "-5.6,1.6,2.0,0,0.35,0.5")];
 
 /// Draws all pictures into `docs/pictures`.
 ///
@@ -32,6 +36,21 @@ pub(crate) fn draw() -> Result<(), Failed> {
         std::fs::write(&path, picture)
             .map_err(|error| Failed(format!("cannot write {}: {error}", path.display())))?;
         println!("{}", path.display());
+    }
+    for (name, world, pose) in PHOTOS {
+        let path = format!("docs/pictures/{name}.png");
+        let mut photo = cargo();
+        photo.args([
+            "run",
+            "--quiet",
+            "--release",
+            "--package",
+            "periplus-sim",
+            "--example",
+            "photo",
+        ]);
+        run(photo.args(["--", world, pose, &path]), "see above")?;
+        println!("{path}");
     }
     Ok(())
 }

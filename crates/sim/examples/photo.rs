@@ -11,8 +11,10 @@ use periplus_optics::{Geometry, Lens, Picture, Shot, Wanted};
 use periplus_resources::Resolver;
 use periplus_sim::{ShapeFiles, compose};
 
-const WIDTH: u32 = 960;
-const HEIGHT: u32 = 540;
+const WIDTH: usize = 960;
+const HEIGHT: usize = 540;
+/// Rays along each side of a pixel, for smooth edges.
+const RAYS: usize = 3;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -28,10 +30,23 @@ fn main() {
     let world_from_camera = Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw });
     let picture = take(Path::new(world), world_from_camera);
     let file = std::fs::File::create(out).expect("a place to write to");
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), WIDTH, HEIGHT);
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), WIDTH as u32, HEIGHT as u32);
     encoder.set_color(png::ColorType::Rgb);
     let mut writer = encoder.write_header().expect("a header");
-    writer.write_image_data(&picture.rgb).expect("a whole image");
+    writer.write_image_data(&smaller(&picture.rgb)).expect("a whole image");
+}
+
+/// Each pixel the mean of its rays.
+fn smaller(rgb: &[u8]) -> Vec<u8> {
+    let mean = |row: usize, column: usize, colour: usize| {
+        let rays =
+            (0..RAYS).flat_map(|y| (0..RAYS).map(move |x| (row * RAYS + y, column * RAYS + x)));
+        let sum: usize =
+            rays.map(|(y, x)| usize::from(rgb[(y * WIDTH * RAYS + x) * 3 + colour])).sum();
+        (sum / (RAYS * RAYS)) as u8
+    };
+    let pixels = (0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column)));
+    pixels.flat_map(|(row, column)| [0, 1, 2].map(|colour| mean(row, column, colour))).collect()
 }
 
 fn take(world: &Path, world_from_camera: Pose) -> Picture {
@@ -57,7 +72,7 @@ fn take(world: &Path, world_from_camera: Pose) -> Picture {
             views.add(Arc::new(member.model.clone()), id, &motion);
         }
     }
-    let lens = Lens::pinhole(WIDTH, HEIGHT, 1.2).expect("a lens");
+    let lens = Lens::pinhole((WIDTH * RAYS) as u32, (HEIGHT * RAYS) as u32, 1.2).expect("a lens");
     let shot = Shot {
         lens: &lens,
         world_from_camera,
