@@ -186,7 +186,10 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     } else if !options.quiet {
         report.tell(&mut anstream::stderr().lock())?;
     }
+    // Without an end of its own, being stopped is how a run ends.
+    let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
     match outcome {
+        Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole => Ok(ExitCode::SUCCESS),
         Ok(()) => {
             terminal::complain("parts of the files have errors and took no part");

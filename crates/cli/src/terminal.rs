@@ -9,6 +9,9 @@ use periplus_host::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::Search;
 
+/// The exit code of what a person stopped with Ctrl-C before its end, as shells have it.
+pub(crate) const INTERRUPTED: u8 = 130;
+
 /// Writes one line about the command itself to stderr.
 pub(crate) fn complain(words: &str) {
     let _ = writeln!(anstream::stderr(), "error: {words}");
