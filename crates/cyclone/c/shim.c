@@ -178,6 +178,10 @@ int32_t pp_take(int32_t reader, struct pp_sample *sample) {
 
 int32_t pp_assert_liveliness(int32_t writer) { return dds_assert_liveliness(writer); }
 
+int32_t pp_wait_acknowledged(int32_t writer, int64_t timeout_ns) {
+  return dds_wait_for_acks(writer, span(timeout_ns));
+}
+
 int32_t pp_matched(int32_t endpoint, int32_t is_writer) {
   if (is_writer) {
     dds_publication_matched_status_t status;

@@ -82,6 +82,7 @@ int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
                  const struct pp_identity *related, int64_t *sequence);
 int32_t pp_take(int32_t reader, struct pp_sample *sample);
 int32_t pp_assert_liveliness(int32_t writer);
+int32_t pp_wait_acknowledged(int32_t writer, int64_t timeout_ns);
 /* How many ends of the other kind are matched now. */
 int32_t pp_matched(int32_t endpoint, int32_t is_writer);
 

@@ -22,12 +22,11 @@ pub struct Config {
     pub domain_id: u32,
     /// Which network.
     pub network: Network,
-    /// Whether others are found by multicast. If not, they are looked for at the peers' ports.
+    /// Whether others are found by multicast. Data never goes that way.
     pub multicast: bool,
-    /// Machines to look at, by name or address.
+    /// Machines to look at, by name or address: at the ports of the first participants of each,
+    /// every second as long as it runs.
     pub peers: Vec<String>,
-    /// How often it says that it is there \[ns\]; none for Cyclone's own choice.
-    pub announce_ns: Option<i64>,
     /// More of Cyclone's XML, or URIs of files with it, as `CYCLONEDDS_URI` has them; what stands
     /// here wins.
     pub more: String,
@@ -39,14 +38,14 @@ impl Default for Config {
             domain_id: 0,
             network: Network::Loopback,
             multicast: true,
-            peers: Vec::new(),
-            announce_ns: None,
+            peers: vec!["127.0.0.1".to_owned()],
             more: String::new(),
         }
     }
 }
 
-/// So many participants are looked for on each peer where there is no multicast.
+/// So many participants are looked for on each peer; it is how many of one machine can be found
+/// without multicast.
 const PARTICIPANTS: u32 = 60;
 
 impl Config {
@@ -54,11 +53,11 @@ impl Config {
     #[must_use]
     pub fn xml(&self) -> String {
         let mut xml = String::from("<General>");
-        // On a loopback interface without the flag MULTICAST it must be said that it is not wanted,
-        // and on one with it that it is.
-        let multicast = if self.multicast { "true" } else { "false" };
+        // The loopback interface of most systems can multicast but does not say so.
         let interface = match &self.network {
-            Network::Loopback => format!("address=\"127.0.0.1\" multicast=\"{multicast}\""),
+            Network::Loopback => {
+                format!("address=\"127.0.0.1\" multicast=\"{}\"", self.multicast)
+            }
             Network::Any => "autodetermine=\"true\"".to_owned(),
             Network::Interface(name) if name.parse::<std::net::IpAddr>().is_ok() => {
                 format!("address=\"{}\"", escape(name))
@@ -66,31 +65,25 @@ impl Config {
             Network::Interface(name) => format!("name=\"{}\"", escape(name)),
         };
         let _ = write!(xml, "<Interfaces><NetworkInterface {interface}/></Interfaces>");
+        let multicast = if self.multicast { "spdp" } else { "false" };
         let _ = write!(xml, "<AllowMulticast>{multicast}</AllowMulticast>");
         xml.push_str("<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>");
         xml.push_str("</General><Internal>");
-        // What the system does not give it does without; 4 MB is what stock kernels give.
+        // What the system does not give it does without.
         xml.push_str("<SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>");
         xml.push_str("</Internal><Discovery>");
         let _ = write!(xml, "<ExternalDomainId>{}</ExternalDomainId>", self.domain_id);
-        let mut peers = self.peers.clone();
-        if !self.multicast {
-            xml.push_str("<ParticipantIndex>auto</ParticipantIndex>");
-            let _ =
-                write!(xml, "<MaxAutoParticipantIndex>{PARTICIPANTS}</MaxAutoParticipantIndex>");
-            if self.network == Network::Loopback && !peers.iter().any(|peer| peer == "127.0.0.1") {
-                peers.push("127.0.0.1".to_owned());
-            }
-        }
-        if !peers.is_empty() {
-            xml.push_str("<Peers>");
-            for peer in &peers {
-                let _ = write!(xml, "<Peer address=\"{}\"/>", escape(peer));
+        // Ports that others can guess.
+        xml.push_str("<ParticipantIndex>auto</ParticipantIndex>");
+        let _ = write!(xml, "<MaxAutoParticipantIndex>{PARTICIPANTS}</MaxAutoParticipantIndex>");
+        if !self.peers.is_empty() {
+            // Who starts later is to be found too, and soon.
+            xml.push_str("<SPDPInterval>1s</SPDPInterval>");
+            xml.push_str("<InitialLocatorPruneDelay>inf</InitialLocatorPruneDelay><Peers>");
+            for peer in &self.peers {
+                let _ = write!(xml, "<Peer Address=\"{}\"/>", escape(peer));
             }
             xml.push_str("</Peers>");
-        }
-        if let Some(announce_ns) = self.announce_ns {
-            let _ = write!(xml, "<SPDPInterval>{announce_ns}ns</SPDPInterval>");
         }
         xml.push_str("</Discovery>");
         let mut all = format!("<CycloneDDS><Domain Id=\"any\">{xml}</Domain></CycloneDDS>");

@@ -101,6 +101,7 @@ unsafe extern "C" {
     ) -> i32;
     pub(crate) fn pp_take(reader: i32, sample: *mut Sample) -> i32;
     pub(crate) fn pp_assert_liveliness(writer: i32) -> i32;
+    pub(crate) fn pp_wait_acknowledged(writer: i32, timeout_ns: i64) -> i32;
     pub(crate) fn pp_matched(endpoint: i32, is_writer: i32) -> i32;
     pub(crate) fn pp_discovery(participant: i32, kind: i32) -> i32;
     pub(crate) fn pp_discovery_take(reader: i32, kind: i32, found: *mut Found) -> i32;

@@ -45,6 +45,17 @@ pub use writer::{Bytes, Writer};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Guid(pub [u8; 16]);
 
+impl std::fmt::Display for Guid {
+    /// Pairs of digits with dots between, as `ros2 topic info -v` prints them.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (place, byte) in self.0.iter().enumerate() {
+            let dot = if place == 0 { "" } else { "." };
+            write!(f, "{dot}{byte:02x}")?;
+        }
+        Ok(())
+    }
+}
+
 impl Guid {
     /// The participant that it belongs to.
     #[must_use]

@@ -81,6 +81,13 @@ impl Writer {
         usize::try_from(count).unwrap_or(0)
     }
 
+    /// Waits, at most so long, until all readers have all samples; whether they do.
+    #[must_use]
+    pub fn wait_acknowledged(&self, timeout_ns: i64) -> bool {
+        // SAFETY: a number.
+        unsafe { ffi::pp_wait_acknowledged(self.endpoint.entity.0, timeout_ns.max(0)) >= 0 }
+    }
+
     /// Says that it lives, without a sample.
     pub fn assert_liveliness(&self) {
         // SAFETY: a number.

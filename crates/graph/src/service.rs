@@ -7,7 +7,7 @@ mod raw;
 use std::collections::VecDeque;
 use std::fmt;
 use std::marker::PhantomData;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use periplus_msgs::Service;
 
@@ -67,6 +67,8 @@ pub(crate) struct Server {
     pub(crate) node: Arc<str>,
     pub(crate) name: Arc<str>,
     pub(crate) reaction: Option<ServerReaction>,
+    /// Tells whoever looks that there is something, from the thread that asks.
+    wake: OnceLock<Box<dyn Fn() + Send + Sync>>,
     waiting: Mutex<Waiting>,
 }
 
@@ -88,6 +90,9 @@ impl Server {
         let number = waiting.last;
         waiting.requests.push_back((number, request));
         drop(waiting);
+        if let Some(wake) = self.wake.get() {
+            wake();
+        }
         if let Some(reaction) = &self.reaction {
             let key = Key {
                 time_ns: common.clock.now_ns(),
@@ -157,8 +162,13 @@ impl NodeCore {
         let name: Arc<str> = self.names.service(name)?.into();
         let mut registry = lock(&self.core.registry);
         let node = self.full_name.clone();
-        let server =
-            Arc::new(Server { node, name: name.clone(), reaction, waiting: Mutex::default() });
+        let server = Arc::new(Server {
+            node,
+            name: name.clone(),
+            reaction,
+            wake: OnceLock::new(),
+            waiting: Mutex::default(),
+        });
         registry.service(&name, type_of, &self.full_name)?.set_server(server.clone())?;
         Ok(OwnServer { server, node: self.clone() })
     }

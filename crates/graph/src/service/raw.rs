@@ -60,6 +60,12 @@ impl RawCalls {
         let Request { payload, reply } = self.own.server.take()?;
         Some(RawCall { request: RawMessage(payload), reply })
     }
+
+    /// Lets `wake` be called, once for each call that comes from now on, from the thread that asks;
+    /// it must not wait for anything. Only the first one is taken.
+    pub fn on_call(&self, wake: impl Fn() + Send + Sync + 'static) {
+        let _ = self.own.server.wake.set(Box::new(wake));
+    }
 }
 
 /// A call that waits for its answer. If it is dropped, the caller is told that none will come.

@@ -1,0 +1,231 @@
+//! The thread of a wire: hears who comes and goes, takes what arrives, and keeps the endpoints on
+//! the network as the graph has them.
+
+mod net;
+mod report;
+mod services;
+mod topics;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use periplus_cyclone::{
+    Discovery, Durability, Error, Kind, Participant, Qos, Reader, Waker, Writer,
+};
+use periplus_graph::{Graph, Node};
+
+use crate::entities::{self, Entities, NodeEntities};
+use crate::wire::Shared;
+use crate::{lock, user_data};
+
+use net::Net;
+use report::Told;
+use services::Services;
+use topics::Topics;
+
+/// How often it looks what has changed in the graph, if nothing else wakes it \[ns\].
+const LOOK_NS: i64 = 25_000_000;
+
+/// Token of `ros_discovery_info`; those of discovery are the places of [`KINDS`].
+const INFO: u32 = 3;
+
+const KINDS: [Kind; 3] = [Kind::Participants, Kind::Writers, Kind::Readers];
+
+pub(crate) struct Link {
+    net: Net,
+    discoveries: [Discovery; 3],
+    info_reader: Reader,
+    info_writer: Writer,
+    info_written: Vec<u8>,
+    /// Changes of the peers that were looked at.
+    seen: u64,
+    attached: Option<Attached>,
+}
+
+/// A graph that takes part.
+struct Attached {
+    graph: Graph,
+    /// The node that stands for all others.
+    node: Node,
+    generation: Option<u64>,
+    topics: Topics,
+    services: Services,
+    told: Told,
+}
+
+impl Link {
+    pub(crate) fn new(participant: &Participant, shared: Arc<Shared>) -> Result<Self, Error> {
+        let net = Net::new(participant.clone(), participant.waitset()?, shared);
+        let discover = |kind| participant.discovery(kind);
+        let [participants, writers, readers] = KINDS.map(discover);
+        let discoveries = [participants?, writers?, readers?];
+        for (token, discovery) in (0..).zip(&discoveries) {
+            net.waitset.watch_discovery(discovery, token)?;
+        }
+        let qos = Qos { durability: Durability::TransientLocal, depth: Some(1), ..Qos::default() };
+        let said = user_data::type_hash(entities::HASH);
+        let (topic, type_name) = (entities::TOPIC, entities::TYPE);
+        let info_writer = participant.writer(topic, type_name, &qos, &said)?;
+        // All participants write to one instance, and nothing of any may be lost.
+        let all = Qos { depth: None, ..qos };
+        let info_reader = participant.reader(topic, type_name, &all, &said)?;
+        net.waitset.watch_reader(&info_reader, INFO)?;
+        let info_written = Vec::new();
+        Ok(Self {
+            net,
+            discoveries,
+            info_reader,
+            info_writer,
+            info_written,
+            seen: 0,
+            attached: None,
+        })
+    }
+
+    pub(crate) fn waker(&self) -> Waker {
+        self.net.waitset.waker()
+    }
+
+    pub(crate) fn run(mut self) {
+        self.tell_nodes();
+        while !self.net.shared.is_closing.load(Ordering::Acquire) {
+            let tokens = match self.net.waitset.wait(LOOK_NS) {
+                Ok(tokens) => tokens,
+                Err(error) => {
+                    self.net.complain("wire", error.to_string());
+                    return;
+                }
+            };
+            if tokens.iter().any(|token| *token <= INFO) {
+                self.discover();
+            }
+            if let Some((graph, node)) = lock(&self.net.shared.joining).take() {
+                self.attached = Some(Attached::new(graph, node));
+            }
+            self.follow(&tokens);
+        }
+    }
+
+    /// Hears who came and went.
+    fn discover(&mut self) {
+        let mut peers = lock(&self.net.shared.peers);
+        let before = peers.changes();
+        for (kind, discovery) in KINDS.into_iter().zip(&self.discoveries) {
+            while let Ok(Some(found)) = discovery.take() {
+                peers.note(kind, found);
+            }
+        }
+        let mut strange = None;
+        while let Ok(Some(sample)) = self.info_reader.take() {
+            if !peers.hear(&sample.bytes, sample.vendor) {
+                strange = sample.source.map(|source| source.writer);
+            }
+        }
+        let is_changed = peers.changes() != before;
+        drop(peers);
+        if is_changed {
+            self.net.shared.changed.notify_all();
+        }
+        if let Some(writer) = strange {
+            self.net.complain(
+                "strange-discovery",
+                format!(
+                    "a program ({writer}) tells of its nodes in a way that no ROS 2 does; its \
+                     nodes have no names here"
+                ),
+            );
+        }
+    }
+
+    /// Keeps the network as the graph is, and takes what arrived.
+    fn follow(&mut self, tokens: &[u32]) {
+        let Some(attached) = &mut self.attached else { return };
+        let changes = lock(&self.net.shared.peers).changes();
+        let generation = attached.graph.generation();
+        let is_new = attached.generation != Some(generation);
+        if is_new {
+            attached.generation = Some(generation);
+            attached.sync(&self.net);
+        }
+        let is_changed = std::mem::replace(&mut self.seen, changes) != changes;
+        if is_new || is_changed {
+            let peers = lock(&self.net.shared.peers);
+            attached.topics.feed(&self.net, &attached.node, &peers);
+            attached.services.meet(&self.net, &attached.node, &peers);
+        }
+        attached.topics.take(&self.net, tokens);
+        attached.services.take(&self.net, tokens);
+        attached.services.answer(&self.net);
+        attached.topics.notice(&attached.graph, tokens);
+        if is_new || is_changed || attached.told.is_waiting() {
+            let peers = lock(&self.net.shared.peers);
+            attached.told.look(&self.net, &attached.topics, &peers);
+        }
+        attached.told.look_at_traffic(&self.net, &attached.topics);
+        if is_new || is_changed {
+            self.tell_nodes();
+        }
+    }
+
+    /// Tells the others which nodes there are, if that has changed.
+    fn tell_nodes(&mut self) {
+        let participant = self.net.participant.guid().0;
+        let nodes = self.attached.as_ref().map_or(Vec::new(), Attached::entities);
+        let form = lock(&self.net.shared.peers).form();
+        let said = entities::encode(&Entities { participant, nodes }, form);
+        if said == self.info_written {
+            return;
+        }
+        match self.info_writer.write(said.clone(), None) {
+            Ok(_) => self.info_written = said,
+            Err(error) => self.net.complain("wire", error.to_string()),
+        }
+    }
+}
+
+impl Attached {
+    fn new(graph: Graph, node: Node) -> Self {
+        Self {
+            graph,
+            node,
+            generation: None,
+            topics: Topics::default(),
+            services: Services::default(),
+            told: Told::default(),
+        }
+    }
+
+    /// Makes and drops endpoints as the graph has them.
+    fn sync(&mut self, net: &Net) {
+        let own = self.node.full_name();
+        let mut topics = self.graph.topics();
+        for topic in &mut topics {
+            topic.publishers.retain(|end| end.node != own);
+            topic.subscriptions.retain(|end| end.node != own);
+        }
+        let mut services = self.graph.services();
+        for service in &mut services {
+            service.clients.retain(|node| node != own);
+            service.server = service.server.take().filter(|node| node != own);
+        }
+        self.topics.sync(net, &self.graph, &topics);
+        self.services.sync(net, &self.node, &services);
+    }
+
+    /// The nodes and which endpoints are whose.
+    fn entities(&self) -> Vec<NodeEntities> {
+        let names = self.graph.nodes().into_iter().map(|node| node.name);
+        let mut nodes: BTreeMap<String, NodeEntities> = names
+            .filter(|name| name != self.node.full_name())
+            .map(|name| (name.clone(), NodeEntities { name, ..NodeEntities::default() }))
+            .collect();
+        let ends = self.topics.ends().chain(self.services.ends());
+        for (node, guid, is_writer) in ends {
+            let Some(node) = nodes.get_mut(node) else { continue };
+            let ends = if is_writer { &mut node.writers } else { &mut node.readers };
+            ends.push(guid.0);
+        }
+        nodes.into_values().collect()
+    }
+}

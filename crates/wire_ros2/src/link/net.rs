@@ -1,0 +1,97 @@
+//! Making endpoints, and saying what is wrong.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use periplus_cyclone::{Participant, Qos, Reader, Waitset, Writer};
+use periplus_diagnostics::Diagnostic;
+
+use crate::outgoing::Outgoing;
+use crate::wire::Shared;
+use crate::{lock, user_data};
+
+/// The first token of endpoints.
+const FIRST: u32 = 16;
+
+pub(super) struct Net {
+    pub(super) participant: Participant,
+    pub(super) waitset: Waitset,
+    pub(super) shared: Arc<Shared>,
+    next_token: Cell<u32>,
+    said: RefCell<BTreeSet<String>>,
+}
+
+/// What an endpoint is for, as DDS names it.
+pub(super) struct Subject<'a> {
+    pub(super) topic: &'a str,
+    pub(super) type_name: &'a str,
+    pub(super) type_hash: Option<&'a str>,
+}
+
+impl Net {
+    pub(super) fn new(participant: Participant, waitset: Waitset, shared: Arc<Shared>) -> Self {
+        let (next_token, said) = (Cell::new(FIRST), RefCell::default());
+        Self { participant, waitset, shared, next_token, said }
+    }
+
+    /// Says something once.
+    pub(super) fn say(&self, finding: Diagnostic) {
+        if self.said.borrow_mut().insert(finding.message.clone()) {
+            self.shared.report(finding);
+        }
+    }
+
+    /// Says once that something does not work.
+    pub(super) fn complain(&self, code: &'static str, message: String) {
+        self.say(Diagnostic::warning(code, message));
+    }
+
+    fn token(&self) -> u32 {
+        let token = self.next_token.get();
+        self.next_token.set(token.checked_add(1).unwrap_or(FIRST));
+        token
+    }
+
+    /// A writer with its queue, and the token that says that its readers are others.
+    pub(super) fn writer(
+        &self,
+        subject: &Subject<'_>,
+        qos: &Qos,
+        keeps: bool,
+    ) -> Option<(Arc<Outgoing>, u32)> {
+        let token = self.token();
+        let made = self.raw_writer(subject, qos).and_then(|writer| {
+            let watched = self.waitset.watch_writer(&writer, token);
+            watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
+            Some(writer)
+        })?;
+        let depth = qos.depth.unwrap_or(crate::qos::MOST_KEPT);
+        let outgoing = Outgoing::new(made, depth, keeps, &self.shared.lanes);
+        let mut writers = lock(&self.shared.writers);
+        // Those that nobody but this list has are sent and gone.
+        writers.retain(|one| Arc::strong_count(one) > 1);
+        writers.push(outgoing.clone());
+        Some((outgoing, token))
+    }
+
+    /// A writer that is written to directly.
+    pub(super) fn raw_writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Writer> {
+        let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
+        let made = self.participant.writer(subject.topic, subject.type_name, qos, &said);
+        made.map_err(|error| self.complain("wire", error.to_string())).ok()
+    }
+
+    /// A reader, and the token that says that it has samples.
+    pub(super) fn reader(&self, subject: &Subject<'_>, qos: &Qos) -> Option<(Reader, u32)> {
+        let token = self.token();
+        let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
+        let made = self.participant.reader(subject.topic, subject.type_name, qos, &said);
+        let watched = made.and_then(|reader| {
+            self.waitset.watch_reader(&reader, token)?;
+            Ok(reader)
+        });
+        let reader = watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
+        Some((reader, token))
+    }
+}
