@@ -1,0 +1,115 @@
+//! What outlines enclose, as trapezoids.
+
+use crate::shape::Polyline;
+
+/// A straight piece of an outline [m].
+pub type Edge = [[f64; 2]; 2];
+
+/// A piece of what outlines enclose, with two sides along x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trapezoid {
+    /// Where its lower and its upper side lie along y [m].
+    pub y_m: [f64; 2],
+    /// From where to where along x the lower side goes [m].
+    pub low_m: [f64; 2],
+    /// The same of the upper side [m].
+    pub high_m: [f64; 2],
+}
+
+/// The edges of the outlines of a shape; an outline closes by itself.
+///
+/// # Errors
+/// What is wrong, to be read after the shape's name.
+pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<Edge>, String> {
+    let corners: usize = outlines.iter().map(|outline| outline.points_m.len()).sum();
+    if corners > most_corners {
+        return Err(format!("has {corners} corners, more than {most_corners}"));
+    }
+    let height_m = outlines.first().map_or(0.0, |first| first.height_m);
+    let mut numbers = outlines.iter().flat_map(|outline| &outline.points_m).flatten();
+    if !(numbers.all(|number| number.is_finite()) && height_m.is_finite() && height_m > 0.0) {
+        return Err("has a corner or a height that is not finite and positive".into());
+    }
+    let mut edges = Vec::with_capacity(corners);
+    for outline in outlines {
+        let points = &outline.points_m;
+        for (index, &from) in points.iter().enumerate() {
+            let to = points[(index + 1) % points.len()];
+            if from != to {
+                edges.push([from, to]);
+            }
+        }
+    }
+    if edges.len() < 3 {
+        return Err("has fewer than three corners".into());
+    }
+    Ok(edges)
+}
+
+/// The area inside an odd number of outlines.
+///
+/// It is cut at the y of every corner; between two cuts no edge ends, and every second gap between
+/// edges is inside. Outlines that cross themselves are cut where their corners are only.
+#[must_use]
+pub fn trapezoids(edges: &[Edge]) -> Vec<Trapezoid> {
+    let mut levels: Vec<f64> = edges.iter().map(|[[_, y], _]| *y).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    let mut pieces = Vec::new();
+    for pair in levels.windows(2) {
+        let y_m = [pair[0], pair[1]];
+        let mut crossings: Vec<[f64; 2]> = edges
+            .iter()
+            .filter(|[[_, a], [_, b]]| a.min(*b) <= y_m[0] && a.max(*b) >= y_m[1])
+            .map(|edge| y_m.map(|y| x_at(edge, y)))
+            .collect();
+        crossings.sort_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        for inside in crossings.chunks_exact(2) {
+            let [low_m, high_m] = [0, 1].map(|end: usize| [inside[0][end], inside[1][end]]);
+            pieces.push(Trapezoid { y_m, low_m, high_m });
+        }
+    }
+    pieces
+}
+
+fn x_at([[ax, ay], [bx, by]]: &Edge, y: f64) -> f64 {
+    if y == *ay {
+        *ax
+    } else if y == *by {
+        *bx
+    } else {
+        ax + (bx - ax) * ((y - ay) / (by - ay))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outline(points: &[[f64; 2]]) -> Polyline {
+        Polyline { points_m: points.to_vec(), height_m: 1.0 }
+    }
+
+    fn area(outlines: &[Polyline]) -> f64 {
+        let width = |[from, to]: [f64; 2]| to - from;
+        let pieces = trapezoids(&edges(outlines, 100).unwrap());
+        pieces.iter().map(|it| (width(it.low_m) + width(it.high_m)) / 2.0 * width(it.y_m)).sum()
+    }
+
+    #[test]
+    fn a_corner_room_and_a_frame() {
+        let corner = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        assert_eq!(area(&[outline(&corner)]), 3.0);
+        let square =
+            |size: f64| outline(&[[-size, -size], [size, -size], [size, size], [-size, size]]);
+        assert_eq!(area(&[square(2.0), square(1.0)]), 12.0);
+    }
+
+    #[test]
+    fn nothing_and_too_much_are_told() {
+        assert!(edges(&[], 100).is_err());
+        assert!(edges(&[outline(&[[0.0, 0.0], [1.0, 0.0]])], 100).is_err());
+        assert!(edges(&[outline(&[[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]])], 100).is_err());
+        assert!(edges(&[outline(&[[0.0, 0.0]; 101])], 100).is_err());
+    }
+}
