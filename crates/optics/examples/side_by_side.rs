@@ -1,7 +1,8 @@
 //! Milliseconds of pictures over scenes of files, one JSON line each, to be laid beside those of
 //! another renderer of the same scenes.
 //!
-//! `side_by_side SCENES SCENE[,SCENE] [THREADS [OUT]]`: `SCENES/<scene>.mesh` is u32 vertices, u32
+//! `side_by_side SCENES SCENE[,SCENE] [THREADS [OUT]]`: `room` is a closed room of boxes under the sun,
+//! as simulators have them; of all others `SCENES/<scene>.mesh` is u32 vertices, u32
 //! triangles, f32 positions, u32 corners; the first and the middle ray of
 //! `SCENES/rays/<scene>.depth_640x480.rays` (f32 origin and direction) say where the camera is and
 //! looks. The light is a lamp 1.6 m above it, or the sun in a city. Pictures go to `OUT/<scene>.png`.
@@ -20,8 +21,10 @@ use std::time::Instant;
 use periplus_base::{DVec3, Pose, Rpy};
 use periplus_diagnostics::Origin;
 use periplus_meshes::Submesh;
-use periplus_optics::{Geometry, Lens, Picture, Shapes, Shot, Surroundings, Wanted};
-use periplus_scene::{Attenuation, Colour, Light, LightKind, Link, Mesh, Model, Shape, Visual};
+use periplus_optics::{Geometry, Lens, NoShapes, Picture, Shapes, Shot, Surroundings, Wanted};
+use periplus_scene::{
+    Attenuation, Colour, Light, LightKind, Link, Material, Mesh, Model, Shape, Visual,
+};
 
 struct One(Arc<periplus_meshes::Mesh>);
 
@@ -51,10 +54,15 @@ fn main() {
 
 fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
     let mut surroundings = Surroundings::empty(Geometry::Visual, threads);
-    let shapes = One(Arc::new(mesh(&scenes.join(format!("{scene}.mesh")))));
-    surroundings.add(&model(), Pose::IDENTITY, &shapes);
-    let world_from_camera = camera(&scenes.join(format!("rays/{scene}.depth_640x480.rays")));
-    surroundings.set_light(&lamp(scene == "city", world_from_camera.translation));
+    let sun = scene == "city" || scene == "room";
+    let world_from_camera = if scene == "room" {
+        surroundings.add(&room(), Pose::IDENTITY, &NoShapes);
+        Pose::from_xyz(0.2, 0.0, 0.3)
+    } else {
+        let shapes = One(Arc::new(mesh(&scenes.join(format!("{scene}.mesh")))));
+        surroundings.add(&model(), Pose::IDENTITY, &shapes);
+        camera(&scenes.join(format!("rays/{scene}.depth_640x480.rays")))
+    };
     let lens = Lens::pinhole(640, 480, 75_f64.to_radians()).unwrap();
     let loads = [
         ("depth 640x480", Wanted { depth: true, ..Wanted::default() }, true),
@@ -67,7 +75,7 @@ fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
         ("rgb+depth+labels 640x480", Wanted { colour: true, depth: true, labels: true }, false),
     ];
     for (load, wanted, shadows) in loads {
-        let mut light = lamp(scene == "city", world_from_camera.translation);
+        let mut light = lamp(sun, world_from_camera.translation);
         light.cast_shadows = shadows;
         surroundings.set_light(&light);
         let shot = Shot {
@@ -95,10 +103,11 @@ fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
         cpus.sort_by(f64::total_cmp);
         println!(
             "{{\"peer\":\"periplus\",\"scene\":\"{scene}\",\"load\":\"{load}\",\"threads\":{threads},\
-             \"ms_cpu\":{:.2},\"ms_cpu_best\":{:.2},\"ms_wall_best\":{:.2}}}",
+             \"ms_cpu\":{:.2},\"ms_cpu_best\":{:.2},\"ms_wall_best\":{:.2},\"sum\":\"{:016x}\"}}",
             cpus[cpus.len() / 2],
             cpus[0],
-            walls[0]
+            walls[0],
+            sum(&picture)
         );
         if let (Some(out), true, true) = (out, wanted.colour, shadows) {
             let file = std::fs::File::create(out.join(format!("{scene}.png"))).unwrap();
@@ -107,6 +116,15 @@ fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
             encoder.write_header().unwrap().write_image_data(&picture.rgb).unwrap();
         }
     }
+}
+
+/// Tells pictures apart that should be the same (FNV).
+fn sum(picture: &Picture) -> u64 {
+    let depths = picture.depth_m.iter().flat_map(|depth_m| depth_m.to_bits().to_le_bytes());
+    let bytes = picture.rgb.iter().copied().chain(depths).chain(picture.classes.iter().copied());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Seconds of all threads of this process; the clock's where the system does not tell.
@@ -136,6 +154,42 @@ fn model() -> Model {
     let mut model = Model::new("scene");
     model.is_static = true;
     model.links.push(link);
+    model
+}
+
+/// Four walls and two boxes on a plane, with a material that shines a little.
+fn room() -> Model {
+    let grey = |shade: f64| Some(Colour([shade, shade, shade, 1.0]));
+    let material = |shade: f64| Material {
+        ambient: grey(shade),
+        diffuse: grey(shade),
+        specular: grey(0.01),
+        shininess: Some(20.0),
+        ..Material::default()
+    };
+    let mut model = Model::new("room");
+    let mut put = |shape: Shape, at: [f64; 3], shade: f64| {
+        let mut link = Link::new("link");
+        link.name = format!("link_{}", model.links.len());
+        link.model_from_link.translation = DVec3::from_array(at);
+        let mut visual = Visual::new("visual", shape);
+        visual.material = Some(material(shade));
+        visual.cast_shadows = at != [0.0; 3];
+        link.visuals.push(visual);
+        model.links.push(link);
+    };
+    put(Shape::Plane { normal: DVec3::Z, size_m: [100.0; 2] }, [0.0; 3], 0.3);
+    let boxes = [
+        ([0.0, 2.4, 1.25], [7.0, 0.15, 2.5]),
+        ([0.0, -2.4, 1.25], [7.0, 0.15, 2.5]),
+        ([3.4, 0.0, 1.25], [0.15, 5.0, 2.5]),
+        ([-3.4, 0.0, 1.25], [0.15, 5.0, 2.5]),
+        ([2.0, 0.8, 0.3], [0.6, 0.5, 0.6]),
+        ([2.4, -0.9, 0.5], [0.4, 0.8, 1.0]),
+    ];
+    for (at, [x, y, z]) in boxes {
+        put(Shape::Box { size_m: DVec3::new(x, y, z) }, at, 0.7);
+    }
     model
 }
 

@@ -25,6 +25,24 @@ enum Kind {
     Table(Vec<Option<DVec3>>),
 }
 
+/// Where the pixels of a pinhole look: 1 along x, and so much along y and z.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slopes {
+    focal_px: f64,
+    /// Of the image, from its upper left corner \[px\].
+    middle: [f64; 2],
+}
+
+impl Slopes {
+    pub(crate) fn left(&self, column: u32) -> f64 {
+        -(f64::from(column) + 0.5 - self.middle[0]) / self.focal_px
+    }
+
+    pub(crate) fn up(&self, row: u32) -> f64 {
+        -(f64::from(row) + 0.5 - self.middle[1]) / self.focal_px
+    }
+}
+
 impl Lens {
     /// An ideal pinhole: the image plane at a distance of `width / (2 tan(fov / 2))` pixels, its
     /// middle between the middle pixels.
@@ -99,15 +117,21 @@ impl Lens {
         self.height
     }
 
+    /// How pixels lie in a pinhole; none in other lenses.
+    pub(crate) fn slopes(&self) -> Option<Slopes> {
+        let Kind::Pinhole(focal_px) = self.kind else { return None };
+        let middle = [f64::from(self.width) / 2.0, f64::from(self.height) / 2.0];
+        Some(Slopes { focal_px, middle })
+    }
+
     /// Where the middle of a pixel looks, in the frame of the camera, of any length; through a
     /// pinhole of length 1 along x, so that distances in these lengths are depths.
     #[must_use]
     pub fn direction(&self, column: u32, row: u32) -> Option<DVec3> {
         match &self.kind {
-            Kind::Pinhole(focal_px) => {
-                let right = f64::from(column) + 0.5 - f64::from(self.width) / 2.0;
-                let down = f64::from(row) + 0.5 - f64::from(self.height) / 2.0;
-                Some(DVec3::new(1.0, -right / focal_px, -down / focal_px))
+            Kind::Pinhole(_) => {
+                let slopes = self.slopes()?;
+                Some(DVec3::new(1.0, slopes.left(column), slopes.up(row)))
             }
             Kind::Table(table) => {
                 *table.get(row as usize * self.width as usize + column as usize)?

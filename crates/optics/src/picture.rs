@@ -64,18 +64,18 @@ impl Surroundings {
     /// Takes a picture, into memory that is used again.
     pub fn take(&self, shot: &Shot<'_>, picture: &mut Picture) {
         let bands = picture.bands(shot.lens, shot.wanted);
-        let shader = shot.wanted.colour.then(|| Shader::new(self, shot));
+        let shader = shot.wanted.colour.then(|| Shader::new(self));
         bands::share(bands, shot.threads, |band, scratch| {
             self.band(shot, shader.as_ref(), band, scratch);
         });
     }
 
-    fn band(
-        &self,
+    fn band<'a>(
+        &'a self,
         shot: &Shot<'_>,
-        shader: Option<&Shader<'_>>,
+        shader: Option<&Shader<'a>>,
         band: &mut Band<'_>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<'a>,
     ) {
         let columns = shot.lens.width() as usize;
         let seen = filter(shot.visibility_mask, shot.own);
@@ -107,24 +107,43 @@ impl Surroundings {
 
 /// Memory of one thread.
 #[derive(Default)]
-struct Scratch {
+struct Scratch<'a> {
     rays: Vec<Ray>,
     /// Of every ray: depth along the optical axis of one length of its direction.
     along_axis: Vec<f32>,
+    /// Through a pinhole, the part of directions that the column gives.
+    columns: Vec<DVec3>,
     hits: Vec<Option<Hit>>,
-    /// For [`Shader::paint`]: what is met, rays from a light, what they meet.
-    spots: Vec<shade::Spot>,
+    /// For [`Shader::paint`]: what is met, rays from a light, what they meet, what is in shadow.
+    spots: Vec<shade::Spot<'a>>,
     light_rays: Vec<Ray>,
     light_m: Vec<f32>,
+    dark: Vec<bool>,
 }
 
-impl Scratch {
+impl Scratch<'_> {
     /// Rays through every pixel of a band.
     fn aim(&mut self, shot: &Shot<'_>, band: &Band<'_>) {
         let Pose { translation: origin_m, rotation: world_from_camera } = shot.world_from_camera;
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| world_from_camera * axis);
         self.rays.clear();
         self.along_axis.clear();
+        if let Some(pinhole) = shot.lens.slopes() {
+            // Of length 1 along the axis: rows and columns have a share each, and nothing is divided.
+            if self.columns.is_empty() {
+                let columns = 0..shot.lens.width();
+                let part = |column| axes[0] + axes[1] * pinhole.left(column);
+                self.columns.extend(columns.map(part));
+            }
+            let (min_m, max_m) = (shot.near_m, shot.far_m);
+            for row in band.rows.clone() {
+                let part = axes[2] * pinhole.up(row);
+                let ray = |&column| Ray { origin_m, direction: column + part, min_m, max_m };
+                self.rays.extend(self.columns.iter().map(ray));
+            }
+            self.along_axis.resize(self.rays.len(), 1.0);
+            return;
+        }
         for row in band.rows.clone() {
             for column in 0..shot.lens.width() {
                 let towards = shot.lens.direction(column, row);

@@ -12,6 +12,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_raycast::{Filter, InstanceId, Tags};
 use periplus_scene::Model;
 
+pub(crate) use detail::Met;
 pub use lookup::Surface;
 
 use crate::body::Body;

@@ -20,6 +20,7 @@
 //! `src/triangle.rs`. What was tried for speed, and what came of it: `EXPERIMENTS.md`.
 
 mod bvh;
+mod eight;
 mod heightfield;
 mod local;
 mod mesh;

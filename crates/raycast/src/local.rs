@@ -108,6 +108,23 @@ impl<V: V8> BoxTest<V> {
         }
     }
 
+    /// The same for all rays of this direction that start within `off` of its origin, to either
+    /// side.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "with room for rounding")]
+    pub(crate) fn around(mut self, off: DVec3) -> Self {
+        let off = off.to_array();
+        for axis in 0..3 {
+            let off = V::splat(off[axis] as f32 * (1.0 + 16.0 * ROUND));
+            let zero = V::splat(0.0);
+            let near = self.near[axis].max(zero.sub(self.near[axis]));
+            let far = self.far[axis].max(zero.sub(self.far[axis]));
+            self.near_offset[axis] = self.near_offset[axis].sub(off.mul(near));
+            self.far_offset[axis] = self.far_offset[axis].add(off.mul(far));
+        }
+        self
+    }
+
     #[inline(always)]
     fn near(&self, node: &Node, axis: usize) -> V {
         let row = V::load(&node.0[self.near_rows[axis] & 7]);

@@ -250,24 +250,34 @@ impl Solid {
         }
     }
 
-    /// The outward normal where a ray met a face.
-    pub(crate) fn normal(&self, point: DVec3, face: u32) -> DVec3 {
+    /// The outward normal of a flat face; none of a round one.
+    pub(crate) fn flat_normal(&self, face: u32) -> Option<DVec3> {
         let along_z = |up: bool| if up { DVec3::Z } else { DVec3::NEG_Z };
-        let normal = match self {
-            Self::Plane { .. } => DVec3::Z,
+        match self {
+            Self::Plane { .. } => Some(DVec3::Z),
             Self::Box { .. } => {
                 let axis = [DVec3::X, DVec3::Y, DVec3::Z][(face / 2) as usize % 3];
-                if face.is_multiple_of(2) { -axis } else { axis }
+                Some(if face.is_multiple_of(2) { -axis } else { axis })
             }
-            Self::Round(quadric) => quadric.gradient(point),
-            Self::Cylinder { side, .. } | Self::Cone { side, .. } if face == 0 => {
+            Self::Cylinder { .. } => (face != 0).then(|| along_z(face == 2)),
+            Self::Cone { .. } => (face != 0).then_some(DVec3::NEG_Z),
+            Self::Round(_) | Self::Capsule { .. } => None,
+        }
+    }
+
+    /// The outward normal where a ray met a face.
+    pub(crate) fn normal(&self, point: DVec3, face: u32) -> DVec3 {
+        if let Some(normal) = self.flat_normal(face) {
+            return normal;
+        }
+        let normal = match self {
+            Self::Round(side) | Self::Cylinder { side, .. } | Self::Cone { side, .. } => {
                 side.gradient(point)
             }
-            Self::Cylinder { .. } => along_z(face == 2),
-            Self::Cone { .. } => DVec3::NEG_Z,
             Self::Capsule { side, lower, upper, .. } => {
                 [side, lower, upper][face as usize % 3].gradient(point)
             }
+            Self::Plane { .. } | Self::Box { .. } => DVec3::Z,
         };
         normal.try_normalize().unwrap_or(DVec3::Z)
     }

@@ -7,6 +7,10 @@
 
 #![allow(unsafe_code, reason = "vector instructions; each use says why it is sound")]
 
+mod four;
+
+pub(crate) use four::V4;
+
 /// Eight f32 in memory, aligned for a vector load.
 #[repr(C, align(32))]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +18,9 @@ pub(crate) struct Row(pub(crate) [f32; 8]);
 
 /// Eight f32 in registers. A comparison gives a mask: all bits of a lane set, or none.
 pub(crate) trait V8: Copy {
+    /// Half as many numbers of double precision, in the same instructions.
+    type Four: V4;
+
     /// All lanes the same.
     fn splat(value: f32) -> Self;
     fn load(row: &Row) -> Self;
@@ -119,6 +126,8 @@ fn mask(set: bool) -> f32 {
 }
 
 impl V8 for Portable {
+    type Four = four::Portable4;
+
     #[inline(always)]
     fn splat(value: f32) -> Self {
         Self([value; 8])
@@ -222,6 +231,8 @@ mod avx2 {
     }
 
     impl V8 for Avx2 {
+        type Four = super::four::avx2::Four;
+
         #[inline(always)]
         fn splat(value: f32) -> Self {
             // SAFETY: on registers only; the machine has AVX (see `Avx2`).

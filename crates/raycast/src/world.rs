@@ -2,7 +2,9 @@
 
 mod builder;
 mod change;
+mod dark;
 mod instances;
+mod lanes;
 mod many;
 mod near;
 mod order;

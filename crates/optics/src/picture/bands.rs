@@ -6,7 +6,7 @@ use super::{Picture, Scratch, Wanted};
 use crate::lens::Lens;
 
 /// Rays are traced in patches of four by two; and rays and hits of a band stay close at hand.
-const ROWS: u32 = 4;
+const ROWS: u32 = 2;
 
 /// A few rows of every image.
 pub(super) struct Band<'a> {
@@ -45,10 +45,10 @@ impl Picture {
 }
 
 /// Does the bands with several threads, each its share in turn: neighbours take alike long.
-pub(super) fn share(
+pub(super) fn share<'a>(
     bands: Vec<Band<'_>>,
     threads: usize,
-    work: impl Fn(&mut Band<'_>, &mut Scratch) + Sync,
+    work: impl Fn(&mut Band<'_>, &mut Scratch<'a>) + Sync,
 ) {
     let threads = threads.clamp(1, bands.len().max(1));
     let mut shares: Vec<Vec<Band<'_>>> = (0..threads).map(|_| Vec::new()).collect();

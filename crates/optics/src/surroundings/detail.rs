@@ -36,6 +36,16 @@ impl Sky {
     }
 }
 
+/// What does not change from point to point of what a ray met.
+#[derive(Clone, Copy)]
+pub(crate) struct Met<'a> {
+    pub(crate) instance: InstanceId,
+    pub(crate) primitive: u32,
+    pub(crate) look: &'a Look,
+    /// Whether there is no [`Surroundings::detail`] besides.
+    pub(crate) is_plain: bool,
+}
+
 impl Surroundings {
     /// Adds a light to the world, or puts it in place of the one of its name; its pose is
     /// `world_from_light`. Lights on links come and go with their models.
@@ -74,8 +84,18 @@ impl Surroundings {
         self.lamps.iter().filter_map(placed).collect()
     }
 
-    pub(crate) fn look_of(&self, instance: InstanceId, primitive: u32) -> &Look {
-        self.thing(instance).look(primitive)
+    /// The look of what a ray met.
+    pub(crate) fn met(&self, hit: &Hit) -> Met<'_> {
+        let thing = self.thing(hit.instance);
+        let look = thing.look(hit.primitive);
+        let is_plain = match &thing.body {
+            Some(Body::Mesh(mesh)) => {
+                let Selected { normals, uvs, .. } = &mesh.selected;
+                normals.is_empty() && (look.texture.is_none() || uvs.is_empty())
+            }
+            _ => true,
+        };
+        Met { instance: hit.instance, primitive: hit.primitive, look, is_plain }
     }
 
     /// Class and number of what a ray met.

@@ -1,11 +1,11 @@
 //! Many rays at a time.
 
+use super::lanes::Lanes;
 use super::order::Loose;
-use super::query::{Found, Scratch, single_above};
+use super::query::{Found, Scratch, hit_of, single_above};
 use super::shares::in_shares;
 use super::{Body, Filter, World};
 use crate::bvh::leaf_range;
-use crate::local::LocalRay;
 use crate::mesh::{Nearest, TriangleMesh};
 use crate::packet::{Frustum, Packet};
 use crate::ray::{Hit, Ray};
@@ -82,13 +82,22 @@ impl World {
         hits: &mut [Option<Hit>],
     ) {
         in_shares(rays, columns, threads, hits, |rays, columns, hits| {
+            // Neighbours mostly meet the same face.
+            let mut last = (Found::nothing(0.0), None);
             dispatch(Many {
                 world: self,
                 rays,
                 columns,
                 filter,
                 give: |index: usize, found: &Found| {
-                    hits[index] = found.is_hit().then(|| self.hit(&rays[index], found));
+                    let ray = &rays[index];
+                    hits[index] = found.is_hit().then(|| {
+                        if !last.0.is_same_face(found) {
+                            last = (*found, self.flat_normal(found));
+                        }
+                        let normal = last.1.unwrap_or_else(|| self.round_normal(ray, found));
+                        hit_of(ray, found, normal)
+                    });
                 },
             });
         });
@@ -199,20 +208,21 @@ impl World {
         if !self.sees_all_fixed(filter) {
             return None;
         }
-        let lane = |lane: usize| rays[if lane < rays.len() { lane } else { 0 }];
-        let locals: [LocalRay; 8] = std::array::from_fn(|i| {
-            self.fixed.localize(lane(i).origin_m, lane(i).direction, lane(i).min_m)
-        });
+        let first = self.fixed.localize(rays[0].origin_m, rays[0].direction, rays[0].min_m);
+        let mut locals = [first; 8];
+        for (local, ray) in locals.iter_mut().zip(rays).skip(1) {
+            *local = self.fixed.localize(ray.origin_m, ray.direction, ray.min_m);
+        }
         let packet = Packet::new(&locals)?;
         let many = self.fixed.len() > MANY_TRIANGLES;
         if packet.spread() > if many { WIDEST_AMONG_MANY } else { WIDEST } {
             return None;
         }
-        let mut found: [Found; 8] = std::array::from_fn(|i| Found::nothing(lane(i).max_m));
-        if !self.endless.is_empty() {
-            for (ray, found) in rays.iter().zip(&mut found) {
-                self.find_endless(ray, filter, found);
-            }
+        let lanes = Lanes::new(rays);
+        let mut found = lanes.nothing();
+        for &number in &self.endless {
+            let Lanes { origins_m, directions, min, .. } = &lanes;
+            self.find_solid_eight::<V>(number, origins_m, directions, min, filter, &mut found);
         }
         if !self.fixed.is_empty() {
             let mut nearest = start(&found);
@@ -222,7 +232,7 @@ impl World {
             }
         }
         if !self.resting.nodes.is_empty() || !self.moving.nodes.is_empty() {
-            self.find_instances_packet::<V>(rays, &packet, filter, &mut found, scratch);
+            self.find_instances_packet::<V>(rays, &lanes, &packet, filter, &mut found, scratch);
         }
         Some(found)
     }
@@ -232,6 +242,7 @@ impl World {
     fn find_instances_packet<V: V8>(
         &self,
         rays: &[&Ray],
+        lanes: &Lanes,
         packet: &Packet,
         filter: Filter,
         found: &mut [Found; 8],
@@ -245,6 +256,7 @@ impl World {
                 world: self,
                 order: &tree.order,
                 rays,
+                lanes,
                 packet,
                 filter,
                 found,
@@ -267,10 +279,11 @@ impl World {
     ) -> bool {
         let frame = &self.instances[number as usize].world_from_body;
         let origin = frame.point_in_body(rays[0].origin_m);
-        let locals: [LocalRay; 8] = std::array::from_fn(|lane| {
-            let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            mesh.localize(origin, frame.unturn(ray.direction), ray.min_m)
-        });
+        let first = mesh.localize(origin, frame.unturn(rays[0].direction), rays[0].min_m);
+        let mut locals = [first; 8];
+        for (local, ray) in locals.iter_mut().zip(rays).skip(1) {
+            *local = mesh.localize(origin, frame.unturn(ray.direction), ray.min_m);
+        }
         let Some(packet) = Packet::new(&locals) else { return false };
         let mut nearest = start(found);
         mesh.trace_packet::<V>(&packet, &mut nearest, stack);
@@ -298,6 +311,7 @@ struct InstancesPacket<'a, V> {
     world: &'a World,
     order: &'a [u32],
     rays: &'a [&'a Ray],
+    lanes: &'a Lanes,
     packet: &'a Packet,
     filter: Filter,
     found: &'a mut [Found; 8],
@@ -312,6 +326,12 @@ impl<V: V8> Leaves for InstancesPacket<'_, V> {
         for &number in &self.order[first..first + count] {
             let instance = &self.world.instances[number as usize];
             if !self.filter.lets_pass(instance.tags) {
+                continue;
+            }
+            if let Body::Solid(_) = &instance.body {
+                let Lanes { origins_m, directions, min, .. } = self.lanes;
+                let (filter, found) = (self.filter, &mut *self.found);
+                self.world.find_solid_eight::<V>(number, origins_m, directions, min, filter, found);
                 continue;
             }
             if let Body::Mesh(mesh) = &instance.body

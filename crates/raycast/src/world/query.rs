@@ -2,8 +2,9 @@
 
 use periplus_base::DVec3;
 
-use super::{Body, Filter, Instance, World};
+use super::{Body, Filter, Frame, Instance, World};
 use crate::bvh::{STACK, leaf_range};
+use crate::eight::Eight;
 use crate::local::{BoxTest, LocalRay, reach};
 use crate::mesh::Nearest;
 use crate::ray::{Hit, InstanceId, Ray};
@@ -25,6 +26,10 @@ impl Found {
 
     pub(super) fn is_hit(&self) -> bool {
         self.instance != u32::MAX
+    }
+
+    pub(super) fn is_same_face(&self, other: &Self) -> bool {
+        (self.instance, self.primitive) == (other.instance, other.primitive)
     }
 
     /// Keeps the nearer; of equals the one of the lower numbers.
@@ -57,6 +62,17 @@ pub(super) fn single_above(distance: f64) -> f32 {
     if f64::from(single) < distance { single.next_up() } else { single }
 }
 
+/// `normal` points outwards.
+#[inline(always)]
+pub(super) fn hit_of(ray: &Ray, found: &Found, normal: DVec3) -> Hit {
+    Hit {
+        distance_m: found.distance,
+        normal: if normal.dot(ray.direction) > 0.0 { -normal } else { normal },
+        instance: InstanceId(found.instance),
+        primitive: found.primitive,
+    }
+}
+
 impl World {
     /// The nearest thing on a ray.
     #[must_use]
@@ -73,25 +89,34 @@ impl World {
 
     /// All that is to know of a hit.
     pub(super) fn hit(&self, ray: &Ray, found: &Found) -> Hit {
+        let normal = self.flat_normal(found).unwrap_or_else(|| self.round_normal(ray, found));
+        hit_of(ray, found, normal)
+    }
+
+    /// The outward normal of what a ray met; none where it changes from point to point.
+    pub(super) fn flat_normal(&self, found: &Found) -> Option<DVec3> {
         let instance = &self.instances[found.instance as usize];
-        let frame = &instance.world_from_body;
-        let point = frame.point_in_body(ray.at(found.distance));
         let normal = match &instance.body {
             Body::Fixed => {
                 let part = self.parts.partition_point(|part| part.instance < found.instance);
-                self.fixed.normal(self.parts[part].first + found.primitive)
+                return Some(self.fixed.normal(self.parts[part].first + found.primitive));
             }
-            Body::Solid(solid) => frame.turn(solid.normal(point, found.primitive)),
-            Body::Mesh(mesh) => frame.turn(mesh.normal(found.primitive)),
-            Body::Heights(heights) => frame.turn(heights.normal(found.primitive)),
+            Body::Solid(solid) => solid.flat_normal(found.primitive)?,
+            Body::Mesh(mesh) => mesh.normal(found.primitive),
+            Body::Heights(heights) => heights.normal(found.primitive),
         };
-        let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
-        Hit {
-            distance_m: found.distance,
-            normal,
-            instance: InstanceId(found.instance),
-            primitive: found.primitive,
-        }
+        Some(instance.world_from_body.turn(normal))
+    }
+
+    /// The outward normal where a ray met a face that is not flat.
+    pub(super) fn round_normal(&self, ray: &Ray, found: &Found) -> DVec3 {
+        let Instance { body: Body::Solid(solid), world_from_body, .. } =
+            &self.instances[found.instance as usize]
+        else {
+            return -ray.direction;
+        };
+        let point = world_from_body.point_in_body(ray.at(found.distance));
+        world_from_body.turn(solid.normal(point, found.primitive))
     }
 
     /// Whether every fixed triangle is seen.
@@ -158,6 +183,40 @@ impl World {
         let min = ray.min_m.max(0.0);
         if let Some((distance, face)) = solid.cast(origin, direction, min, found.distance) {
             found.consider(distance, number, face);
+        }
+    }
+
+    /// The nearest of one shape on each of eight rays.
+    #[inline(always)]
+    pub(super) fn find_solid_eight<V: V8>(
+        &self,
+        number: u32,
+        origins_m: &Eight,
+        directions: &Eight,
+        min: &[f64; 8],
+        filter: Filter,
+        found: &mut [Found; 8],
+    ) {
+        let Instance { body: Body::Solid(solid), tags, world_from_body, .. } =
+            &self.instances[number as usize]
+        else {
+            return;
+        };
+        if !filter.lets_pass(*tags) {
+            return;
+        }
+        let Frame { translation, columns } = world_from_body;
+        let origins = origins_m.into_frame::<V>(*translation, columns);
+        let directions = directions.into_frame::<V>(DVec3::ZERO, columns);
+        let mut max = [0.0; 8];
+        for (max, found) in max.iter_mut().zip(&*found) {
+            *max = found.distance;
+        }
+        let met = solid.cast_eight::<V>(&origins, &directions, min, &max);
+        for (lane, found) in found.iter_mut().enumerate() {
+            // What is not a number is no nearer than anything.
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 5")]
+            found.consider(met.distance[lane], number, met.face[lane] as u32);
         }
     }
 
