@@ -3,7 +3,7 @@
 //!
 //! [`parse()`] reads one text; a [`Registry`] holds many, knows the types that services and actions
 //! imply, and answers for a type: its definition, everything it refers to, its [`Registry::hash`]
-//! and its [`Registry::schema_text`]. [`rust::package`] writes one package as Rust.
+//! and its [`Registry::schema_text`]; [`Registry::ros1_text`] is what ROS 1 knows a type by. [`rust::package`] writes one package as Rust.
 
 mod definition;
 mod expand;
@@ -12,6 +12,7 @@ mod literal;
 mod name;
 mod parse;
 mod registry;
+mod ros1;
 pub mod rust;
 mod schema;
 
@@ -21,4 +22,5 @@ pub use literal::Literal;
 pub use name::{Kind, TypeName};
 pub use parse::{Dialect, LARGEST_TEXT, parse};
 pub use registry::Registry;
+pub use ros1::Ros1Text;
 pub use schema::SEPARATOR;

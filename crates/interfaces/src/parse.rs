@@ -194,6 +194,12 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self, text: &str) -> Definition {
         self.blank();
+        // The counter of ROS 1 headers belongs to its wire, not to the message.
+        let name = &self.definition.name;
+        let is_header = name.package == "std_msgs" && name.name == "Header";
+        if self.dialect == Dialect::Ros1 && is_header {
+            self.definition.fields.retain(|field| field.name != "seq");
+        }
         self.definition.text = text.into();
         self.definition
     }

@@ -73,6 +73,9 @@ impl Registry {
             at = next;
         }
         pieces.extend(name.take().map(|name| (name, start, text.len())));
+        if dialect == Dialect::Ros1 {
+            self.add_times();
+        }
         for (name, start, end) in pieces {
             let span = whole.part(start, end);
             if let Some(interface) = parse::part(&name, span, sources, dialect, diagnostics) {
@@ -80,6 +83,23 @@ impl Registry {
             }
         }
         diagnostics.errors() == before
+    }
+
+    /// `time` and `duration`, which ROS 1 has built in and no text of it defines.
+    fn add_times(&mut self) {
+        let mut sources = SourceMap::new();
+        for (name, text) in [
+            ("Time", "int32 sec\nuint32 nanosec\n"),
+            ("Duration", "int32 sec\nuint32 nanosec\n"),
+        ] {
+            let name = TypeName::message("builtin_interfaces", name);
+            if self.types.contains_key(&name) {
+                continue;
+            }
+            let file = sources.add(name.to_string(), text);
+            let read = parse(&name, file, &sources, Dialect::Ros2, &mut Diagnostics::new());
+            read.into_iter().for_each(|interface| self.add(interface));
+        }
     }
 
     /// Whether every type that is referred to is known, none contains itself, and none is larger

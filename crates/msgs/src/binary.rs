@@ -7,9 +7,12 @@
 //! without final zeros, and counts its headers.
 
 mod reader;
+mod recode;
 mod writer;
 
 use crate::{Codec, DecodeError, EncodeError};
+
+pub use recode::recode;
 
 pub(crate) use reader::Reader;
 pub(crate) use writer::Writer;

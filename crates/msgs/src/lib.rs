@@ -31,9 +31,9 @@ mod number;
 mod wire;
 mod yaml;
 
-pub use binary::{Encapsulation, Format, decode, encode};
+pub use binary::{Encapsulation, Format, decode, encode, recode};
 pub use codec::{Codec, WideString};
-pub use dynamic::{DynamicMessage, Layout, TypeRegistry, Value};
+pub use dynamic::{Adaptation, DynamicMessage, Layout, TypeRegistry, Value};
 pub use error::{DecodeError, EncodeError, Problem};
 pub use generated::*;
 pub use json::{from_json, to_json};

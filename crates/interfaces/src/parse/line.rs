@@ -68,7 +68,10 @@ pub(super) fn read(code: &str, context: &Context) -> Result<(Read, Span), Box<Di
         let constant = constant(code, name, r#type, value, context)?;
         return Ok((Read::Constant(constant), place(name)));
     }
-    if !is_field_name(name) {
+    // ROS 1 lets names be written in any case.
+    let lenient = context.dialect == Dialect::Ros1;
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if !(is_field_name(name) || lenient && name.chars().all(plain)) {
         let wrong = format!("`{name}` cannot be the name of a field");
         return Err(Box::new(
             Diagnostic::error("bad-name", wrong)

@@ -93,6 +93,30 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Gives numbers of one size to a writer.
+    pub(super) fn copy(
+        &mut self,
+        count: usize,
+        size: usize,
+        writer: &mut super::Writer<'_>,
+    ) -> Result<(), DecodeError> {
+        if count == 0 {
+            return Ok(());
+        }
+        self.align(size)?;
+        let bytes = self.take(count.saturating_mul(size))?;
+        writer.copy(bytes, size, self.big_endian);
+        Ok(())
+    }
+
+    /// The bytes of a text without what ends it.
+    pub(super) fn text_bytes(&mut self) -> Result<&'a [u8], DecodeError> {
+        let length = self.length()?;
+        let bytes = self.take(length)?;
+        // Some writers leave out the final zero.
+        Ok(if self.is_cdr { bytes.strip_suffix(&[0]).unwrap_or(bytes) } else { bytes })
+    }
+
     fn length(&mut self) -> Result<usize, DecodeError> {
         Ok(u32::from_ne_bytes(self.one()?) as usize)
     }
@@ -163,10 +187,7 @@ impl Source for Reader<'_> {
     }
 
     fn text(&mut self, limit: Option<u32>) -> Result<String, DecodeError> {
-        let length = self.length()?;
-        let bytes = self.take(length)?;
-        // Some writers leave out the final zero.
-        let bytes = if self.is_cdr { bytes.strip_suffix(&[0]).unwrap_or(bytes) } else { bytes };
+        let bytes = self.text_bytes()?;
         self.bounded(bytes.len(), most(limit))?;
         let text = std::str::from_utf8(bytes).map_err(|_| self.error(Problem::Text))?;
         Ok(text.to_owned())

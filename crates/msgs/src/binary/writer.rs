@@ -49,6 +49,25 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// Writes numbers of one size, which are given in the named order.
+    pub(super) fn copy(&mut self, bytes: &[u8], size: usize, big_endian: bool) {
+        self.align(size);
+        let start = self.out.len();
+        self.out.extend_from_slice(bytes);
+        if size > 1 && self.big_endian != big_endian {
+            self.out[start..].chunks_exact_mut(size).for_each(<[u8]>::reverse);
+        }
+    }
+
+    /// Writes a text of any bytes.
+    pub(super) fn text_bytes(&mut self, text: &[u8]) {
+        self.length(text.len() + usize::from(self.is_cdr), usize::MAX);
+        self.out.extend_from_slice(text);
+        if self.is_cdr {
+            self.out.push(0);
+        }
+    }
+
     fn length(&mut self, length: usize, limit: usize) {
         let limit = limit.min(u32::MAX as usize);
         if length > limit && self.error.is_none() {

@@ -38,6 +38,26 @@ impl TypeRegistry {
         &BUILTIN
     }
 
+    /// The types of this crate as ROS 1 Noetic has them; what it does not have is as in ROS 2.
+    #[must_use]
+    pub fn ros1() -> &'static Self {
+        static ROS1: LazyLock<TypeRegistry> = LazyLock::new(|| {
+            let mut diagnostics = Diagnostics::new();
+            let mut registry = TypeRegistry::builtin_texts();
+            for (name, text) in ROS1_TEXTS {
+                let Some(name) = TypeName::read(name) else { continue };
+                let mut sources = SourceMap::new();
+                let file = sources.add(name.to_string(), text);
+                let text = parse(&name, file, &sources, Dialect::Ros1, &mut diagnostics);
+                text.into_iter().for_each(|interface| registry.add(interface));
+            }
+            let types = TypeRegistry::new(registry, &mut diagnostics);
+            debug_assert!(diagnostics.is_empty(), "{diagnostics:?}");
+            types
+        });
+        &ROS1
+    }
+
     /// The types of this crate as texts, to add others to them.
     #[must_use]
     pub fn builtin_texts() -> Registry {
@@ -75,6 +95,29 @@ impl TypeRegistry {
         self.types.keys().map(String::as_str)
     }
 }
+
+/// Where ROS 1 Noetic differs: other fields, names or constants.
+const ROS1_TEXTS: [(&str, &str); 7] = [
+    (
+        "sensor_msgs/BatteryState",
+        include_str!("../../interfaces_ros1/sensor_msgs/BatteryState.msg"),
+    ),
+    ("sensor_msgs/CameraInfo", include_str!("../../interfaces_ros1/sensor_msgs/CameraInfo.msg")),
+    (
+        "sensor_msgs/NavSatStatus",
+        include_str!("../../interfaces_ros1/sensor_msgs/NavSatStatus.msg"),
+    ),
+    ("sensor_msgs/Range", include_str!("../../interfaces_ros1/sensor_msgs/Range.msg")),
+    ("shape_msgs/SolidPrimitive", include_str!("../../interfaces_ros1/shape_msgs/SolidPrimitive.msg")),
+    (
+        "visualization_msgs/ImageMarker",
+        include_str!("../../interfaces_ros1/visualization_msgs/ImageMarker.msg"),
+    ),
+    (
+        "visualization_msgs/Marker",
+        include_str!("../../interfaces_ros1/visualization_msgs/Marker.msg"),
+    ),
+];
 
 fn builtin_texts(diagnostics: &mut Diagnostics) -> Registry {
     let mut registry = Registry::new();

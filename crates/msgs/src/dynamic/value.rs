@@ -102,6 +102,16 @@ impl DynamicMessage {
         &self.layout
     }
 
+    /// The same without its type.
+    pub(super) fn into_fields(self) -> Vec<Value> {
+        self.fields
+    }
+
+    /// Of values that the type made.
+    pub(super) fn from_fields(layout: &Arc<Layout>, fields: Vec<Value>) -> Self {
+        Self { layout: layout.clone(), fields }
+    }
+
     /// The values of its fields, in the order of the type.
     #[must_use]
     pub fn fields(&self) -> &[Value] {

@@ -1,0 +1,192 @@
+//! Types on their way between ROS 1 and ROS 2.
+//!
+//! The sum of ROS 1 is that of `genmsg`: MD5 over the constants, then the fields, each in a line of
+//! its own, where the type of a nested message is its sum.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use md5::{Digest, Md5};
+
+use crate::{
+    Constant, Definition, Element, Literal, Registry, SEPARATOR, Shape, TypeName,
+};
+
+/// What ROS 1 knows a type by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ros1Text {
+    /// Its text and those of all types that it needs, as bags of ROS 1 carry them.
+    pub text: String,
+    /// Its sum, as 32 hexadecimal digits.
+    pub md5: String,
+}
+
+impl Registry {
+    /// A type as ROS 1 writes it, without bounds and defaults. None when the type is unknown or ROS 1
+    /// has nothing like it: wide strings.
+    #[must_use]
+    pub fn ros1_text(&self, name: &TypeName) -> Option<Ros1Text> {
+        let mut sums = BTreeMap::new();
+        let md5 = self.sum(name, &mut sums)?;
+        let mut order = vec![name];
+        let mut text = String::new();
+        let mut next = 0;
+        while let Some(&name) = order.get(next) {
+            let definition = self.get(name)?;
+            if next > 0 {
+                let _ = write!(text, "{SEPARATOR}\nMSG: {}\n", name.short());
+            }
+            let parts = definition.constants.iter().map(|one| constant(one, &one.name));
+            let fields = fields(definition, |name| Some(name.short()), &mut |name| {
+                if !order.contains(&name) {
+                    order.push(name);
+                }
+            });
+            for line in parts.chain(fields?) {
+                text.push_str(&line);
+                text.push('\n');
+            }
+            next += 1;
+        }
+        Some(Ros1Text { text, md5 })
+    }
+
+    fn sum<'a>(
+        &'a self,
+        name: &'a TypeName,
+        sums: &mut BTreeMap<&'a TypeName, String>,
+    ) -> Option<String> {
+        if let Some(known) = sums.get(name) {
+            return Some(known.clone());
+        }
+        let definition = self.get(name)?;
+        for (_, nested) in definition.nested() {
+            if time_word(nested).is_none() {
+                self.sum(nested, sums)?;
+            }
+        }
+        let constants = definition.constants.iter().map(|one| constant(one, &one.name));
+        let fields = fields(definition, |name| sums.get(name).cloned(), &mut |_| {})?;
+        let lines: Vec<String> = constants.chain(fields).collect();
+        let mut sum = String::new();
+        for byte in Md5::digest(lines.join("\n")) {
+            let _ = write!(sum, "{byte:02x}");
+        }
+        sums.insert(name, sum.clone());
+        Some(sum)
+    }
+
+    /// The same types with names that ROS 2 allows, and texts to match.
+    #[must_use]
+    pub fn for_ros2(&self) -> Self {
+        let mut all = Self::new();
+        for interface in self.interfaces() {
+            let mut interface = interface.clone();
+            for part in &mut interface.parts {
+                part.text = ros2_text(part);
+                for field in &mut part.fields {
+                    field.name = field.name.to_ascii_lowercase();
+                }
+            }
+            all.add(interface);
+        }
+        all
+    }
+}
+
+/// The lines of the fields; a sum stands for a nested message with its brackets.
+fn fields<'a>(
+    definition: &'a Definition,
+    nested: impl Fn(&TypeName) -> Option<String>,
+    needs: &mut dyn FnMut(&'a TypeName),
+) -> Option<Vec<String>> {
+    let mut lines = Vec::new();
+    let header = TypeName::message("std_msgs", "Header");
+    if definition.name == header {
+        lines.push("uint32 seq".to_owned());
+    }
+    for field in &definition.fields {
+        let mut is_sum = false;
+        let word = match &field.r#type.element {
+            Element::Scalar(scalar) => scalar.name().to_owned(),
+            Element::String(_) => "string".to_owned(),
+            Element::WString(_) => return None,
+            Element::Nested(name) => match time_word(name) {
+                Some(word) => word.to_owned(),
+                None => {
+                    needs(name);
+                    let word = nested(name)?;
+                    is_sum = !word.contains('/');
+                    word
+                }
+            },
+        };
+        let brackets = match field.r#type.shape {
+            Shape::One => String::new(),
+            _ if is_sum => String::new(),
+            Shape::Fixed(size) => format!("[{size}]"),
+            Shape::Bounded(_) | Shape::Unbounded => "[]".to_owned(),
+        };
+        lines.push(format!("{word}{brackets} {}", field.name));
+    }
+    Some(lines)
+}
+
+fn time_word(name: &TypeName) -> Option<&'static str> {
+    match (name.package.as_str(), name.name.as_str()) {
+        ("builtin_interfaces", "Time") => Some("time"),
+        ("builtin_interfaces", "Duration") => Some("duration"),
+        _ => None,
+    }
+}
+
+fn constant(constant: &Constant, name: &str) -> String {
+    let word = match &constant.element {
+        Element::Scalar(scalar) => scalar.name(),
+        _ => "string",
+    };
+    let value = match &constant.value {
+        Literal::Bool(true) => "True".to_owned(),
+        Literal::Bool(false) => "False".to_owned(),
+        Literal::Int(value) => value.to_string(),
+        Literal::Float(value) => format!("{value:?}"),
+        Literal::Text(text) => text.clone(),
+        Literal::List(_) => String::new(),
+    };
+    format!("{word} {name}={value}")
+}
+
+/// A definition as ROS 2 writes it.
+fn ros2_text(definition: &Definition) -> String {
+    let mut text = String::new();
+    for one in &definition.constants {
+        let name = one.name.to_ascii_uppercase();
+        let line = match &one.value {
+            Literal::Text(text) => format!("string {name}=\"{}\"", text.replace('"', "\\\"")),
+            _ => constant(one, &name),
+        };
+        text.push_str(&line);
+        text.push('\n');
+    }
+    for field in &definition.fields {
+        let word = match &field.r#type.element {
+            // `byte` has no meaning as a number in ROS 2.
+            Element::Scalar(scalar) => scalar.name().to_owned(),
+            Element::String(limit) => bounded("string", *limit),
+            Element::WString(limit) => bounded("wstring", *limit),
+            Element::Nested(name) => name.short(),
+        };
+        let brackets = match field.r#type.shape {
+            Shape::One => String::new(),
+            Shape::Fixed(size) => format!("[{size}]"),
+            Shape::Bounded(most) => format!("[<={most}]"),
+            Shape::Unbounded => "[]".to_owned(),
+        };
+        let _ = writeln!(text, "{word}{brackets} {}", field.name.to_ascii_lowercase());
+    }
+    text
+}
+
+fn bounded(word: &str, limit: Option<u64>) -> String {
+    limit.map_or_else(|| word.to_owned(), |limit| format!("{word}<={limit}"))
+}

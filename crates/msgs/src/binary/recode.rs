@@ -1,0 +1,83 @@
+//! From one form of bytes to another, without a value in between.
+
+use super::{Format, Reader, Writer};
+use crate::dynamic::{Element, Layout, Shape};
+use crate::{Count, DecodeError, Sink as _, Source as _};
+
+/// Appends a message that is given in one form to `out` in another. What is only copied is not looked
+/// at: texts may be of any bytes, truth values any number.
+///
+/// # Errors
+/// When the bytes are no such message.
+pub fn recode(
+    layout: &Layout,
+    from: Format,
+    bytes: &[u8],
+    to: Format,
+    out: &mut Vec<u8>,
+) -> Result<(), DecodeError> {
+    let mut reader = Reader::new(from, bytes)?;
+    let mut writer = Writer::new(to, out);
+    structure(layout, &mut reader, &mut writer)?;
+    reader.finish()?;
+    // Nothing is longer than it was, and what was read had lengths of 32 bits.
+    let _ = writer.finish();
+    Ok(())
+}
+
+fn structure(
+    layout: &Layout,
+    reader: &mut Reader<'_>,
+    writer: &mut Writer<'_>,
+) -> Result<(), DecodeError> {
+    reader.begin(&layout.type_name, &mut std::iter::empty())?;
+    writer.begin(&layout.type_name);
+    for field in &layout.fields {
+        let copied = match field.shape {
+            Shape::One => one(&field.element, reader, writer),
+            Shape::List(count) => list(&field.element, count, reader, writer),
+        };
+        copied.map_err(|error| error.within(&field.name))?;
+    }
+    reader.end(layout.fields.is_empty())?;
+    writer.end(layout.fields.is_empty());
+    Ok(())
+}
+
+fn list(
+    element: &Element,
+    count: Count,
+    reader: &mut Reader<'_>,
+    writer: &mut Writer<'_>,
+) -> Result<(), DecodeError> {
+    let length = reader.list(count, element.least_bytes())?;
+    // Bounds were those of the reader; what it took may be given.
+    let open = if matches!(count, Count::Fixed(_)) { count } else { Count::Any };
+    writer.list(length, open);
+    if let Element::Number { kind, .. } = element {
+        return reader.copy(length, kind.size(), writer);
+    }
+    for index in 0..length {
+        one(element, reader, writer).map_err(|error| error.within_element(index))?;
+    }
+    Ok(())
+}
+
+fn one(
+    element: &Element,
+    reader: &mut Reader<'_>,
+    writer: &mut Writer<'_>,
+) -> Result<(), DecodeError> {
+    match element {
+        Element::Number { kind, .. } => reader.copy(1, kind.size(), writer),
+        Element::Text(_) => {
+            writer.text_bytes(reader.text_bytes()?);
+            Ok(())
+        }
+        Element::WideText(limit) => {
+            writer.wide_text(&reader.wide_text(*limit)?, None);
+            Ok(())
+        }
+        Element::Struct(layout) => structure(layout, reader, writer),
+    }
+}
