@@ -2,7 +2,8 @@
 //!
 //! A [`Writer`] makes MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and Lichtblick
 //! open; [`BagInfo`] is the `metadata.yaml` beside them. A [`Reader`] gives the messages of any MCAP
-//! file in the order of their times, also of one that was cut off. Nothing here opens files: sinks
+//! file and of bags of ROS 1 in the order of their times, also of files that were cut off; a
+//! [`Ros1Writer`] makes such bags, and a [`Translation`] the messages for either. Nothing here opens files: sinks
 //! and sources come in.
 //!
 //! ```
@@ -28,12 +29,16 @@ mod qos;
 mod read;
 mod record;
 mod repair;
+mod ros1;
+mod translate;
 mod write;
 
 pub use check::{Fault, check};
 pub use compression::Compression;
-pub use metadata::{BagInfo, FileInfo, Metadata, Style, TopicInfo, read_metadata};
+pub use metadata::{BagInfo, FileInfo, Metadata, Stored, Style, TopicInfo, read_metadata};
 pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
-pub use read::{BagTopic, Limits, Message, Messages, ReadError, Reader, Selection};
+pub use read::{BagTopic, Limits, Message, Messages, OwnMessages, ReadError, Reader, Selection};
 pub use repair::{RepairError, repair};
+pub use ros1::{Ros1Compression, Ros1Settings, Ros1Writer};
+pub use translate::{Target, TranslateError, Translation};
 pub use write::{Settings, Stamp, Topic, TopicId, WriteError, Writer};

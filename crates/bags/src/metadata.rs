@@ -30,6 +30,24 @@ impl Style {
     }
 }
 
+/// How the files of a recording are stored.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stored {
+    /// `mcap` or `sqlite3`.
+    pub storage: String,
+    /// How whole files or messages are packed once more, such as `zstd`; mostly empty.
+    pub compression: String,
+    /// What is packed that way: `FILE`, `MESSAGE`; mostly empty.
+    pub compression_mode: String,
+}
+
+impl Default for Stored {
+    /// MCAP, not packed once more.
+    fn default() -> Self {
+        Self { storage: "mcap".into(), compression: String::new(), compression_mode: String::new() }
+    }
+}
+
 /// What is in a recording.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BagInfo {
@@ -83,29 +101,35 @@ impl BagInfo {
         spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)))
     }
 
-    /// The text of `metadata.yaml`.
+    /// The text of `metadata.yaml` beside MCAP files.
     #[must_use]
     pub fn to_yaml(&self, style: Style) -> String {
-        format!("rosbag2_bagfile_information:\n{}", self.body(style, 2))
+        self.to_yaml_for(style, &Stored::default())
+    }
+
+    /// The text of `metadata.yaml`.
+    #[must_use]
+    pub fn to_yaml_for(&self, style: Style, stored: &Stored) -> String {
+        format!("rosbag2_bagfile_information:\n{}", self.body(style, 2, stored))
     }
 
     /// The same without its outermost name, as files carry it inside, each line indented by `indent`.
-    pub(crate) fn body(&self, style: Style, indent: usize) -> String {
+    pub(crate) fn body(&self, style: Style, indent: usize, stored: &Stored) -> String {
         let pad = " ".repeat(indent);
         let mut yaml = String::new();
         let mut line = |text: &str| {
             let _ = writeln!(yaml, "{pad}{text}");
         };
         line(&format!("version: {}", style.version()));
-        line("storage_identifier: mcap");
+        line(&format!("storage_identifier: {}", stored.storage));
         span(&mut line, "", self.span_ns());
         line(&format!("message_count: {}", self.messages()));
         list(&mut line, "topics_with_message_count", self.topics.is_empty());
         for topic in &self.topics {
             topic.put(&mut line, style);
         }
-        line("compression_format: \"\"");
-        line("compression_mode: \"\"");
+        line(&format!("compression_format: {}", quoted(&stored.compression)));
+        line(&format!("compression_mode: {}", quoted(&stored.compression_mode)));
         list(&mut line, "relative_file_paths", self.files.is_empty());
         for file in &self.files {
             line(&format!("  - {}", quoted(&file.path)));

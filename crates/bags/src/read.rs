@@ -18,13 +18,13 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_interfaces::{Dialect, TypeName};
 use periplus_msgs::TypeRegistry;
 
-use block::Block;
-use source::Source;
+pub(crate) use block::{Block, Kind};
+pub(crate) use source::Source;
 
-pub use messages::{Message, Messages, Selection};
+pub use messages::{Message, Messages, OwnMessages, Selection};
 
-use crate::Fault;
 use crate::record::{Channel, MAGIC, Schema};
+use crate::{Fault, ros1};
 
 /// How much memory a file may ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,8 +47,8 @@ impl Default for Limits {
 pub enum ReadError {
     /// The source fails.
     Source(io::Error),
-    /// The file does not begin as MCAP does; what it is instead, if that can be seen.
-    NotMcap(Option<&'static str>),
+    /// The file does not begin as recordings do; what it is instead, if that can be seen.
+    Unknown(Option<&'static str>),
     /// The chunks of one moment need more memory than [`Limits::unpacked`].
     TooLarge(u64),
 }
@@ -57,8 +57,10 @@ impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Source(error) => write!(f, "the bag cannot be read: {error}"),
-            Self::NotMcap(Some(other)) => write!(f, "this is not an MCAP file but {other}"),
-            Self::NotMcap(None) => write!(f, "this is not an MCAP file"),
+            Self::Unknown(Some(other)) => write!(f, "this is not a recording but {other}"),
+            Self::Unknown(None) => {
+                write!(f, "this is no recording: neither MCAP nor a bag of ROS 1")
+            }
             Self::TooLarge(bytes) => write!(
                 f,
                 "the chunks of one moment need {bytes} bytes: the times of the bag overlap too much"
@@ -98,7 +100,9 @@ pub struct Reader<R> {
     limits: Limits,
     topics: Vec<BagTopic>,
     /// Which topic a channel is.
-    by_channel: BTreeMap<u16, usize>,
+    by_channel: BTreeMap<u32, usize>,
+    /// How many messages each topic has.
+    counts: Vec<u64>,
     blocks: Vec<Block>,
     faults: Vec<Fault>,
     has_summary: bool,
@@ -112,13 +116,26 @@ struct Contents {
     channels: BTreeMap<u16, Channel>,
     blocks: Vec<Block>,
     messages: Option<u64>,
+    /// By channel.
+    counts: BTreeMap<u16, u64>,
+}
+
+/// The same for every format.
+pub(crate) struct Found {
+    pub(crate) topics: Vec<BagTopic>,
+    /// Which topic a channel is.
+    pub(crate) by_channel: BTreeMap<u32, usize>,
+    pub(crate) counts: Vec<u64>,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) messages: Option<u64>,
+    pub(crate) has_summary: bool,
 }
 
 impl<R: Read + Seek> Reader<R> {
     /// Opens a file.
     ///
     /// # Errors
-    /// When the source fails or is no MCAP file. Damage further in is no error but a
+    /// When the source fails or is neither MCAP nor a bag of ROS 1. Damage further in is no error but a
     /// [fault](Self::faults).
     pub fn open(source: R) -> Result<Self, ReadError> {
         Self::open_within(source, Limits::default())
@@ -131,20 +148,27 @@ impl<R: Read + Seek> Reader<R> {
     pub fn open_within(source: R, limits: Limits) -> Result<Self, ReadError> {
         let mut source = Source::new(source)?;
         let start = source.bytes(0, 16)?;
-        if !start.starts_with(&MAGIC) {
-            return Err(ReadError::NotMcap(other_format(&start)));
-        }
         let mut faults = Vec::new();
-        let by_summary = summary::read(&mut source, &limits, &mut faults)?;
-        let has_summary = by_summary.is_some();
-        let contents = match by_summary {
-            Some(contents) => contents,
-            None => walk::all(&mut source, &limits, &mut faults)?,
+        let found = if start.starts_with(&MAGIC) {
+            mcap(&mut source, &limits, &mut faults)?
+        } else if start.starts_with(ros1::MAGIC) {
+            ros1::read(&mut source, &limits, &mut faults)?
+        } else {
+            return Err(ReadError::Unknown(other_format(&start)));
         };
-        let (topics, by_channel) = name_topics(&contents);
-        let Contents { mut blocks, messages, .. } = contents;
+        let Found { topics, by_channel, counts, mut blocks, messages, has_summary } = found;
         blocks.sort_by_key(|block| (block.start, block.offset));
-        Ok(Self { source, limits, topics, by_channel, blocks, faults, has_summary, messages })
+        Ok(Self {
+            source,
+            limits,
+            topics,
+            by_channel,
+            counts,
+            blocks,
+            faults,
+            has_summary,
+            messages,
+        })
     }
 
     /// The topics, in the order of their channels.
@@ -171,6 +195,12 @@ impl<R: Read + Seek> Reader<R> {
         self.messages
     }
 
+    /// How many messages each topic has, if the file tells it or was walked through.
+    #[must_use]
+    pub fn counts(&self) -> Option<&[u64]> {
+        (self.messages == Some(self.counts.iter().sum())).then_some(&*self.counts)
+    }
+
     /// Time of the first message and of the last \[ns\]; none without messages.
     #[must_use]
     pub fn span_ns(&self) -> Option<(i64, i64)> {
@@ -182,6 +212,11 @@ impl<R: Read + Seek> Reader<R> {
     /// Messages in the order of their log times; those of one time in the order of the file.
     pub fn messages(&mut self, selection: Selection) -> Messages<'_, R> {
         Messages::new(self, selection)
+    }
+
+    /// As [`Reader::messages`], without lending the reader.
+    pub fn into_messages(self, selection: Selection) -> OwnMessages<R> {
+        OwnMessages::new(self, selection)
     }
 
     /// The types of the topics, ready to decode their messages. What cannot be used is left out,
@@ -207,19 +242,32 @@ impl<R: Read + Seek> Reader<R> {
 /// What else a file may be, by its first bytes.
 fn other_format(start: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 3] = [
-        (b"SQLite format 3", "a database of rosbag2 (sqlite3); convert it to MCAP"),
-        (b"#ROSBAG V", "a bag of ROS 1; convert it to MCAP"),
+        (b"SQLite format 3", "a database (sqlite3), which is not read as a stream"),
+        (b"#ROSBAG V", "a bag of ROS 1 before version 2.0; `rosbag fix` makes it new"),
         (b"rosbag2_bagfile", "the metadata.yaml of a bag; name the .mcap file"),
     ];
     known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
 }
 
-fn name_topics(contents: &Contents) -> (Vec<BagTopic>, BTreeMap<u16, usize>) {
+/// An MCAP file, by its summary or by a walk.
+fn mcap<R: Read + Seek>(
+    source: &mut Source<R>,
+    limits: &Limits,
+    faults: &mut Vec<Fault>,
+) -> Result<Found, ReadError> {
+    let by_summary = summary::read(source, limits, faults)?;
+    let has_summary = by_summary.is_some();
+    let contents = match by_summary {
+        Some(contents) => contents,
+        None => walk::all(source, limits, faults)?,
+    };
     let mut by_channel = BTreeMap::new();
     let mut topics = Vec::new();
+    let mut counts = Vec::new();
     for channel in contents.channels.values() {
         let schema = contents.schemas.get(&channel.schema);
-        by_channel.insert(channel.id, topics.len());
+        by_channel.insert(channel.id.into(), topics.len());
+        counts.push(contents.counts.get(&channel.id).copied().unwrap_or(0));
         topics.push(BagTopic {
             name: channel.topic.clone(),
             type_name: schema.map(|schema| schema.name.clone()).unwrap_or_default(),
@@ -229,7 +277,8 @@ fn name_topics(contents: &Contents) -> (Vec<BagTopic>, BTreeMap<u16, usize>) {
             metadata: channel.metadata.clone(),
         });
     }
-    (topics, by_channel)
+    let Contents { blocks, messages, .. } = contents;
+    Ok(Found { topics, by_channel, counts, blocks, messages, has_summary })
 }
 
 fn signed(time: u64) -> i64 {
@@ -239,7 +288,7 @@ fn signed(time: u64) -> i64 {
 /// More faults than this are not kept.
 const MOST_FAULTS: usize = 100;
 
-fn fault(faults: &mut Vec<Fault>, offset: u64, message: impl Into<String>) {
+pub(crate) fn fault(faults: &mut Vec<Fault>, offset: u64, message: impl Into<String>) {
     if faults.len() < MOST_FAULTS {
         faults.push(Fault { offset, message: message.into() });
     }

@@ -171,12 +171,12 @@ fn find_record(bytes: &[u8], opcode: u8) -> usize {
 #[test]
 fn other_files_are_named() {
     let open = |bytes: &'static [u8]| match Reader::open(Cursor::new(bytes)) {
-        Err(error @ ReadError::NotMcap(_)) => error.to_string(),
+        Err(error @ ReadError::Unknown(_)) => error.to_string(),
         _ => String::new(),
     };
     assert!(open(b"SQLite format 3\0...").contains("sqlite3"));
-    assert!(open(b"#ROSBAG V2.0\n").contains("ROS 1"));
-    assert_eq!(open(b""), "this is not an MCAP file");
+    assert!(open(b"#ROSBAG V1.2\n").contains("ROS 1"));
+    assert_eq!(open(b""), "this is no recording: neither MCAP nor a bag of ROS 1");
 }
 
 #[test]

@@ -88,10 +88,9 @@ impl Registry {
     /// `time` and `duration`, which ROS 1 has built in and no text of it defines.
     fn add_times(&mut self) {
         let mut sources = SourceMap::new();
-        for (name, text) in [
-            ("Time", "int32 sec\nuint32 nanosec\n"),
-            ("Duration", "int32 sec\nuint32 nanosec\n"),
-        ] {
+        for (name, text) in
+            [("Time", "int32 sec\nuint32 nanosec\n"), ("Duration", "int32 sec\nuint32 nanosec\n")]
+        {
             let name = TypeName::message("builtin_interfaces", name);
             if self.types.contains_key(&name) {
                 continue;

@@ -8,9 +8,7 @@ use std::fmt::Write as _;
 
 use md5::{Digest, Md5};
 
-use crate::{
-    Constant, Definition, Element, Literal, Registry, SEPARATOR, Shape, TypeName,
-};
+use crate::{Constant, Definition, Element, Literal, Registry, SEPARATOR, Shape, TypeName};
 
 /// What ROS 1 knows a type by.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -15,6 +15,8 @@ pub struct Metadata {
     pub storage: String,
     /// How whole files or messages are packed once more, such as `zstd`; mostly empty.
     pub compression: String,
+    /// What is packed that way: `FILE`, `MESSAGE`; mostly empty.
+    pub compression_mode: String,
     /// What is in the recording.
     pub info: BagInfo,
 }
@@ -56,6 +58,7 @@ pub fn read_metadata(
         version: bag.get("version").and_then(Node::integer).unwrap_or(0),
         storage: text(bag, "storage_identifier"),
         compression: text(bag, "compression_format"),
+        compression_mode: text(bag, "compression_mode"),
         info,
     })
 }

@@ -6,29 +6,35 @@ use std::io::{self, Read, Seek};
 use super::source::Source;
 use crate::compression::{Compression, unpack, unpack_some};
 use crate::record::{ChunkHead, Cursor, MessageHead, PREFIX, op};
+use crate::ros1;
 
 /// Where a piece is and what is in it.
 #[derive(Clone, Debug)]
-pub(super) struct Block {
-    pub(super) offset: u64,
-    pub(super) stored: u64,
-    pub(super) start: u64,
-    pub(super) end: u64,
+pub(crate) struct Block {
+    pub(crate) offset: u64,
+    pub(crate) stored: u64,
+    pub(crate) start: u64,
+    pub(crate) end: u64,
     /// Its length when it is unpacked.
-    pub(super) length: u64,
-    pub(super) kind: Kind,
+    pub(crate) length: u64,
+    pub(crate) kind: Kind,
     /// Its channels; none when nobody knows.
-    pub(super) channels: Option<BTreeSet<u16>>,
+    pub(crate) channels: Option<BTreeSet<u32>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// A whole chunk.
     Chunk,
     /// A chunk that the end of the file cuts.
     CutChunk,
     /// Records that stand in no chunk.
     Plain,
+    /// A chunk of a ROS 1 bag, whole or cut.
+    Ros1 {
+        /// Whether the end of the file cuts it.
+        is_cut: bool,
+    },
 }
 
 impl Block {
@@ -39,12 +45,65 @@ impl Block {
         most: u64,
     ) -> io::Result<Vec<u8>> {
         let stored = source.bytes(self.offset, self.stored)?;
-        if self.kind == Kind::Plain {
-            return Ok(stored);
+        match self.kind {
+            Kind::Plain => return Ok(stored),
+            Kind::Ros1 { is_cut } => return ros1::unpack_record(&stored, is_cut, most),
+            Kind::Chunk | Kind::CutChunk => {}
         }
         let content = stored.get(PREFIX..).unwrap_or_default();
         let (head, packed) = ChunkHead::parse(content).ok_or_else(|| wrong("a chunk is cut"))?;
         unpack_chunk(&head, packed, self.kind == Kind::CutChunk, most)
+    }
+}
+
+/// One message among records.
+#[derive(Clone, Copy)]
+pub(crate) struct Entry<'a> {
+    /// Where its record begins.
+    pub(crate) at: usize,
+    pub(crate) channel: u32,
+    pub(crate) sequence: u32,
+    pub(crate) log_time: u64,
+    pub(crate) publish_time: u64,
+    pub(crate) data: &'a [u8],
+}
+
+impl Kind {
+    /// The complete messages among records of this kind, from a place on.
+    pub(crate) fn messages(self, records: &[u8], from: usize) -> impl Iterator<Item = Entry<'_>> {
+        let mut at = from;
+        std::iter::from_fn(move || match self {
+            Self::Ros1 { .. } => ros1::next_message(records, &mut at).map(|(at, one)| Entry {
+                at,
+                channel: one.connection,
+                sequence: 0,
+                log_time: one.time,
+                publish_time: one.time,
+                data: one.data,
+            }),
+            _ => next_message(records, &mut at),
+        })
+    }
+}
+
+fn next_message<'a>(records: &'a [u8], at: &mut usize) -> Option<Entry<'a>> {
+    let mut cursor = Cursor::new(records.get(*at..)?);
+    loop {
+        let place = records.len() - cursor.rest().len();
+        let (opcode, content) = cursor.record()?;
+        *at = records.len() - cursor.rest().len();
+        if opcode == op::MESSAGE
+            && let Some((head, data)) = MessageHead::parse(content)
+        {
+            return Some(Entry {
+                at: place,
+                channel: head.channel.into(),
+                sequence: head.sequence,
+                log_time: head.log_time,
+                publish_time: head.publish_time,
+                data,
+            });
+        }
     }
 }
 
@@ -72,20 +131,4 @@ pub(super) fn unpack_chunk(
         return Err(wrong("the sum over a chunk is wrong"));
     }
     Ok(records)
-}
-
-/// The complete messages among records, with the place of each.
-pub(super) fn messages(records: &[u8]) -> impl Iterator<Item = (usize, MessageHead)> + '_ {
-    let mut cursor = Cursor::new(records);
-    std::iter::from_fn(move || {
-        loop {
-            let at = records.len() - cursor.rest().len();
-            let (opcode, content) = cursor.record()?;
-            if opcode == op::MESSAGE
-                && let Some((head, _)) = MessageHead::parse(content)
-            {
-                return Some((at, head));
-            }
-        }
-    })
 }

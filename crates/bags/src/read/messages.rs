@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::io::{Read, Seek};
 use std::ops::RangeInclusive;
 
-use super::block::{Block, messages};
+use super::block::{Block, Kind};
 use super::{ReadError, Reader, fault, signed};
-use crate::record::{Cursor, MessageHead};
 
 /// Which messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,6 +49,7 @@ pub struct Message<'a> {
 
 /// A piece that is unpacked: its selected messages, the next one last.
 struct Open {
+    kind: Kind,
     records: Vec<u8>,
     ahead: Vec<(u64, usize)>,
 }
@@ -57,7 +57,64 @@ struct Open {
 /// Messages of a [`Reader`], in the order of their times.
 pub struct Messages<'r, R> {
     reader: &'r mut Reader<R>,
-    channels: BTreeSet<u16>,
+    walk: Walk,
+}
+
+impl<'r, R: Read + Seek> Messages<'r, R> {
+    pub(super) fn new(reader: &'r mut Reader<R>, selection: Selection) -> Self {
+        let walk = Walk::new(reader, selection);
+        Self { reader, walk }
+    }
+
+    /// The next message. A damaged piece is left out and becomes a [fault](Reader::faults).
+    ///
+    /// # Errors
+    /// When the source fails, or too many pieces would have to be unpacked at one time.
+    #[expect(clippy::should_implement_trait, reason = "a message borrows from its chunk")]
+    pub fn next(&mut self) -> Result<Option<Message<'_>>, ReadError> {
+        self.walk.next(self.reader)
+    }
+}
+
+/// As [`Messages`], with a reader of its own.
+pub struct OwnMessages<R> {
+    reader: Reader<R>,
+    walk: Walk,
+}
+
+impl<R: Read + Seek> OwnMessages<R> {
+    pub(super) fn new(reader: Reader<R>, selection: Selection) -> Self {
+        let walk = Walk::new(&reader, selection);
+        Self { reader, walk }
+    }
+
+    /// The reader.
+    pub fn reader(&self) -> &Reader<R> {
+        &self.reader
+    }
+
+    /// Log time of the next message \[ns\].
+    ///
+    /// # Errors
+    /// As [`OwnMessages::next`].
+    pub fn peek_ns(&mut self) -> Result<Option<i64>, ReadError> {
+        self.walk.fill(&mut self.reader)?;
+        Ok(self.walk.heads.peek().map(|Reverse((time, ..))| signed(*time)))
+    }
+
+    /// As [`Messages::next`].
+    ///
+    /// # Errors
+    /// As [`Messages::next`].
+    #[expect(clippy::should_implement_trait, reason = "a message borrows from its chunk")]
+    pub fn next(&mut self) -> Result<Option<Message<'_>>, ReadError> {
+        self.walk.next(&mut self.reader)
+    }
+}
+
+/// How far the messages have been given.
+struct Walk {
+    channels: BTreeSet<u32>,
     span: RangeInclusive<u64>,
     /// The pieces that are still to be unpacked, the earliest last.
     blocks: Vec<Block>,
@@ -70,13 +127,13 @@ pub struct Messages<'r, R> {
     finished: Option<usize>,
 }
 
-impl<'r, R: Read + Seek> Messages<'r, R> {
-    pub(super) fn new(reader: &'r mut Reader<R>, selection: Selection) -> Self {
+impl Walk {
+    fn new<R>(reader: &Reader<R>, selection: Selection) -> Self {
         let is_wanted = |topic: usize| {
             let name = &reader.topics[topic].name;
             selection.topics.as_ref().is_none_or(|names| names.contains(name))
         };
-        let channels: BTreeSet<u16> = reader
+        let channels: BTreeSet<u32> = reader
             .by_channel
             .iter()
             .filter(|(_, topic)| is_wanted(**topic))
@@ -97,7 +154,6 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
             .collect();
         blocks.reverse();
         Self {
-            reader,
             channels,
             span,
             blocks,
@@ -109,12 +165,8 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
         }
     }
 
-    /// The next message. A damaged piece is left out and becomes a [fault](Reader::faults).
-    ///
-    /// # Errors
-    /// When the source fails, or too many pieces would have to be unpacked at one time.
-    #[expect(clippy::should_implement_trait, reason = "a message borrows from its chunk")]
-    pub fn next(&mut self) -> Result<Option<Message<'_>>, ReadError> {
+    /// Unpacks all pieces that may hold the next message.
+    fn fill<R: Read + Seek>(&mut self, reader: &mut Reader<R>) -> Result<(), ReadError> {
         if let Some(done) = self.finished.take() {
             self.close(done);
         }
@@ -123,9 +175,17 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
                 break;
             }
             if let Some(block) = self.blocks.pop() {
-                self.open(&block)?;
+                self.open(reader, &block)?;
             }
         }
+        Ok(())
+    }
+
+    fn next<'a, R: Read + Seek>(
+        &'a mut self,
+        reader: &mut Reader<R>,
+    ) -> Result<Option<Message<'a>>, ReadError> {
+        self.fill(reader)?;
         let Some(Reverse((_, offset, number))) = self.heads.pop() else { return Ok(None) };
         let Some(open) = self.open.get_mut(&number) else { return Ok(None) };
         let Some((_, at)) = open.ahead.pop() else { return Ok(None) };
@@ -134,36 +194,39 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
             // Its memory is still lent to the caller.
             None => self.finished = Some(number),
         }
-        let record = open.records.get(at..).and_then(|bytes| Cursor::new(bytes).record());
-        let Some((head, data)) = record.and_then(|(_, content)| MessageHead::parse(content)) else {
-            return Ok(None);
-        };
+        let Some(entry) = open.kind.messages(&open.records, at).next() else { return Ok(None) };
         Ok(Some(Message {
-            topic: self.reader.by_channel.get(&head.channel).copied().unwrap_or_default(),
-            sequence: head.sequence,
-            log_ns: signed(head.log_time),
-            publish_ns: signed(head.publish_time),
-            data,
+            topic: reader.by_channel.get(&entry.channel).copied().unwrap_or_default(),
+            sequence: entry.sequence,
+            log_ns: signed(entry.log_time),
+            publish_ns: signed(entry.publish_time),
+            data: entry.data,
         }))
     }
 
-    fn open(&mut self, block: &Block) -> Result<(), ReadError> {
+    fn open<R: Read + Seek>(
+        &mut self,
+        reader: &mut Reader<R>,
+        block: &Block,
+    ) -> Result<(), ReadError> {
         let unpacked = self.unpacked.saturating_add(block.length);
-        if unpacked > self.reader.limits.unpacked {
+        if unpacked > reader.limits.unpacked {
             return Err(ReadError::TooLarge(unpacked));
         }
-        let records = match block.load(&mut self.reader.source, self.reader.limits.chunk) {
+        let records = match block.load(&mut reader.source, reader.limits.chunk) {
             Ok(records) => records,
             Err(error) if error.kind() == std::io::ErrorKind::InvalidData => {
-                fault(&mut self.reader.faults, block.offset, error.to_string());
+                fault(&mut reader.faults, block.offset, error.to_string());
                 return Ok(());
             }
             Err(error) => return Err(error.into()),
         };
-        let mut ahead: Vec<(u64, usize)> = messages(&records)
-            .filter(|(_, head)| self.channels.contains(&head.channel))
-            .filter(|(_, head)| self.span.contains(&head.log_time))
-            .map(|(at, head)| (head.log_time, at))
+        let mut ahead: Vec<(u64, usize)> = block
+            .kind
+            .messages(&records, 0)
+            .filter(|entry| self.channels.contains(&entry.channel))
+            .filter(|entry| self.span.contains(&entry.log_time))
+            .map(|entry| (entry.log_time, entry.at))
             .collect();
         ahead.sort_unstable_by(|a, b| b.cmp(a));
         if let Some(&(time, _)) = ahead.last() {
@@ -171,7 +234,7 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
             self.opened += 1;
             self.heads.push(Reverse((time, block.offset, number)));
             self.unpacked += records.len() as u64;
-            self.open.insert(number, Open { records, ahead });
+            self.open.insert(number, Open { kind: block.kind, records, ahead });
         }
         Ok(())
     }

@@ -2,10 +2,10 @@
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-pub(super) struct Source<R> {
+pub(crate) struct Source<R> {
     inner: BufReader<R>,
     at: u64,
-    pub(super) length: u64,
+    pub(crate) length: u64,
 }
 
 impl<R: Read + Seek> Source<R> {
@@ -16,7 +16,7 @@ impl<R: Read + Seek> Source<R> {
     }
 
     /// Bytes from `offset` on; fewer where the file ends. Memory grows with what is there.
-    pub(super) fn bytes(&mut self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
+    pub(crate) fn bytes(&mut self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
         let length = length.min(self.length.saturating_sub(offset));
         // Small steps stay in the buffer.
         match i64::try_from(i128::from(offset) - i128::from(self.at)) {

@@ -63,7 +63,11 @@ fn parse(summary: &[u8]) -> Option<(Contents, Vec<ChunkIndex>)> {
                 let channel = Channel::parse(content)?;
                 contents.channels.insert(channel.id, channel);
             }
-            op::STATISTICS => contents.messages = Some(Statistics::parse(content)?.messages),
+            op::STATISTICS => {
+                let statistics = Statistics::parse(content)?;
+                contents.messages = Some(statistics.messages);
+                contents.counts = statistics.by_channel;
+            }
             op::CHUNK_INDEX => chunks.push(ChunkIndex::parse(content)?),
             _ => {}
         }
@@ -116,7 +120,8 @@ fn complete<R: Read + Seek>(
                 length: chunk.length,
                 kind: Kind::Chunk,
                 // Without indexes nothing is known of the channels.
-                channels: (!chunk.indexes.is_empty()).then(|| chunk.indexes.into_keys().collect()),
+                channels: (!chunk.indexes.is_empty())
+                    .then(|| chunk.indexes.into_keys().map(u32::from).collect()),
             });
         }
         contents = walk::gap(source, at, chunk.offset, contents, faults)?;

@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use super::block::{Block, Kind, messages, unpack_chunk};
+use super::block::{Block, Kind, unpack_chunk};
 use super::source::Source;
 use super::{Contents, Limits, ReadError, fault};
 use crate::Fault;
@@ -35,9 +35,11 @@ pub(super) fn gap<R: Read + Seek>(
     contents: Contents,
     faults: &mut Vec<Fault>,
 ) -> Result<Contents, ReadError> {
+    let counts = contents.counts.clone();
     let mut walk = Walk { contents, count: 0, plain: None };
     walk.range(source, from, to, None, faults)?;
-    Ok(walk.contents)
+    // The summary's own numbers have these in them.
+    Ok(Contents { counts, ..walk.contents })
 }
 
 struct Walk {
@@ -109,6 +111,7 @@ impl Walk {
     fn message(&mut self, at: u64, stored: u64, front: &[u8]) {
         let Some((head, _)) = MessageHead::parse(front) else { return };
         self.count += 1;
+        *self.contents.counts.entry(head.channel).or_default() += 1;
         let time = head.log_time;
         let block = self.plain.get_or_insert_with(|| Block {
             offset: at,
@@ -123,7 +126,7 @@ impl Walk {
         block.end = block.end.max(time);
         block.stored += stored;
         block.length += stored;
-        block.channels.get_or_insert_default().insert(head.channel);
+        block.channels.get_or_insert_default().insert(head.channel.into());
         if block.length >= PLAIN_BLOCK {
             self.contents.blocks.extend(self.plain.take());
         }
@@ -158,10 +161,13 @@ impl Walk {
             channels: Some([].into()),
         };
         let before = self.count;
-        for (_, head) in messages(&records) {
-            block.start = block.start.min(head.log_time);
-            block.end = block.end.max(head.log_time);
-            block.channels.get_or_insert_default().insert(head.channel);
+        for entry in block.kind.messages(&records, 0) {
+            block.start = block.start.min(entry.log_time);
+            block.end = block.end.max(entry.log_time);
+            block.channels.get_or_insert_default().insert(entry.channel);
+            if let Ok(channel) = u16::try_from(entry.channel) {
+                *self.contents.counts.entry(channel).or_default() += 1;
+            }
             self.count += 1;
         }
         if self.count > before {

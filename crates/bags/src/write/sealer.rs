@@ -13,7 +13,7 @@ use crate::record::{
     ChunkHead, ChunkIndex, Footer, MAGIC, PREFIX, Statistics, begin, end, op, put_message_index,
     put_metadata, put_metadata_index, put_summary_offset, put_text,
 };
-use crate::{BagInfo, Compression, FileInfo};
+use crate::{BagInfo, Compression, FileInfo, Stored};
 
 /// The name under which rosbag2 keeps its metadata in a file.
 const METADATA: &str = "rosbag2";
@@ -70,7 +70,7 @@ impl<W: Write> Sealer<W> {
     }
 
     fn put_metadata(&mut self, info: &BagInfo, settings: &Settings) -> io::Result<()> {
-        let text = info.body(settings.style, 0);
+        let text = info.body(settings.style, 0, &Stored::default());
         let map = BTreeMap::from([("serialized_metadata".to_owned(), text)]);
         self.scratch.clear();
         put_metadata(&mut self.scratch, METADATA, &map);

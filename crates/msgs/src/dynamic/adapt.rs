@@ -135,7 +135,9 @@ fn structure(plan: &[Option<Origin>], from: Vec<Value>, to: &Layout) -> Vec<Valu
                 Value::Struct(values) => Value::Struct(structure(plan, values, layout.as_ref())),
                 Value::List(list) => {
                     let one = |value| match value {
-                        Value::Struct(values) => Value::Struct(structure(plan, values, layout.as_ref())),
+                        Value::Struct(values) => {
+                            Value::Struct(structure(plan, values, layout.as_ref()))
+                        }
                         other => other,
                     };
                     Value::List(list.into_iter().map(one).collect())

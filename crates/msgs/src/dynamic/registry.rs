@@ -108,7 +108,10 @@ const ROS1_TEXTS: [(&str, &str); 7] = [
         include_str!("../../interfaces_ros1/sensor_msgs/NavSatStatus.msg"),
     ),
     ("sensor_msgs/Range", include_str!("../../interfaces_ros1/sensor_msgs/Range.msg")),
-    ("shape_msgs/SolidPrimitive", include_str!("../../interfaces_ros1/shape_msgs/SolidPrimitive.msg")),
+    (
+        "shape_msgs/SolidPrimitive",
+        include_str!("../../interfaces_ros1/shape_msgs/SolidPrimitive.msg"),
+    ),
     (
         "visualization_msgs/ImageMarker",
         include_str!("../../interfaces_ros1/visualization_msgs/ImageMarker.msg"),

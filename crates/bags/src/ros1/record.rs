@@ -1,0 +1,115 @@
+//! Records: bytes to fields and back.
+
+use super::op;
+use crate::record::Cursor;
+
+/// The fields of a record's header. Nothing is believed.
+#[derive(Clone, Copy)]
+pub(super) struct Header<'a>(&'a [u8]);
+
+impl<'a> Header<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes)
+    }
+
+    pub(super) fn get(self, name: &str) -> Option<&'a [u8]> {
+        let mut cursor = Cursor::new(self.0);
+        loop {
+            let field = cursor.bytes()?;
+            let value =
+                field.strip_prefix(name.as_bytes()).and_then(|rest| rest.strip_prefix(b"="));
+            if value.is_some() {
+                return value;
+            }
+        }
+    }
+
+    pub(super) fn text(self, name: &str) -> Option<String> {
+        self.get(name).map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    pub(super) fn u32(self, name: &str) -> Option<u32> {
+        Cursor::new(self.get(name)?).u32()
+    }
+
+    pub(super) fn u64(self, name: &str) -> Option<u64> {
+        Cursor::new(self.get(name)?).u64()
+    }
+
+    pub(super) fn time(self, name: &str) -> Option<u64> {
+        time(&mut Cursor::new(self.get(name)?))
+    }
+
+    pub(super) fn opcode(self) -> Option<u8> {
+        self.get("op")?.first().copied()
+    }
+}
+
+/// Seconds and nanoseconds \[ns\].
+pub(super) fn time(cursor: &mut Cursor<'_>) -> Option<u64> {
+    let (sec, nsec) = (cursor.u32()?, cursor.u32()?);
+    Some(u64::from(sec) * 1_000_000_000 + u64::from(nsec))
+}
+
+/// The next record: its header and its data.
+pub(super) fn next<'a>(cursor: &mut Cursor<'a>) -> Option<(Header<'a>, &'a [u8])> {
+    let header = cursor.bytes()?;
+    Some((Header::new(header), cursor.bytes()?))
+}
+
+/// A message of a chunk.
+pub(crate) struct Message<'a> {
+    pub(crate) connection: u32,
+    pub(crate) time: u64,
+    pub(crate) data: &'a [u8],
+}
+
+/// The next complete message from a place on, with its own place; the place moves behind it.
+pub(crate) fn next_message<'a>(records: &'a [u8], at: &mut usize) -> Option<(usize, Message<'a>)> {
+    let mut cursor = Cursor::new(records.get(*at..)?);
+    loop {
+        let place = records.len() - cursor.rest().len();
+        let (header, data) = next(&mut cursor)?;
+        *at = records.len() - cursor.rest().len();
+        if header.opcode() == Some(op::MESSAGE)
+            && let (Some(connection), Some(time)) = (header.u32("conn"), header.time("time"))
+        {
+            return Some((place, Message { connection, time, data }));
+        }
+    }
+}
+
+/// Appends a header, with its length in front.
+pub(super) fn put_header(out: &mut Vec<u8>, fields: &[(&str, &[u8])]) {
+    let length: usize = fields.iter().map(|(name, value)| 4 + name.len() + 1 + value.len()).sum();
+    put_u32(out, length);
+    for (name, value) in fields {
+        put_u32(out, name.len() + 1 + value.len());
+        out.extend_from_slice(name.as_bytes());
+        out.push(b'=');
+        out.extend_from_slice(value);
+    }
+}
+
+/// Appends data, with its length in front.
+pub(super) fn put_data(out: &mut Vec<u8>, data: &[u8]) {
+    put_u32(out, data.len());
+    out.extend_from_slice(data);
+}
+
+/// Lengths were held against the largest that the format can tell.
+#[expect(clippy::cast_possible_truncation, reason = "what is longer was refused")]
+pub(super) fn put_u32(out: &mut Vec<u8>, value: usize) {
+    out.extend((value as u32).to_le_bytes());
+}
+
+/// A time as seconds and nanoseconds; the last one when it is later than the year 2106.
+pub(super) fn time_bytes(time: u64) -> [u8; 8] {
+    let sec = u32::try_from(time / 1_000_000_000).unwrap_or(u32::MAX);
+    #[expect(clippy::cast_possible_truncation, reason = "less than a second")]
+    let nsec = (time % 1_000_000_000) as u32;
+    let mut bytes = [0; 8];
+    bytes[..4].copy_from_slice(&sec.to_le_bytes());
+    bytes[4..].copy_from_slice(&nsec.to_le_bytes());
+    bytes
+}
