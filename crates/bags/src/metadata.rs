@@ -149,8 +149,9 @@ impl BagInfo {
 }
 
 impl TopicInfo {
-    /// The profiles as one text, as a channel carries them.
-    pub(crate) fn qos_text(&self, style: Style) -> String {
+    /// The profiles as one text, as a channel or a row carries them.
+    #[must_use]
+    pub fn qos_text(&self, style: Style) -> String {
         match style {
             Style::Jazzy if self.qos.is_empty() => "[]".into(),
             _ => qos::to_yaml(&self.qos, style, 0),

@@ -24,7 +24,7 @@ pub(crate) use source::Source;
 pub use messages::{Message, Messages, OwnMessages, Selection};
 
 use crate::record::{Channel, MAGIC, Schema};
-use crate::{Fault, ros1};
+use crate::{Fault, QosProfile, qos, ros1};
 
 /// How much memory a file may ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,6 +92,17 @@ pub struct BagTopic {
     pub schema: Vec<u8>,
     /// What else the file tells of it, such as `offered_qos_profiles`.
     pub metadata: BTreeMap<String, String>,
+}
+
+impl BagTopic {
+    /// How each of its publishers offered it; none when the file does not tell.
+    #[must_use]
+    pub fn offered_qos(&self) -> Vec<QosProfile> {
+        self.metadata
+            .get("offered_qos_profiles")
+            .map(|text| qos::from_text(text))
+            .unwrap_or_default()
+    }
 }
 
 /// A file of messages.

@@ -146,6 +146,12 @@ impl Translation {
         Some(Self { topic: described, way, out: Vec::new() })
     }
 
+    /// A topic whose messages stay as they are, whatever they are.
+    #[must_use]
+    pub fn untouched(topic: &BagTopic) -> Self {
+        Self { topic: topic.clone(), way: Way::Same, out: Vec::new() }
+    }
+
     /// The topic as it is there.
     #[must_use]
     pub fn topic(&self) -> &BagTopic {

@@ -1,5 +1,6 @@
 //! The `periplus` command.
 
+mod bag;
 mod check;
 mod convert;
 mod options;
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
     let options = Options::parse();
     options.colour.apply();
     let outcome = match options.command {
+        Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Sim(options) => sim::run(&options),

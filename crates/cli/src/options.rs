@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anstream::ColorChoice;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::bag::BagCommand;
 use crate::sim::SimOptions;
 
 /// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
@@ -21,6 +22,8 @@ pub(crate) struct Options {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    #[command(subcommand)]
+    Bag(BagCommand),
     Check(CheckOptions),
     Convert(ConvertOptions),
     Sim(Box<SimOptions>),

@@ -17,6 +17,11 @@ pub(crate) fn complain(words: &str) {
     let _ = writeln!(anstream::stderr(), "error: {words}");
 }
 
+/// Writes one line about what was done to stderr.
+pub(crate) fn say(words: &str) {
+    let _ = writeln!(anstream::stderr(), "{words}");
+}
+
 /// Writes the findings of a file; colours are taken out on the way where nobody can see them.
 pub(crate) fn findings(out: &mut dyn Write, loaded: &Loaded) -> io::Result<()> {
     diagnostics(out, &loaded.diagnostics, &loaded.sources)

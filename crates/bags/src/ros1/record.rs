@@ -106,7 +106,6 @@ pub(super) fn put_u32(out: &mut Vec<u8>, value: usize) {
 /// A time as seconds and nanoseconds; the last one when it is later than the year 2106.
 pub(super) fn time_bytes(time: u64) -> [u8; 8] {
     let sec = u32::try_from(time / 1_000_000_000).unwrap_or(u32::MAX);
-    #[expect(clippy::cast_possible_truncation, reason = "less than a second")]
     let nsec = (time % 1_000_000_000) as u32;
     let mut bytes = [0; 8];
     bytes[..4].copy_from_slice(&sec.to_le_bytes());

@@ -148,6 +148,17 @@ impl<W: Write + Seek> Ros1Writer<W> {
         Ok(())
     }
 
+    /// Says that no message older than `time_ns` will come: when the open chunk has lasted long
+    /// enough by then, it is closed.
+    ///
+    /// # Errors
+    /// When the sink does not take the bytes.
+    pub fn advance_to(&mut self, time_ns: i64) -> Result<(), WriteError> {
+        let time = u64::try_from(time_ns).unwrap_or(0);
+        let is_over = |(start, _)| time.saturating_sub(start) >= self.settings.chunk_span_ns;
+        if self.chunk.span.is_some_and(is_over) { self.close_chunk() } else { Ok(()) }
+    }
+
     /// Closes the open chunk: all that was recorded is with the sink.
     ///
     /// # Errors

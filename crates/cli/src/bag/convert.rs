@@ -1,0 +1,69 @@
+//! `periplus bag convert` and `periplus bag cut`.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use periplus_bagfiles::{Bag, Conversion, Kind, Storage, WriteSettings, convert};
+
+use super::options::{ConvertOptions, CutOptions, SelectOptions};
+use super::progress::Line;
+use crate::terminal;
+
+pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
+    let paths: Vec<&PathBuf> = options.bags.iter().chain(&options.input).collect();
+    let mut bags = Vec::new();
+    for path in paths {
+        match super::open(path)? {
+            Some(bag) => bags.push(bag),
+            None => return Ok(ExitCode::FAILURE),
+        }
+    }
+    let settings = options.write.settings(&options.output, Storage::Mcap);
+    write(&bags, &options.output, &options.select, settings)
+}
+
+pub(super) fn cut(options: &CutOptions) -> io::Result<ExitCode> {
+    if options.select.is_all() {
+        terminal::complain("nothing is cut off; give topics or times, or use `bag convert`");
+        return Ok(ExitCode::from(2));
+    }
+    let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
+    let settings = options.write.settings(&options.output, bag.storage());
+    let is_file = bag.kind() == Kind::Ros1 && Storage::of_path(&options.output).is_none();
+    let output =
+        if is_file { options.output.with_extension("bag") } else { options.output.clone() };
+    write(&[bag], &output, &options.select, settings)
+}
+
+fn write(
+    bags: &[Bag],
+    output: &Path,
+    select: &SelectOptions,
+    write: WriteSettings,
+) -> io::Result<ExitCode> {
+    let unknown: Vec<&String> = select.unknown(bags).collect();
+    if !unknown.is_empty() {
+        for name in unknown {
+            terminal::complain(&format!("no recording has a topic `{name}`"));
+        }
+        return Ok(ExitCode::from(2));
+    }
+    let selection = select.of(bags);
+    let line = Line::new(bags.iter().map(Bag::message_count).sum());
+    let done =
+        convert(bags, output, Conversion { selection, write }, &mut |count| line.show(count));
+    line.clear();
+    match done {
+        Ok(report) => {
+            super::tell(&report.findings)?;
+            let (messages, topics) = (report.info.messages(), report.info.topics.len());
+            terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
+            Ok(ExitCode::SUCCESS)
+        }
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! What can be typed after `periplus bag`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+use periplus_bagfiles::{ChunkPacking, Packing, PackingMode, Storage};
+use periplus_bags::Style;
+
+/// Recordings: look into them, convert, cut, check and mend them
+///
+/// A recording is a folder of `ros2 bag` (MCAP or sqlite3, split, packed, with or without its
+/// metadata.yaml), a single .mcap or .db3, or a .bag of ROS 1, whole or cut.
+#[derive(Debug, Subcommand)]
+pub(crate) enum BagCommand {
+    Info(InfoOptions),
+    Convert(ConvertOptions),
+    Cut(CutOptions),
+    Check(CheckOptions),
+    Reindex(ReindexOptions),
+}
+
+/// Tell what recordings hold, as `ros2 bag info` does
+#[derive(Debug, Args)]
+pub(crate) struct InfoOptions {
+    /// The recordings
+    #[arg(required = true, value_name = "BAG")]
+    pub(crate) bags: Vec<PathBuf>,
+    /// Print only the names of the topics
+    #[arg(long, short)]
+    pub(crate) topic_name: bool,
+    /// Print it as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Convert recordings, several into one, between ROS 1 and ROS 2 and all their kinds of files
+///
+/// The ending of the result says what it becomes: .mcap, .db3, .bag, or a folder as `ros2 bag`
+/// makes it. Messages stay in the order of their times. What ROS 1 and ROS 2 hold differently is
+/// translated; what cannot be is left out and named.
+#[derive(Debug, Args)]
+pub(crate) struct ConvertOptions {
+    /// The recordings
+    #[arg(value_name = "BAG", required_unless_present = "input")]
+    pub(crate) bags: Vec<PathBuf>,
+    /// A recording, as `ros2 bag convert` has it; may be given several times
+    #[arg(long, short, value_name = "BAG")]
+    pub(crate) input: Vec<PathBuf>,
+    /// The new file or folder
+    #[arg(long, short, value_name = "FILE|FOLDER")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) select: SelectOptions,
+    #[command(flatten)]
+    pub(crate) write: WriteOptions,
+}
+
+/// Copy a part of a recording: some time, some topics
+#[derive(Debug, Args)]
+pub(crate) struct CutOptions {
+    /// The recording
+    #[arg(value_name = "BAG")]
+    pub(crate) bag: PathBuf,
+    /// The new file or folder
+    #[arg(long, short, value_name = "FILE|FOLDER")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) select: SelectOptions,
+    #[command(flatten)]
+    pub(crate) write: WriteOptions,
+}
+
+/// Read every byte and decode every message; exit code 1 when anything is wrong
+#[derive(Debug, Args)]
+pub(crate) struct CheckOptions {
+    /// The recordings
+    #[arg(required = true, value_name = "BAG")]
+    pub(crate) bags: Vec<PathBuf>,
+    /// Print what is wrong as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Write the metadata.yaml of a folder anew, from what is in its files
+#[derive(Debug, Args)]
+pub(crate) struct ReindexOptions {
+    /// The folder
+    #[arg(value_name = "FOLDER")]
+    pub(crate) bag: PathBuf,
+    /// For which readers
+    #[arg(long, value_enum, default_value_t = Readers::Jazzy)]
+    pub(crate) style: Readers,
+}
+
+/// Which messages.
+#[derive(Debug, Args)]
+pub(crate) struct SelectOptions {
+    /// Only these topics
+    #[arg(long, num_args = 1.., value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
+    /// Only topics that match this regular expression
+    #[arg(long, short = 'e', value_name = "REGEX")]
+    pub(crate) regex: Option<regex::Regex>,
+    /// Not these topics
+    #[arg(long, num_args = 1.., value_name = "TOPIC")]
+    pub(crate) exclude_topics: Vec<String>,
+    /// No topics that match this regular expression
+    #[arg(long, short = 'x', value_name = "REGEX")]
+    pub(crate) exclude_regex: Option<regex::Regex>,
+    /// From so many seconds after the beginning
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) start_offset: Option<i64>,
+    /// So many seconds from there
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) duration: Option<i64>,
+    /// From this time, in seconds since 1970 or of the simulation
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "start_offset")]
+    pub(crate) start: Option<i64>,
+    /// Until this time, in seconds since 1970 or of the simulation
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "duration")]
+    pub(crate) end: Option<i64>,
+}
+
+/// How recordings are written.
+#[derive(Debug, Args)]
+pub(crate) struct WriteOptions {
+    /// How files are stored, where the ending does not say it
+    #[arg(long, short, value_enum)]
+    pub(crate) storage: Option<StorageId>,
+    /// How the chunks inside of files are packed: MCAP has none, lz4, zstd, ROS 1 none, lz4, bz2
+    #[arg(long, value_enum)]
+    pub(crate) chunks: Option<Chunks>,
+    /// Pack whole files or every message besides
+    #[arg(long, value_enum, default_value_t = Mode::None)]
+    pub(crate) compression_mode: Mode,
+    /// How files or messages are packed
+    #[arg(long, value_enum, default_value_t = Format::Zstd)]
+    pub(crate) compression_format: Format,
+    /// A new file begins when one has so many bytes
+    #[arg(long, short = 'b', value_name = "BYTES")]
+    pub(crate) max_bag_size: Option<u64>,
+    /// A new file begins when one spans so many seconds
+    #[arg(long, short = 'd', value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) max_bag_duration: Option<i64>,
+    /// For which readers the metadata is written
+    #[arg(long, value_enum, default_value_t = Readers::Jazzy)]
+    pub(crate) style: Readers,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StorageId {
+    /// MCAP
+    Mcap,
+    /// A database, the usual one until ROS 2 Humble
+    Sqlite3,
+    /// A bag of ROS 1
+    Rosbag,
+}
+
+impl From<StorageId> for Storage {
+    fn from(id: StorageId) -> Self {
+        match id {
+            StorageId::Mcap => Self::Mcap,
+            StorageId::Sqlite3 => Self::Sqlite,
+            StorageId::Rosbag => Self::Ros1,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Chunks {
+    None,
+    Lz4,
+    Zstd,
+    Bz2,
+}
+
+impl From<Chunks> for ChunkPacking {
+    fn from(chunks: Chunks) -> Self {
+        match chunks {
+            Chunks::None => Self::None,
+            Chunks::Lz4 => Self::Lz4,
+            Chunks::Zstd => Self::Zstd,
+            Chunks::Bz2 => Self::Bz2,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Mode {
+    None,
+    File,
+    Message,
+}
+
+impl From<Mode> for PackingMode {
+    fn from(mode: Mode) -> Self {
+        match mode {
+            Mode::None => Self::None,
+            Mode::File => Self::File,
+            Mode::Message => Self::Message,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// The one that `ros2 bag` comes with
+    Zstd,
+    /// For `ros2 bag` with a plugin
+    Lz4,
+}
+
+impl From<Format> for Packing {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Zstd => Self::Zstd,
+            Format::Lz4 => Self::Lz4,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Readers {
+    /// ROS 2 Humble and later
+    Humble,
+    /// ROS 2 Jazzy and later
+    Jazzy,
+}
+
+impl From<Readers> for Style {
+    fn from(readers: Readers) -> Self {
+        match readers {
+            Readers::Humble => Self::Humble,
+            Readers::Jazzy => Self::Jazzy,
+        }
+    }
+}
+
+/// Seconds, exactly \[ns\].
+fn seconds(word: &str) -> Result<i64, String> {
+    let wrong = || "it has to be a number of seconds, such as 1.5".to_owned();
+    let (whole, part) = word.split_once('.').unwrap_or((word, ""));
+    let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    if whole.is_empty() && part.is_empty() || !is_number(whole) || !is_number(part) {
+        return Err(wrong());
+    }
+    let whole: i64 = if whole.is_empty() { 0 } else { whole.parse().map_err(|_| wrong())? };
+    let nano: i64 = format!("{part:0<9}")[..9].parse().map_err(|_| wrong())?;
+    whole.checked_mul(1_000_000_000).and_then(|ns| ns.checked_add(nano)).ok_or_else(wrong)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_are_exact() {
+        assert_eq!(seconds("1795273445.123456789"), Ok(1_795_273_445_123_456_789));
+        assert_eq!(seconds(".5"), Ok(500_000_000));
+        assert_eq!(seconds("7"), Ok(7_000_000_000));
+        for wrong in ["", ".", "-1", "1e3", "99999999999", "1.x"] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+    }
+}

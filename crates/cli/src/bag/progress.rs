@@ -1,0 +1,25 @@
+//! How far a long work is, for a person who waits.
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// A line at the bottom of the terminal; nothing where stderr is no terminal.
+pub(super) struct Line(ProgressBar);
+
+impl Line {
+    pub(super) fn new(messages: u64) -> Self {
+        let style = "{bar:30} {percent} %, {human_pos} messages, {eta} left";
+        let style = ProgressStyle::with_template(style);
+        Self(
+            ProgressBar::new(messages)
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())),
+        )
+    }
+
+    pub(super) fn show(&self, messages: u64) {
+        self.0.set_position(messages);
+    }
+
+    pub(super) fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,77 @@
+//! Which messages of a recording, and how they are written.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use periplus_bagfiles::{Bag, Storage, WriteSettings};
+use periplus_bags::Selection;
+
+use super::options::{SelectOptions, WriteOptions};
+
+impl SelectOptions {
+    /// Whether everything is wanted.
+    pub(super) fn is_all(&self) -> bool {
+        self.topics.is_empty()
+            && self.regex.is_none()
+            && self.exclude_topics.is_empty()
+            && self.exclude_regex.is_none()
+            && [self.start_offset, self.duration, self.start, self.end].iter().all(Option::is_none)
+    }
+
+    /// The topics and times in recordings that have these.
+    pub(super) fn of(&self, bags: &[Bag]) -> Selection {
+        let has_no_choice = self.topics.is_empty() && self.regex.is_none();
+        let is_wanted = |name: &String| {
+            let chosen = has_no_choice
+                || self.topics.iter().any(|one| same(one, name))
+                || self.regex.as_ref().is_some_and(|regex| regex.is_match(name));
+            let excluded = self.exclude_topics.iter().any(|one| same(one, name))
+                || self.exclude_regex.as_ref().is_some_and(|regex| regex.is_match(name));
+            chosen && !excluded
+        };
+        let names = bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
+        let topics: BTreeSet<String> = names.filter(|name| is_wanted(name)).cloned().collect();
+        let begin = bags.iter().filter_map(Bag::span_ns).map(|(start, _)| start).min();
+        let begin_ns = begin.unwrap_or(0);
+        let from_ns = match (self.start, self.start_offset) {
+            (Some(start_ns), _) => start_ns,
+            (None, Some(offset_ns)) => begin_ns.saturating_add(offset_ns),
+            (None, None) => i64::MIN,
+        };
+        let to_ns = match (self.end, self.duration) {
+            (Some(end_ns), _) => end_ns,
+            (None, Some(span_ns)) => from_ns.max(begin_ns).saturating_add(span_ns),
+            (None, None) => i64::MAX,
+        };
+        Selection { topics: Some(topics), span_ns: from_ns..=to_ns }
+    }
+
+    /// Names that no recording has.
+    pub(super) fn unknown<'a>(&'a self, bags: &'a [Bag]) -> impl Iterator<Item = &'a String> {
+        let names = || bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
+        self.topics.iter().filter(move |one| !names().any(|name| same(one, name)))
+    }
+}
+
+/// Names may be given without the first slash.
+fn same(typed: &str, name: &str) -> bool {
+    typed.trim_start_matches('/') == name.trim_start_matches('/')
+}
+
+impl WriteOptions {
+    /// For a result at this place; `usual` where neither it nor the options say what it becomes.
+    pub(super) fn settings(&self, output: &Path, usual: Storage) -> WriteSettings {
+        let told = self.storage.map(Storage::from);
+        let storage = told.or_else(|| Storage::of_path(output)).unwrap_or(usual);
+        let plain = WriteSettings::new(storage);
+        WriteSettings {
+            chunks: self.chunks.map_or(plain.chunks, Into::into),
+            mode: self.compression_mode.into(),
+            packing: self.compression_format.into(),
+            max_bytes: self.max_bag_size.filter(|&bytes| bytes > 0),
+            max_span_ns: self.max_bag_duration.filter(|&span_ns| span_ns > 0),
+            style: self.style.into(),
+            ..plain
+        }
+    }
+}
