@@ -45,7 +45,7 @@ const RUNTIME: &[&str] = &[
 const RUNTIME_OF_SYSTEM: &[&str] =
     &["dynlib", "environ", "filesystem", "process", "random", "sync", "threads", "ifaddrs"];
 
-/// `src/core/ddsi/src`: the protocol, without `ddsi_transmit`, which `c/transmit.c` contains.
+/// `src/core/ddsi/src`: the protocol, without what `c/match.c` and `c/transmit.c` contain.
 const PROTOCOL: &[&str] = &[
     "ddsi_acknack",
     "ddsi_addrset",
@@ -60,7 +60,6 @@ const PROTOCOL: &[&str] = &[
     "ddsi_discovery_endpoint",
     "ddsi_discovery_spdp",
     "ddsi_endpoint",
-    "ddsi_endpoint_match",
     "ddsi_entity",
     "ddsi_entity_index",
     "ddsi_eth",
@@ -209,7 +208,7 @@ fn main() {
     add(&core.join("ddsi"), &["defconfig"]);
     add(&core.join("ddsc/src"), INTERFACE);
     add(&core.join("cdr/src"), &["dds_cdrstream"]);
-    add(Path::new("c"), &["blob", "shim", "transmit"]);
+    add(Path::new("c"), &["blob", "match", "shim", "transmit"]);
     build.compile("periplus_cyclone");
 
     if target == "windows" {

@@ -1,11 +1,14 @@
 #include "shim.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "dds/dds.h"
 #include "dds/ddsi/ddsi_domaingv.h"
 #include "dds/ddsi/ddsi_entity_index.h"
+#include "dds/ddsi/ddsi_endpoint.h"
 #include "dds/ddsi/ddsi_guid.h"
+#include "dds/ddsi/ddsi_proxy_endpoint.h"
 #include "dds/ddsi/ddsi_proxy_participant.h"
 #include "dds/ddsi/ddsi_thread.h"
 #include "dds/ddsrt/heap.h"
@@ -86,10 +89,27 @@ static dds_qos_t *to_dds(const struct pp_qos *from, const uint8_t *user_data, si
   return qos;
 }
 
+/* A property of writers that is not sent: for readers of which DDS they are. */
+#define AUDIENCE "periplus.audience"
+static const char *const audiences[] = {"", "cyclone", "others"};
+
+/* match.c asks. */
+bool pp_is_for(const struct ddsi_writer *writer, const struct ddsi_proxy_reader *reader) {
+  char *audience;
+  if (!dds_qget_prop(writer->xqos, AUDIENCE, &audience))
+    return true;
+  const bool is_cyclone = reader->c.vendor.id[0] == 1 && reader->c.vendor.id[1] == 0x10;
+  const bool is_for = is_cyclone == (strcmp(audience, audiences[1]) == 0);
+  dds_free(audience);
+  return is_for;
+}
+
 int32_t pp_writer(int32_t participant, int32_t topic, const struct pp_qos *settings,
                   const uint8_t *user_data, size_t size) {
   dds_qos_t *qos = to_dds(settings, user_data, size);
   dds_qset_lifespan(qos, span(settings->lifespan_ns));
+  if (settings->audience == 1 || settings->audience == 2)
+    dds_qset_prop(qos, AUDIENCE, audiences[settings->audience]);
   const dds_entity_t writer = dds_create_writer(participant, topic, qos, NULL);
   dds_delete_qos(qos);
   return writer;

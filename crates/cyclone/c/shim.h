@@ -24,7 +24,7 @@ struct pp_qos {
   int32_t history;     /* 0 keep last, 1 keep all, -1 not told */
   int32_t depth;
   int32_t liveliness;  /* 0 automatic, 1 manual by participant, 2 manual by topic */
-  int32_t unused;
+  int32_t audience;    /* of writers: 0 all, 1 readers of Cyclone DDS, 2 all other readers */
 };
 
 /* A sample that was taken. The bytes were made by `buffer_new` and now belong to the caller. */

@@ -25,7 +25,7 @@ pub(crate) struct Qos {
     pub(crate) history: i32,
     pub(crate) depth: i32,
     pub(crate) liveliness: i32,
-    pub(crate) unused: i32,
+    pub(crate) audience: i32,
 }
 
 #[repr(C)]

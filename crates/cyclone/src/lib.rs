@@ -36,7 +36,7 @@ pub use discovery::{Discovery, Found, Kind};
 pub use error::Error;
 pub use log::{LogLine, take_log};
 pub use participant::Participant;
-pub use qos::{Durability, Liveliness, Qos};
+pub use qos::{Audience, Durability, Liveliness, Qos};
 pub use reader::{Reader, Sample};
 pub use waitset::{Waitset, Waker};
 pub use writer::{Bytes, Writer};

@@ -30,6 +30,7 @@ pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
         },
         lease_ns: qos.lease_ns,
         blocking_ns: Some(BLOCKING_NS),
+        audience: dds::Audience::All,
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use periplus_cyclone::{Guid, Qos, Reader, Waker, Writer};
+use periplus_cyclone::{Audience, Guid, Qos, Reader, Waker, Writer};
 use periplus_graph::{Node, RawCall, RawCalls, RawClient, ServiceInfo};
 
 use super::net::{Net, Subject};
@@ -35,7 +35,8 @@ struct Serving {
     client: RawClient,
     questions: Reader,
     token: u32,
-    answers: Arc<Outgoing>,
+    /// A writer for each way, which the callers of the other do not hear.
+    answers: [(Mapping, Arc<Outgoing>); 2],
     waker: Waker,
 }
 
@@ -45,6 +46,8 @@ struct Answer {
     ticket: Ticket,
     body: Vec<u8>,
     caller: Guid,
+    /// The writer that the caller hears.
+    reached_by: Mapping,
     since: Since,
 }
 
@@ -115,7 +118,14 @@ impl Services {
         };
         // Answers of many callers may wait.
         let many = Qos { depth: Some(1000), ..qos };
-        let Some((answers, _)) = net.writer(&told, &many, true) else { return };
+        let writer = |mapping, audience| {
+            let qos = Qos { audience, ..many };
+            Some((mapping, net.writer(&told, &qos, true)?.0))
+        };
+        let fast = writer(Mapping::Fast, Audience::Others);
+        let cyclone = writer(Mapping::Cyclone, Audience::Cyclone);
+        let (Some(fast), Some(cyclone)) = (fast, cyclone) else { return };
+        let answers = [fast, cyclone];
         let Some((questions, token)) = net.reader(&asked, &many) else { return };
         let (node, type_name) = (server.to_owned(), service.type_name.clone());
         let waker = net.waitset.waker();
@@ -200,15 +210,22 @@ impl Services {
         answers.retain(|answer| {
             let Some(serving) = self.serving.get(&answer.service) else { return false };
             let (_, reply) = names::service(&answer.service);
-            let readers: Vec<Guid> =
-                peers.ends(&reply, false).map(|(_, end)| end.participant).collect();
+            let mapping = answer.reached_by;
+            let Some((_, writer)) = serving.answers.iter().find(|(way, _)| *way == mapping) else {
+                return false;
+            };
+            let readers: Vec<Guid> = peers
+                .ends(&reply, false)
+                .filter(|(_, end)| Mapping::of(end.vendor) == mapping)
+                .map(|(_, end)| end.participant)
+                .collect();
             let is_known = readers.contains(&answer.caller.participant())
-                && serving.answers.writer.readers() >= readers.len();
+                && writer.writer.readers() >= readers.len();
             if !is_known && answer.since.elapsed() < PATIENCE {
                 return true;
             }
             let (bytes, related) = request::write_answer(answer.ticket, &answer.body);
-            serving.answers.push(Parcel::Bytes(bytes, related));
+            writer.push(Parcel::Bytes(bytes, related));
             false
         });
         drop(peers);
@@ -219,7 +236,9 @@ impl Services {
     pub(super) fn ends(&self) -> impl Iterator<Item = (&str, Guid, bool)> {
         let serving = self.serving.values().flat_map(|one| {
             let node = one.node.as_str();
-            [(node, one.questions.guid(), false), (node, one.answers.writer.guid(), true)]
+            let answers = one.answers.iter().map(|(_, writer)| writer.writer.guid());
+            let answers = answers.map(move |guid| (node, guid, true));
+            answers.chain([(node, one.questions.guid(), false)])
         });
         let calling = self.calling.values().flat_map(|one| {
             let ends = [(one.answers.guid(), false), (one.questions.guid(), true)];
@@ -240,6 +259,7 @@ impl Serving {
                 Err(error) => return net.complain("wire", error.to_string()),
             };
             let Some(source) = sample.source else { continue };
+            let reached_by = Mapping::of(sample.vendor);
             let Some((ticket, body)) = request::read_question(sample) else {
                 net.complain(
                     "strange-question",
@@ -258,6 +278,7 @@ impl Serving {
                     ticket,
                     body: body.to_vec(),
                     caller: source.writer,
+                    reached_by,
                     since: Since::now(),
                 });
                 waker.wake();
