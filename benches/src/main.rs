@@ -21,6 +21,8 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
+use crate::rays::Race;
+
 fn main() -> ExitCode {
     let words: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
     match words.split_first() {
@@ -96,9 +98,18 @@ fn race_rays(words: &[PathBuf]) -> Result<(), String> {
         return Err("usage: periplus-benches rays ENGINES FOLDER RESULTS.md [TURNS]".to_owned());
     };
     let turns = turns.first().and_then(|turns| turns.to_str()?.parse().ok()).unwrap_or(2);
-    let tables = rays::compare(engines, folder, turns)?;
-    println!("{tables}");
-    replace_section(results, &tables).map_err(|error| format!("{}: {error}", results.display()))
+    match rays::compare(engines, folder, turns)? {
+        Race::NoScenes => Ok(()),
+        Race::Alone(tables) => {
+            println!("{tables}\nNo peer ran, so {} stays as it is.", results.display());
+            Ok(())
+        }
+        Race::Tables(tables) => {
+            println!("{tables}");
+            replace_section(results, &tables)
+                .map_err(|error| format!("{}: {error}", results.display()))
+        }
+    }
 }
 
 /// `cast SCENES SCENE OUT`: us alone.

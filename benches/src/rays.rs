@@ -16,20 +16,31 @@ pub(crate) use ours::run as cast;
 
 const SCENES: [&str; 4] = ["tutorial", "house", "warehouse", "city"];
 
+/// What came of it.
+pub(crate) enum Race {
+    Tables(String),
+    /// No peer is installed: our figures compare with nothing.
+    Alone(String),
+    /// Nobody could make the scenes.
+    NoScenes,
+}
+
 /// Races everybody over the scenes in `work`, made by scripts in `engines`; writes
 /// `work/rays.jsonl` and gives the tables. With no turn, tables of the race before.
-pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<String, String> {
+pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<Race, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", work.display());
     let record = work.join("rays.jsonl");
     if turns == 0 {
         let text = std::fs::read_to_string(&record).map_err(failed)?;
         let lines: Vec<Value> =
             text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        return Ok(table::tables(&lines));
+        return Ok(Race::Tables(table::tables(&lines)));
     }
     let out = work.join("out");
     std::fs::create_dir_all(&out).map_err(failed)?;
-    peers::make_scenes(engines, work)?;
+    if !peers::make_scenes(engines, work) {
+        return Ok(Race::NoScenes);
+    }
     let peers = peers::all(engines, work)?;
     let own = std::env::current_exe().map_err(failed)?;
     let ours = |scene: &str| {
@@ -48,13 +59,17 @@ pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<Strin
             }
             for peer in peers.iter().filter(|peer| peer.takes(scene)) {
                 eprintln!("  {}", peer.name());
-                lines.extend(answers(&mut peer.command(scene))?);
+                match answers(&mut peer.command(scene)) {
+                    Ok(new) => lines.extend(new),
+                    Err(why) => eprintln!("SKIPPED: {} in {scene}: {why}", peer.name()),
+                }
             }
         }
     }
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
     std::fs::write(record, text).map_err(failed)?;
-    Ok(table::tables(&lines))
+    let tables = table::tables(&lines);
+    Ok(if peers.is_empty() { Race::Alone(tables) } else { Race::Tables(tables) })
 }
 
 /// The JSON lines that a program prints.

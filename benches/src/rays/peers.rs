@@ -66,18 +66,19 @@ fn runs(command: &mut Command) -> bool {
     quiet.status().is_ok_and(|status| status.success())
 }
 
-/// Makes the scenes, once: about 300 MB.
-pub(super) fn make_scenes(engines: &Path, work: &Path) -> Result<(), String> {
+/// Makes the scenes, once: about 300 MB. Tells when that cannot be.
+pub(super) fn make_scenes(engines: &Path, work: &Path) -> bool {
     if work.join("scenes/dynamic.json").exists() {
-        return Ok(());
+        return true;
     }
     eprintln!("making the scenes");
     let mut command = python();
     command.arg(engines.join("gen_scenes.py")).arg("scenes").current_dir(work);
-    if runs(&mut command) {
-        return Ok(());
+    let made = runs(&mut command);
+    if !made {
+        eprintln!("SKIPPED: scenes are made by Python with numpy; set PERIPLUS_PYTHON");
     }
-    Err("the scenes cannot be made: it takes Python with numpy; set PERIPLUS_PYTHON".to_owned())
+    made
 }
 
 /// Those that are there; tells of the others.

@@ -1,15 +1,20 @@
 //! Triangles and the tree over them.
 
+mod together;
+mod turns;
+
 use std::fmt;
 
 use periplus_base::DVec3;
 
 use crate::bvh::{self, Bounds, LEAF, MAX_LEAF, Node, build, leaf_range};
 use crate::local::{BoxTest, LocalRay, distance_margin, reach};
-use crate::packet::{Frustum, Packet, PacketRows};
 use crate::simd::{Row, V8, splat3};
 use crate::triangle;
 use crate::walk::{Leaves, Stack, Step, walk};
+
+pub(crate) use together::Best;
+pub(crate) use turns::Queue;
 
 /// Coordinates beyond this are no place \[m\].
 const FARTHEST_M: f64 = 1e12;
@@ -223,55 +228,33 @@ impl TriangleMesh {
     ) {
         let margin = distance_margin(self.extent, ray.shear[2]);
         let limit = reach(nearest.distance, margin);
-        let mut leaves = OneRay::<V, _, ANY> {
-            blocks: &self.blocks,
-            axes: ray.axes,
-            origin: splat3([0, 1, 2].map(|axis: usize| ray.origin[ray.axes[axis]])),
-            shear: splat3(ray.shear),
-            min: V::splat(ray.min),
-            margin,
-            nearest,
-            accept,
-        };
+        let rows = RayRows::<V>::new(ray);
+        let mut leaves =
+            OneRay::<V, _, ANY> { blocks: &self.blocks, rows: &rows, margin, nearest, accept };
         walk(&self.nodes, &BoxTest::<V>::new(ray, margin), limit, stack, &mut leaves);
-    }
-
-    /// [`Self::trace`] for eight rays of one origin, to the very same results.
-    #[inline(always)]
-    pub(crate) fn trace_packet<V: V8>(
-        &self,
-        packet: &Packet,
-        nearest: &mut [Nearest; 8],
-        stack: &mut Stack,
-    ) {
-        let margin = distance_margin(self.extent, 1.0);
-        let best = Row(nearest.map(|nearest| nearest.distance));
-        let limit = packet.reach(&best, margin);
-        let mut leaves = EightRays::<V> {
-            blocks: &self.blocks,
-            packet,
-            rows: PacketRows::new(packet),
-            margin,
-            best: V::load(&best),
-            nearest,
-        };
-        walk(&self.nodes, &Frustum::<V>::new(packet, margin), limit, stack, &mut leaves);
     }
 }
 
-/// One ray against eight triangles at a time.
-struct OneRay<'a, V, A, const ANY: bool> {
-    blocks: &'a [Block],
+/// A ray as the triangle test wants it.
+struct RayRows<V> {
     axes: [usize; 3],
     origin: [V; 3],
     shear: [V; 3],
     min: V,
-    margin: f32,
-    nearest: &'a mut Nearest,
-    accept: A,
 }
 
-impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> OneRay<'_, V, A, ANY> {
+impl<V: V8> RayRows<V> {
+    #[inline(always)]
+    fn new(ray: &LocalRay) -> Self {
+        let [x, y, z] = ray.axes;
+        Self {
+            axes: ray.axes,
+            origin: splat3([ray.origin[x], ray.origin[y], ray.origin[z]]),
+            shear: splat3(ray.shear),
+            min: V::splat(ray.min),
+        }
+    }
+
     #[inline(always)]
     fn corner(&self, corner: &[Row; 3]) -> [V; 3] {
         [
@@ -282,14 +265,24 @@ impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> OneRay<'_, V, A, ANY> {
     }
 }
 
+/// One ray against eight triangles at a time.
+struct OneRay<'a, V, A, const ANY: bool> {
+    blocks: &'a [Block],
+    rows: &'a RayRows<V>,
+    margin: f32,
+    nearest: &'a mut Nearest,
+    accept: A,
+}
+
 impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for OneRay<'_, V, A, ANY> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let block = &self.blocks[leaf_range(word).0];
         let [a, b, c] = &block.corners;
-        let corners = [self.corner(a), self.corner(b), self.corner(c)];
+        let rows = self.rows;
+        let corners = [rows.corner(a), rows.corner(b), rows.corner(c)];
         let best = V::splat(self.nearest.distance);
-        let (mask, distances) = triangle::intersect(corners, self.shear, self.min, best);
+        let (mask, distances) = triangle::intersect(corners, rows.shear, rows.min, best);
         let mut bits = mask.bits();
         if bits == 0 {
             return Step::On;
@@ -307,63 +300,6 @@ impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for OneRay<'_, V, A, ANY
             }
         }
         Step::Within(reach(self.nearest.distance, self.margin))
-    }
-}
-
-/// Eight rays of one origin against one triangle at a time.
-struct EightRays<'a, V> {
-    blocks: &'a [Block],
-    packet: &'a Packet,
-    rows: PacketRows<V>,
-    margin: f32,
-    best: V,
-    nearest: &'a mut [Nearest; 8],
-}
-
-impl<V: V8> EightRays<'_, V> {
-    #[inline(always)]
-    fn corner(&self, corner: &[Row; 3], lane: usize) -> [V; 3] {
-        let ([x, y, z], origin) = (self.packet.axes, self.packet.origin);
-        splat3([
-            corner[x].0[lane] - origin[x],
-            corner[y].0[lane] - origin[y],
-            corner[z].0[lane] - origin[z],
-        ])
-    }
-}
-
-impl<V: V8> Leaves for EightRays<'_, V> {
-    #[inline(always)]
-    fn visit(&mut self, word: u32) -> Step {
-        let (number, count) = leaf_range(word);
-        let block = &self.blocks[number];
-        let mut found = false;
-        for lane in 0..count {
-            let [a, b, c] = &block.corners;
-            let corners = [self.corner(a, lane), self.corner(b, lane), self.corner(c, lane)];
-            let (mask, distances) =
-                triangle::intersect(corners, self.rows.shear, self.rows.min, self.best);
-            let mut bits = mask.bits();
-            if bits == 0 {
-                continue;
-            }
-            found = true;
-            self.best = distances.select(self.best, mask);
-            let (row, id) = (distances.store(), block.ids[lane]);
-            while bits != 0 {
-                let which = bits.trailing_zeros() as usize & 7;
-                bits &= bits - 1;
-                let distance = row.0[which];
-                if self.nearest[which].is_worse_than(distance, id) {
-                    self.nearest[which] = Nearest { distance, id };
-                }
-            }
-        }
-        if found {
-            Step::Within(self.packet.reach(&self.best.store(), self.margin))
-        } else {
-            Step::On
-        }
     }
 }
 

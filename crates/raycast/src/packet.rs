@@ -1,94 +1,126 @@
-//! Eight rays of one origin, together.
+//! Rays of one origin, together.
+
+use periplus_base::DVec3;
 
 use crate::bvh::Node;
-use crate::local::{FLAT, LocalRay, ROUND, reach};
+use crate::local::{FLAT, ROUND, reach};
 use crate::simd::{Row, V8};
 use crate::walk::NodeTest;
 
-/// Rays that start at one point and go most along the same axis, the same way. Nodes are tested
-/// against the pyramid around all of them, triangles against each.
-pub(crate) struct Packet {
+/// So many packets go through a tree together, at most.
+pub(crate) const GROUP: usize = 8;
+
+/// All half lines from one point that go most along one axis, with slopes within intervals.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pyramid {
     pub(crate) origin: [f32; 3],
+    /// As in `LocalRay::axes`.
     pub(crate) axes: [usize; 3],
     forward: bool,
-    shear: [Row; 3],
-    /// Depth along the main axis per distance.
-    steep: Row,
-    min: Row,
+    /// The least and the greatest shear along both lesser axes.
+    pub(crate) low: [f32; 2],
+    pub(crate) high: [f32; 2],
+    /// The least depth along the main axis that counts.
+    min: f32,
 }
 
-impl Packet {
-    /// From one to eight rays, if they fit together; lanes beyond are copies of the first.
+impl Pyramid {
+    /// The pyramid around both, if they have the same top and axis.
     #[inline(always)]
-    pub(crate) fn new(rays: &[LocalRay]) -> Option<Self> {
-        let first = rays.first()?;
-        let along = first.axes[2];
-        let forward = first.direction[along] > 0.0;
-        let mut packet = Self {
-            origin: first.origin,
-            axes: first.axes,
-            forward,
-            shear: first.shear.map(|value| Row([value; 8])),
-            steep: Row([first.direction[along].abs(); 8]),
-            min: Row([first.min; 8]),
-        };
-        for (lane, ray) in rays.iter().enumerate().skip(1) {
-            let fits = ray.origin == first.origin
-                && ray.axes[2] == along
-                && (ray.direction[along] > 0.0) == forward;
-            if !fits {
-                return None;
-            }
-            for axis in 0..3 {
-                packet.shear[axis].0[lane] = ray.shear[axis];
-            }
-            packet.steep.0[lane] = ray.direction[along].abs();
-            packet.min.0[lane] = ray.min;
-        }
-        Some(packet)
+    pub(crate) fn with(&self, other: &Self) -> Option<Self> {
+        let fits = self.origin == other.origin
+            && self.axes[2] == other.axes[2]
+            && self.forward == other.forward;
+        fits.then(|| Self {
+            low: [least(self.low[0], other.low[0]), least(self.low[1], other.low[1])],
+            high: [-least(-self.high[0], -other.high[0]), -least(-self.high[1], -other.high[1])],
+            min: least(self.min, other.min),
+            ..*self
+        })
     }
 
     /// How far the slopes lie apart, the larger of both axes.
     #[inline(always)]
     pub(crate) fn spread(&self) -> f32 {
-        let [(a, b), (c, d)] = [range(&self.shear[0]), range(&self.shear[1])];
-        if b - a > d - c { b - a } else { d - c }
-    }
-
-    /// The depth up to which boxes have to be looked into when hits at these distances are known.
-    #[inline(always)]
-    pub(crate) fn reach(&self, best: &Row, margin: f32) -> f32 {
-        let mut deepest = 0.0_f32;
-        for lane in 0..8 {
-            let depth = best.0[lane] * self.steep.0[lane];
-            deepest = if depth > deepest { depth } else { deepest };
-        }
-        reach(deepest, margin)
+        -least(self.low[0] - self.high[0], self.low[1] - self.high[1])
     }
 }
 
 #[inline(always)]
-fn range(row: &Row) -> (f32, f32) {
-    let (mut low, mut high) = (row.0[0], row.0[0]);
-    for &value in &row.0[1..] {
-        low = if value < low { value } else { low };
-        high = if value > high { value } else { high };
-    }
-    (low, high)
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
 }
 
-/// A packet as the triangle test wants it.
-pub(crate) struct PacketRows<V> {
-    pub(crate) shear: [V; 3],
-    pub(crate) min: V,
+/// Eight rays that start at one point and go most along the same axis, the same way. Nodes are
+/// tested against the pyramid around all of them, triangles against each.
+pub(crate) struct Packet {
+    pub(crate) pyramid: Pyramid,
+    pub(crate) shear: [Row; 3],
+    /// Depth along the main axis per distance.
+    pub(crate) steep: Row,
+    pub(crate) min: Row,
 }
 
-impl<V: V8> PacketRows<V> {
+impl Packet {
+    /// From the directions of eight rays, if they fit together; each comes out as
+    /// `LocalRay::new` makes it.
     #[inline(always)]
-    pub(crate) fn new(packet: &Packet) -> Self {
-        let [x, y, z] = &packet.shear;
-        Self { shear: [V::load(x), V::load(y), V::load(z)], min: V::load(&packet.min) }
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+    pub(crate) fn new<V: V8>(origin: DVec3, directions: &[DVec3; 8], min: Row) -> Option<Self> {
+        let mut rows = [Row([0.0; 8]); 3];
+        for (lane, direction) in directions.iter().enumerate() {
+            rows[0].0[lane] = direction.x as f32;
+            rows[1].0[lane] = direction.y as f32;
+            rows[2].0[lane] = direction.z as f32;
+        }
+        let (x, y, z) = (size::<V>(&rows[0]), size::<V>(&rows[1]), size::<V>(&rows[2]));
+        let (x_least, x_less, y_less) = (x.le(y).bits(), x.le(z).bits(), y.le(z).bits());
+        // The same choice in every lane.
+        let along = match (x_least, x_less, y_less) {
+            (0, 0, _) => 0,
+            (ALL, _, 0) => 1,
+            (0, ALL, _) | (ALL, _, ALL) => 2,
+            _ if (!x_least & x_less | x_least & y_less) & ALL == ALL => 2,
+            _ => return None,
+        };
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][along];
+        let length = V::load(&rows[axes[2]]);
+        let zero = V::splat(0.0);
+        let forward = match zero.le(length).bits() {
+            ALL => true,
+            0 => false,
+            _ => return None,
+        };
+        let first = V::load(&rows[axes[0]]).div(length);
+        let second = V::load(&rows[axes[1]]).div(length);
+        let steep = size::<V>(&rows[axes[2]]);
+        let pyramid = Pyramid {
+            origin: [origin.x as f32, origin.y as f32, origin.z as f32],
+            axes,
+            forward,
+            low: [first.least(), second.least()],
+            high: [-zero.sub(first).least(), -zero.sub(second).least()],
+            min: V::load(&min).mul(steep).least(),
+        };
+        let shear = [first.store(), second.store(), V::splat(1.0).div(length).store()];
+        Some(Self { pyramid, shear, steep: steep.store(), min })
     }
+
+    /// The depth up to which boxes have to be looked into when hits at these distances are known.
+    #[inline(always)]
+    pub(crate) fn reach<V: V8>(&self, best: V, margin: f32) -> f32 {
+        let depth = best.mul(V::load(&self.steep));
+        reach(-V::splat(0.0).sub(depth).least(), margin)
+    }
+}
+
+/// The bits of a mask that is set in every lane.
+const ALL: u32 = 0xff;
+
+#[inline(always)]
+fn size<V: V8>(row: &Row) -> V {
+    let row = V::load(row);
+    row.max(V::splat(0.0).sub(row))
 }
 
 /// One condition on the depth: a row of a node times a factor plus an offset.
@@ -116,7 +148,7 @@ impl<V: V8> Bound<V> {
     }
 }
 
-/// The pyramid around a packet, as conditions on the depth along its main axis: the slab test with
+/// A pyramid as conditions on the depth along its main axis: the slab test with
 /// intervals of slopes for slopes.
 pub(crate) struct Frustum<V> {
     enter: Bound<V>,
@@ -131,19 +163,14 @@ pub(crate) struct Frustum<V> {
 impl<V: V8> Frustum<V> {
     /// `margin` is that of depths.
     #[inline(always)]
-    pub(crate) fn new(packet: &Packet, margin: f32) -> Self {
-        let [first, second, along] = packet.axes;
-        let back = !packet.forward;
+    pub(crate) fn new(pyramid: &Pyramid, margin: f32) -> Self {
+        let [first, second, along] = pyramid.axes;
+        let back = !pyramid.forward;
         let sign = if back { -1.0 } else { 1.0 };
-        let origin = packet.origin[along];
-        let (from_first, to_first) = Self::side(packet, 0, first);
-        let (from_second, to_second) = Self::side(packet, 1, second);
-        let mut min = f32::INFINITY;
-        for lane in 0..8 {
-            let depth = packet.min.0[lane] * packet.steep.0[lane];
-            min = if depth < min { depth } else { min };
-        }
-        let min = min * (1.0 - 32.0 * ROUND) - margin;
+        let origin = pyramid.origin[along];
+        let (from_first, to_first) = Self::side(pyramid, 0, first);
+        let (from_second, to_second) = Self::side(pyramid, 1, second);
+        let min = pyramid.min * (1.0 - 32.0 * ROUND) - margin;
         Self {
             enter: Bound::new(row_of(along, back), sign, origin, -1.0),
             leave: Bound::new(row_of(along, !back), sign, origin, 1.0),
@@ -155,10 +182,10 @@ impl<V: V8> Frustum<V> {
 
     /// The bounds of one lesser axis.
     #[inline(always)]
-    fn side(packet: &Packet, which: usize, axis: usize) -> ([Bound<V>; 2], Bound<V>) {
-        let (low, high) = range(&packet.shear[which]);
-        let (low, high) = if packet.forward { (low, high) } else { (-high, -low) };
-        let start = packet.origin[axis];
+    fn side(pyramid: &Pyramid, which: usize, axis: usize) -> ([Bound<V>; 2], Bound<V>) {
+        let (low, high) = (pyramid.low[which], pyramid.high[which]);
+        let (low, high) = if pyramid.forward { (low, high) } else { (-high, -low) };
+        let start = pyramid.origin[axis];
         // Slopes themselves are rounded.
         let (low, high) = (low - low.abs() * ROUND, high + high.abs() * ROUND);
         let (lower, upper) = (row_of(axis, false), row_of(axis, true));

@@ -42,10 +42,15 @@ pub(crate) trait V8: Copy {
     fn select(self, other: Self, mask: Self) -> Self;
     /// Lanes 4 to 7, then 0 to 3.
     fn swap_halves(self) -> Self;
+    /// The smallest of all lanes, if all are numbers.
+    fn least(self) -> f32;
     /// Bit `i` tells lane `i` of a mask.
     fn bits(self) -> u32;
     /// Whole numbers towards zero. Every lane must lie within ±2³¹.
     fn truncate(self) -> [i32; 8];
+
+    /// Asks for something to be in the cache soon.
+    fn fetch<T>(what: &T);
 
     /// Runs a task with this type's instructions enabled throughout.
     fn run<T: Task>(task: T) -> T::Output;
@@ -189,6 +194,14 @@ impl V8 for Portable {
         Self(std::array::from_fn(|i| self.0[i ^ 4]))
     }
     #[inline(always)]
+    fn least(self) -> f32 {
+        let mut least = self.0[0];
+        for &value in &self.0[1..] {
+            least = if value < least { value } else { least };
+        }
+        least
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         (0..8).map(|i| (self.0[i].to_bits() >> 31) << i).sum()
     }
@@ -197,6 +210,8 @@ impl V8 for Portable {
     fn truncate(self) -> [i32; 8] {
         self.0.map(|value| value as i32)
     }
+    #[inline(always)]
+    fn fetch<T>(_: &T) {}
     #[inline(always)]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Self>()
@@ -273,6 +288,16 @@ mod avx2 {
             Self(unsafe { _mm256_permute2f128_ps::<1>(self.0, self.0) })
         }
         #[inline(always)]
+        fn least(self) -> f32 {
+            // SAFETY: on registers only; the machine has AVX (see `Avx2`).
+            unsafe {
+                let halves =
+                    _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+                let pairs = _mm_min_ps(halves, _mm_movehl_ps(halves, halves));
+                _mm_cvtss_f32(_mm_min_ss(pairs, _mm_movehdup_ps(pairs)))
+            }
+        }
+        #[inline(always)]
         fn bits(self) -> u32 {
             // SAFETY: on registers only; the machine has AVX (see `Avx2`).
             unsafe { _mm256_movemask_ps(self.0) }.cast_unsigned()
@@ -285,6 +310,15 @@ mod avx2 {
                 _mm256_storeu_si256(result.as_mut_ptr().cast(), _mm256_cvttps_epi32(self.0));
             }
             result
+        }
+        #[inline(always)]
+        fn fetch<T>(what: &T) {
+            const LINE: usize = 64;
+            for line in 0..size_of::<T>().div_ceil(LINE) {
+                let place = std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * LINE);
+                // SAFETY: a hint, which reads nothing, at whatever place.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(place) };
+            }
         }
         #[inline(always)]
         fn run<T: Task>(task: T) -> T::Output {
@@ -344,7 +378,26 @@ mod tests {
             .prop_map(Row)
     }
 
+    struct Least(Row);
+
+    impl Task for Least {
+        type Output = f32;
+        #[inline(always)]
+        fn run<V: V8>(self) -> f32 {
+            V::load(&self.0).least()
+        }
+    }
+
     proptest! {
+        #[test]
+        fn the_least_of_eight(values in prop::array::uniform8(-1e30_f32..1e30)) {
+            let least = values.iter().copied().fold(f32::INFINITY, f32::min);
+            prop_assert_eq!(Portable::run(Least(Row(values))), least);
+            if super::has_avx2() {
+                prop_assert_eq!(Avx2::run(Least(Row(values))), least);
+            }
+        }
+
         #[test]
         fn vectors_and_plain_rust_give_the_same_bits(a in row(), b in row(), c in row()) {
             if super::has_avx2() {

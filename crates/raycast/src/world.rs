@@ -2,12 +2,12 @@
 
 mod builder;
 mod change;
+mod company;
 mod dark;
 mod instances;
 mod lanes;
 mod many;
 mod near;
-mod order;
 mod query;
 mod shares;
 

@@ -213,6 +213,42 @@ fn rays_do_not_depend_on_threads() {
     }
 }
 
+/// Among so many triangles rays of different origins go in turns.
+#[test]
+fn rays_in_turns_equal_single_rays() {
+    let solid = soup(60_000, 6);
+    let (p, t) = (&solid.positions_m, &solid.triangles);
+    let mut builder = World::builder();
+    builder.add_fixed(p, t, &Pose::IDENTITY, Tags { mask: 1, group: 3 }).unwrap();
+    let below = Pose::from_xyz(0.0, 0.0, -4.0);
+    builder.add_shape(&Shape::Plane { size_m: None }, &below, Tags::default()).unwrap();
+    let ball = Shape::Sphere { radius_m: 3.0 };
+    builder.add_shape(&ball, &Pose::from_xyz(5.0, 0.0, 0.0), Tags::default()).unwrap();
+    let world = builder.build(1).unwrap();
+    let mut stream = Stream::keyed(6, "rays", 0);
+    let mut rays: Vec<Ray> = (0..5003).map(|_| ray(&mut stream)).collect();
+    for (number, ray) in rays.iter_mut().enumerate() {
+        match number % 50 {
+            0 => ray.direction = DVec3::ZERO,
+            1 => ray.origin_m.x = f64::NAN,
+            2 => ray.max_m = 0.2,
+            3 => ray.min_m = 0.5,
+            _ => {}
+        }
+    }
+    for (filter, count) in [
+        (Filter::default(), 5003),
+        (Filter::default(), 5),
+        (Filter { mask: 1, except_group: 3 }, 300),
+    ] {
+        let rays = &rays[..count];
+        let single: Vec<_> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
+        let mut hits = vec![None; count];
+        world.hits_grid(rays, count, filter, 1, &mut hits);
+        assert!(hits == single, "{count} rays, {filter:?}");
+    }
+}
+
 #[test]
 fn trees_do_not_depend_on_threads() {
     let solid = soup(60_000, 5);

@@ -1,24 +1,36 @@
 //! Many rays at a time.
 
-use super::lanes::Lanes;
-use super::order::Loose;
+use std::marker::PhantomData;
+use std::vec::Drain;
+
+use super::company::Company;
 use super::query::{Found, Scratch, hit_of, single_above};
 use super::shares::in_shares;
-use super::{Body, Filter, World};
-use crate::bvh::leaf_range;
-use crate::mesh::{Nearest, TriangleMesh};
-use crate::packet::{Frustum, Packet};
+use super::{Filter, World};
+use crate::local::LocalRay;
+use crate::mesh::{Nearest, Queue};
 use crate::ray::{Hit, Ray};
-use crate::simd::{Row, Task, V8, dispatch};
-use crate::walk::{Leaves, Stack, Step, walk};
+use crate::simd::{Task, V8, dispatch};
 
-/// Rays farther apart than this (in slope) have little in common, and go one by one.
-const WIDEST: f32 = 0.5;
-/// The same where triangles are many and a wide pyramid meets far more than its rays do.
-const WIDEST_AMONG_MANY: f32 = 0.1;
+/// Trees of so many triangles are larger than the nearest caches, and a wide pyramid meets far more
+/// of them than its rays do.
 const MANY_TRIANGLES: usize = 50_000;
-/// From here on a tree is so large that rays without order wait for memory most of their time.
-const FAR_TOO_MANY: usize = 500_000;
+/// Fewer rays than this do not go in turns.
+const FEW: usize = 8;
+/// So many rays wait until they go in turns: few enough that they stay in the cache.
+const LOOSE_MAX: usize = 2048;
+
+/// How far apart in slope rays may lie.
+#[derive(Clone, Copy)]
+struct Widest {
+    /// Eight of them; those farther apart have little in common, and go one by one.
+    packet: f32,
+    /// All that go together.
+    company: f32,
+}
+
+const WIDEST: Widest = Widest { packet: 0.5, company: 0.2 };
+const WIDEST_AMONG_MANY: Widest = Widest { packet: 0.1, company: 0.03 };
 
 /// How rays are gathered by eights: so many columns, so many rows.
 #[derive(Clone, Copy)]
@@ -26,6 +38,9 @@ struct Tile {
     columns: usize,
     rows: usize,
 }
+
+/// Rows of an image that may go together.
+pub(super) const BAND: usize = 4;
 
 const LINE: Tile = Tile { columns: 8, rows: 1 };
 const PATCH: Tile = Tile { columns: 4, rows: 2 };
@@ -112,81 +127,144 @@ struct Many<'a, F> {
     give: F,
 }
 
+/// Rays that take turns through the fixed triangles, one after the other through the rest.
+struct Loose<'a, 'b, V, F> {
+    many: &'a mut Many<'b, F>,
+    places: Drain<'a, usize>,
+    scratch: &'a mut Scratch,
+    vectors: PhantomData<V>,
+}
+
+impl<V: V8, F: FnMut(usize, &Found)> Queue for Loose<'_, '_, V, F> {
+    type Ticket = (usize, Found);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<(Self::Ticket, LocalRay, f32)> {
+        let world = self.many.world;
+        for place in self.places.by_ref() {
+            let ray = &self.many.rays[place];
+            let mut found = Found::nothing(ray.max_m);
+            if !ray.is_sound() {
+                (self.many.give)(place, &found);
+                continue;
+            }
+            world.find_endless(ray, self.many.filter, &mut found);
+            let local = world.fixed.localize(ray.origin_m, ray.direction, ray.min_m);
+            return Some(((place, found), local, single_above(found.distance)));
+        }
+        None
+    }
+
+    #[inline(always)]
+    fn done(&mut self, (place, mut found): Self::Ticket, nearest: Nearest) {
+        let (world, rays, filter) = (self.many.world, self.many.rays, self.many.filter);
+        world.take_fixed(nearest, &mut found);
+        world.find_instances::<V, false>(&rays[place], filter, &mut found, self.scratch);
+        (self.many.give)(place, &found);
+    }
+}
+
 impl<F: FnMut(usize, &Found)> Task for Many<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: V8>(mut self) {
         let mut scratch = Scratch::new();
-        let fixed = &self.world.fixed;
-        let mut loose = Loose::new(fixed.low_m, fixed.high_m);
-        let sorts = fixed.len() > FAR_TOO_MANY;
+        let mut company = Company::new();
+        let mut loose = Vec::new();
+        let many = self.world.fixed.len() > MANY_TRIANGLES;
+        let widest = if many { WIDEST_AMONG_MANY } else { WIDEST };
+        let together = self.world.sees_all_fixed(self.filter);
         let columns = self.columns;
         let rows = self.rays.len().div_ceil(columns);
-        let tile = if rows > 1 { PATCH } else { LINE };
-        for top in (0..rows).step_by(tile.rows) {
-            for left in (0..columns).step_by(tile.columns) {
-                let mut picked = [0_usize; 8];
-                let mut count = 0;
-                for row in top..(top + tile.rows).min(rows) {
-                    for column in left..(left + tile.columns).min(columns) {
-                        let index = row * columns + column;
-                        if index < self.rays.len() {
-                            picked[count] = index;
-                            count += 1;
-                        }
+        let (tile, band) = if rows > 1 { (PATCH, BAND) } else { (LINE, 1) };
+        let corners = (0..rows).step_by(band).flat_map(|first| {
+            (0..columns).step_by(tile.columns).flat_map(move |left| {
+                (first..(first + band).min(rows)).step_by(tile.rows).map(move |top| (top, left))
+            })
+        });
+        for (top, left) in corners {
+            let mut picked = [0_usize; 8];
+            let mut count = 0;
+            for row in top..(top + tile.rows).min(rows) {
+                for column in left..(left + tile.columns).min(columns) {
+                    let index = row * columns + column;
+                    if index < self.rays.len() {
+                        picked[count] = index;
+                        count += 1;
                     }
-                }
-                let picked = &picked[..count];
-                if self.packet::<V>(picked, &mut scratch) {
-                    continue;
-                }
-                for &index in picked {
-                    match u32::try_from(index) {
-                        Ok(place) if sorts => loose.push(place, &self.rays[index]),
-                        _ => self.single::<V>(index, &mut scratch),
-                    }
-                }
-                if loose.is_full() {
-                    self.singles::<V>(&mut loose, &mut scratch);
                 }
             }
+            let picked = &picked[..count];
+            if together && self.join::<V>(picked, widest, &mut company, &mut scratch) {
+                continue;
+            }
+            if together && many {
+                loose.extend_from_slice(picked);
+            } else {
+                for &index in picked {
+                    self.single::<V>(index, &mut scratch);
+                }
+            }
+            if loose.len() >= LOOSE_MAX {
+                self.in_turns::<V>(&mut loose, &mut scratch);
+            }
         }
-        self.singles::<V>(&mut loose, &mut scratch);
+        self.send::<V>(&mut company, &mut scratch);
+        self.in_turns::<V>(&mut loose, &mut scratch);
     }
 }
 
 impl<F: FnMut(usize, &Found)> Many<'_, F> {
-    /// False when the rays do not go together; then nothing was done.
+    /// Takes neighbours into the company, after sending that off if they do not fit. False when
+    /// they do not go together; then nothing was done.
     #[inline(always)]
-    fn packet<V: V8>(&mut self, picked: &[usize], scratch: &mut Scratch) -> bool {
-        let (Some(&start), true) = (picked.first(), picked.len() > 1) else { return false };
-        let first = &self.rays[start];
-        let mut together = [first; 8];
-        let mut common = first.is_sound();
-        for (lane, &index) in picked.iter().enumerate() {
-            let ray = &self.rays[index];
-            together[lane] = ray;
-            common &= ray.origin_m == first.origin_m && ray.is_sound();
-        }
-        if !common {
+    fn join<V: V8>(
+        &mut self,
+        picked: &[usize],
+        widest: Widest,
+        company: &mut Company,
+        scratch: &mut Scratch,
+    ) -> bool {
+        if picked.len() < 2 {
             return false;
         }
-        let rays = &together[..picked.len()];
-        let Some(found) = self.world.find_packet::<V>(rays, self.filter, scratch) else {
+        let Some((packet, member)) = self.world.packet_of::<V>(self.rays, picked) else {
             return false;
         };
-        for (lane, &index) in picked.iter().enumerate() {
-            (self.give)(index, &found[lane]);
+        if packet.pyramid.spread() > widest.packet {
+            return false;
         }
+        if !company.admits(&packet, widest.company) {
+            self.send::<V>(company, scratch);
+        }
+        company.push(packet, member);
         true
     }
 
     #[inline(always)]
-    fn singles<V: V8>(&mut self, loose: &mut Loose, scratch: &mut Scratch) {
-        for index in loose.sorted() {
-            self.single::<V>(index, scratch);
+    fn send<V: V8>(&mut self, company: &mut Company, scratch: &mut Scratch) {
+        let (world, rays, filter) = (self.world, self.rays, self.filter);
+        company.trace::<V>(world, rays, filter, scratch, &mut self.give);
+    }
+
+    /// Traces rays that have little in common, and forgets them.
+    #[inline(always)]
+    fn in_turns<V: V8>(&mut self, loose: &mut Vec<usize>, scratch: &mut Scratch) {
+        if loose.len() < FEW {
+            for index in loose.drain(..) {
+                self.single::<V>(index, scratch);
+            }
+            return;
         }
+        let world = self.world;
+        let (places, vectors) = (loose.drain(..), PhantomData);
+        world.fixed.trace_in_turns::<V, _>(&mut Loose::<V, _> {
+            many: self,
+            places,
+            scratch,
+            vectors,
+        });
     }
 
     #[inline(always)]
@@ -194,161 +272,4 @@ impl<F: FnMut(usize, &Found)> Many<'_, F> {
         let found = self.world.find::<V, false>(&self.rays[index], self.filter, scratch);
         (self.give)(index, &found);
     }
-}
-
-impl World {
-    /// Follows up to eight sound rays of one origin through everything, if they go together.
-    #[inline(always)]
-    fn find_packet<V: V8>(
-        &self,
-        rays: &[&Ray],
-        filter: Filter,
-        scratch: &mut Scratch,
-    ) -> Option<[Found; 8]> {
-        if !self.sees_all_fixed(filter) {
-            return None;
-        }
-        let first = self.fixed.localize(rays[0].origin_m, rays[0].direction, rays[0].min_m);
-        let mut locals = [first; 8];
-        for (local, ray) in locals.iter_mut().zip(rays).skip(1) {
-            *local = self.fixed.localize(ray.origin_m, ray.direction, ray.min_m);
-        }
-        let packet = Packet::new(&locals)?;
-        let many = self.fixed.len() > MANY_TRIANGLES;
-        if packet.spread() > if many { WIDEST_AMONG_MANY } else { WIDEST } {
-            return None;
-        }
-        let lanes = Lanes::new(rays);
-        let mut found = lanes.nothing();
-        for &number in &self.endless {
-            let Lanes { origins_m, directions, min, .. } = &lanes;
-            self.find_solid_eight::<V>(number, origins_m, directions, min, filter, &mut found);
-        }
-        if !self.fixed.is_empty() {
-            let mut nearest = start(&found);
-            self.fixed.trace_packet::<V>(&packet, &mut nearest, &mut scratch.body);
-            for (nearest, found) in nearest.iter().zip(&mut found) {
-                self.take_fixed(*nearest, found);
-            }
-        }
-        if !self.resting.nodes.is_empty() || !self.moving.nodes.is_empty() {
-            self.find_instances_packet::<V>(rays, &lanes, &packet, filter, &mut found, scratch);
-        }
-        Some(found)
-    }
-
-    /// `packet` is in the frame of the fixed triangles, which is that of the trees over instances.
-    #[inline(always)]
-    fn find_instances_packet<V: V8>(
-        &self,
-        rays: &[&Ray],
-        lanes: &Lanes,
-        packet: &Packet,
-        filter: Filter,
-        found: &mut [Found; 8],
-        scratch: &mut Scratch,
-    ) {
-        let frustum = Frustum::<V>::new(packet, 0.0);
-        let Scratch { top, body } = scratch;
-        for tree in [&self.resting, &self.moving] {
-            let limit = limit(packet, found, rays.len());
-            let mut leaves = InstancesPacket::<V> {
-                world: self,
-                order: &tree.order,
-                rays,
-                lanes,
-                packet,
-                filter,
-                found,
-                stack: body,
-                vectors: std::marker::PhantomData,
-            };
-            walk(&tree.nodes, &frustum, limit, top, &mut leaves);
-        }
-    }
-
-    /// False when the rays do not go together in the mesh's frame.
-    #[inline(always)]
-    fn find_mesh_packet<V: V8>(
-        &self,
-        mesh: &TriangleMesh,
-        number: u32,
-        rays: &[&Ray],
-        found: &mut [Found; 8],
-        stack: &mut Stack,
-    ) -> bool {
-        let frame = &self.instances[number as usize].world_from_body;
-        let origin = frame.point_in_body(rays[0].origin_m);
-        let first = mesh.localize(origin, frame.unturn(rays[0].direction), rays[0].min_m);
-        let mut locals = [first; 8];
-        for (local, ray) in locals.iter_mut().zip(rays).skip(1) {
-            *local = mesh.localize(origin, frame.unturn(ray.direction), ray.min_m);
-        }
-        let Some(packet) = Packet::new(&locals) else { return false };
-        let mut nearest = start(found);
-        mesh.trace_packet::<V>(&packet, &mut nearest, stack);
-        for (nearest, found) in nearest.iter().zip(found) {
-            if nearest.id != u32::MAX {
-                found.consider(nearest.distance.into(), number, nearest.id);
-            }
-        }
-        true
-    }
-}
-
-/// The depth within which any of the first `count` rays may still find something.
-#[inline(always)]
-fn limit(packet: &Packet, found: &[Found; 8], count: usize) -> f32 {
-    let mut row = [0.0; 8];
-    for (lane, found) in found[..count].iter().enumerate() {
-        row[lane] = single_above(found.distance);
-    }
-    packet.reach(&Row(row), 0.0)
-}
-
-/// Eight rays against instances.
-struct InstancesPacket<'a, V> {
-    world: &'a World,
-    order: &'a [u32],
-    rays: &'a [&'a Ray],
-    lanes: &'a Lanes,
-    packet: &'a Packet,
-    filter: Filter,
-    found: &'a mut [Found; 8],
-    stack: &'a mut Stack,
-    vectors: std::marker::PhantomData<V>,
-}
-
-impl<V: V8> Leaves for InstancesPacket<'_, V> {
-    #[inline(always)]
-    fn visit(&mut self, word: u32) -> Step {
-        let (first, count) = leaf_range(word);
-        for &number in &self.order[first..first + count] {
-            let instance = &self.world.instances[number as usize];
-            if !self.filter.lets_pass(instance.tags) {
-                continue;
-            }
-            if let Body::Solid(_) = &instance.body {
-                let Lanes { origins_m, directions, min, .. } = self.lanes;
-                let (filter, found) = (self.filter, &mut *self.found);
-                self.world.find_solid_eight::<V>(number, origins_m, directions, min, filter, found);
-                continue;
-            }
-            if let Body::Mesh(mesh) = &instance.body
-                && self.world.find_mesh_packet::<V>(mesh, number, self.rays, self.found, self.stack)
-            {
-                continue;
-            }
-            for (ray, found) in self.rays.iter().zip(&mut *self.found) {
-                self.world.find_instance::<V, false>(number, ray, self.filter, found, self.stack);
-            }
-        }
-        Step::Within(limit(self.packet, self.found, self.rays.len()))
-    }
-}
-
-/// What is nearest before any triangle is tested.
-#[inline(always)]
-fn start(found: &[Found; 8]) -> [Nearest; 8] {
-    found.map(|found| Nearest { distance: single_above(found.distance), id: u32::MAX })
 }

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use super::many::BAND;
 use crate::ray::Ray;
 
 /// Below this many rays a second thread costs more than it brings.
@@ -10,7 +11,7 @@ const SPLIT_MIN: usize = 8192;
 const SHARE: usize = 2048;
 
 /// Gives `work` rays in rows of so many `columns`, and the places for their answers: all at once,
-/// or in shares of whole rows, two at least where there are several.
+/// or in shares of whole rows, as many as go together.
 pub(super) fn in_shares<T: Send>(
     rays: &[Ray],
     columns: usize,
@@ -27,7 +28,7 @@ pub(super) fn in_shares<T: Send>(
     let share = if columns == rays.len() {
         SHARE
     } else {
-        columns * SHARE.div_ceil(columns).next_multiple_of(2)
+        columns * SHARE.div_ceil(columns).next_multiple_of(BAND)
     };
     let shares = Mutex::new(rays.chunks(share).zip(places.chunks_mut(share)));
     let next = || shares.lock().unwrap_or_else(PoisonError::into_inner).next();
