@@ -3,6 +3,7 @@
 mod progress;
 mod report;
 mod robots;
+mod ros2;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -19,6 +20,8 @@ use periplus_sim::{
 
 use crate::options::{SearchOptions, split};
 use crate::terminal;
+
+use ros2::{Reach, Ros2};
 
 pub(crate) use robots::Robots;
 
@@ -73,6 +76,10 @@ pub(crate) struct SimOptions {
     /// Rename a topic, service or node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
+    /// Who can see the run: its topics, services and nodes; without it `loopback` where the run
+    /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
+    #[arg(long, value_enum, value_name = "off|loopback|network")]
+    ros2: Option<Reach>,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -152,20 +159,28 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
         terminal::complain(&format!("the script cannot be driven: {error}"));
         return Ok(ExitCode::FAILURE);
     }
+    let factor = options.factor(&composition);
+    let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
+    let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
     let stop = stop_on_ctrl_c();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
-        factor: options.factor(&composition),
+        factor,
         stop: &stop,
         paused: false,
     };
     let start_up = start.elapsed();
     let mut line = progress::Line::new(options.duration, options.quiet || options.json);
     let stopwatch = Stopwatch::start();
-    let outcome =
-        run.go(&mut simulation, &mut services, &mut driver, &mut |progress| line.show(progress));
+    let outcome = run.go(&mut simulation, &mut services, &mut driver, &mut |progress| {
+        line.show(progress);
+        if ros2.is_due(progress.wall) {
+            line.aside(|| ros2.tell());
+        }
+    });
     let wall = stopwatch.elapsed();
     line.clear();
+    ros2.tell()?;
     if !options.quiet {
         let mut err = anstream::stderr().lock();
         for findings in [simulation.take_findings(), services.take_findings()] {

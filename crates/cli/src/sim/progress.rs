@@ -53,6 +53,12 @@ impl Line {
         }
     }
 
+    /// Lets something else be written to the terminal.
+    pub(crate) fn aside(&self, write: impl FnOnce() -> std::io::Result<()>) {
+        // A terminal that is gone is no reason to end a run.
+        let _ = self.bar.suspend(write);
+    }
+
     /// Takes the line away.
     pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();

@@ -1,0 +1,102 @@
+//! A running world among the programs of ROS 2.
+
+use std::io;
+use std::time::Duration;
+
+use clap::ValueEnum;
+use periplus_diagnostics::SourceMap;
+use periplus_host::Machine;
+use periplus_sim::Simulation;
+use periplus_wire_ros2::{Range, Settings, Wire};
+
+use crate::terminal;
+
+/// Between two looks at what is wrong on the network.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// Who can see a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Reach {
+    /// Nobody
+    Off,
+    /// Programs of ROS 2 on this machine
+    Loopback,
+    /// Programs of ROS 2 wherever multicast, or `ROS_STATIC_PEERS`, reaches
+    Network,
+}
+
+/// A run on the network, or one that is not.
+pub(crate) struct Ros2 {
+    wire: Option<Wire>,
+    looked: Duration,
+    quiet: bool,
+}
+
+impl Ros2 {
+    /// Joins as asked. Unasked, a run that keeps pace with the wall joins on this machine, or as the
+    /// environment says, and goes on without where that fails; none when it was asked and fails.
+    pub(crate) fn join(
+        simulation: &Simulation,
+        asked: Option<Reach>,
+        is_paced: bool,
+        quiet: bool,
+    ) -> io::Result<Option<Self>> {
+        let (mut settings, findings) = Settings::from_environment(&Machine);
+        match asked {
+            Some(Reach::Off) => settings.range = Range::Off,
+            None if !is_paced => settings.range = Range::Off,
+            None => {}
+            Some(Reach::Loopback) => settings.range = Range::Localhost,
+            Some(Reach::Network) if settings.range == Range::SystemDefault => {}
+            Some(Reach::Network) => settings.range = Range::Subnet,
+        }
+        let wire = None;
+        let mut joined = Self { wire, looked: Duration::ZERO, quiet };
+        if settings.range == Range::Off {
+            return Ok(Some(joined));
+        }
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+        let opened = Wire::open(&settings).and_then(|wire| {
+            wire.attach(simulation.graph())?;
+            Ok(wire)
+        });
+        match opened {
+            Ok(wire) => joined.wire = Some(wire),
+            Err(error) if asked.is_some() => {
+                terminal::complain(&error.to_string());
+                return Ok(None);
+            }
+            Err(error) => terminal::say(&format!("warning: {error}; running without ROS 2")),
+        }
+        if joined.wire.is_some() && !quiet {
+            let domain = settings.domain_id;
+            terminal::say(&match settings.range {
+                Range::Localhost => format!(
+                    "ROS 2: domain {domain}, this machine only; --ros2 network opens it, \
+                     --ros2 off keeps it out"
+                ),
+                _ => format!("ROS 2: domain {domain}, on the network"),
+            });
+        }
+        Ok(Some(joined))
+    }
+
+    /// Whether it is time to say what is wrong on the network.
+    pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
+        let is_due = self.wire.is_some() && wall >= self.looked + LOOK;
+        if is_due {
+            self.looked = wall;
+        }
+        is_due
+    }
+
+    /// Says what is wrong on the network.
+    pub(crate) fn tell(&self) -> io::Result<()> {
+        let Some(wire) = &self.wire else { return Ok(()) };
+        let findings = wire.take_findings();
+        if self.quiet {
+            return Ok(());
+        }
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
+    }
+}
