@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_interfaces::{Dialect, Registry, TypeName};
+use periplus_interfaces::{Dialect, Kind, Registry, TypeName};
 use periplus_msgs::{
     Adaptation, DecodeError, DynamicMessage, EncodeError, Format, Layout, TypeRegistry, recode,
 };
@@ -131,7 +131,10 @@ impl Translation {
         let Some(described) = describe(topic, &name, types, target) else {
             let wrong =
                 format!("`{full_name}`, the type of `{}`, does not exist there", topic.name);
-            diagnostics.push(left_out(wrong, "ROS 1 has no texts of wide characters"));
+            diagnostics.push(left_out(
+                wrong,
+                "ROS 1 has neither texts of wide characters nor parts of services as messages",
+            ));
             return None;
         };
         let goal = types.layout(&full_name)?;
@@ -251,6 +254,10 @@ fn describe(
                 .extend(types.hash(&full_name).map(|hash| ("topic_type_hash".to_owned(), hash)));
         }
         Target::Ros1 => {
+            // ROS 1 has no names for parts of services.
+            if name.kind != Kind::Message {
+                return None;
+            }
             described.type_name = name.short();
             described.schema_encoding = "ros1msg".into();
             let text = types.registry().ros1_text(name)?;
