@@ -37,7 +37,8 @@ fn main() -> Outcome<()> {
 fn measure(folder: &Path, bytes: u64) -> Outcome<()> {
     println!("| work | MB/s of messages | s | size of the result [MB] |\n|---|---|---|---|");
     let source = folder.join("source.mcap");
-    let plain = |storage| WriteSettings { chunks: ChunkPacking::None, ..WriteSettings::new(storage) };
+    let plain =
+        |storage| WriteSettings { chunks: ChunkPacking::None, ..WriteSettings::new(storage) };
     let start = Instant::now();
     let bytes = write(&source, WriteSettings::new(Storage::Mcap), bytes)?;
     tell("write MCAP, Zstandard", bytes, start, Some(&source));
@@ -111,15 +112,18 @@ fn write(path: &Path, settings: WriteSettings, most: u64) -> Outcome<u64> {
             metadata: [("topic_type_hash".to_owned(), hash.to_owned())].into(),
         })
     };
-    let clouds =
-        topic("/points", PointCloud2::TYPE_NAME, PointCloud2::schema_text(), PointCloud2::TYPE_HASH)?;
+    let clouds = topic(
+        "/points",
+        PointCloud2::TYPE_NAME,
+        PointCloud2::schema_text(),
+        PointCloud2::TYPE_HASH,
+    )?;
     let pictures = topic("/image", Image::TYPE_NAME, Image::schema_text(), Image::TYPE_HASH)?;
-    let scans = topic("/scan", LaserScan::TYPE_NAME, LaserScan::schema_text(), LaserScan::TYPE_HASH)?;
+    let scans =
+        topic("/scan", LaserScan::TYPE_NAME, LaserScan::schema_text(), LaserScan::TYPE_HASH)?;
     let poses = topic("/odom", Odometry::TYPE_NAME, Odometry::schema_text(), Odometry::TYPE_HASH)?;
-    let (cloud, picture, mut scan) = (cloud(), picture(), LaserScan::default());
-    scan.ranges = (0..720).map(|beam| 3.0 + (beam as f32 * 0.05).sin()).collect();
-    let mut pose = Odometry::default();
-    pose.child_frame_id = "base_link".into();
+    let (cloud, picture, mut scan) = (cloud(), picture(), scan());
+    let mut pose = Odometry { child_frame_id: "base_link".into(), ..Odometry::default() };
     let (cloud, picture) = (cloud.to_cdr()?, picture.to_cdr()?);
     let (mut bytes, mut data) = (0, Vec::new());
     for tick in 0.. {
@@ -183,6 +187,12 @@ fn cloud() -> PointCloud2 {
         is_dense: true,
         ..PointCloud2::default()
     }
+}
+
+/// A full turn in half degrees.
+fn scan() -> LaserScan {
+    let ranges = (0..720).map(|beam| 3.0 + (beam as f32 * 0.05).sin()).collect();
+    LaserScan { ranges, ..LaserScan::default() }
 }
 
 /// 640 x 480 in three colours: surfaces with some noise.

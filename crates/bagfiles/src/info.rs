@@ -147,6 +147,16 @@ fn moment(time_ns: i64) -> String {
     )
 }
 
+/// `2026_11_21-15_04_05`, in UTC: how `ros2 bag record` names folders.
+#[must_use]
+pub fn stamp_name(time_ns: i64) -> String {
+    let all = time_ns.max(0).unsigned_abs();
+    let (year, month, day) = date(all / 86_400_000_000_000);
+    let second = all / 1_000_000_000;
+    let (hour, minute) = (second / 3600 % 24, second / 60 % 60);
+    format!("{year}_{month:02}_{day:02}-{hour:02}_{minute:02}_{:02}", second % 60)
+}
+
 /// Year, month and day of a number of days since 1970-01-01 (Howard Hinnant, "chrono-Compatible
 /// Low-Level Date Algorithms", `civil_from_days`, for days not before 1970).
 fn date(days: u64) -> (u64, u64, u64) {
@@ -177,6 +187,11 @@ mod tests {
             moment(1_795_273_445_123_456_789),
             "Nov 21 2026 15:04:05.123456789 (1795273445.123456789)"
         );
+    }
+
+    #[test]
+    fn folders_are_named_by_time() {
+        assert_eq!(stamp_name(1_795_273_445_123_456_789), "2026_11_21-15_04_05");
     }
 
     #[test]

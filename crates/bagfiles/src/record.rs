@@ -23,13 +23,18 @@ pub struct RecordSettings {
     pub wanted: Wanted,
     /// How many messages may wait in live while the disk is busy.
     pub depth: usize,
+    /// Tells the time at which a message is recorded \[ns\]; none for that of the graph.
+    pub clock: Option<Now>,
 }
+
+/// Tells the time \[ns\].
+pub type Now = Box<dyn Fn() -> i64 + Send + Sync>;
 
 impl RecordSettings {
     /// All topics.
     #[must_use]
     pub fn all(write: WriteSettings) -> Self {
-        Self { write, wanted: Box::new(|_| true), depth: 10_000 }
+        Self { write, wanted: Box::new(|_| true), depth: 10_000, clock: None }
     }
 }
 
@@ -100,7 +105,8 @@ impl Recorder {
     /// # Errors
     /// When a message could not be kept; nothing more is recorded then.
     pub fn keep(&self) -> Result<(), BagError> {
-        let now_ns = self.graph.now_ns();
+        let settings = &self.shared.settings;
+        let now_ns = settings.clock.as_ref().map_or_else(|| self.graph.now_ns(), |now| now());
         let mut state = self.shared.lock();
         if let Some(Err(error)) = state.writer.as_mut().map(|writer| writer.advance_to(now_ns)) {
             state.fail(error);
@@ -150,7 +156,9 @@ impl Sink for BagSink {
 
     fn take(&self, topic: &TopicInfo, sample: &Sample) {
         let mut state = self.0.lock();
-        if let Err(error) = state.take(self.0.settings.write.storage, topic, sample) {
+        let settings = &self.0.settings;
+        let time_ns = settings.clock.as_ref().map_or(sample.time_ns, |now| now());
+        if let Err(error) = state.take(settings.write.storage, topic, sample, time_ns) {
             state.fail(error);
         }
     }
@@ -168,6 +176,7 @@ impl State {
         storage: Storage,
         topic: &TopicInfo,
         sample: &Sample,
+        time_ns: i64,
     ) -> Result<(), BagError> {
         let Some(writer) = &mut self.writer else { return Ok(()) };
         if !self.topics.contains_key(&topic.name) {
@@ -178,7 +187,7 @@ impl State {
         // A message that no wire could send is none for a recording either.
         let Ok(bytes) = sample.cdr() else { return Ok(()) };
         let Ok(data) = way.translation.translate(bytes) else { return Ok(()) };
-        writer.write(way.id, Stamp::at(sample.time_ns), data)?;
+        writer.write(way.id, Stamp::at(time_ns), data)?;
         self.messages += 1;
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! Recordings and graphs: played, recorded, and killed.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+#![allow(clippy::print_stdout, reason = "the parent reads what its child says")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and clocks")]
 
 mod common;

@@ -3,8 +3,11 @@
 mod check;
 mod convert;
 mod info;
+mod live;
 mod options;
+mod play;
 mod progress;
+mod record;
 mod reindex;
 mod select;
 
@@ -25,6 +28,8 @@ pub(crate) fn run(command: &BagCommand) -> io::Result<ExitCode> {
         BagCommand::Convert(options) => convert::run(options),
         BagCommand::Cut(options) => convert::cut(options),
         BagCommand::Check(options) => check::run(options),
+        BagCommand::Play(options) => play::run(options),
+        BagCommand::Record(options) => record::run(options),
         BagCommand::Reindex(options) => reindex::run(options),
     }
 }

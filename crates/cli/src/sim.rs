@@ -8,7 +8,7 @@ mod ros2;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 use periplus_diagnostics::SourceMap;
@@ -162,7 +162,7 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     let factor = options.factor(&composition);
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
-    let stop = stop_on_ctrl_c();
+    let stop = terminal::stop_on_ctrl_c();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
         factor,
@@ -263,23 +263,6 @@ fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
         }
     }
     Ok(whole)
-}
-
-fn stop_on_ctrl_c() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // The second Ctrl-C ends the program at once: somebody may not want to wait for the bag.
-    let asked = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::abort();
-        }
-    });
-    if asked.is_err() {
-        terminal::complain(
-            "Ctrl-C cannot be caught; the bag's end will be missing when it is used",
-        );
-    }
-    stop
 }
 
 fn positive(word: &str) -> Result<f64, String> {

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, render};
 use periplus_formats::{Loaded, Setting};
@@ -54,6 +56,22 @@ pub(crate) fn counts(loaded: &Loaded) -> String {
         .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
         .collect();
     if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
+}
+
+/// Becomes true with Ctrl-C.
+pub(crate) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // The second Ctrl-C ends the program at once: somebody may not want to wait for the bag.
+    let asked = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::abort();
+        }
+    });
+    if asked.is_err() {
+        complain("Ctrl-C cannot be caught; the bag's end will be missing when it is used");
+    }
+    stop
 }
 
 /// Where the user stands.

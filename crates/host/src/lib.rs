@@ -6,4 +6,4 @@ mod machine;
 mod stopwatch;
 
 pub use machine::Machine;
-pub use stopwatch::{Stopwatch, sleep};
+pub use stopwatch::{Stopwatch, sleep, unix_ns};

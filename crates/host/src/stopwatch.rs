@@ -1,7 +1,7 @@
 //! Wall time, for those who follow or measure it.
 #![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
 
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Measures wall time.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,13 @@ impl Stopwatch {
         self.0 = now;
         lap
     }
+}
+
+/// What the machine's clock shows \[ns since 1970\].
+#[must_use]
+pub fn unix_ns() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    i64::try_from(since.as_nanos()).unwrap_or(i64::MAX)
 }
 
 /// Waits.

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use periplus_bagfiles::{ChunkPacking, Packing, PackingMode, Storage};
 use periplus_bags::Style;
 
-/// Recordings: look into them, convert, cut, check and mend them
+/// Recordings: look into them, play and record, convert, cut, check and mend them
 ///
 /// A recording is a folder of `ros2 bag` (MCAP or sqlite3, split, packed, with or without its
 /// metadata.yaml), a single .mcap or .db3, or a .bag of ROS 1, whole or cut.
@@ -16,6 +16,8 @@ pub(crate) enum BagCommand {
     Convert(ConvertOptions),
     Cut(CutOptions),
     Check(CheckOptions),
+    Play(PlayOptions),
+    Record(Box<RecordOptions>),
     Reindex(ReindexOptions),
 }
 
@@ -79,6 +81,89 @@ pub(crate) struct CheckOptions {
     /// Print what is wrong as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Play a recording to ROS 2, also one of ROS 1
+#[derive(Debug, Args)]
+pub(crate) struct PlayOptions {
+    /// The recording
+    #[arg(value_name = "BAG")]
+    pub(crate) bag: PathBuf,
+    /// Seconds of the recording per second
+    #[arg(long, short, default_value_t = 1.0, value_name = "FACTOR")]
+    pub(crate) rate: f64,
+    /// Begin again at the end
+    #[arg(long = "loop", short)]
+    pub(crate) is_looped: bool,
+    /// Only these topics
+    #[arg(long, num_args = 1.., value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
+    /// Only topics that match this regular expression
+    #[arg(long, short = 'e', value_name = "REGEX")]
+    pub(crate) regex: Option<regex::Regex>,
+    /// Not these topics
+    #[arg(long, num_args = 1.., value_name = "TOPIC")]
+    pub(crate) exclude_topics: Vec<String>,
+    /// No topics that match this regular expression
+    #[arg(long, short = 'x', value_name = "REGEX")]
+    pub(crate) exclude_regex: Option<regex::Regex>,
+    /// From so many seconds after the beginning
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) start_offset: Option<i64>,
+    /// So many seconds of the recording
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) playback_duration: Option<i64>,
+    /// Until this time of the recording, in seconds
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "playback_duration")]
+    pub(crate) playback_until_sec: Option<i64>,
+    /// Names of topics to change: `from:=to`
+    #[arg(long, short = 'm', num_args = 1.., value_name = "FROM:=TO")]
+    pub(crate) remap: Vec<String>,
+    /// Tell the time of the recording on /clock, so often a second of it
+    #[arg(long, num_args = 0..=1, default_missing_value = "40", value_name = "HZ")]
+    pub(crate) clock: Option<f64>,
+    /// So many messages are read ahead
+    #[arg(long, default_value_t = 1000, value_name = "NUMBER")]
+    pub(crate) read_ahead_queue_size: usize,
+    /// Wait for the key ENTER, and stop and go on by it
+    #[arg(long, short = 'p')]
+    pub(crate) start_paused: bool,
+    /// Wait so many seconds at first
+    #[arg(long, short, default_value = "0", value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) delay: i64,
+}
+
+/// Record what is said on ROS 2
+///
+/// What is a second old is on the disk, however the program ends. Ctrl-C ends the recording.
+#[derive(Debug, Args)]
+pub(crate) struct RecordOptions {
+    /// The topics to record
+    #[arg(value_name = "TOPIC")]
+    pub(crate) topics: Vec<String>,
+    /// Record all topics
+    #[arg(long, short)]
+    pub(crate) all: bool,
+    /// Record topics that match this regular expression
+    #[arg(long, short = 'e', value_name = "REGEX")]
+    pub(crate) regex: Option<regex::Regex>,
+    /// Not those that match this regular expression
+    #[arg(long, short = 'x', visible_alias = "exclude-regex", value_name = "REGEX")]
+    pub(crate) exclude: Option<regex::Regex>,
+    /// Not these topics
+    #[arg(long, num_args = 1.., value_name = "TOPIC")]
+    pub(crate) exclude_topics: Vec<String>,
+    /// Topics too whose names begin with an underscore
+    #[arg(long)]
+    pub(crate) include_hidden_topics: bool,
+    /// The new file or folder; named by the time if not given
+    #[arg(long, short, value_name = "FILE|FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// The times are those of /clock
+    #[arg(long)]
+    pub(crate) use_sim_time: bool,
+    #[command(flatten)]
+    pub(crate) write: WriteOptions,
 }
 
 /// Write the metadata.yaml of a folder anew, from what is in its files

@@ -1,0 +1,164 @@
+//! `periplus bag record`.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage};
+use periplus_graph::{Durability, Node, NodeSettings, Qos, RawMailbox, Reliability};
+use periplus_host::{sleep, unix_ns};
+use periplus_msgs::rosgraph_msgs::Clock;
+use periplus_wire_ros2::{Remote, RemoteTopic};
+
+use super::live::Live;
+use super::options::RecordOptions;
+use crate::terminal;
+
+/// How often it looks for new topics, and puts old messages on the disk.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// How often it looks at the clock.
+const TICK: Duration = Duration::from_millis(2);
+
+pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
+    if !options.all && options.topics.is_empty() && options.regex.is_none() {
+        terminal::complain(
+            "name topics, or record all with --all; see `periplus bag record --help`",
+        );
+        return Ok(ExitCode::from(2));
+    }
+    let live = match Live::open() {
+        Ok(live) => live,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    match record(options, &live) {
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}
+
+fn record(options: &RecordOptions, live: &Live) -> Result<(), BagError> {
+    let output = options.output.clone().unwrap_or_else(named_by_time);
+    let settings = RecordSettings {
+        // Nobody here says anything: all that is heard was asked for.
+        wanted: Box::new(|_| true),
+        clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bagfiles::Now),
+        ..RecordSettings::all(options.write.settings(&output, Storage::Mcap))
+    };
+    let node = live.graph.node(NodeSettings::new("rosbag2_recorder"))?;
+    live.graph.set_simulated_time(options.use_sim_time);
+    let clock = if options.use_sim_time {
+        live.graph.jump_to(0);
+        Some(node.mailbox::<Clock>("/clock", Qos::clock())?)
+    } else {
+        None
+    };
+    let stop = terminal::stop_on_ctrl_c();
+    let recorder = Recorder::start(&live.graph, &output, settings)?;
+    let mut heard = Heard { node, mailboxes: BTreeMap::new() };
+    terminal::say(&format!("{}: records until Ctrl-C", output.display()));
+    let mut ticks = 0;
+    while !stop.load(Ordering::Relaxed) {
+        match &clock {
+            Some(clock) => {
+                if let Some(told) = clock.latest() {
+                    let (sec, nanosec) = (told.clock.sec, told.clock.nanosec);
+                    let time_ns = i64::from(sec) * 1_000_000_000 + i64::from(nanosec);
+                    live.graph.advance_to(time_ns);
+                }
+            }
+            None => live.graph.advance_to(unix_ns()),
+        }
+        if ticks % (LOOK.as_millis() / TICK.as_millis()) == 0 {
+            heard.follow(options, &live.wire.remote())?;
+            recorder.keep()?;
+            live.tell();
+        }
+        ticks += 1;
+        heard.drop_read();
+        sleep(TICK);
+    }
+    let recording = recorder.finish()?;
+    live.tell();
+    let (messages, topics) = (recording.info.messages(), recording.info.topics.len());
+    terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
+    if recording.dropped > 0 {
+        terminal::complain(&format!(
+            "{} messages came faster than the disk takes them",
+            recording.dropped
+        ));
+    }
+    Ok(())
+}
+
+/// What is subscribed to.
+struct Heard {
+    node: Node,
+    mailboxes: BTreeMap<String, RawMailbox>,
+}
+
+impl Heard {
+    /// Subscribes to wanted topics that are new.
+    fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {
+        for topic in &remote.topics {
+            let is_new = !self.mailboxes.contains_key(&topic.name);
+            let (Some(type_name), true) = (topic.type_names.first(), is_new) else { continue };
+            if topic.publishers.is_empty() || !options.wants(&topic.name) {
+                continue;
+            }
+            let hash = topic.publishers.iter().find_map(|one| one.type_hash.as_deref());
+            let qos = request(topic);
+            let mailbox = self.node.raw_mailbox(&topic.name, type_name, hash, qos)?;
+            terminal::say(&format!("records {} ({type_name})", topic.name));
+            self.mailboxes.insert(topic.name.clone(), mailbox);
+        }
+        Ok(())
+    }
+
+    /// The recorder has its own way to the messages; these only keep the topics alive.
+    fn drop_read(&self) {
+        for mailbox in self.mailboxes.values() {
+            drop(mailbox.drain());
+        }
+    }
+}
+
+/// What all publishers of a topic can offer.
+fn request(topic: &RemoteTopic) -> Qos {
+    let offers = || topic.publishers.iter().map(|one| one.qos);
+    let mut qos = Qos::reliable(100);
+    if offers().any(|offer| offer.reliability == Reliability::BestEffort) {
+        qos = qos.with_reliability(Reliability::BestEffort);
+    }
+    if offers().all(|offer| offer.durability == Durability::TransientLocal) {
+        qos = qos.with_durability(Durability::TransientLocal);
+    }
+    qos
+}
+
+impl RecordOptions {
+    fn wants(&self, name: &str) -> bool {
+        let same = |typed: &String| typed.trim_start_matches('/') == name.trim_start_matches('/');
+        let is_hidden = name.split('/').any(|part| part.starts_with('_'));
+        let is_named = self.topics.iter().any(same);
+        let is_chosen =
+            self.all || is_named || self.regex.as_ref().is_some_and(|regex| regex.is_match(name));
+        let is_excluded = self.exclude.as_ref().is_some_and(|regex| regex.is_match(name))
+            || self.exclude_topics.iter().any(same);
+        is_chosen && !is_excluded && (!is_hidden || is_named || self.include_hidden_topics)
+    }
+}
+
+/// `rosbag2_` and the time, as `ros2 bag record` names its folders (in UTC).
+fn named_by_time() -> PathBuf {
+    PathBuf::from(format!("rosbag2_{}", periplus_bagfiles::stamp_name(unix_ns())))
+}
