@@ -16,6 +16,9 @@ use crate::{Guid, lock};
 /// Who comes is known before its node is; so long its name is waited for.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// What is sent is looked at this often.
+const LOOK: Duration = Duration::from_millis(250);
+
 /// Samples of best effort must fit into the receiver's buffer as a whole \[bytes\]: measured with
 /// buffers as stock kernels give them.
 const LARGEST_BEST_EFFORT: usize = 1_200_000;
@@ -27,6 +30,8 @@ pub(super) struct Told {
     done: BTreeSet<(String, Guid)>,
     large: BTreeSet<EndpointId>,
     slow: BTreeSet<EndpointId>,
+    /// When it last looked at what is sent.
+    looked: Option<Since>,
 }
 
 /// One end of ours.
@@ -87,6 +92,10 @@ impl Told {
 
     /// Says what is too large or too fast for those who listen.
     pub(super) fn look_at_traffic(&mut self, net: &Net, topics: &Topics) {
+        if self.looked.is_some_and(|looked| looked.elapsed() < LOOK) {
+            return;
+        }
+        self.looked = Some(Since::now());
         for (id, one) in topics.publishing() {
             let largest = one.outgoing.largest();
             if largest > LARGEST_BEST_EFFORT && !self.large.contains(&id) {
