@@ -6,6 +6,7 @@ mod convert;
 mod options;
 mod sim;
 mod terminal;
+mod verbs;
 
 use std::process::ExitCode;
 
@@ -22,6 +23,12 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Sim(options) => sim::run(&options),
+        Command::Action(options) => options.run(),
+        Command::Interface(options) => options.run(),
+        Command::Lifecycle(options) => options.run(),
+        Command::Node(options) => options.run(),
+        Command::Service(options) => options.run(),
+        Command::Topic(options) => options.run(),
     };
     match outcome {
         Ok(code) => code,

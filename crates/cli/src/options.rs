@@ -7,6 +7,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::sim::SimOptions;
+use crate::verbs::{
+    ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ServiceOptions, TopicOptions,
+};
 
 /// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
 /// them, and simulates robots with all their sensors.
@@ -27,6 +30,12 @@ pub(crate) enum Command {
     Check(CheckOptions),
     Convert(ConvertOptions),
     Sim(Box<SimOptions>),
+    Topic(TopicOptions),
+    Node(NodeOptions),
+    Service(ServiceOptions),
+    Action(ActionOptions),
+    Lifecycle(LifecycleOptions),
+    Interface(InterfaceOptions),
 }
 
 /// Tell what files hold and what is wrong with them

@@ -2,11 +2,13 @@
 
 mod adapt;
 mod layout;
+mod part;
 mod registry;
 mod value;
 
 pub use adapt::Adaptation;
 pub use layout::Layout;
+pub use part::Part;
 pub use registry::TypeRegistry;
 pub use value::{DynamicMessage, Value};
 

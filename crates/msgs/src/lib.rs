@@ -33,7 +33,7 @@ mod yaml;
 
 pub use binary::{Encapsulation, Format, decode, encode, recode};
 pub use codec::{Codec, WideString};
-pub use dynamic::{Adaptation, DynamicMessage, Layout, TypeRegistry, Value};
+pub use dynamic::{Adaptation, DynamicMessage, Layout, Part, TypeRegistry, Value};
 pub use error::{DecodeError, EncodeError, Problem};
 pub use generated::*;
 pub use json::{from_json, to_json};

@@ -4,6 +4,8 @@
 //! deliberate: a text of several lines is one line in double quotes here, so that every field stays
 //! on a line of its own.
 
+mod flow;
+
 use crate::dynamic::{Element, Layout, Shape, Value};
 use crate::{Number, Numbers};
 
@@ -16,21 +18,54 @@ pub struct YamlStyle {
     pub no_arrays: bool,
     /// Only the length of texts (`--no-str`).
     pub no_texts: bool,
+    /// All on one line, in braces and brackets (`--flow-style`).
+    pub flow: bool,
 }
 
 impl Default for YamlStyle {
     fn default() -> Self {
-        Self { longest: Some(128), no_arrays: false, no_texts: false }
+        Self { longest: Some(128), no_arrays: false, no_texts: false, flow: false }
     }
 }
 
 pub(crate) fn print(layout: &Layout, values: &[Value], style: &YamlStyle) -> String {
-    if layout.fields.is_empty() {
-        return "{}\n".into();
-    }
     let mut printer = Printer { out: String::new(), style };
-    printer.mapping(layout, values, 0, false);
+    if style.flow {
+        flow::mapping(&mut printer, layout, values);
+        printer.out.push('\n');
+    } else if layout.fields.is_empty() {
+        printer.out.push_str("{}\n");
+    } else {
+        printer.mapping(layout, values, 0, false);
+    }
     printer.out
+}
+
+/// A part of a message: a message, a list, or one number or text on a line.
+pub(crate) fn print_part(
+    element: &Element,
+    shape: Shape,
+    value: &Value,
+    style: &YamlStyle,
+) -> String {
+    let mut printer = Printer { out: String::new(), style };
+    match (value, shape) {
+        (Value::Struct(values), _) => {
+            if let Element::Struct(layout) = element {
+                return print(layout, values, style);
+            }
+        }
+        (value, _) if style.flow => {
+            flow::value(&mut printer, element, shape, value);
+            printer.out.push('\n');
+        }
+        (Value::Numbers(numbers), Shape::List(_)) => printer.numbers(numbers.borrow(), element, 0),
+        (Value::List(list), Shape::List(_)) => printer.list(list, element, 0),
+        (value, _) => printer.scalar(value, element),
+    }
+    // What a list has in front of it where it follows a name.
+    let text = printer.out;
+    text.strip_prefix('\n').or(text.strip_prefix(' ')).map(str::to_owned).unwrap_or(text)
 }
 
 struct Printer<'a> {
@@ -74,24 +109,37 @@ impl Printer<'_> {
 
     /// What stands in the place of a list that is not shown, or how much of it is shown.
     fn shown(&mut self, length: usize, element: &Element) -> Option<usize> {
+        match self.stands_for(length, element) {
+            Some(text) => {
+                self.out.push(' ');
+                self.out.push_str(&text);
+                self.out.push('\n');
+                None
+            }
+            None => {
+                self.out.push('\n');
+                Some(self.style.longest.map_or(length, |longest| longest.min(length)))
+            }
+        }
+    }
+
+    /// What stands in the place of a list that is empty or not shown.
+    fn stands_for(&self, length: usize, element: &Element) -> Option<String> {
         if length == 0 {
-            self.out.push_str(" []\n");
+            return Some("[]".into());
+        }
+        if !self.style.no_arrays {
             return None;
         }
-        if self.style.no_arrays {
-            let name = match element {
-                Element::Number { is_byte: true, .. } => "byte",
-                Element::Number { kind, .. } => kind.name(),
-                Element::Text(_) => "string",
-                Element::WideText(_) => "wstring",
-                Element::Struct(layout) => &layout.type_name,
-            };
-            let name = name.replace("/msg/", "/");
-            self.out.push_str(&format!(" '<array type: {name}[{length}]>'\n"));
-            return None;
-        }
-        self.out.push('\n');
-        Some(self.style.longest.map_or(length, |longest| longest.min(length)))
+        let name = match element {
+            Element::Number { is_byte: true, .. } => "byte",
+            Element::Number { kind, .. } => kind.name(),
+            Element::Text(_) => "string",
+            Element::WideText(_) => "wstring",
+            Element::Struct(layout) => &layout.type_name,
+        };
+        let name = name.replace("/msg/", "/");
+        Some(format!("'<array type: {name}[{length}]>'"))
     }
 
     fn rest(&mut self, is_cut: bool, depth: usize) {
@@ -131,7 +179,13 @@ impl Printer<'_> {
 
     /// A number or a text, and the end of the line.
     fn scalar(&mut self, value: &Value, element: &Element) {
-        let text = match value {
+        let text = self.scalar_text(value, element);
+        self.out.push_str(&text);
+        self.out.push('\n');
+    }
+
+    fn scalar_text(&self, value: &Value, element: &Element) -> String {
+        match value {
             Value::Number(Number::U8(byte))
                 if matches!(element, Element::Number { is_byte: true, .. }) =>
             {
@@ -140,9 +194,7 @@ impl Printer<'_> {
             Value::Number(number) => number_text(*number),
             Value::Text(text) => self.text(text),
             _ => String::new(),
-        };
-        self.out.push_str(&text);
-        self.out.push('\n');
+        }
     }
 
     fn text(&self, text: &str) -> String {

@@ -57,6 +57,15 @@ impl Layout {
         self.fields.iter().map(|field| field.name.as_str())
     }
 
+    /// The type of a field that is one message or a list of them.
+    #[must_use]
+    pub fn nested(&self, field: &str) -> Option<&Arc<Self>> {
+        match &self.fields.iter().find(|one| one.name == field)?.element {
+            Element::Struct(layout) => Some(layout),
+            _ => None,
+        }
+    }
+
     /// The values of the fields when nobody sets them.
     pub(crate) fn blank(&self) -> Vec<Value> {
         self.fields.iter().map(Field::blank).collect()

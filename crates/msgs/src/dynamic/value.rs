@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::layout::{Element, Field, Layout, Shape};
+use super::part::{self, Part};
 use crate::binary::{Reader, Writer};
 use crate::{
     Count, DecodeError, EncodeError, Format, Message, Number, NumberVec, Numbers, Sink, Source,
@@ -118,38 +119,32 @@ impl DynamicMessage {
         &self.fields
     }
 
+    pub(super) fn of_fields(layout: &Arc<Layout>, fields: Vec<Value>) -> Self {
+        Self { layout: layout.clone(), fields }
+    }
+
+    /// Hands its values to `sink`, in their order.
+    pub fn write(&self, sink: &mut dyn Sink) {
+        write_struct(&self.layout, &self.fields, sink);
+    }
+
     /// The value of a field by its way from the outside, such as `header.frame_id` or
     /// `transforms[2].child_frame_id`.
     #[must_use]
     pub fn get(&self, path: &str) -> Option<Value> {
-        let mut steps = path.split(['.', '[']);
-        let first = steps.next()?;
-        let at = self.layout.fields.iter().position(|field| field.name == first)?;
-        let mut field = &self.layout.fields[at];
-        let mut value = self.fields.get(at)?.clone();
-        for step in steps {
-            value = match (value, step.strip_suffix(']')) {
-                (Value::List(mut list), Some(index)) => {
-                    let index: usize = index.parse().ok()?;
-                    (index < list.len()).then(|| list.swap_remove(index))?
-                }
-                (Value::Numbers(numbers), Some(index)) => {
-                    Value::Number(numbers.borrow().get(index.parse().ok()?)?)
-                }
-                (Value::Struct(mut fields), None) => {
-                    let Element::Struct(layout) = &field.element else { return None };
-                    let at = layout.fields.iter().position(|field| field.name == step)?;
-                    field = &layout.fields[at];
-                    fields.swap_remove(at)
-                }
-                _ => return None,
-            };
-        }
-        Some(value)
+        self.part(path).ok().map(|part| part.value())
+    }
+
+    /// A field by its way from the outside, as for [`DynamicMessage::get`].
+    ///
+    /// # Errors
+    /// When there is none: which step is wrong, and which fields there are.
+    pub fn part(&self, path: &str) -> Result<Part<'_>, DecodeError> {
+        part::find(self, path)
     }
 }
 
-fn write_struct(layout: &Layout, values: &[Value], sink: &mut dyn Sink) {
+pub(super) fn write_struct(layout: &Layout, values: &[Value], sink: &mut dyn Sink) {
     sink.begin(&layout.type_name);
     for (field, value) in layout.fields.iter().zip(values) {
         sink.field(&field.name);
@@ -170,13 +165,13 @@ fn write_struct(layout: &Layout, values: &[Value], sink: &mut dyn Sink) {
     sink.end(layout.fields.is_empty());
 }
 
-fn list(sink: &mut dyn Sink, numbers: Numbers<'_>, count: Count) {
+pub(super) fn list(sink: &mut dyn Sink, numbers: Numbers<'_>, count: Count) {
     sink.list(numbers.len(), count);
     sink.numbers(numbers);
     sink.end_list();
 }
 
-fn write_one(element: &Element, value: &Value, sink: &mut dyn Sink) {
+pub(super) fn write_one(element: &Element, value: &Value, sink: &mut dyn Sink) {
     match (element, value) {
         (_, Value::Number(number)) => sink.number(*number),
         (Element::WideText(limit), Value::Text(text)) => sink.wide_text(text, *limit),

@@ -1,0 +1,110 @@
+//! `periplus topic`, `node`, `service` and the like: what is typed, and where it goes.
+
+mod action;
+mod common;
+mod interface;
+mod lifecycle;
+mod node;
+mod service;
+mod topic;
+mod wired;
+
+use std::io;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::Graph;
+use periplus_verbs::{Failure, InGraph, Outcome, Session, Types};
+
+use crate::terminal;
+
+pub(crate) use action::ActionOptions;
+pub(crate) use interface::InterfaceOptions;
+pub(crate) use lifecycle::LifecycleOptions;
+pub(crate) use node::NodeOptions;
+pub(crate) use service::ServiceOptions;
+pub(crate) use topic::TopicOptions;
+
+use common::Common;
+use wired::Wired;
+
+/// Joins the network and does what is asked.
+fn with_session(
+    common: &Common,
+    verb: impl FnOnce(&mut Session<'_>) -> Outcome,
+) -> io::Result<ExitCode> {
+    let types = Types::Builtin;
+    let mut wired = match Wired::open() {
+        Ok(wired) => wired,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let stop = stop_on_ctrl_c();
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let outcome = verb(&mut Session {
+        network: &wired,
+        types: &types,
+        out: &mut out,
+        talk: &mut anstream::stderr(),
+        stop: &stop,
+        json: common.json,
+        spin_time: common.spin_time.map(Duration::from_secs_f64),
+    });
+    tell(&wired.take_findings())?;
+    end(outcome)
+}
+
+/// Does what is asked where nobody else is needed.
+fn without_network(
+    common: &Common,
+    verb: impl FnOnce(&mut Session<'_>) -> Outcome,
+) -> io::Result<ExitCode> {
+    let types = Types::Builtin;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let outcome = verb(&mut Session {
+        network: &InGraph(Graph::new()),
+        types: &types,
+        out: &mut out,
+        talk: &mut anstream::stderr(),
+        stop: &AtomicBool::new(false),
+        json: common.json,
+        spin_time: None,
+    });
+    end(outcome)
+}
+
+/// The exit code, with words where something went wrong.
+fn end(outcome: Outcome) -> io::Result<ExitCode> {
+    match outcome {
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(Failure::Output(error)) => Err(error),
+        Err(Failure::Interrupted) => Ok(ExitCode::from(terminal::INTERRUPTED)),
+        Err(failure) => {
+            terminal::complain(&failure.to_string());
+            let is_usage = matches!(failure, Failure::Usage(_));
+            Ok(if is_usage { ExitCode::from(2) } else { ExitCode::FAILURE })
+        }
+    }
+}
+
+fn tell(findings: &Diagnostics) -> io::Result<()> {
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+}
+
+/// The second Ctrl-C ends the program at once.
+fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // Where it cannot be caught it ends the program, which is what it is for.
+    let _ = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::abort();
+        }
+    });
+    stop
+}

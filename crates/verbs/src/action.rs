@@ -1,0 +1,124 @@
+//! `action`.
+
+mod goal;
+
+use periplus_diagnostics::closest;
+use periplus_interfaces::Kind;
+use serde_json::json;
+
+use crate::session::full_name;
+use crate::types::full_type;
+use crate::{Failure, Outcome, SeenService, Session};
+
+pub use goal::send_goal;
+
+/// Which actions there are.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn list(session: &mut Session<'_>, show_types: bool, count: bool) -> Outcome {
+    let actions = session.look().actions();
+    if session.json {
+        let all = actions.iter().map(to_json).collect::<Vec<_>>();
+        return session.put(&json!({ "actions": all }));
+    }
+    if count {
+        writeln!(session.out, "{}", actions.len())?;
+    } else {
+        for action in actions {
+            if show_types {
+                writeln!(session.out, "{} [{}]", action.name, action.types.join(", "))?;
+            } else {
+                writeln!(session.out, "{}", action.name)?;
+            }
+        }
+    }
+    session.out.flush()?;
+    Ok(())
+}
+
+fn to_json(action: &SeenService) -> serde_json::Value {
+    json!({
+        "name": action.name,
+        "types": action.types,
+        "servers": action.servers,
+        "clients": action.clients,
+    })
+}
+
+/// The action of this name, when it is there.
+fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
+    let name = full_name(name);
+    let service = format!("{name}/_action/send_goal");
+    let (seen, is_there) = session.look_for(|seen| seen.service(&service).is_some());
+    session.go_on()?;
+    let seen = if is_there { session.look() } else { seen };
+    let actions = seen.actions();
+    let near = closest(&name, actions.iter().map(|action| action.name.as_str()));
+    let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    let found = actions.iter().find(|action| action.name == name).cloned();
+    found.ok_or_else(|| Failure::failed(format!("Unknown action '{name}'{near}")))
+}
+
+/// The types of an action.
+///
+/// # Errors
+/// When there is no such action, or the output cannot be written.
+pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
+    let action = look_up(session, name)?;
+    if session.json {
+        return session.put(&json!({ "name": action.name, "types": action.types }));
+    }
+    for type_name in &action.types {
+        writeln!(session.out, "{type_name}")?;
+    }
+    session.out.flush()?;
+    Ok(())
+}
+
+/// The actions of a type.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn find(session: &mut Session<'_>, type_name: &str, count: bool) -> Outcome {
+    let type_name = full_type(type_name, Kind::Action)?;
+    let actions = session.look().actions();
+    let names = actions.iter().filter(|action| action.types.contains(&type_name));
+    let names: Vec<&str> = names.map(|action| action.name.as_str()).collect();
+    if session.json {
+        return session.put(&json!({ "type": type_name, "actions": names }));
+    }
+    if count {
+        writeln!(session.out, "{}", names.len())?;
+    } else {
+        for name in names {
+            writeln!(session.out, "{name}")?;
+        }
+    }
+    session.out.flush()?;
+    Ok(())
+}
+
+/// Who works on an action, and who asks for it.
+///
+/// # Errors
+/// When there is no such action, or the output cannot be written.
+pub fn info(session: &mut Session<'_>, name: &str, show_types: bool, count: bool) -> Outcome {
+    let action = look_up(session, name)?;
+    if session.json {
+        return session.put(&to_json(&action));
+    }
+    writeln!(session.out, "Action: {}", action.name)?;
+    for (what, nodes) in [("clients", &action.clients), ("servers", &action.servers)] {
+        writeln!(session.out, "Action {what}: {}", nodes.len())?;
+        for node in nodes.iter().filter(|_| !count) {
+            if show_types {
+                writeln!(session.out, "    {node} [{}]", action.types.join(", "))?;
+            } else {
+                writeln!(session.out, "    {node}")?;
+            }
+        }
+    }
+    session.out.flush()?;
+    Ok(())
+}

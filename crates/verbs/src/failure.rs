@@ -1,0 +1,56 @@
+//! How a verb can end.
+
+use std::io;
+
+/// Why a verb did not do what it was asked to.
+#[derive(Debug)]
+pub enum Failure {
+    /// It could not: what is wrong, and what to do about it.
+    Failed(String),
+    /// What was typed has no meaning.
+    Usage(String),
+    /// It was told to stop.
+    Interrupted,
+    /// Its output cannot be written.
+    Output(io::Error),
+}
+
+/// How a verb ends.
+pub type Outcome<T = ()> = Result<T, Failure>;
+
+impl Failure {
+    /// What went wrong, said.
+    pub fn failed(what: impl Into<String>) -> Self {
+        Self::Failed(what.into())
+    }
+}
+
+/// What has no end of its own ends well when it is told to stop.
+pub(crate) fn endless(outcome: Outcome) -> Outcome {
+    match outcome {
+        Err(Failure::Interrupted) => Ok(()),
+        outcome => outcome,
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl From<periplus_graph::GraphError> for Failure {
+    fn from(error: periplus_graph::GraphError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Failed(what) | Self::Usage(what) => f.write_str(what),
+            Self::Interrupted => f.write_str("interrupted"),
+            Self::Output(error) => write!(f, "cannot write the output: {error}"),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! All values on one line, with commas between.
+
+use periplus_msgs::{Count, Number, Numbers, Sink, YamlStyle};
+
+use super::{cut, python, shown};
+
+pub(super) struct Csv<'a> {
+    pub(super) out: String,
+    style: &'a YamlStyle,
+    /// Of each open list, how many elements are still shown and whether the list goes on behind.
+    lists: Vec<(usize, bool)>,
+    /// Depth inside of elements that are not shown.
+    hidden: usize,
+    /// Depth of messages in elements of the innermost list.
+    depth: Vec<usize>,
+    is_begun: bool,
+}
+
+impl<'a> Csv<'a> {
+    pub(super) fn new(style: &'a YamlStyle) -> Self {
+        let (lists, depth) = (Vec::new(), vec![0]);
+        Self { out: String::new(), style, lists, hidden: 0, depth, is_begun: false }
+    }
+
+    fn put(&mut self, text: &str) {
+        if std::mem::replace(&mut self.is_begun, true) {
+            self.out.push(',');
+        }
+        self.out.push_str(text);
+    }
+
+    /// Whether an element that begins now is shown.
+    fn element(&mut self) -> bool {
+        if self.hidden > 0 || self.depth.last() != Some(&0) {
+            return self.hidden == 0;
+        }
+        match self.lists.last_mut() {
+            Some((0, _)) => false,
+            Some((left, _)) => {
+                *left -= 1;
+                true
+            }
+            None => true,
+        }
+    }
+
+    fn put_text(&mut self, text: &str) {
+        if !self.element() {
+            return;
+        }
+        if self.style.no_texts {
+            self.put(&format!("<string length: <{}>>", text.chars().count()));
+            return;
+        }
+        match cut(text, self.style.longest) {
+            (text, false) => self.put(text),
+            (text, true) => self.put(&format!("{text}...")),
+        }
+    }
+}
+
+impl Sink for Csv<'_> {
+    fn begin(&mut self, _: &str) {
+        if !self.element() {
+            self.hidden += 1;
+        }
+        if let Some(depth) = self.depth.last_mut() {
+            *depth += 1;
+        }
+    }
+
+    fn end(&mut self, _: bool) {
+        if let Some(depth) = self.depth.last_mut() {
+            *depth -= 1;
+        }
+        self.hidden = self.hidden.saturating_sub(1);
+    }
+
+    fn field(&mut self, _: &str) {}
+
+    fn number(&mut self, number: Number) {
+        if self.element() {
+            self.put(&python::number(number));
+        }
+    }
+
+    fn text(&mut self, text: &str, _: Option<u32>) {
+        self.put_text(text);
+    }
+
+    fn wide_text(&mut self, text: &str, _: Option<u32>) {
+        self.put_text(text);
+    }
+
+    fn list(&mut self, length: usize, _: Count) {
+        let mut shown = shown(length, self.style.longest);
+        if self.hidden > 0 {
+            shown = 0;
+        } else if self.style.no_arrays && length > 0 {
+            self.put(&format!("<array length: <{length}>>"));
+            shown = 0;
+        }
+        let is_cut = shown < length && !self.style.no_arrays && self.hidden == 0;
+        self.lists.push((shown, is_cut));
+        self.depth.push(0);
+    }
+
+    fn end_list(&mut self) {
+        self.depth.pop();
+        if let Some((_, true)) = self.lists.pop() {
+            self.put("...");
+        }
+    }
+
+    fn numbers(&mut self, numbers: Numbers<'_>) {
+        let shown = self.lists.last().map_or(0, |(shown, _)| *shown);
+        for number in (0..shown).filter_map(|index| numbers.get(index)) {
+            self.put(&python::number(number));
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! `topic hz`, `bw` and `delay`: all by the wall's clock, told once a second.
+
+mod window;
+
+use std::time::Duration;
+
+use periplus_graph::Node;
+use periplus_msgs::{DynamicMessage, Format, Number, Value};
+use serde_json::json;
+
+use crate::failure::endless;
+use crate::filter::Filter;
+use crate::listen::{Listener, Next, hear};
+use crate::{Failure, Outcome, QosWish, Session, clock};
+
+use window::{Sizes, Spread, Window};
+
+/// How often it looks for messages: what `hz` says of a single message is as good as this.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// How often it tells.
+const TELL: Duration = Duration::from_secs(1);
+
+/// Options of `hz`, `bw` and `delay`.
+#[derive(Clone, Debug, Default)]
+pub struct Rate {
+    /// `-w`: so many messages at most.
+    pub window: Option<usize>,
+    /// `--filter`, of `hz`.
+    pub filter: Option<String>,
+    /// `--qos-...`.
+    pub qos: QosWish,
+}
+
+/// Windows that are not said: those of `ros2 topic hz`, and of `bw`.
+const WINDOW: usize = 10_000;
+const BANDWIDTH_WINDOW: usize = 100;
+
+/// How often messages come, of one topic or several.
+///
+/// # Errors
+/// When a name or filter is not usable, or the output cannot be written.
+pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outcome {
+    let filter = options.filter.as_deref().map(Filter::read).transpose()?;
+    let node = session.node(None)?;
+    let mut listeners = open(session, &node, topics, options)?;
+    let mut layouts = Vec::new();
+    for listener in &listeners {
+        layouts.push(match &filter {
+            None => None,
+            Some(_) => Some(session.types.message(&listener.type_name)?.clone()),
+        });
+    }
+    let size = options.window.unwrap_or(WINDOW);
+    let windows: Vec<_> = listeners.iter().map(|_| Window::new(size)).collect();
+    let windows = std::cell::RefCell::new(windows);
+    let mut told = Duration::ZERO;
+    endless(hear(
+        session,
+        &mut listeners,
+        PAUSE,
+        |_, place, sample, at| {
+            if let (Some(filter), Some(layout)) = (&filter, &layouts[place]) {
+                let Ok(cdr) = sample.cdr() else { return Ok(Next::Go) };
+                let message = DynamicMessage::decode(layout, Format::CDR, cdr);
+                if !message.is_ok_and(|message| filter.wants(&message).unwrap_or(false)) {
+                    return Ok(Next::Go);
+                }
+            }
+            windows.borrow_mut()[place].arrive(at.as_secs_f64());
+            Ok(Next::Go)
+        },
+        |session, listeners, now| {
+            if now < told + TELL {
+                return Ok(Next::Go);
+            }
+            told = now;
+            let mut windows = windows.borrow_mut();
+            let spreads: Vec<_> = windows.iter_mut().map(Window::spread_if_new).collect();
+            tell_hz(session, listeners, &spreads)?;
+            Ok(Next::Go)
+        },
+    ))
+}
+
+fn tell_hz(
+    session: &mut Session<'_>,
+    listeners: &[Listener],
+    spreads: &[Option<Spread>],
+) -> Outcome {
+    if session.json {
+        for (listener, spread) in listeners.iter().zip(spreads) {
+            let Some(spread) = spread else { continue };
+            session.put(&json!({
+                "topic": listener.topic,
+                "rate_hz": spread.rate(),
+                "min_s": spread.min,
+                "max_s": spread.max,
+                "std_dev_s": spread.deviation,
+                "window": spread.count,
+            }))?;
+        }
+        return Ok(());
+    }
+    match spreads {
+        [None] => {}
+        [Some(spread)] => writeln!(
+            session.out,
+            "average rate: {:.3}\n\tmin: {:.3}s max: {:.3}s std dev: {:.5}s window: {}",
+            spread.rate(),
+            spread.min,
+            spread.max,
+            spread.deviation,
+            spread.count
+        )?,
+        _ => session.out.write_all(table(listeners, spreads).as_bytes())?,
+    }
+    session.out.flush()?;
+    Ok(())
+}
+
+/// Several topics as a table.
+fn table(listeners: &[Listener], spreads: &[Option<Spread>]) -> String {
+    let widest = listeners.iter().map(|listener| listener.topic.len()).max().unwrap_or(0).max(5);
+    let head = format!(
+        "{:widest$} {:>10} {:>9} {:>9} {:>9} {:>7}",
+        "topic", "rate", "min_delta", "max_delta", "stddev", "window"
+    );
+    let mut text = format!("{head}\n{}\n", "=".repeat(head.len()));
+    for (listener, spread) in listeners.iter().zip(spreads) {
+        let Some(spread) = spread else { continue };
+        text.push_str(&format!(
+            "{:widest$} {:>10.3} {:>9.5} {:>9.5} {:>9.5} {:>7}\n",
+            listener.topic,
+            spread.rate(),
+            spread.min,
+            spread.max,
+            spread.deviation,
+            spread.count
+        ));
+    }
+    text.push('\n');
+    text
+}
+
+/// How many bytes come in a second.
+///
+/// # Errors
+/// When a name is not usable, or the output cannot be written.
+pub fn bandwidth(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outcome {
+    let node = session.node(None)?;
+    let mut listeners = open(session, &node, &[topic.to_owned()], options)?;
+    if !session.json {
+        writeln!(session.out, "Subscribed to [{}]", listeners[0].topic)?;
+        session.out.flush()?;
+    }
+    let sizes = std::cell::RefCell::new(Sizes::new(options.window.unwrap_or(BANDWIDTH_WINDOW)));
+    let mut told = Duration::ZERO;
+    endless(hear(
+        session,
+        &mut listeners,
+        PAUSE,
+        |_, _, sample, at| {
+            let size = sample.cdr().map_or(0, <[u8]>::len);
+            sizes.borrow_mut().arrive(at.as_secs_f64(), size);
+            Ok(Next::Go)
+        },
+        |session, listeners, now| {
+            if now < told + TELL {
+                return Ok(Next::Go);
+            }
+            told = now;
+            let sizes = sizes.borrow();
+            let Some(flow) = sizes.flow(now.as_secs_f64()) else { return Ok(Next::Go) };
+            if session.json {
+                session.put(&json!({
+                    "topic": listeners[0].topic,
+                    "bytes_per_s": flow.rate,
+                    "mean_bytes": flow.mean,
+                    "min_bytes": flow.min,
+                    "max_bytes": flow.max,
+                    "window": flow.count,
+                }))?;
+            } else {
+                writeln!(session.out, "{}", flow.describe())?;
+                session.out.flush()?;
+            }
+            Ok(Next::Go)
+        },
+    ))
+}
+
+/// How old messages are when they come, by the stamps in their headers.
+///
+/// # Errors
+/// When a name is not usable, messages have no header, or the output cannot be written.
+pub fn delay(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outcome {
+    let node = session.node(None)?;
+    let mut listeners = open(session, &node, &[topic.to_owned()], options)?;
+    let layout = session.types.message(&listeners[0].type_name)?.clone();
+    if layout.nested("header").is_none() {
+        return Err(Failure::failed(format!(
+            "messages of {} are {}, which has no header with a stamp",
+            listeners[0].topic,
+            layout.type_name()
+        )));
+    }
+    let window = std::cell::RefCell::new(Window::new(options.window.unwrap_or(WINDOW)));
+    let mut told = Duration::ZERO;
+    endless(hear(
+        session,
+        &mut listeners,
+        PAUSE,
+        |_, _, sample, _| {
+            let stamp = sample.cdr().ok();
+            let stamp =
+                stamp.and_then(|cdr| DynamicMessage::decode(&layout, Format::CDR, cdr).ok());
+            if let Some(stamp_ns) = stamp.as_ref().and_then(stamp_of) {
+                window.borrow_mut().take((clock::unix_ns() - stamp_ns) as f64 * 1e-9);
+            }
+            Ok(Next::Go)
+        },
+        |session, listeners, now| {
+            if now < told + TELL {
+                return Ok(Next::Go);
+            }
+            told = now;
+            let mut window = window.borrow_mut();
+            let Some(spread) = window.spread_if_new() else { return Ok(Next::Go) };
+            if session.json {
+                session.put(&json!({
+                    "topic": listeners[0].topic,
+                    "delay_s": spread.mean,
+                    "min_s": spread.min,
+                    "max_s": spread.max,
+                    "std_dev_s": spread.deviation,
+                    "window": spread.count,
+                }))?;
+            } else {
+                writeln!(
+                    session.out,
+                    "average delay: {:.3}\n\tmin: {:.3}s max: {:.3}s std dev: {:.5}s window: {}",
+                    spread.mean, spread.min, spread.max, spread.deviation, spread.count
+                )?;
+                session.out.flush()?;
+            }
+            Ok(Next::Go)
+        },
+    ))
+}
+
+fn stamp_of(message: &DynamicMessage) -> Option<i64> {
+    let part = |path| match message.get(path) {
+        Some(Value::Number(Number::I32(number))) => Some(i64::from(number)),
+        Some(Value::Number(Number::U32(number))) => Some(i64::from(number)),
+        _ => None,
+    };
+    Some(part("header.stamp.sec")? * 1_000_000_000 + part("header.stamp.nanosec")?)
+}
+
+fn open(
+    session: &mut Session<'_>,
+    node: &Node,
+    topics: &[String],
+    options: &Rate,
+) -> Outcome<Vec<Listener>> {
+    let mut listeners = Vec::new();
+    for topic in topics {
+        listeners.push(Listener::open(session, node, topic, None, &options.qos, false)?);
+    }
+    Ok(listeners)
+}

@@ -1,0 +1,10 @@
+//! Verbs against nodes of this same program: what they print.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+
+mod action;
+mod bench;
+mod interface;
+mod lifecycle;
+mod node;
+mod service;
+mod topic;
