@@ -8,11 +8,20 @@ mod sim;
 mod terminal;
 mod verbs;
 
+use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 
 use options::{Command, Options};
+
+/// All at once, so that a reader that has seen enough is an error that [`main`] knows.
+fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Options::command(), "periplus", &mut script);
+    std::io::stdout().lock().write_all(&script)?;
+    Ok(ExitCode::SUCCESS)
+}
 
 fn main() -> ExitCode {
     // A usage error ends here with exit code 2, and a message of clap's.
@@ -29,6 +38,7 @@ fn main() -> ExitCode {
         Command::Node(options) => options.run(),
         Command::Service(options) => options.run(),
         Command::Topic(options) => options.run(),
+        Command::Completions { shell } => completions(shell),
     };
     match outcome {
         Ok(code) => code,

@@ -36,6 +36,11 @@ pub(crate) enum Command {
     Action(ActionOptions),
     Lifecycle(LifecycleOptions),
     Interface(InterfaceOptions),
+    /// Print the script that completes words of this command in a shell
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
 }
 
 /// Tell what files hold and what is wrong with them
