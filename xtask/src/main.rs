@@ -6,6 +6,7 @@
     reason = "a tool that runs other programs, reads the source tree and says how it went"
 )]
 
+mod bags;
 mod codegen;
 mod corpus;
 mod determinism;
@@ -87,6 +88,8 @@ enum Task {
 /// What can be raced.
 #[derive(Clone, Copy, ValueEnum)]
 enum Contest {
+    /// Large recordings
+    Bags,
     Loading,
     Physics,
     Rays,
@@ -115,6 +118,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
         Task::Bench { only } => match only {
+            Some(Contest::Bags) => bags::bench(),
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Physics) => physics::bench(),
             Some(Contest::Rays) => rays::bench(),
