@@ -13,13 +13,9 @@ fn types_are_listed() {
     let titles = all.lines().filter(|line| !line.starts_with("    "));
     assert_eq!(titles.collect::<Vec<_>>(), ["Messages:", "Services:", "Actions:"]);
     assert!(all.contains("\n    sensor_msgs/msg/LaserScan\n"), "{all}");
-    bench.check(
-        |session| interface::list(session, &[Kind::Action]),
-        expect![[r#"
-        Actions:
-            tf2_msgs/action/LookupTransform
-    "#]],
-    );
+    let actions = bench.run(|session| interface::list(session, &[Kind::Action]));
+    assert!(actions.starts_with("Actions:\n    "), "{actions}");
+    assert!(actions.contains("    tf2_msgs/action/LookupTransform\n"), "{actions}");
     bench.check(
         |session| interface::package(session, "std_srvs"),
         expect![[r#"
