@@ -125,12 +125,13 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
 
 fn describe(end: &SeenEnd, kind: &str) -> String {
     let (namespace, name) = split_name(end.node.as_deref());
+    // Only what is on a wire has an identity there.
+    let gid = if end.gid.is_empty() { String::new() } else { format!("GID: {}\n", end.gid) };
     format!(
         "Node name: {name}\nNode namespace: {namespace}\nTopic type: {}\nTopic type hash: {}\n\
-         Endpoint type: {kind}\nGID: {}\nQoS profile:\n{}",
+         Endpoint type: {kind}\n{gid}QoS profile:\n{}",
         end.type_name,
         end.type_hash.as_deref().unwrap_or("INVALID"),
-        end.gid,
         qos::describe(&end.qos)
     )
 }

@@ -110,7 +110,6 @@ fn a_topic_is_described() {
         Topic type: sensor_msgs/msg/LaserScan
         Topic type hash: RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828
         Endpoint type: PUBLISHER
-        GID: 
         QoS profile:
           Reliability: BEST_EFFORT
           History (Depth): KEEP_LAST (5)
@@ -127,7 +126,6 @@ fn a_topic_is_described() {
         Topic type: sensor_msgs/msg/LaserScan
         Topic type hash: RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828
         Endpoint type: SUBSCRIPTION
-        GID: 
         QoS profile:
           Reliability: BEST_EFFORT
           History (Depth): KEEP_LAST (5)
