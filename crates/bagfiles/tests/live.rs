@@ -67,7 +67,7 @@ fn a_player_knows_parts_names_and_clocks() {
     let path = folder.path("bag");
     write_numbers(&path, WriteSettings::new(Storage::Sqlite));
     let graph = Graph::new();
-    let listener = graph.node(NodeSettings::new("listener")).unwrap();
+    let listener = graph.node(NodeSettings::new("listener").bare()).unwrap();
     let odd = listener.mailbox::<UInt32>("/strange", Qos::reliable(100)).unwrap();
     let even = listener.mailbox::<UInt32>("/even", Qos::reliable(100)).unwrap();
     let clock = listener.mailbox::<Clock>("/clock", Qos::clock().keep_all()).unwrap();
@@ -119,7 +119,7 @@ fn latched_topics_stay_latched() {
     for (storage, name) in STORAGES {
         let path = folder.path(name);
         let graph = Graph::new();
-        let node = graph.node(NodeSettings::new("robot")).unwrap();
+        let node = graph.node(NodeSettings::new("robot").bare()).unwrap();
         let text = node.publisher::<Text>("/robot_description", Qos::latched(1)).unwrap();
         text.publish(Text { data: "<robot/>".into() });
         let settings = RecordSettings::all(WriteSettings::new(storage));
@@ -130,8 +130,10 @@ fn latched_topics_stay_latched() {
         let settings = PlaySettings::default();
         let mut player = Player::new(Bag::open(&path).unwrap(), &graph, settings).unwrap();
         play(&mut player, &graph);
-        assert_eq!(graph.topics()[0].publishers[0].qos.durability, Durability::TransientLocal);
-        let late = graph.node(NodeSettings::new("late")).unwrap();
+        let topics = graph.topics();
+        let played = topics.iter().find(|topic| topic.name == "/robot_description").unwrap();
+        assert_eq!(played.publishers[0].qos.durability, Durability::TransientLocal);
+        let late = graph.node(NodeSettings::new("late").bare()).unwrap();
         let late = late.mailbox::<Text>("/robot_description", Qos::latched(1)).unwrap();
         assert_eq!(late.latest().unwrap().data, "<robot/>");
     }
@@ -146,7 +148,7 @@ fn child_that_records_until_it_is_killed() {
     let graph = Graph::new();
     let settings = RecordSettings::all(WriteSettings::new(storage));
     let recorder = Recorder::start(&graph, path, settings).unwrap();
-    let node = graph.node(NodeSettings::new("counter")).unwrap();
+    let node = graph.node(NodeSettings::new("counter").bare()).unwrap();
     let numbers = node.publisher::<UInt32>("/odd", Qos::reliable(10)).unwrap();
     let start = Instant::now();
     for number in 0..6_000_u32 {

@@ -1,10 +1,12 @@
 //! The `periplus` command.
 
+mod arguments;
 mod bag;
 mod check;
 mod convert;
 mod options;
 mod sim;
+mod teleop;
 mod terminal;
 mod verbs;
 
@@ -12,6 +14,8 @@ use std::io::Write as _;
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser as _};
+
+use periplus_graph::split_arguments;
 
 use options::{Command, Options};
 
@@ -25,13 +29,21 @@ fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
 
 fn main() -> ExitCode {
     // A usage error ends here with exit code 2, and a message of clap's.
-    let options = Options::parse();
+    let (words, ros) = split_arguments(std::env::args());
+    let options = Options::parse_from(words);
     options.colour.apply();
     let outcome = match options.command {
+        Command::Sim(options) => sim::run(&options, ros),
+        Command::Teleop(options) => teleop::run(&options, ros),
+        _ if !ros.is_empty() => {
+            terminal::complain(
+                "`--ros-args` are for commands that run nodes: `periplus sim` and `teleop`",
+            );
+            return ExitCode::from(2);
+        }
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
         Command::Convert(options) => convert::run(&options),
-        Command::Sim(options) => sim::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::sim::SimOptions;
+use crate::teleop::TeleopOptions;
 use crate::verbs::{
     ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ServiceOptions, TopicOptions,
 };
@@ -41,6 +42,7 @@ pub(crate) enum Command {
         /// Which shell
         shell: clap_complete::Shell,
     },
+    Teleop(TeleopOptions),
 }
 
 /// Tell what files hold and what is wrong with them

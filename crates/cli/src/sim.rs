@@ -12,12 +12,14 @@ use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 use periplus_diagnostics::SourceMap;
+use periplus_graph::Arguments;
 use periplus_host::Stopwatch;
 use periplus_sim::{
     Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
     Wanted, compose,
 };
 
+use crate::arguments;
 use crate::options::{SearchOptions, split};
 use crate::terminal;
 
@@ -80,6 +82,12 @@ pub(crate) struct SimOptions {
     /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
     #[arg(long, value_enum, value_name = "off|loopback|network")]
     ros2: Option<Reach>,
+    /// A parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
+    #[arg(long = "param", short = 'p', value_name = "[NODE:]NAME:=VALUE")]
+    parameters: Vec<String>,
+    /// Parameters for nodes, as ROS 2 writes them; later ones win. All of `--ros-args` is understood too
+    #[arg(long, value_name = "FILE")]
+    params_file: Vec<String>,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -107,8 +115,11 @@ enum Factor {
     Of(f64),
 }
 
-pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     let start = Stopwatch::start();
+    let Some(to_nodes) = arguments::read(options.ros_words(ros))? else {
+        return Ok(ExitCode::from(2));
+    };
     let (files, arguments) = split(&options.words);
     let [world] = files.as_slice() else {
         terminal::complain(
@@ -131,9 +142,16 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
     let mut composition = terminal::with_setting(search, arguments, |setting| {
         compose(world, &options.robots.0, setting)
     });
-    let mut simulation =
-        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), options.simulation());
+    let mut simulation = Simulation::new(
+        &mut composition,
+        Arc::new(ShapeFiles::default()),
+        options.simulation(to_nodes),
+    );
     let whole = tell_findings(&composition, options.quiet)?;
+    if !options.quiet {
+        let unused = simulation.graph().unused_arguments();
+        terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
+    }
     if let Some(missing) = composition.missing() {
         terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
         return Ok(ExitCode::FAILURE);
@@ -218,7 +236,20 @@ pub(crate) fn run(options: &SimOptions) -> io::Result<ExitCode> {
 }
 
 impl SimOptions {
-    fn simulation(&self) -> Options {
+    /// What is for nodes, as `--ros-args` would have it: flags of our own first.
+    fn ros_words(&self, ros: Vec<String>) -> Vec<String> {
+        let own = [
+            ("--params-file", &self.params_file),
+            ("--param", &self.parameters),
+            ("--remap", &self.remaps),
+        ];
+        let own = own.into_iter().flat_map(|(flag, values)| {
+            values.iter().flat_map(move |value| [flag.to_owned(), value.clone()])
+        });
+        own.chain(ros).collect()
+    }
+
+    fn simulation(&self, arguments: Arguments) -> Options {
         Options {
             seed: self.seed,
             mode: match self.dynamics {
@@ -229,7 +260,7 @@ impl SimOptions {
             threads: self.threads.unwrap_or_else(terminal::processors),
             quirks: if self.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },
             rolling_scans: self.rolling_scans,
-            remaps: self.remaps.clone(),
+            arguments,
             ..Options::default()
         }
     }

@@ -7,6 +7,7 @@ mod detect;
 mod documents;
 mod images;
 mod includes;
+mod interfaces;
 mod load;
 mod mesh_files;
 mod rebase;
@@ -16,6 +17,7 @@ mod summary;
 
 pub use detect::Language;
 pub use images::settle_images;
+pub use interfaces::{Interfaces, load_interfaces};
 pub use load::{Loaded, load, load_bytes};
 pub use mesh_files::{MeshSummary, read_beside, read_mesh};
 pub use rebase::rebase;

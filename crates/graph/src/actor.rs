@@ -29,7 +29,7 @@ pub struct Actor<S> {
 }
 
 /// Something that is done with a closure and the state.
-type Run<'r, F, S> = dyn FnMut(&mut F, &mut S, &mut Io<'_, S>) + 'r;
+pub(crate) type Run<'r, F, S> = dyn FnMut(&mut F, &mut S, &mut Io<'_, S>) + 'r;
 
 /// What a closure can do beside changing the state.
 pub struct Io<'a, S> {
@@ -185,14 +185,20 @@ impl<S: Send + 'static> Actor<S> {
             }
             Err(error) => request.reply.undecodable(&error),
         };
-        let reaction = ServerReaction { agenda: self.node.0.agenda(), react: Box::new(react) };
+        let node = Arc::downgrade(&self.node.0);
+        let reaction = ServerReaction { node, react: Box::new(react) };
         let own = self.node.0.server(name, TypeOf::service::<V>(), Some(reaction))?;
         self.parts.push(Box::new(own));
         Ok(())
     }
 
+    /// Keeps something as long as the actor is there.
+    pub(crate) fn keep(&mut self, part: impl Send + Sync + 'static) {
+        self.parts.push(Box::new(part));
+    }
+
     /// Runs something with a closure, the state and an [`Io`].
-    fn act<F: Send + 'static>(
+    pub(crate) fn act<F: Send + 'static>(
         &self,
         react: F,
     ) -> impl Fn(&mut Run<'_, F, S>) + Send + Sync + use<F, S> {
@@ -261,10 +267,10 @@ impl Drop for OwnTimer {
 }
 
 /// Something that happens once.
-struct Once(Mutex<Option<Box<dyn FnOnce() + Send>>>);
+pub(crate) struct Once(Mutex<Option<Box<dyn FnOnce() + Send>>>);
 
 impl Once {
-    fn new(act: impl FnOnce() + Send + 'static) -> Self {
+    pub(crate) fn new(act: impl FnOnce() + Send + 'static) -> Self {
         Self(Mutex::new(Some(Box::new(act))))
     }
 }

@@ -1,14 +1,15 @@
 //! The handle of a graph.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 
 use periplus_diagnostics::Diagnostics;
 
 use crate::agenda::Agenda;
+use crate::arguments::Arguments;
 use crate::common::{Common, lock};
 use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
 use crate::live::Live;
-use crate::node::Node;
+use crate::node::{Node, NodeCore};
 use crate::registry::Registry;
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
@@ -29,6 +30,8 @@ pub(crate) struct Core {
     pub(crate) turn: Mutex<executor::Turn>,
     /// The threads, in live.
     pub(crate) live: Option<Live>,
+    /// What holds for all nodes to come.
+    arguments: Mutex<Arc<Arguments>>,
 }
 
 impl Drop for Core {
@@ -73,7 +76,29 @@ impl Graph {
     /// # Errors
     /// When a name or remapping is not valid, or the graph has a node of this name.
     pub fn node(&self, settings: NodeSettings) -> Result<Node, GraphError> {
-        Node::new(self, settings.names()?)
+        Node::new(self, settings)
+    }
+
+    /// Names, parameters and log levels for all nodes to come, as `--ros-args` gives them to a
+    /// program. What [`NodeSettings`] says of a node comes first.
+    pub fn set_arguments(&self, arguments: Arguments) {
+        *lock(&self.0.arguments) = Arc::new(arguments);
+    }
+
+    /// What the arguments say that no node has use for: patterns that fit none, and parameters that
+    /// none of those declares. `use_sim_time` is every node's.
+    #[must_use]
+    pub fn unused_arguments(&self) -> Diagnostics {
+        let nodes: Vec<Weak<NodeCore>> = lock(&self.0.registry).nodes.values().cloned().collect();
+        let nodes: Vec<Arc<NodeCore>> = nodes.iter().filter_map(Weak::upgrade).collect();
+        let names: Vec<&str> = nodes.iter().map(|node| &*node.full_name).collect();
+        self.arguments().unused(&names, &|node, parameter| {
+            nodes[node].standard.get().is_some_and(|own| lock(&own.store).has(parameter))
+        })
+    }
+
+    pub(crate) fn arguments(&self) -> Arc<Arguments> {
+        lock(&self.0.arguments).clone()
     }
 
     /// Adds a tap. It sees the chosen topics, those that are there and those to come, and gets what
@@ -197,7 +222,7 @@ impl Graph {
                 calls: service_names(&|service| service.clients.iter().any(mine)),
             }
         };
-        registry.nodes.iter().map(info).collect()
+        registry.nodes.keys().map(info).collect()
     }
 
     /// What went through the topics so far, by name.

@@ -6,10 +6,11 @@ use std::sync::{Arc, Mutex};
 use periplus_diagnostics::Diagnostic;
 use periplus_msgs::DecodeError;
 
-use crate::Qos;
 use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::{Common, lock};
 use crate::outlet::missed;
+use crate::qos::{History, MOST_KEPT, Qos};
+use crate::qos_event::Told;
 use crate::sample::{EndpointId, Sample};
 
 pub(crate) struct Inlet {
@@ -21,6 +22,8 @@ pub(crate) struct Inlet {
     /// What a message sets off; without it somebody looks from time to time.
     pub(crate) reaction: Option<Reaction>,
     pub(crate) waiting: Mutex<Waiting>,
+    /// What was told to who asks for events.
+    pub(crate) told: Mutex<Told>,
 }
 
 pub(crate) struct Reaction {
@@ -56,6 +59,27 @@ pub struct InletCounts {
 }
 
 impl Inlet {
+    /// What happened so far; deadlines that pass now count.
+    pub(crate) fn counts(&self) -> InletCounts {
+        let now_ns = self.common.clock.now_ns();
+        let waiting = lock(&self.waiting);
+        let since =
+            self.qos.deadline_ns.map(|deadline_ns| missed(waiting.last_ns, now_ns, deadline_ns));
+        let missed_deadlines = waiting.counts.missed_deadlines + since.unwrap_or_default();
+        InletCounts { missed_deadlines, ..waiting.counts }
+    }
+
+    /// Says the first time that not all could be kept.
+    fn overflows(&self) {
+        let Self { node, topic, .. } = self;
+        let message = format!(
+            "`{node}` keeps all messages of the topic `{topic}`, does not look at them, and loses \
+             the oldest: {MOST_KEPT} wait"
+        );
+        let finding = Diagnostic::warning("slow-subscription", message);
+        self.common.report(finding.help("look more often, or keep only the last ones"));
+    }
+
     pub(crate) fn push(self: &Arc<Self>, sample: &Sample) {
         let mut waiting = lock(&self.waiting);
         waiting.counts.received += 1;
@@ -65,6 +89,9 @@ impl Inlet {
         }
         let oldest = if waiting.samples.len() == self.qos.capacity() {
             waiting.counts.dropped += 1;
+            if self.qos.history == History::KeepAll && waiting.counts.dropped == 1 {
+                self.overflows();
+            }
             waiting.samples.pop_front()
         } else {
             None

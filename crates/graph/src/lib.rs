@@ -26,15 +26,19 @@
 //! in one order, that of time, node, topic and number of the message, so that the same program gives
 //! the same bytes every time.
 
+mod action;
 mod actor;
 mod agenda;
+mod arguments;
 mod common;
 mod error;
 mod executor;
 mod graph;
 mod info;
 mod inlet;
+mod lifecycle;
 mod live;
+mod log;
 mod mailbox;
 mod name;
 mod node;
@@ -43,14 +47,24 @@ mod parameters;
 mod payload;
 mod publisher;
 mod qos;
+mod qos_event;
 mod registry;
 mod remap;
 mod sample;
 mod service;
 mod settings;
+mod standard;
 mod tap;
 
+pub use action::{
+    ActionClient, ActionInfo, ActionServer, ActionSettings, DynamicActionClient, DynamicGoal,
+    DynamicProgress, GoalEvent, GoalHandle, GoalId, GoalProgress, GoalState, NewGoal, SentGoal,
+};
 pub use actor::{Actor, Io};
+pub use arguments::{
+    Arguments, ROS_ARGS, parameter_from_yaml, parameter_to_yaml, parameters_to_yaml,
+    split_arguments,
+};
 pub use error::{GraphError, TypeClash};
 pub use executor::MOST_REACTIONS;
 pub use graph::Graph;
@@ -59,6 +73,8 @@ pub use info::{
     TopicInfo, Traffic,
 };
 pub use inlet::InletCounts;
+pub use lifecycle::{Lifecycle, LifecycleState, Step, StepOutcome, Transition};
+pub use log::Level;
 pub use mailbox::{Mailbox, RawMailbox};
 pub use name::{
     LONGEST_NAMESPACE, LONGEST_NODE, LONGEST_TOPIC, check_namespace, check_node, check_topic,
@@ -67,7 +83,8 @@ pub use name::{
 pub use node::Node;
 pub use parameters::Parameters;
 pub use publisher::{Publisher, RawPublisher};
-pub use qos::{Durability, History, Liveliness, Policy, Qos, Reliability};
+pub use qos::{Durability, History, Liveliness, MOST_KEPT, Policy, Qos, Reliability};
+pub use qos_event::{QosEvent, Unfit};
 pub use sample::{EndpointId, Sample};
 pub use service::{
     Call, CallError, Calls, Client, Pending, RawCall, RawCalls, RawClient, RawMessage,

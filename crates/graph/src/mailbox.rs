@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use periplus_msgs::Message;
 
-use crate::common::lock;
 use crate::inlet::InletCounts;
 use crate::node::OwnInlet;
 use crate::sample::Sample;
@@ -19,6 +18,10 @@ pub struct Mailbox<T> {
 impl<T: Message> Mailbox<T> {
     pub(crate) fn new(own: OwnInlet) -> Self {
         Self { own, of: PhantomData }
+    }
+
+    pub(crate) fn own(&self) -> &OwnInlet {
+        &self.own
     }
 
     /// The newest message since the last look; older ones are gone with it. Messages that are no
@@ -54,7 +57,7 @@ impl<T: Message> Mailbox<T> {
     /// What arrived and what was lost.
     #[must_use]
     pub fn counts(&self) -> InletCounts {
-        lock(&self.own.inlet.waiting).counts
+        self.own.inlet.counts()
     }
 }
 
@@ -66,6 +69,10 @@ pub struct RawMailbox {
 impl RawMailbox {
     pub(crate) fn new(own: OwnInlet) -> Self {
         Self { own }
+    }
+
+    pub(crate) fn own(&self) -> &OwnInlet {
+        &self.own
     }
 
     /// All messages since the last look, oldest first.
@@ -83,6 +90,6 @@ impl RawMailbox {
     /// What arrived and what was lost.
     #[must_use]
     pub fn counts(&self) -> InletCounts {
-        lock(&self.own.inlet.waiting).counts
+        self.own.inlet.counts()
     }
 }

@@ -1,7 +1,7 @@
 //! Nodes: what publishes, subscribes, answers and calls.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, OnceLock, Weak};
 
 use periplus_msgs::{Message, Service};
 
@@ -12,10 +12,12 @@ use crate::graph::{Core, Graph};
 use crate::inlet::{Inlet, Reaction};
 use crate::mailbox::{Mailbox, RawMailbox};
 use crate::outlet::Outlet;
+use crate::parameters::Store;
 use crate::publisher::{Publisher, RawPublisher};
 use crate::registry::TypeOf;
 use crate::service::{Calls, Client};
-use crate::settings::NodeNames;
+use crate::settings::{NodeNames, NodeSettings};
+use crate::standard::Standard;
 use crate::{GraphError, Qos};
 
 /// A node. This is a handle: clones mean the same node. It is there as long as a handle of it, or
@@ -31,25 +33,40 @@ pub(crate) struct NodeCore {
     ordinal: AtomicU64,
     /// What is to happen in its thread, in live.
     own_agenda: OnceLock<Arc<Agenda>>,
+    pub(crate) standard: OnceLock<Standard>,
 }
 
 impl Node {
-    pub(crate) fn new(graph: &Graph, names: NodeNames) -> Result<Self, GraphError> {
+    pub(crate) fn new(graph: &Graph, settings: NodeSettings) -> Result<Self, GraphError> {
+        let arguments = graph.arguments();
+        let (any, is_bare) = (settings.takes_any_parameter(), settings.is_bare());
+        let (names, own) = settings.resolve(&arguments)?;
         let full_name: Arc<str> = names.full_name().into();
+        let mut given = arguments.parameters_of(&full_name);
+        given.extend(own);
+
         let mut registry = lock(&graph.0.registry);
-        if !registry.nodes.insert(full_name.clone()) {
+        if registry.nodes.contains_key(&full_name) {
             return Err(GraphError::NodeExists { node: full_name.to_string() });
         }
+        // Taken from now on; the node itself follows.
+        registry.nodes.insert(full_name.clone(), Weak::new());
         registry.changes += 1;
         drop(registry);
         let core = graph.0.clone();
-        Ok(Self(Arc::new(NodeCore {
+        let store = Store::new(full_name.clone(), core.common.clone(), given, any);
+        let node = Arc::new(NodeCore {
             names,
             full_name,
             core,
             ordinal: 0.into(),
             own_agenda: OnceLock::new(),
-        })))
+            standard: OnceLock::new(),
+        });
+        Standard::join(&node, store, is_bare, &arguments)?;
+        let itself = Arc::downgrade(&node);
+        lock(&graph.0.registry).nodes.insert(node.full_name.clone(), itself);
+        Ok(Self(node))
     }
 
     /// Namespace and name, such as `/demo/scan`.
@@ -155,6 +172,9 @@ impl Drop for NodeCore {
         registry.nodes.remove(&self.full_name);
         registry.changes += 1;
         drop(registry);
+        if let Some(standard) = self.standard.get() {
+            standard.leave(&self.core);
+        }
         if let Some(agenda) = self.own_agenda.get() {
             agenda.close();
         }
@@ -217,23 +237,36 @@ impl NodeCore {
         self.ordinal.fetch_add(1, Ordering::Relaxed)
     }
 
+    pub(crate) fn standard(&self) -> &Standard {
+        self.standard.get().expect("a node has it before anybody else has the node")
+    }
+
     pub(crate) fn outlet(
         self: &Arc<Self>,
         topic: &str,
         type_of: TypeOf,
         qos: Qos,
     ) -> Result<OwnOutlet, GraphError> {
+        Ok(OwnOutlet { outlet: self.bare_outlet(topic, type_of, qos)?, node: self.clone() })
+    }
+
+    /// An outlet that somebody has to take out of the graph.
+    pub(crate) fn bare_outlet(
+        &self,
+        topic: &str,
+        type_of: TypeOf,
+        qos: Qos,
+    ) -> Result<Arc<Outlet>, GraphError> {
         let full = self.names.topic(topic)?;
         let (core, node) = (&self.core, self.full_name.clone());
         let common = core.common.clone();
-        let outlet = lock(&core.registry).add_outlet(
+        lock(&core.registry).add_outlet(
             &self.full_name,
             &full,
             type_of,
             |id, topic| Outlet::new(id, node, topic, qos, common),
             &core.common,
-        )?;
-        Ok(OwnOutlet { outlet, node: self.clone() })
+        )
     }
 
     pub(crate) fn inlet(
@@ -254,6 +287,7 @@ impl NodeCore {
             common,
             reaction,
             waiting: Default::default(),
+            told: Default::default(),
         };
         let inlet =
             lock(&core.registry).add_inlet(&self.full_name, &full, type_of, make, &core.common)?;

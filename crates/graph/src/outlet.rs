@@ -8,6 +8,7 @@ use crate::common::Common;
 use crate::info::TopicInfo;
 use crate::inlet::Inlet;
 use crate::payload::Payload;
+use crate::qos_event::Told;
 use crate::sample::{EndpointId, Sample};
 use crate::tap::Tap;
 use crate::{Durability, Qos};
@@ -31,6 +32,8 @@ pub(crate) struct Outlet {
     /// Whether a message must be made into a sample at all.
     is_busy: AtomicBool,
     pub(crate) published: AtomicU64,
+    /// What was told to who asks for events.
+    pub(crate) told: Mutex<Told>,
     flow: Mutex<Flow>,
 }
 
@@ -43,6 +46,8 @@ struct Flow {
     kept: VecDeque<Sample>,
     last_ns: Option<i64>,
     missed_deadlines: u64,
+    /// When it last said that it lives.
+    asserted_ns: i64,
 }
 
 impl Outlet {
@@ -62,8 +67,10 @@ impl Outlet {
             listeners: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
             published: AtomicU64::new(0),
+            told: Mutex::default(),
             flow: Mutex::default(),
         };
+        outlet.assert_liveliness();
         outlet.is_busy.store(outlet.keeps(), Ordering::Relaxed);
         outlet
     }
@@ -74,7 +81,9 @@ impl Outlet {
 
     /// Whether its messages matter even if nobody listens.
     fn keeps(&self) -> bool {
-        self.qos.durability == Durability::TransientLocal || self.qos.deadline_ns.is_some()
+        self.qos.durability == Durability::TransientLocal
+            || self.qos.deadline_ns.is_some()
+            || self.qos.lease_ns.is_some()
     }
 
     pub(crate) fn is_heard(&self) -> bool {
@@ -82,7 +91,20 @@ impl Outlet {
     }
 
     pub(crate) fn missed_deadlines(&self) -> u64 {
-        self.lock().missed_deadlines
+        let (flow, now_ns) = (self.lock(), self.common.clock.now_ns());
+        let since =
+            self.qos.deadline_ns.map(|deadline_ns| missed(flow.last_ns, now_ns, deadline_ns));
+        flow.missed_deadlines + since.unwrap_or_default()
+    }
+
+    /// When it last said that it lives \[ns\].
+    pub(crate) fn asserted_ns(&self) -> i64 {
+        self.lock().asserted_ns
+    }
+
+    pub(crate) fn assert_liveliness(&self) {
+        let now_ns = self.common.clock.now_ns();
+        self.lock().asserted_ns = now_ns;
     }
 
     /// Who listens from now on. Gives what latecomers get, oldest first.
@@ -119,6 +141,7 @@ impl Outlet {
         let time_ns = self.common.clock.now_ns();
         let sequence = self.topic.sequence.fetch_add(1, Ordering::Relaxed) + 1;
         let stale_ns = self.qos.lifespan_ns.map_or(i64::MAX, |span| time_ns.saturating_add(span));
+        flow.asserted_ns = time_ns;
         let sample = Sample { time_ns, sequence, publisher: self.id, stale_ns, payload };
         if let Some(deadline_ns) = self.qos.deadline_ns {
             flow.missed_deadlines += missed(flow.last_ns, time_ns, deadline_ns);

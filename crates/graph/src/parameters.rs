@@ -1,161 +1,168 @@
 //! Parameters of a node: declared once in a table, read by the node, read and set by others through
-//! the six services that every ROS 2 node has.
+//! the six services that every node has.
 //!
 //! Source: `rcl_interfaces`, and `rclcpp/parameter_service.cpp` for what the services do.
 
-mod convert;
-mod services;
+pub(crate) mod convert;
+pub(crate) mod services;
+mod store;
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
+use periplus_diagnostics::Diagnostic;
 use periplus_msgs::builtin_interfaces::Time;
-use periplus_msgs::rcl_interfaces::{Parameter as Named, ParameterEvent, SetParametersResult};
-use periplus_params::{Kind, Value, Values};
+use periplus_msgs::rcl_interfaces::{Parameter as Named, ParameterEvent, ParameterValue};
+use periplus_params::{Value, Values};
 
-use crate::common::{Common, lock};
-use crate::node::Node;
-use crate::{Actor, GraphError, Publisher, Qos};
+use crate::actor::Io;
+use crate::common::lock;
+use crate::node::{Node, NodeCore};
+use crate::standard::{Apply, Change};
+use crate::{Actor, GraphError};
 
-/// The parameter that every node has beside those of its table.
-const USE_SIM_TIME: &str = "use_sim_time";
+pub(crate) use store::Store;
 
 /// The parameters of a node. This is a handle: clones mean the same parameters.
 #[derive(Clone)]
 pub struct Parameters {
-    store: Arc<Mutex<Store>>,
-    /// For a node without an actor of its own, the one that answers.
-    _answers: Option<Arc<Actor<()>>>,
-}
-
-struct Store {
-    values: Values,
-    generation: u64,
-    events: Publisher<ParameterEvent>,
-    common: Arc<Common>,
-    node: Arc<str>,
+    node: Node,
 }
 
 impl Parameters {
-    /// All values, as they are now.
+    /// All values of the table, as they are now.
+    ///
+    /// # Panics
+    /// Never: there is a table, or this would not be there.
     #[must_use]
     pub fn values(&self) -> Values {
-        lock(&self.store).values.clone()
+        lock(&self.node.0.standard().store).values().expect("declared together with this").clone()
     }
 
     /// How often something was set; who keeps values looks whether this has changed.
     #[must_use]
     pub fn generation(&self) -> u64 {
-        lock(&self.store).generation
+        lock(&self.node.0.standard().store).generation()
+    }
+
+    /// Sets a parameter from inside the node, and tells others. The node is not asked.
+    ///
+    /// # Errors
+    /// When there is no such parameter or the value does not fit, in words.
+    pub fn set(&self, name: &str, value: Value) -> Result<(), String> {
+        let named = Named { name: name.to_owned(), value: convert::to_message(value) };
+        self.node.0.set_parameters(std::slice::from_ref(&named), None)
     }
 }
 
 impl Node {
     /// Lets others read and set these parameters; the node itself looks at
-    /// [`Parameters::generation`] and [`Parameters::values`].
+    /// [`Parameters::generation`] and [`Parameters::values`]. Values that arguments give
+    /// ([`crate::Arguments`]) take the place of those that are given here.
     ///
     /// # Errors
-    /// When the node has parameters already.
+    /// When the node has declared parameters already.
     pub fn parameters(&self, values: Values) -> Result<Parameters, GraphError> {
-        let mut answers = self.actor(());
-        let parameters = answers.parameters(values, |(), _, _| Ok(()))?;
-        Ok(Parameters { _answers: Some(Arc::new(answers)), ..parameters })
+        self.0.declare(values)?;
+        Ok(Parameters { node: self.clone() })
+    }
+
+    /// A parameter by its name, whatever it is; nothing when there is none or it is not set.
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<ParameterValue> {
+        lock(&self.0.standard().store).get(name)
     }
 }
 
-impl Store {
-    fn new(node: &Node, values: Values) -> Result<Self, GraphError> {
-        let events = node.publisher("/parameter_events", Qos::parameters())?;
-        let common = node.0.core.common.clone();
-        let store = Self { values, generation: 0, events, common, node: node.0.full_name.clone() };
-        let all = store.names().into_iter().map(|name| store.named(name));
-        store.tell(ParameterEvent { new_parameters: all.collect(), ..Default::default() });
-        Ok(store)
-    }
-
-    /// The names of all parameters, sorted.
-    fn names(&self) -> Vec<&'static str> {
-        let table = self.values.table();
-        let declared = table.parameters.iter().filter(|one| one.kind != Kind::Group);
-        let mut names: Vec<_> = declared.map(|one| one.name).chain([USE_SIM_TIME]).collect();
-        names.sort_unstable();
-        names
-    }
-
-    fn get(&self, name: &str) -> Option<Value> {
-        if name == USE_SIM_TIME {
-            return Some(Value::Bool(self.common.clock.is_simulated()));
-        }
-        let parameter = self.values.table().find(name)?;
-        self.values.get(parameter.name)
-    }
-
-    fn named(&self, name: &str) -> Named {
-        let value = self.get(name).map(convert::to_message).unwrap_or_default();
-        Named { name: name.to_owned(), value }
-    }
-
-    /// The values as they would be with all of these set. The error is for the one who sets.
-    fn propose(&self, set: &[Named]) -> Result<Values, String> {
-        let mut values = self.values.clone();
-        let table = values.table();
-        for Named { name, value } in set {
-            let value = convert::from_message(value)
-                .map_err(|reason| format!("`{name}`: the value {reason}"))?;
-            if name == USE_SIM_TIME {
-                self.check_sim_time(&value)?;
-                continue;
-            }
-            let parameter = table.find(name).filter(|one| one.kind != Kind::Group);
-            let Some(parameter) = parameter else {
-                let near = periplus_diagnostics::closest(name, table.names());
-                let near = near.map(|near| format!(", did you mean `{near}`?"));
-                return Err(format!(
-                    "{} has no parameter `{name}`{}",
-                    self.node,
-                    near.unwrap_or_default()
-                ));
-            };
-            let value =
-                value.fit(parameter).map_err(|reason| format!("`{name}`: the value {reason}"))?;
-            values.set(name, value);
-        }
-        Ok(values)
-    }
-
-    fn check_sim_time(&self, value: &Value) -> Result<(), String> {
-        let is_simulated = self.common.clock.is_simulated();
-        if *value == Value::Bool(is_simulated) {
-            return Ok(());
-        }
-        let time = if is_simulated { "simulated time" } else { "the time of the machine" };
-        Err(format!("`{USE_SIM_TIME}` is {is_simulated}: all nodes of this program run on {time}"))
-    }
-
-    /// These values hold from now on.
-    fn accept(&mut self, values: Values, set: &[Named]) {
-        self.values = values;
-        self.generation += 1;
-        let changed = set.iter().map(|one| self.named(&one.name)).collect();
-        self.tell(ParameterEvent { changed_parameters: changed, ..Default::default() });
-    }
-
-    fn tell(&self, event: ParameterEvent) {
-        let stamp = stamp(self.common.clock.now_ns());
-        self.events.publish(ParameterEvent { stamp, node: self.node.to_string(), ..event });
+impl<S: Send + 'static> Actor<S> {
+    /// Lets others read and set these parameters. When somebody sets some, and their kinds and
+    /// ranges are right, `change` gets all values as they would be. If it agrees they hold, and it
+    /// has put them to use; otherwise its reason is told to who sets.
+    ///
+    /// # Errors
+    /// When the node has declared parameters already.
+    pub fn parameters(
+        &mut self,
+        values: Values,
+        change: impl FnMut(&mut S, &Values, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
+    ) -> Result<Parameters, GraphError> {
+        let node = self.node().clone();
+        node.0.declare(values)?;
+        let act = self.act(change);
+        let apply: Arc<Apply> = Arc::new(move |values| {
+            let mut outcome = Err("the node is going away".to_owned());
+            act(&mut |change, state, io| outcome = change(state, values, io));
+            outcome
+        });
+        let ordinal = node.0.next_ordinal();
+        *lock(&node.0.standard().change) = Some(Change { ordinal, apply });
+        self.keep(OwnChange { node: node.0.clone(), ordinal });
+        Ok(Parameters { node })
     }
 }
 
-fn stamp(time_ns: i64) -> Time {
+/// What is asked before parameters change, until this is dropped.
+struct OwnChange {
+    node: Arc<NodeCore>,
+    ordinal: u64,
+}
+
+impl Drop for OwnChange {
+    fn drop(&mut self) {
+        let mut change = lock(&self.node.standard().change);
+        let gone = change.take_if(|change| change.ordinal == self.ordinal);
+        drop(change);
+        drop(gone);
+    }
+}
+
+impl NodeCore {
+    fn declare(&self, values: Values) -> Result<(), GraphError> {
+        let mut store = lock(&self.standard().store);
+        if store.values().is_some() {
+            let reason = format!(
+                "`{}` has declared parameters already; put all of them into one table",
+                self.full_name
+            );
+            return Err(GraphError::Value { reason });
+        }
+        let unfit = store.declare(values);
+        drop(store);
+        for reason in unfit {
+            let message =
+                format!("a parameter of `{}` keeps its default: {reason}", self.full_name);
+            self.core.common.report(Diagnostic::error("bad-parameter", message));
+        }
+        self.tell_parameters(|store| ParameterEvent {
+            new_parameters: store.declared(),
+            ..Default::default()
+        });
+        Ok(())
+    }
+
+    /// Sets all of these or none. The store is free while the node is asked, so that it may look at
+    /// its parameters.
+    fn set_parameters(&self, set: &[Named], change: Option<Arc<Apply>>) -> Result<(), String> {
+        let values = lock(&self.standard().store).propose(set)?;
+        if let (Some(values), Some(apply)) = (&values, change) {
+            apply(values)?;
+        }
+        self.tell_parameters(|store| store.accept(values, set));
+        Ok(())
+    }
+
+    pub(crate) fn tell_parameters(&self, event: impl FnOnce(&mut Store) -> ParameterEvent) {
+        let standard = self.standard();
+        let mut store = lock(&standard.store);
+        let event = event(&mut store);
+        let stamp = stamp(self.core.common.clock.now_ns());
+        standard.publish_event(ParameterEvent { stamp, node: self.full_name.to_string(), ..event });
+    }
+}
+
+pub(crate) fn stamp(time_ns: i64) -> Time {
     let seconds = time_ns.div_euclid(1_000_000_000);
     let nanoseconds = time_ns.rem_euclid(1_000_000_000);
     // After 2038 ROS cannot tell the time either.
     let sec = i32::try_from(seconds).unwrap_or(i32::MAX);
     Time { sec, nanosec: u32::try_from(nanoseconds).unwrap_or_default() }
-}
-
-fn result(outcome: Result<(), String>) -> SetParametersResult {
-    match outcome {
-        Ok(()) => SetParametersResult { successful: true, reason: String::new() },
-        Err(reason) => SetParametersResult { successful: false, reason },
-    }
 }

@@ -20,6 +20,10 @@ impl<T: Message> Publisher<T> {
         Self { own, of: PhantomData }
     }
 
+    pub(crate) fn own(&self) -> &OwnOutlet {
+        &self.own
+    }
+
     /// Publishes a message at the time of the graph. All who listen share it; nothing is copied.
     /// It never waits for anybody who listens, except for the sinks of taps in lockstep.
     #[inline]
@@ -62,6 +66,10 @@ pub struct RawPublisher {
 impl RawPublisher {
     pub(crate) fn new(own: OwnOutlet) -> Self {
         Self { own }
+    }
+
+    pub(crate) fn own(&self) -> &OwnOutlet {
+        &self.own
     }
 
     /// Publishes a message as CDR, with the four bytes in front that say how it is coded. Who

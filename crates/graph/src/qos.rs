@@ -29,9 +29,13 @@ pub enum Durability {
 pub enum History {
     /// The newest, as many as the depth; older ones are dropped and counted.
     KeepLast,
-    /// All.
+    /// All, up to [`MOST_KEPT`].
     KeepAll,
 }
+
+/// Most messages that wait where all are kept, so that who never looks cannot take all memory: a
+/// hundred seconds at a hundred per second.
+pub const MOST_KEPT: usize = 10_000;
 
 /// Who says that a publisher lives. The order is that of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -116,6 +120,12 @@ impl Qos {
         Self::reliable(1000)
     }
 
+    /// `RosoutQoS`: reliable, the last thousand kept for latecomers, for ten seconds.
+    #[must_use]
+    pub const fn rosout() -> Self {
+        Self::latched(1000).with_lifespan_ns(10_000_000_000)
+    }
+
     /// With another reliability.
     #[must_use]
     pub const fn with_reliability(self, reliability: Reliability) -> Self {
@@ -150,7 +160,7 @@ impl Qos {
     pub(crate) fn capacity(&self) -> usize {
         match self.history {
             History::KeepLast => self.depth.max(1),
-            History::KeepAll => usize::MAX,
+            History::KeepAll => MOST_KEPT,
         }
     }
 

@@ -4,25 +4,26 @@ mod service;
 mod topic;
 mod type_of;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Weak};
 
 use crate::common::Common;
 use crate::info::{ServiceInfo, TopicInfo, Traffic};
 use crate::inlet::Inlet;
+use crate::node::NodeCore;
 use crate::outlet::{Outlet, Topic};
 use crate::sample::EndpointId;
 use crate::tap::{Sink, Tap, TapId};
 use crate::{Durability, GraphError, Sample};
 
 use service::ServiceEntry;
-use topic::TopicEntry;
+pub(crate) use topic::TopicEntry;
 
 pub(crate) use type_of::TypeOf;
 
 #[derive(Default)]
 pub(crate) struct Registry {
-    pub(crate) nodes: BTreeSet<Arc<str>>,
+    pub(crate) nodes: BTreeMap<Arc<str>, Weak<NodeCore>>,
     pub(crate) topics: BTreeMap<Arc<str>, TopicEntry>,
     pub(crate) services: BTreeMap<Arc<str>, ServiceEntry>,
     pub(crate) taps: Vec<Arc<Tap>>,

@@ -7,14 +7,15 @@ mod raw;
 use std::collections::VecDeque;
 use std::fmt;
 use std::marker::PhantomData;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, Weak};
 
 use periplus_msgs::Service;
 
 use crate::GraphError;
 
-use crate::agenda::{Agenda, Event, Key, Rank};
+use crate::agenda::{Event, Key, Rank};
 use crate::common::{Common, lock};
+use crate::graph::Core;
 use crate::node::NodeCore;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
@@ -73,7 +74,8 @@ pub(crate) struct Server {
 }
 
 pub(crate) struct ServerReaction {
-    pub(crate) agenda: Arc<Agenda>,
+    /// In whose agenda it happens; in live its thread starts with the first call.
+    pub(crate) node: Weak<NodeCore>,
     pub(crate) react: Box<dyn Fn(Request) + Send + Sync>,
 }
 
@@ -93,7 +95,8 @@ impl Server {
         if let Some(wake) = self.wake.get() {
             wake();
         }
-        if let Some(reaction) = &self.reaction {
+        let node = self.reaction.as_ref().and_then(|reaction| reaction.node.upgrade());
+        if let Some(node) = node {
             let key = Key {
                 time_ns: common.clock.now_ns(),
                 node: self.node.clone(),
@@ -102,7 +105,7 @@ impl Server {
                 sequence: number,
                 ordinal: 0,
             };
-            reaction.agenda.add(key, self.clone());
+            node.agenda().add(key, self.clone());
         }
     }
 
@@ -114,6 +117,18 @@ impl Server {
         let mut waiting = lock(&self.waiting);
         let place = waiting.requests.iter().position(|(other, _)| *other == number)?;
         waiting.requests.remove(place).map(|(_, request)| request)
+    }
+
+    /// Takes it out of the graph; who waits is told so.
+    pub(crate) fn leave(&self, core: &Core) {
+        let mut registry = lock(&core.registry);
+        registry.changes += 1;
+        let entry = registry.services.get_mut(&self.name);
+        let is_this = |server: &mut Arc<Self>| std::ptr::eq(&**server, self);
+        let gone = entry.and_then(|entry| entry.server.take_if(is_this));
+        drop(registry);
+        drop(gone);
+        self.withdraw();
     }
 
     fn withdraw(&self) {
@@ -142,13 +157,7 @@ pub(crate) struct OwnServer {
 
 impl Drop for OwnServer {
     fn drop(&mut self) {
-        let mut registry = lock(&self.node.core.registry);
-        registry.changes += 1;
-        let entry = registry.services.get_mut(&self.server.name);
-        let gone = entry.and_then(|entry| entry.server.take());
-        drop(registry);
-        drop(gone);
-        self.server.withdraw();
+        self.server.leave(&self.node.core);
     }
 }
 
@@ -159,6 +168,16 @@ impl NodeCore {
         type_of: TypeOf,
         reaction: Option<ServerReaction>,
     ) -> Result<OwnServer, GraphError> {
+        Ok(OwnServer { server: self.bare_server(name, type_of, reaction)?, node: self.clone() })
+    }
+
+    /// A server that somebody has to take out of the graph.
+    pub(crate) fn bare_server(
+        &self,
+        name: &str,
+        type_of: TypeOf,
+        reaction: Option<ServerReaction>,
+    ) -> Result<Arc<Server>, GraphError> {
         let name: Arc<str> = self.names.service(name)?.into();
         let mut registry = lock(&self.core.registry);
         let node = self.full_name.clone();
@@ -170,7 +189,7 @@ impl NodeCore {
             waiting: Mutex::default(),
         });
         registry.service(&name, type_of, &self.full_name)?.set_server(server.clone())?;
-        Ok(OwnServer { server, node: self.clone() })
+        Ok(server)
     }
 }
 

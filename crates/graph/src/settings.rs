@@ -1,6 +1,11 @@
 //! What a node is called and what it calls its topics.
 
+use std::collections::BTreeMap;
+
+use periplus_msgs::rcl_interfaces::ParameterValue;
+
 use crate::GraphError;
+use crate::arguments::Arguments;
 use crate::name;
 use crate::remap::{Change, Rule, full_namespace};
 
@@ -10,13 +15,25 @@ pub struct NodeSettings {
     name: String,
     namespace: String,
     rules: Vec<Result<Rule, GraphError>>,
+    parameters: BTreeMap<String, ParameterValue>,
+    takes_any_parameter: bool,
+    is_bare: bool,
+    keeps_names: bool,
 }
 
 impl NodeSettings {
     /// A node in the root namespace.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
-        Self { name: name.into(), namespace: "/".into(), rules: Vec::new() }
+        Self {
+            name: name.into(),
+            namespace: "/".into(),
+            rules: Vec::new(),
+            parameters: BTreeMap::new(),
+            takes_any_parameter: false,
+            is_bare: false,
+            keeps_names: false,
+        }
     }
 
     /// In a namespace, with or without a slash in front; `""` and `/` are the root.
@@ -45,6 +62,57 @@ impl NodeSettings {
     pub fn rule(mut self, written: &str) -> Self {
         self.rules.push(Rule::read(written));
         self
+    }
+
+    /// The value of a parameter that the node may declare, in place of what arguments say.
+    #[must_use]
+    pub fn parameter(mut self, name: &str, value: ParameterValue) -> Self {
+        self.parameters.insert(name.to_owned(), value);
+        self
+    }
+
+    /// The node has whatever parameters it is given, and others may set any
+    /// (`allow_undeclared_parameters` of ROS 2).
+    #[must_use]
+    pub fn any_parameters(mut self) -> Self {
+        self.takes_any_parameter = true;
+        self
+    }
+
+    /// Without the services for parameters and without a place on `/parameter_events` and `/rosout`:
+    /// for what is no node by itself, such as a wire or a tool that looks for a moment.
+    #[must_use]
+    pub fn bare(mut self) -> Self {
+        self.is_bare = true;
+        self
+    }
+
+    /// Arguments rename neither the node nor what it uses: it belongs to the program, and others know
+    /// it by its name.
+    #[must_use]
+    pub fn keep_names(mut self) -> Self {
+        self.keeps_names = true;
+        self
+    }
+
+    pub(crate) fn takes_any_parameter(&self) -> bool {
+        self.takes_any_parameter
+    }
+
+    pub(crate) fn is_bare(&self) -> bool {
+        self.is_bare
+    }
+
+    /// Names and parameters, with what arguments say.
+    pub(crate) fn resolve(
+        mut self,
+        arguments: &Arguments,
+    ) -> Result<(NodeNames, BTreeMap<String, ParameterValue>), GraphError> {
+        if !self.keeps_names {
+            self.rules.extend(arguments.rules.iter().cloned().map(Ok));
+        }
+        let parameters = std::mem::take(&mut self.parameters);
+        Ok((self.names()?, parameters))
     }
 
     /// The names that the node will have.

@@ -3,8 +3,10 @@
 
 use std::sync::Arc;
 
-use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Graph, Node, NodeSettings, Qos};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{
+    Arguments, Graph, Node, NodeSettings, Qos, parameter_from_yaml, parameter_to_yaml,
+};
 use periplus_msgs::Service;
 use periplus_msgs::rcl_interfaces::{
     DescribeParameters, DescribeParametersRequest, GetParameters, GetParametersRequest,
@@ -153,4 +155,125 @@ fn one_program_has_one_time() {
     );
     graph.set_simulated_time(false);
     assert!(ask::<SetParameters>(&graph, &node, name, request).results[0].successful);
+}
+
+fn arguments(line: &str) -> Arguments {
+    let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+    let none = &mut |_: &std::path::Path| Err("is not there".into());
+    let arguments = Arguments::read(&words, &mut sources, &mut diagnostics, none);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    arguments
+}
+
+#[test]
+fn every_node_has_parameters() {
+    let graph = Graph::new();
+    let user = graph.node(NodeSettings::new("user").namespace("demo")).unwrap();
+    let events = user.mailbox::<ParameterEvent>("/parameter_events", Qos::parameters()).unwrap();
+    graph.advance_to(1_500_000_000);
+    let plain = graph.node(NodeSettings::new("plain")).unwrap();
+    let told = events.drain();
+    assert_eq!((told[0].node.as_str(), told[0].stamp.sec), ("/plain", 1));
+    assert_eq!((told[0].stamp.nanosec, told[0].new_parameters.len()), (500_000_000, 1));
+    assert_eq!(told[0].new_parameters[0].name, "use_sim_time");
+    let list = ListParametersRequest::default();
+    let listed = ask::<ListParameters>(&graph, &user, "/plain/list_parameters", list).result;
+    assert_eq!(listed.names, ["use_sim_time"]);
+    let services = graph.services().into_iter().filter(|one| one.server == Some("/plain".into()));
+    let names: Vec<String> = services.map(|one| one.name).collect();
+    assert_eq!(
+        names,
+        [
+            "/plain/describe_parameters",
+            "/plain/get_parameter_types",
+            "/plain/get_parameters",
+            "/plain/list_parameters",
+            "/plain/set_parameters",
+            "/plain/set_parameters_atomically"
+        ]
+    );
+    drop(plain);
+    assert!(!graph.services().iter().any(|one| one.server == Some("/plain".into())));
+    let bare = graph.node(NodeSettings::new("bare").bare()).unwrap();
+    assert!(!graph.services().iter().any(|one| one.name.starts_with("/bare/")));
+    assert_eq!(graph.nodes()[0].name, bare.full_name());
+}
+
+#[test]
+fn parameters_come_change_and_go() {
+    let graph = Graph::new();
+    let user = graph.node(NodeSettings::new("user")).unwrap();
+    let _any = graph.node(NodeSettings::new("any").any_parameters()).unwrap();
+    let events = user.mailbox::<ParameterEvent>("/parameter_events", Qos::parameters()).unwrap();
+    let set = |parameters: Vec<Parameter>| {
+        let request = SetParametersRequest { parameters };
+        ask::<SetParameters>(&graph, &user, "/any/set_parameters", request).results.remove(0).reason
+    };
+    let unset = Parameter { name: "x".into(), value: ParameterValue::default() };
+    assert_eq!(set(vec![double("x", 1.0)]), "");
+    assert_eq!(set(vec![word("x", "one")]), "");
+    assert_eq!(set(vec![unset.clone()]), "");
+    assert_eq!(set(vec![unset.clone()]), "/any has no parameter `x`");
+    let told = events.drain();
+    assert_eq!(told.len(), 3);
+    assert_eq!(told[0].new_parameters, [double("x", 1.0)]);
+    assert_eq!(told[1].changed_parameters, [word("x", "one")]);
+    assert_eq!(told[2].deleted_parameters, [unset]);
+}
+
+#[test]
+fn arguments_come_before_what_a_node_declares() {
+    let graph = Graph::new();
+    graph.set_arguments(arguments(
+        "-p blink.period:=4 -p lamp:colour:=grean -p lmap:height:=1 -p hight:=2 -r lamp:__ns:=/hall",
+    ));
+    let lamp = graph.node(NodeSettings::new("lamp")).unwrap();
+    assert_eq!(lamp.full_name(), "/hall/lamp");
+    assert!(lamp.parameter("blink.period").is_none(), "nothing is declared yet");
+    let parameters = lamp.parameters(values()).unwrap();
+    assert_eq!(parameters.values().number("blink.period"), Some(4.0));
+    assert_eq!(parameters.values().text("colour"), Some("red".into()));
+    assert_eq!(parameter_to_yaml(&lamp.parameter("blink.period").unwrap()), "4.0");
+    let messages = |found: Diagnostics| -> Vec<String> {
+        found.iter().map(|finding| finding.message.clone()).collect()
+    };
+    assert_eq!(
+        messages(graph.take_findings()),
+        [
+            "a parameter of `/hall/lamp` keeps its default: `colour`: the value is none of `red`, `green`"
+        ]
+    );
+    assert_eq!(
+        messages(graph.unused_arguments()),
+        [
+            "no node that fits `/**` has a parameter `hight`",
+            "there are parameters for `/**/lmap`, and no such node"
+        ]
+    );
+    // What the program says of one node comes before what holds for all.
+    let own = NodeSettings::new("own").parameter("blink.period", parameter_from_yaml("1").unwrap());
+    let own = graph.node(own).unwrap().parameters(values()).unwrap();
+    assert_eq!(own.values().number("blink.period"), Some(1.0));
+    assert!(own.set("blink.period", periplus_params::Value::Number(-1.0)).is_err());
+    own.set("blink.period", periplus_params::Value::Number(7.0)).unwrap();
+    assert_eq!((own.values().number("blink.period"), own.generation()), (Some(7.0), 1));
+}
+
+#[test]
+fn who_goes_is_asked_no_more() {
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("lamp")).unwrap();
+    let mut actor = node.actor(());
+    let parameters = actor.parameters(values(), |(), _, _| Err("never".into())).unwrap();
+    let request = SetParametersRequest { parameters: vec![double("height", 2.0)] };
+    let set = |request: &SetParametersRequest| {
+        let name = "/lamp/set_parameters";
+        ask::<SetParameters>(&graph, &node, name, request.clone()).results.remove(0).reason
+    };
+    assert_eq!(set(&request), "never");
+    drop(actor);
+    assert_eq!(set(&request), "");
+    assert_eq!(parameters.values().number("height"), Some(2.0));
+    assert!(node.parameters(values()).is_err(), "there is a table already");
 }

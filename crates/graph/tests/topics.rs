@@ -20,8 +20,8 @@ fn numbers(messages: &[Arc<Int32>]) -> Vec<i32> {
 
 fn pair(qos: Qos, asked: Qos) -> (Graph, Publisher<Int32>, periplus_graph::Mailbox<Int32>) {
     let graph = Graph::new();
-    let a = graph.node(NodeSettings::new("a")).unwrap();
-    let b = graph.node(NodeSettings::new("b")).unwrap();
+    let a = graph.node(NodeSettings::new("a").bare()).unwrap();
+    let b = graph.node(NodeSettings::new("b").bare()).unwrap();
     let publisher = a.publisher("x", qos).unwrap();
     let mailbox = b.mailbox("x", asked).unwrap();
     (graph, publisher, mailbox)

@@ -3,6 +3,7 @@
 pub mod action_msgs;
 pub mod builtin_interfaces;
 pub mod diagnostic_msgs;
+pub mod example_interfaces;
 pub mod gazebo_msgs;
 pub mod geometry_msgs;
 pub mod lifecycle_msgs;
@@ -38,6 +39,7 @@ crate::sources! {
     "diagnostic_msgs/msg/KeyValue.msg"
     "diagnostic_msgs/srv/AddDiagnostics.srv"
     "diagnostic_msgs/srv/SelfTest.srv"
+    "example_interfaces/action/Fibonacci.action"
     "gazebo_msgs/msg/ContactState.msg"
     "gazebo_msgs/msg/ContactsState.msg"
     "gazebo_msgs/msg/EntityState.msg"
@@ -361,6 +363,14 @@ crate::list_messages! {
     diagnostic_msgs::AddDiagnosticsResponse
     diagnostic_msgs::SelfTestRequest
     diagnostic_msgs::SelfTestResponse
+    example_interfaces::FibonacciGoal
+    example_interfaces::FibonacciResult
+    example_interfaces::FibonacciFeedback
+    example_interfaces::FibonacciSendGoalRequest
+    example_interfaces::FibonacciSendGoalResponse
+    example_interfaces::FibonacciGetResultRequest
+    example_interfaces::FibonacciGetResultResponse
+    example_interfaces::FibonacciFeedbackMessage
     gazebo_msgs::ContactState
     gazebo_msgs::ContactsState
     gazebo_msgs::EntityState

@@ -128,6 +128,81 @@ macro_rules! action {
             type FeedbackMessage = $feedback_message;
             const TYPE_NAME: &'static str = $type_name;
             const TYPE_HASH: &'static str = $type_hash;
+
+            fn send_goal(
+                goal_id: $crate::unique_identifier_msgs::UUID,
+                goal: $goal,
+            ) -> <$send_goal as $crate::Service>::Request {
+                let mut request = <$send_goal as $crate::Service>::Request::default();
+                request.goal_id = goal_id;
+                request.goal = goal;
+                request
+            }
+
+            fn sent_goal(
+                request: &<$send_goal as $crate::Service>::Request,
+            ) -> (&$crate::unique_identifier_msgs::UUID, &$goal) {
+                (&request.goal_id, &request.goal)
+            }
+
+            fn accept_goal(
+                accepted: bool,
+                stamp: $crate::builtin_interfaces::Time,
+            ) -> <$send_goal as $crate::Service>::Response {
+                let mut response = <$send_goal as $crate::Service>::Response::default();
+                response.accepted = accepted;
+                response.stamp = stamp;
+                response
+            }
+
+            fn accepted_goal(
+                response: &<$send_goal as $crate::Service>::Response,
+            ) -> (bool, &$crate::builtin_interfaces::Time) {
+                (response.accepted, &response.stamp)
+            }
+
+            fn get_result(
+                goal_id: $crate::unique_identifier_msgs::UUID,
+            ) -> <$get_result as $crate::Service>::Request {
+                let mut request = <$get_result as $crate::Service>::Request::default();
+                request.goal_id = goal_id;
+                request
+            }
+
+            fn asked_result(
+                request: &<$get_result as $crate::Service>::Request,
+            ) -> &$crate::unique_identifier_msgs::UUID {
+                &request.goal_id
+            }
+
+            fn give_result(
+                status: i8,
+                result: $result,
+            ) -> <$get_result as $crate::Service>::Response {
+                let mut response = <$get_result as $crate::Service>::Response::default();
+                response.status = status;
+                response.result = result;
+                response
+            }
+
+            fn given_result(
+                response: &<$get_result as $crate::Service>::Response,
+            ) -> (i8, &$result) {
+                (response.status, &response.result)
+            }
+
+            fn tell_feedback(
+                goal_id: $crate::unique_identifier_msgs::UUID,
+                feedback: $feedback,
+            ) -> $feedback_message {
+                $feedback_message { goal_id, feedback }
+            }
+
+            fn told_feedback(
+                message: &$feedback_message,
+            ) -> (&$crate::unique_identifier_msgs::UUID, &$feedback) {
+                (&message.goal_id, &message.feedback)
+            }
         }
     };
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use crate::builtin_interfaces::Time;
+use crate::unique_identifier_msgs::UUID;
 use crate::{Codec, DecodeError, EncodeError, Format, TypeRegistry};
 
 /// A type that is sent as a whole.
@@ -85,6 +87,12 @@ pub trait Service: Send + Sync + 'static {
     const TYPE_HASH: &'static str;
 }
 
+/// The question of a service.
+type Request<S> = <S as Service>::Request;
+
+/// The answer of a service.
+type Response<S> = <S as Service>::Response;
+
 /// A task that takes time, tells how far it is, and can be stopped.
 pub trait Action: Send + Sync + 'static {
     /// What to do.
@@ -103,4 +111,25 @@ pub trait Action: Send + Sync + 'static {
     const TYPE_NAME: &'static str;
     /// Its type hash.
     const TYPE_HASH: &'static str;
+
+    /// Asks to begin a task.
+    fn send_goal(goal_id: UUID, goal: Self::Goal) -> Request<Self::SendGoal>;
+    /// Which task is to begin, and what is to be done.
+    fn sent_goal(request: &Request<Self::SendGoal>) -> (&UUID, &Self::Goal);
+    /// Whether it begins, and when.
+    fn accept_goal(accepted: bool, stamp: Time) -> Response<Self::SendGoal>;
+    /// Whether it began, and when.
+    fn accepted_goal(response: &Response<Self::SendGoal>) -> (bool, &Time);
+    /// Asks for the end of a task.
+    fn get_result(goal_id: UUID) -> Request<Self::GetResult>;
+    /// Whose end is asked for.
+    fn asked_result(request: &Request<Self::GetResult>) -> &UUID;
+    /// How a task ended, by `action_msgs/msg/GoalStatus`, and what came of it.
+    fn give_result(status: i8, result: Self::Result) -> Response<Self::GetResult>;
+    /// As [`Action::give_result`], read.
+    fn given_result(response: &Response<Self::GetResult>) -> (i8, &Self::Result);
+    /// How far a task is.
+    fn tell_feedback(goal_id: UUID, feedback: Self::Feedback) -> Self::FeedbackMessage;
+    /// As [`Action::tell_feedback`], read.
+    fn told_feedback(message: &Self::FeedbackMessage) -> (&UUID, &Self::Feedback);
 }

@@ -12,6 +12,7 @@ mod surroundings;
 mod uri;
 
 pub use host::{Host, Kind, LARGEST_FILE, ReadError};
+pub use manifest::package_name;
 pub use memory::MemoryHost;
 pub use miss::{Miss, MissKind};
 pub use resolver::Resolver;

@@ -1,7 +1,11 @@
 //! The two small files that say what a folder is: `package.xml` and `model.config`.
 
+use std::path::Path;
+
 use quick_xml::Reader;
 use quick_xml::events::Event;
+
+use crate::host::Host;
 
 /// Manifests are a few kilobytes; more than this is not read [bytes].
 const LARGEST: usize = 1 << 20;
@@ -13,6 +17,13 @@ pub(crate) struct PackageManifest {
     /// `gazebo_model_path` and `gazebo_media_path` of `<export><gazebo_ros/>`, entries of
     /// colon-separated lists with `${prefix}` for the package's own folder.
     pub(crate) gazebo_paths: Vec<String>,
+}
+
+/// The name of the package in a folder, as its `package.xml` has it.
+#[must_use]
+pub fn package_name(host: &dyn Host, folder: &Path) -> Option<String> {
+    let manifest = host.read(&folder.join("package.xml")).ok()?;
+    Some(package(&manifest).name).filter(|name| !name.is_empty())
 }
 
 pub(crate) fn package(bytes: &[u8]) -> PackageManifest {

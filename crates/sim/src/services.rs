@@ -28,7 +28,7 @@ mod tempo;
 mod topics;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_graph::{GraphError, NodeSettings};
+use periplus_graph::{GraphError, Node, NodeSettings};
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
 use self::factory::Factory;
@@ -75,7 +75,7 @@ impl Services {
     /// # Errors
     /// When the graph has a node `/gazebo`, or one of the services.
     pub fn new(simulation: &Simulation, search: Search) -> Result<Self, GraphError> {
-        let node = simulation.graph().node(NodeSettings::new("gazebo"))?;
+        let node = simulation.graph().node(NodeSettings::new("gazebo").keep_names())?;
         let (scene, now_ns) = (&simulation.scene, simulation.time_ns());
         let states = StatePlugin::of(scene, "gazebo_ros_state");
         let properties = StatePlugin::of(scene, "gazebo_ros_properties");
@@ -86,7 +86,7 @@ impl Services {
             tempo: Tempo::default(),
             search,
             new_factor: None,
-            log: Log::default(),
+            log: Log { found: Diagnostics::new(), node: node.clone() },
             pause: offer("pause_physics")?,
             unpause: offer("unpause_physics")?,
             reset_simulation: offer("reset_simulation")?,
@@ -129,7 +129,7 @@ impl Services {
 
     /// What was refused since this was last asked, and why.
     pub fn take_findings(&mut self) -> Diagnostics {
-        std::mem::take(&mut self.log.0)
+        std::mem::take(&mut self.log.found)
     }
 
     /// Does what was asked since the last time, and publishes states that are due. Call it before
@@ -186,8 +186,11 @@ impl Services {
 }
 
 /// What was refused where the answer has no place for a reason.
-#[derive(Debug, Default)]
-struct Log(Diagnostics);
+#[derive(Debug)]
+struct Log {
+    found: Diagnostics,
+    node: Node,
+}
 
 impl Log {
     /// Keeps the reason of what was not done; whether it was.
@@ -200,14 +203,19 @@ impl Log {
 
     fn refused(&mut self, call: &str, why: &str) {
         let message = format!("`{call}` was refused: {}", why.trim_end());
-        self.0.push(Diagnostic::warning("call-refused", message));
+        self.push(Diagnostic::warning("call-refused", message));
+    }
+
+    fn push(&mut self, finding: Diagnostic) {
+        self.node.log_finding(&finding);
+        self.found.push(finding);
     }
 
     /// Keeps what is to be said about something that was done.
     fn notes(&mut self, call: &str, notes: &str) {
         if !notes.trim().is_empty() {
             let message = format!("`{call}`: {}", notes.trim_end());
-            self.0.push(Diagnostic::warning("call-findings", message));
+            self.push(Diagnostic::warning("call-findings", message));
         }
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_dynamics::{Diverged, Mode, ModelId};
-use periplus_graph::Graph;
+use periplus_graph::{Arguments, Graph, Node, NodeSettings};
 use periplus_host::Stopwatch;
 use periplus_nodes::states::ClockPublisher;
 use periplus_nodes::{Device, Moment, Setting, Span, Views};
@@ -42,6 +42,8 @@ pub struct Options {
     pub rolling_scans: bool,
     /// `from:=to` for all nodes.
     pub remaps: Vec<String>,
+    /// What `--ros-args` say to all nodes but those of the world itself.
+    pub arguments: Arguments,
     /// Messages on `/clock` per simulated second \[Hz\].
     pub clock_rate_hz: f64,
 }
@@ -56,6 +58,7 @@ impl Default for Options {
             quirks: Quirks::default(),
             rolling_scans: false,
             remaps: Vec::new(),
+            arguments: Arguments::default(),
             clock_rate_hz: 100.0,
         }
     }
@@ -87,6 +90,9 @@ pub struct Simulation {
     step_ns: i64,
     time_ns: i64,
     shares: Shares,
+    /// Whose log says what is found wrong.
+    journal: Option<Node>,
+    found: Diagnostics,
 }
 
 impl Simulation {
@@ -98,6 +104,7 @@ impl Simulation {
         let step_s = options.step_s.unwrap_or_else(|| step_of(&scene));
         let motion = periplus_dynamics::World::empty(scene.gravity_m_s2, options.mode);
         let graph = Graph::new();
+        graph.set_arguments(options.arguments.clone());
         let views = Views::new(Arc::clone(&files) as _, options.threads).under(&scene);
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
@@ -106,6 +113,8 @@ impl Simulation {
             running: Vec::new(),
             time_ns: 0,
             shares: Shares::default(),
+            journal: graph.node(NodeSettings::new("periplus").keep_names()).ok(),
+            found: Diagnostics::new(),
             graph,
             scene,
             motion,
@@ -124,6 +133,9 @@ impl Simulation {
             let file = member.file;
             let findings = simulation.spawn(member);
             composition.files[file].diagnostics.append(findings);
+        }
+        for file in &composition.files {
+            simulation.log(&file.diagnostics);
         }
         simulation
     }
@@ -174,18 +186,32 @@ impl Simulation {
     /// shapes that cannot be seen. Models of many files are in one world, so no finding has a
     /// place.
     pub fn take_findings(&mut self) -> Diagnostics {
-        let mut findings = Diagnostics::new();
+        self.collect_findings();
+        std::mem::take(&mut self.found)
+    }
+
+    /// Keeps what was found wrong since the last time, and logs it.
+    fn collect_findings(&mut self) {
         for found in [self.graph.take_findings(), self.views.take_findings()] {
             for diagnostic in found.iter() {
-                findings.push(Diagnostic {
+                self.found.push(Diagnostic {
                     span: None,
                     related: Vec::new(),
                     replacement: None,
                     ..diagnostic.clone()
                 });
             }
+            self.log(&found);
         }
-        findings
+    }
+
+    /// Says on `/rosout` what was found.
+    fn log(&self, findings: &Diagnostics) {
+        for finding in findings.iter() {
+            if let Some(journal) = &self.journal {
+                journal.log_finding(finding);
+            }
+        }
     }
 
     /// The names of the models that are there, in the order of coming.
@@ -324,6 +350,7 @@ impl Simulation {
         for device in all(&mut self.world_devices, &mut self.running) {
             device.sense(&mut moment);
         }
+        self.collect_findings();
         self.shares.lap(Work::Sensing, &mut stopwatch);
         Ok(())
     }

@@ -116,7 +116,7 @@ impl Session<'_> {
             Some(name) => name.to_owned(),
             None => format!("{OWN_NODE}_{}", std::process::id()),
         };
-        Ok(self.network.graph().node(NodeSettings::new(name))?)
+        Ok(self.network.graph().node(NodeSettings::new(name).bare())?)
     }
 
     /// Says something that is no result.

@@ -92,7 +92,7 @@ impl Wire {
         }
         let guid = self.participant.guid().0;
         let name: String = guid[2..12].iter().map(|byte| format!("{byte:02x}")).collect();
-        let node = graph.node(NodeSettings::new(format!("_wire_{name}")))?;
+        let node = graph.node(NodeSettings::new(format!("_wire_{name}")).bare().keep_names())?;
         *lock(&self.shared.joining) = Some((graph.clone(), node));
         self.waker.wake();
         Ok(())

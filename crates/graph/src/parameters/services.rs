@@ -1,109 +1,62 @@
 //! The six services of parameters.
 
 use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use periplus_msgs::rcl_interfaces::{
     DescribeParameters, DescribeParametersResponse, GetParameterTypes, GetParameterTypesResponse,
     GetParameters, GetParametersResponse, ListParameters, ListParametersRequest,
-    ListParametersResponse, ListParametersResult, Parameter as Named, ParameterDescriptor,
-    ParameterType, SetParameters, SetParametersAtomically, SetParametersAtomicallyResponse,
-    SetParametersResponse,
+    ListParametersResponse, ListParametersResult, Parameter as Named, SetParameters,
+    SetParametersAtomically, SetParametersAtomicallyResponse, SetParametersResponse,
+    SetParametersResult,
 };
-use periplus_params::Values;
 
-use super::{Parameters, Store, USE_SIM_TIME, convert, result};
 use crate::GraphError;
-use crate::actor::{Actor, Io};
 use crate::common::lock;
+use crate::node::NodeCore;
+use crate::service::Server;
+use crate::standard::server;
 
-type Check<S> = dyn FnMut(&mut S, &Values, &mut Io<'_, S>) -> Result<(), String> + Send;
-
-impl<S: Send + 'static> Actor<S> {
-    /// Lets others read and set these parameters. When somebody sets some, and their kinds and
-    /// ranges are right, `change` gets all values as they would be. If it agrees they hold, and it
-    /// has put them to use; otherwise its reason is told to who sets.
-    ///
-    /// # Errors
-    /// When the node has parameters already.
-    pub fn parameters(
-        &mut self,
-        values: Values,
-        change: impl FnMut(&mut S, &Values, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
-    ) -> Result<Parameters, GraphError> {
-        let store = Arc::new(Mutex::new(Store::new(self.node(), values)?));
-        let change: Arc<Mutex<Check<S>>> = Arc::new(Mutex::new(change));
-
-        let own = store.clone();
-        self.serve::<GetParameters>("~/get_parameters", move |_, request, _| {
-            let store = lock(&own);
-            let values = request.names.iter().map(|name| store.named(name).value).collect();
-            GetParametersResponse { values }
-        })?;
-        let own = store.clone();
-        self.serve::<GetParameterTypes>("~/get_parameter_types", move |_, request, _| {
-            let store = lock(&own);
-            let types = request.names.iter().map(|name| store.named(name).value.r#type).collect();
-            GetParameterTypesResponse { types }
-        })?;
-        let own = store.clone();
-        self.serve::<DescribeParameters>("~/describe_parameters", move |_, request, _| {
-            let store = lock(&own);
-            let descriptors = request.names.iter().map(|name| store.describe(name)).collect();
-            DescribeParametersResponse { descriptors }
-        })?;
-        let own = store.clone();
-        self.serve::<ListParameters>("~/list_parameters", move |_, request, _| {
-            ListParametersResponse { result: list(&lock(&own).names(), &request) }
-        })?;
-        let (own, check) = (store.clone(), change.clone());
-        self.serve::<SetParameters>("~/set_parameters", move |state, request, io| {
-            let each = request.parameters.iter();
-            let set = |one| result(set(&own, &check, std::slice::from_ref(one), state, io));
-            SetParametersResponse { results: each.map(set).collect() }
-        })?;
-        let own = store.clone();
-        self.serve::<SetParametersAtomically>(
-            "~/set_parameters_atomically",
-            move |state, request, io| {
-                let outcome = set(&own, &change, &request.parameters, state, io);
-                SetParametersAtomicallyResponse { result: result(outcome) }
-            },
-        )?;
-        Ok(Parameters { store, _answers: None })
-    }
-}
-
-/// Sets all of these or none. The store is free while the node is asked, so that it may look at its
-/// parameters.
-fn set<S>(
-    store: &Mutex<Store>,
-    change: &Mutex<Check<S>>,
-    set: &[Named],
-    state: &mut S,
-    io: &mut Io<'_, S>,
-) -> Result<(), String> {
-    let values = lock(store).propose(set)?;
-    (*lock(change))(state, &values, io)?;
-    lock(store).accept(values, set);
+/// Offers the services of a node.
+pub(crate) fn serve(node: &Arc<NodeCore>, made: &mut Vec<Arc<Server>>) -> Result<(), GraphError> {
+    made.push(server::<GetParameters>(node, "~/get_parameters", |node, request| {
+        let store = lock(&node.standard().store);
+        let values = request.names.iter().map(|name| store.named(name).value).collect();
+        GetParametersResponse { values }
+    })?);
+    made.push(server::<GetParameterTypes>(node, "~/get_parameter_types", |node, request| {
+        let store = lock(&node.standard().store);
+        let types = request.names.iter().map(|name| store.named(name).value.r#type).collect();
+        GetParameterTypesResponse { types }
+    })?);
+    made.push(server::<DescribeParameters>(node, "~/describe_parameters", |node, request| {
+        let store = lock(&node.standard().store);
+        let descriptors = request.names.iter().map(|name| store.describe(name)).collect();
+        DescribeParametersResponse { descriptors }
+    })?);
+    made.push(server::<ListParameters>(node, "~/list_parameters", |node, request| {
+        let store = lock(&node.standard().store);
+        ListParametersResponse { result: list(&store.names(), request) }
+    })?);
+    made.push(server::<SetParameters>(node, "~/set_parameters", |node, request| {
+        let each = request.parameters.iter();
+        let results = each.map(|one| set(node, std::slice::from_ref(one))).collect();
+        SetParametersResponse { results }
+    })?);
+    made.push(server::<SetParametersAtomically>(
+        node,
+        "~/set_parameters_atomically",
+        |node, request| SetParametersAtomicallyResponse { result: set(node, &request.parameters) },
+    )?);
     Ok(())
 }
 
-impl Store {
-    fn describe(&self, name: &str) -> ParameterDescriptor {
-        if name == USE_SIM_TIME {
-            return ParameterDescriptor {
-                name: name.to_owned(),
-                r#type: ParameterType::PARAMETER_BOOL,
-                description: "Whether the nodes of this program run on simulated time.".into(),
-                read_only: true,
-                ..Default::default()
-            };
-        }
-        match self.values.table().find(name) {
-            Some(parameter) => convert::describe(parameter),
-            None => ParameterDescriptor { name: name.to_owned(), ..Default::default() },
-        }
+fn set(node: &NodeCore, parameters: &[Named]) -> SetParametersResult {
+    // Free again before the node is asked: it may go meanwhile.
+    let change = lock(&node.standard().change).as_ref().map(|change| change.apply.clone());
+    match node.set_parameters(parameters, change) {
+        Ok(()) => SetParametersResult { successful: true, reason: String::new() },
+        Err(reason) => SetParametersResult { successful: false, reason },
     }
 }
 

@@ -7,12 +7,13 @@ use std::sync::atomic::Ordering;
 use periplus_diagnostics::Diagnostic;
 
 use super::TypeOf;
-use crate::common::{Common, lock};
+use crate::common::Common;
 use crate::info::{
     EndpointInfo, Mismatch, PublisherTraffic, SubscriptionTraffic, TopicInfo, Traffic,
 };
 use crate::inlet::Inlet;
 use crate::outlet::{Outlet, Topic};
+use crate::qos_event::unfit;
 use crate::sample::EndpointId;
 use crate::tap::{Tap, TapId};
 use crate::{Qos, Sample};
@@ -43,6 +44,14 @@ impl TopicEntry {
         }
     }
 
+    pub(crate) fn outlets(&self) -> &[Arc<Outlet>] {
+        &self.outlets
+    }
+
+    pub(crate) fn inlets(&self) -> &[Arc<Inlet>] {
+        &self.inlets
+    }
+
     pub(super) fn is_used(&self) -> bool {
         !(self.outlets.is_empty() && self.inlets.is_empty())
     }
@@ -62,7 +71,8 @@ impl TopicEntry {
     pub(super) fn connect(&mut self, common: &Common) -> Vec<(Arc<Outlet>, Sample)> {
         self.outlets.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
         self.inlets.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
-        let info = Arc::new(self.info());
+        // Only taps look at it, and on topics with many ends it is long.
+        let info = if self.taps.is_empty() { Arc::default() } else { Arc::new(self.info()) };
         let mut kept = Vec::new();
         for outlet in &self.outlets {
             let fits = |inlet: &&Arc<Inlet>| outlet.qos.lacks(&inlet.qos).is_empty();
@@ -79,19 +89,12 @@ impl TopicEntry {
     fn report_mismatches(&mut self, common: &Common) {
         for outlet in &self.outlets {
             for inlet in &self.inlets {
-                let lacks = outlet.qos.lacks(&inlet.qos);
+                let unfit = unfit(&outlet.qos, &inlet.qos);
                 let pair = (outlet.node.clone(), inlet.node.clone());
-                if lacks.is_empty() || !self.reported.insert(pair) {
+                if unfit.is_empty() || !self.reported.insert(pair) {
                     continue;
                 }
-                let policies: Vec<String> = lacks
-                    .iter()
-                    .map(|policy| {
-                        let (offer, asked) =
-                            (outlet.qos.spelled(*policy), inlet.qos.spelled(*policy));
-                        format!("offers {policy} {offer}, asked for is {asked}")
-                    })
-                    .collect();
+                let policies: Vec<String> = unfit.iter().map(ToString::to_string).collect();
                 let message = format!(
                     "`{}` gets nothing from `{}` on the topic `{}`: the publisher {}",
                     inlet.node,
@@ -145,7 +148,7 @@ impl TopicEntry {
         let subscriptions = self.inlets.iter().map(|inlet| SubscriptionTraffic {
             id: inlet.id,
             node: inlet.node.to_string(),
-            counts: lock(&inlet.waiting).counts,
+            counts: inlet.counts(),
         });
         Traffic {
             topic: self.topic.name.to_string(),

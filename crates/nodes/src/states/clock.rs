@@ -18,7 +18,7 @@ impl ClockPublisher {
     /// # Errors
     /// When the graph has a node `/clock` already.
     pub fn new(graph: &Graph, rate_hz: f64, start_ns: i64) -> Result<Self, GraphError> {
-        let node = graph.node(NodeSettings::new("clock"))?;
+        let node = graph.node(NodeSettings::new("clock").keep_names())?;
         let publisher = node.publisher("/clock", Qos::clock())?;
         Ok(Self { publisher, tells: Beat::telling(rate_hz, start_ns) })
     }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
-use periplus_params::{Table, Values, flag, number, text};
+use periplus_params::{Table, Value, Values, flag, number, text};
 use periplus_scene::Model;
 
 use super::geometry::transform;
@@ -45,6 +46,16 @@ impl Default for RobotStateOptions {
 }
 
 impl RobotStateOptions {
+    /// As parameters of [`ROBOT_STATE_PUBLISHER`].
+    fn values(&self, description: &str) -> Values {
+        let mut values = ROBOT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
+        values.set("robot_description", Value::Text(description.to_owned()));
+        values.set("publish_frequency", Value::Number(self.publish_frequency_hz));
+        values.set("frame_prefix", Value::Text(self.frame_prefix.clone()));
+        values.set("ignore_timestamp", Value::Bool(self.ignore_timestamp));
+        values
+    }
+
     /// From parameters of [`ROBOT_STATE_PUBLISHER`].
     #[must_use]
     pub fn read(values: &Values) -> Self {
@@ -72,10 +83,11 @@ pub struct RobotStatePublisher {
 struct State {
     tree: FrameTree,
     options: RobotStateOptions,
+    described: Option<String>,
     tf: Publisher<tf2_msgs::TFMessage>,
     /// Kept, so that what was said before stays.
     _description: Publisher<std_msgs::String>,
-    _tf_static: Publisher<tf2_msgs::TFMessage>,
+    tf_static: Publisher<tf2_msgs::TFMessage>,
     /// Times of the states that were told last, by joint [ns].
     told_ns: BTreeMap<String, i64>,
     last_ns: i64,
@@ -97,19 +109,27 @@ impl RobotStatePublisher {
         let described = node.publisher("robot_description", Qos::latched(1))?;
         let tf_static = node.publisher("/tf_static", Qos::latched(1))?;
         let tf = node.publisher("/tf", TF_QOS)?;
-        described.publish(std_msgs::String { data: description.into() });
+        let description = description.into();
+        let values = options.values(&description);
+        described.publish(std_msgs::String { data: description });
         let now_ns = node.now_ns();
-        tf_static.publish(fixed_transforms(&tree, &options.frame_prefix, now_ns));
         let state = State {
             tree,
             options,
+            described: values.text("robot_description"),
             tf,
             _description: described,
-            _tf_static: tf_static,
+            tf_static,
             told_ns: BTreeMap::new(),
             last_ns: now_ns,
         };
         let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        actor.with(|state| {
+            state.options = RobotStateOptions::read(&parameters.values());
+            let prefix = &state.options.frame_prefix;
+            state.tf_static.publish(fixed_transforms(&state.tree, prefix, now_ns));
+        });
         actor.subscribe::<sensor_msgs::JointState>(
             "joint_states",
             Qos::sensor_data(),
@@ -135,6 +155,21 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
 }
 
 impl State {
+    /// Other parameters from now on.
+    fn change(&mut self, values: &Values) -> Result<(), String> {
+        let options = RobotStateOptions::read(values);
+        if options.frame_prefix != self.options.frame_prefix {
+            return Err(
+                "the names of frames stay; give `frame_prefix` when the node is made".into()
+            );
+        }
+        if values.text("robot_description") != self.described {
+            return Err("another robot needs another node: this one keeps its description".into());
+        }
+        self.options = options;
+        Ok(())
+    }
+
     fn hear(&mut self, message: &Arc<sensor_msgs::JointState>, now_ns: i64) {
         let sensor_msgs::JointState { header, name, position, .. } = &**message;
         if name.len() != position.len() {

@@ -161,7 +161,11 @@ impl Bench {
     /// Who publishes what, under which type and quality, between which frames.
     pub(crate) fn topics(&self) -> String {
         let mut out = String::new();
+        let every_node_has = ["/rosout", "/parameter_events"];
         for topic in self.graph.topics() {
+            if every_node_has.contains(&topic.name.as_str()) {
+                continue;
+            }
             for (arrow, ends) in [("->", &topic.publishers), ("<-", &topic.subscriptions)] {
                 for end in ends.iter().filter(|end| end.node != "/ear") {
                     let qos = end.qos;

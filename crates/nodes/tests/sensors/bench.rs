@@ -102,6 +102,7 @@ impl Bench {
         self.graph
             .topics()
             .iter()
+            .filter(|topic| !["/rosout", "/parameter_events"].contains(&topic.name.as_str()))
             .map(|topic| format!("{} {}", topic.name, topic.type_name))
             .collect()
     }

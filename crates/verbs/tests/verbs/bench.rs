@@ -25,7 +25,7 @@ impl Bench {
     }
 
     pub(crate) fn node(&self, name: &str) -> Node {
-        self.graph.node(NodeSettings::new(name)).unwrap()
+        self.graph.node(NodeSettings::new(name).bare()).unwrap()
     }
 
     /// What a verb writes: results, then what it says (lines with `| ` in front), then how it ends

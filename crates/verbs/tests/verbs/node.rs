@@ -10,7 +10,7 @@ use crate::bench::Bench;
 #[test]
 fn nodes_are_listed_and_described() {
     let bench = Bench::new();
-    let wheels = bench.graph.node(NodeSettings::new("wheels").namespace("/bot")).unwrap();
+    let wheels = bench.graph.node(NodeSettings::new("wheels").namespace("/bot").bare()).unwrap();
     let _cmd = wheels.mailbox::<geometry_msgs::Twist>("cmd_vel", Qos::reliable(1)).unwrap();
     let _tf = wheels.publisher::<tf2_msgs::TFMessage>("/tf", Qos::reliable(1)).unwrap();
     let _reset = wheels.server::<std_srvs::Empty>("~/reset").unwrap();

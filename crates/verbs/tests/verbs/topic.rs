@@ -20,10 +20,11 @@ struct Robot {
 
 fn robot() -> Robot {
     let bench = Bench::new();
-    let lidar = bench.graph.node(periplus_graph::NodeSettings::new("lidar").namespace("/bot"));
+    let lidar =
+        bench.graph.node(periplus_graph::NodeSettings::new("lidar").namespace("/bot").bare());
     let lidar = lidar.unwrap();
     let scan = lidar.publisher("/scan", Qos::sensor_data()).unwrap();
-    let wheels = bench.graph.node(periplus_graph::NodeSettings::new("wheels")).unwrap();
+    let wheels = bench.graph.node(periplus_graph::NodeSettings::new("wheels").bare()).unwrap();
     let commands = wheels.mailbox::<geometry_msgs::Twist>("/cmd_vel", Qos::reliable(1)).unwrap();
     let viewer = wheels.mailbox::<sensor_msgs::LaserScan>("/scan", Qos::sensor_data()).unwrap();
     let hidden = wheels.publisher::<std_msgs::Empty>("/_alive", Qos::latched(1)).unwrap();

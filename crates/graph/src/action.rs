@@ -1,0 +1,43 @@
+//! Actions: tasks that take time, tell how far they are, and can be stopped.
+//!
+//! An action `name` is three services and two topics: `name/_action/send_goal`, `cancel_goal`,
+//! `get_result`, and `feedback`, `status`. Source: ROS 2's design article "Actions",
+//! `rcl_action/action_server.c` and `rclcpp_action/server.cpp`.
+
+mod cancel;
+mod client;
+mod dynamic;
+mod goal;
+mod info;
+mod server;
+mod table;
+
+pub use client::{ActionClient, GoalProgress, SentGoal};
+pub use dynamic::{DynamicActionClient, DynamicGoal, DynamicProgress};
+pub use goal::{GoalEvent, GoalId, GoalState};
+pub use info::ActionInfo;
+pub use server::{ActionServer, ActionSettings, GoalHandle, NewGoal};
+
+use crate::node::Node;
+use crate::{GraphError, Qos};
+
+/// Quality of service of the topic that tells the states of goals.
+const STATUS_QOS: Qos = Qos::latched(1);
+
+/// Quality of service of the topic of feedback.
+const FEEDBACK_QOS: Qos = Qos::reliable(10);
+
+/// The full names of the ends of an action.
+pub(crate) struct Names {
+    pub(crate) action: String,
+}
+
+impl Names {
+    fn new(node: &Node, action: &str) -> Result<Self, GraphError> {
+        Ok(Self { action: node.names().topic(action)? })
+    }
+
+    fn end(&self, end: &str) -> String {
+        format!("{}/_action/{end}", self.action)
+    }
+}

@@ -1,0 +1,119 @@
+//! What a command line says to nodes: `--ros-args`.
+//!
+//! Source of the grammar and of who wins: `rcl/arguments.c`, `rcl_yaml_param_parser` and
+//! `rclcpp/parameter_map.cpp`.
+
+mod file;
+mod pattern;
+mod read;
+mod scalar;
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
+use periplus_msgs::rcl_interfaces::ParameterValue;
+
+use crate::log::Level;
+use crate::remap::Rule;
+
+pub use file::parameters_to_yaml;
+pub use read::{ROS_ARGS, split_arguments};
+pub use scalar::{parameter_from_yaml, parameter_to_yaml};
+
+use pattern::Pattern;
+
+/// Names, parameters and log levels for nodes, as a command line gives them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Arguments {
+    pub(crate) rules: Vec<Rule>,
+    /// By pattern of the node, in the order in which patterns were first seen.
+    parameters: Vec<(Pattern, BTreeMap<String, ParameterValue>)>,
+    level: Option<Level>,
+    /// By name of the logger.
+    levels: BTreeMap<String, Level>,
+    enclave: Option<String>,
+    no_rosout: bool,
+}
+
+impl Arguments {
+    /// Parameters for a node by its full name. What comes later wins; a pattern counts from where it
+    /// was first seen, as in `rcl`.
+    #[must_use]
+    pub fn parameters_of(&self, node: &str) -> BTreeMap<String, ParameterValue> {
+        let fitting = self.parameters.iter().filter(|(pattern, _)| pattern.fits(node));
+        let all = fitting.flat_map(|(_, parameters)| parameters);
+        all.map(|(name, value)| (name.clone(), value.clone())).collect()
+    }
+
+    /// The least level that a node logs, by its full name: that of its logger, or of the nearest
+    /// one above it, or of all.
+    #[must_use]
+    pub fn level_of(&self, node: &str) -> Level {
+        let logger = node.trim_start_matches('/').replace('/', ".");
+        let mut name = logger.as_str();
+        loop {
+            if let Some(level) = self.levels.get(name) {
+                return *level;
+            }
+            match name.rsplit_once('.') {
+                Some((above, _)) => name = above,
+                None => return self.level.unwrap_or_default(),
+            }
+        }
+    }
+
+    /// Whether nodes say on `/rosout` what they log.
+    #[must_use]
+    pub fn logs_to_rosout(&self) -> bool {
+        !self.no_rosout
+    }
+
+    /// The enclave, in whose name a program would join a network with security. There is none yet.
+    #[must_use]
+    pub fn enclave(&self) -> Option<&str> {
+        self.enclave.as_deref()
+    }
+
+    /// Patterns of nodes for which there are parameters, as written, with the names of these.
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, impl Iterator<Item = &str>)> {
+        let each = self.parameters.iter();
+        each.map(|(pattern, all)| (pattern.written(), all.keys().map(String::as_str)))
+    }
+
+    /// What none of these nodes has use for. `has` says whether a node has a parameter.
+    pub(crate) fn unused(&self, nodes: &[&str], has: &dyn Fn(usize, &str) -> bool) -> Diagnostics {
+        let mut unused = Diagnostics::new();
+        let mut warn = |message: String, near: Option<&str>| {
+            let warning = Diagnostic::warning("unused-argument", message);
+            unused.push(match near {
+                Some(near) => warning.help(format!("did you mean `{near}`?")),
+                None => warning,
+            });
+        };
+        for (pattern, parameters) in &self.parameters {
+            let written = pattern.written();
+            let fitting: Vec<usize> =
+                (0..nodes.len()).filter(|node| pattern.fits(nodes[*node])).collect();
+            if fitting.is_empty() {
+                let near = closest(written, nodes.iter().copied());
+                warn(format!("there are parameters for `{written}`, and no such node"), near);
+                continue;
+            }
+            for name in parameters.keys() {
+                if !fitting.iter().any(|node| has(*node, name)) {
+                    warn(format!("no node that fits `{written}` has a parameter `{name}`"), None);
+                }
+            }
+        }
+        unused
+    }
+
+    fn give(&mut self, pattern: Pattern, name: String, value: ParameterValue) {
+        let place = self.parameters.iter().position(|(known, _)| *known == pattern);
+        let place = place.unwrap_or_else(|| {
+            self.parameters.push((pattern, BTreeMap::new()));
+            self.parameters.len() - 1
+        });
+        self.parameters[place].1.insert(name, value);
+    }
+}

@@ -1,0 +1,137 @@
+//! Managed nodes: those that others configure, activate, deactivate and shut down.
+//!
+//! Source: ROS 2's design article "Managed nodes", `rcl_lifecycle/default_state_machine.c` and
+//! `rclcpp_lifecycle/lifecycle_node_interface_impl.cpp`.
+
+mod machine;
+mod services;
+
+use std::sync::{Arc, Mutex, Weak};
+
+use periplus_msgs::lifecycle_msgs::TransitionEvent;
+
+pub use machine::{LifecycleState, Step, StepOutcome, Transition};
+
+use crate::actor::{Io, Once};
+use crate::agenda::{Key, Rank};
+use crate::common::lock;
+use crate::node::NodeCore;
+use crate::{Actor, GraphError, Publisher, Qos};
+
+/// The life of a managed node. This is a handle: clones mean the same life.
+#[derive(Clone)]
+pub struct Lifecycle(Arc<Life>);
+
+struct Life {
+    node: Weak<NodeCore>,
+    state: Mutex<LifecycleState>,
+    /// Held while the state changes.
+    turn: Mutex<()>,
+    step: Box<dyn Fn(Step) -> StepOutcome + Send + Sync>,
+    events: Publisher<TransitionEvent>,
+}
+
+impl Lifecycle {
+    /// The state now.
+    #[must_use]
+    pub fn state(&self) -> LifecycleState {
+        *lock(&self.0.state)
+    }
+
+    /// Whether the node is to do its work.
+    #[must_use]
+    pub fn is_active(&self) -> bool {
+        self.state() == LifecycleState::Active
+    }
+
+    /// Changes the state from inside the program, as soon as the node is free; nothing happens when
+    /// the state then does not allow it.
+    pub fn change(&self, transition: Transition) {
+        let Some(node) = self.0.node.upgrade() else { return };
+        let key = Key {
+            time_ns: node.core.common.clock.now_ns(),
+            node: node.full_name.clone(),
+            rank: Rank::Request,
+            name: "~/change_state".into(),
+            sequence: node.next_ordinal(),
+            ordinal: 0,
+        };
+        let life = Arc::downgrade(&self.0);
+        let act = Once::new(move || {
+            if let Some(life) = life.upgrade() {
+                life.change(|state| transition.at(state));
+            }
+        });
+        node.agenda().add(key, Arc::new(act));
+    }
+}
+
+impl<S: Send + 'static> Actor<S> {
+    /// Makes the node a managed one: unconfigured at first, with the five services and the topic
+    /// that belong to it. `step` does what a change asks for, and says how it went. After
+    /// [`StepOutcome::Error`] it is called with [`Step::Error`], to clean up.
+    ///
+    /// # Errors
+    /// When the node is managed already.
+    pub fn managed(
+        &mut self,
+        step: impl FnMut(&mut S, Step, &mut Io<'_, S>) -> StepOutcome + Send + 'static,
+    ) -> Result<Lifecycle, GraphError> {
+        let act = self.act(step);
+        let node = self.node().clone();
+        let life = Arc::new(Life {
+            node: Arc::downgrade(&node.0),
+            state: Mutex::new(LifecycleState::Unconfigured),
+            turn: Mutex::new(()),
+            step: Box::new(move |asked| {
+                let mut outcome = StepOutcome::Error;
+                act(&mut |step, state, io| outcome = step(state, asked, io));
+                outcome
+            }),
+            events: node.publisher("~/transition_event", Qos::reliable(10))?,
+        });
+        for server in services::serve(&node, &life)? {
+            self.keep(server);
+        }
+        Ok(Lifecycle(life))
+    }
+}
+
+impl Life {
+    /// Changes the state, if there is such a change; whether it went as wished.
+    fn change(
+        &self,
+        choose: impl FnOnce(LifecycleState) -> Option<&'static machine::Edge>,
+    ) -> bool {
+        let Ok(_turn) = self.turn.try_lock() else { return false };
+        let state = *lock(&self.state);
+        let Some(edge) = choose(state) else { return false };
+        self.enter(edge);
+        let Some(step) = edge.goal.step() else { return false };
+        let outcome = (self.step)(step);
+        self.leave(outcome);
+        if *lock(&self.state) == LifecycleState::ErrorProcessing {
+            let outcome = (self.step)(Step::Error);
+            self.leave(outcome);
+        }
+        outcome == StepOutcome::Success
+    }
+
+    fn leave(&self, outcome: StepOutcome) {
+        let state = *lock(&self.state);
+        if let Some(edge) = machine::after(state, outcome) {
+            self.enter(edge);
+        }
+    }
+
+    fn enter(&self, edge: &'static machine::Edge) {
+        *lock(&self.state) = edge.goal;
+        let now_ns = self.node.upgrade().map_or(0, |node| node.core.common.clock.now_ns());
+        self.events.publish(TransitionEvent {
+            timestamp: u64::try_from(now_ns).unwrap_or_default(),
+            transition: edge.message(),
+            start_state: edge.start.message(),
+            goal_state: edge.goal.message(),
+        });
+    }
+}

@@ -1,0 +1,224 @@
+//! The values of a node's parameters, and what may be done with them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use periplus_msgs::rcl_interfaces::{
+    Parameter as Named, ParameterDescriptor, ParameterEvent, ParameterType, ParameterValue,
+};
+use periplus_params::{Kind, Value, Values};
+
+use super::convert;
+use crate::common::Common;
+
+/// The parameter that every node has beside those of its table.
+const USE_SIM_TIME: &str = "use_sim_time";
+
+/// What a node was told before it declared anything, and what it declared.
+pub(crate) struct Store {
+    node: Arc<str>,
+    common: Arc<Common>,
+    /// What arguments say; for parameters that may be declared later.
+    given: BTreeMap<String, ParameterValue>,
+    values: Option<Values>,
+    /// Parameters that no table declares, where a node takes any.
+    free: Option<BTreeMap<String, ParameterValue>>,
+    generation: u64,
+}
+
+impl Store {
+    /// With `any`, all that is given is declared, and whatever others set.
+    pub(crate) fn new(
+        node: Arc<str>,
+        common: Arc<Common>,
+        given: BTreeMap<String, ParameterValue>,
+        any: bool,
+    ) -> Self {
+        let free = any.then(|| {
+            let given = given.iter().filter(|(name, _)| *name != USE_SIM_TIME);
+            given.map(|(name, value)| (name.clone(), value.clone())).collect()
+        });
+        Self { node, common, given, values: None, free, generation: 0 }
+    }
+
+    pub(crate) fn values(&self) -> Option<&Values> {
+        self.values.as_ref()
+    }
+
+    pub(crate) fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// Declares a table, with what arguments say in place of what is there. Gives the reasons of
+    /// those that do not fit.
+    pub(crate) fn declare(&mut self, mut values: Values) -> Vec<String> {
+        let mut unfit = Vec::new();
+        for (name, value) in &self.given {
+            let table = values.table();
+            let Some(parameter) = table.find(name).filter(|one| one.kind != Kind::Group) else {
+                continue;
+            };
+            match convert::from_message(value).and_then(|value| value.fit(parameter)) {
+                Ok(value) => {
+                    values.set(parameter.name, value);
+                }
+                Err(reason) => unfit.push(format!("`{name}`: the value {reason}")),
+            }
+        }
+        self.values = Some(values);
+        unfit
+    }
+
+    fn table(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let parameters = self.values.as_ref().map_or(&[][..], |values| values.table().parameters);
+        parameters.iter().filter(|one| one.kind != Kind::Group).map(|one| one.name)
+    }
+
+    pub(crate) fn has(&self, name: &str) -> bool {
+        let is_declared = |values: &Values| {
+            values.table().find(name).is_some_and(|parameter| parameter.kind != Kind::Group)
+        };
+        name == USE_SIM_TIME
+            || self.values.as_ref().is_some_and(is_declared)
+            || self.free.as_ref().is_some_and(|free| free.contains_key(name))
+    }
+
+    /// The names of all parameters, sorted.
+    pub(super) fn names(&self) -> Vec<&str> {
+        let mut names: BTreeSet<&str> = BTreeSet::new();
+        names.insert(USE_SIM_TIME);
+        for name in self.table() {
+            names.insert(name);
+        }
+        names.extend(self.free.iter().flat_map(BTreeMap::keys).map(String::as_str));
+        names.into_iter().collect()
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<ParameterValue> {
+        if name == USE_SIM_TIME {
+            return Some(convert::to_message(Value::Bool(self.common.clock.is_simulated())));
+        }
+        let declared = self.values.as_ref().and_then(|values| {
+            let parameter = values.table().find(name)?;
+            values.get(parameter.name).map(convert::to_message)
+        });
+        declared.or_else(|| self.free.as_ref()?.get(name).cloned())
+    }
+
+    pub(super) fn named(&self, name: &str) -> Named {
+        Named { name: name.to_owned(), value: self.get(name).unwrap_or_default() }
+    }
+
+    /// All parameters with their values.
+    pub(crate) fn all(&self) -> Vec<Named> {
+        self.names().into_iter().map(|name| self.named(name)).collect()
+    }
+
+    /// Those of the table.
+    pub(super) fn declared(&self) -> Vec<Named> {
+        let mut names: Vec<&str> = self.table().collect();
+        names.sort_unstable();
+        names.into_iter().map(|name| self.named(name)).collect()
+    }
+
+    /// The values of the table as they would be with all of these set. The error is for the one who
+    /// sets.
+    pub(super) fn propose(&self, set: &[Named]) -> Result<Option<Values>, String> {
+        let mut values = self.values.clone();
+        for Named { name, value } in set {
+            if name == USE_SIM_TIME {
+                self.check_sim_time(value)?;
+                continue;
+            }
+            let table = self.values.as_ref().map(|values| values.table());
+            let parameter = table.and_then(|table| table.find(name));
+            match (parameter.filter(|one| one.kind != Kind::Group), &mut values) {
+                (Some(parameter), Some(values)) => {
+                    let value = convert::from_message(value).and_then(|value| value.fit(parameter));
+                    let value = value.map_err(|reason| format!("`{name}`: the value {reason}"))?;
+                    values.set(parameter.name, value);
+                }
+                _ if self.free.is_some() => self.check_free(name, value)?,
+                _ => return Err(self.unknown(name)),
+            }
+        }
+        Ok(values)
+    }
+
+    fn unknown(&self, name: &str) -> String {
+        let near = periplus_diagnostics::closest(name, self.names());
+        let near = near.map(|near| format!(", did you mean `{near}`?")).unwrap_or_default();
+        format!("{} has no parameter `{name}`{near}", self.node)
+    }
+
+    fn check_free(&self, name: &str, value: &ParameterValue) -> Result<(), String> {
+        if name.is_empty() {
+            return Err("a parameter needs a name".into());
+        }
+        match value.r#type {
+            ParameterType::PARAMETER_NOT_SET if !self.has(name) => Err(self.unknown(name)),
+            ParameterType::PARAMETER_NOT_SET..=ParameterType::PARAMETER_STRING_ARRAY => Ok(()),
+            other => Err(format!("`{name}`: the value is of the kind {other}, which ROS has not")),
+        }
+    }
+
+    fn check_sim_time(&self, value: &ParameterValue) -> Result<(), String> {
+        let is_simulated = self.common.clock.is_simulated();
+        match convert::from_message(value) {
+            Ok(Value::Bool(set)) if set == is_simulated => return Ok(()),
+            Ok(Value::Bool(_)) => {}
+            _ => return Err(format!("`{USE_SIM_TIME}`: the value is neither true nor false")),
+        }
+        let time = if is_simulated { "simulated time" } else { "the time of the machine" };
+        Err(format!("`{USE_SIM_TIME}` is {is_simulated}: all nodes of this program run on {time}"))
+    }
+
+    /// These values hold from now on. Gives what is told of it.
+    pub(super) fn accept(&mut self, values: Option<Values>, set: &[Named]) -> ParameterEvent {
+        let mut event = ParameterEvent::default();
+        let had: Vec<bool> = set.iter().map(|one| self.has(&one.name)).collect();
+        self.values = values;
+        self.generation += 1;
+        let table: BTreeSet<&str> = self.table().collect();
+        for Named { name, value } in set {
+            let is_free = name != USE_SIM_TIME && !table.contains(name.as_str());
+            if let Some(free) = self.free.as_mut().filter(|_| is_free) {
+                if value.r#type == ParameterType::PARAMETER_NOT_SET {
+                    free.remove(name);
+                } else {
+                    free.insert(name.clone(), value.clone());
+                }
+            }
+        }
+        for (one, had) in set.iter().zip(had) {
+            match (had, self.has(&one.name)) {
+                (true, true) => event.changed_parameters.push(self.named(&one.name)),
+                (false, true) => event.new_parameters.push(self.named(&one.name)),
+                (true, false) => event.deleted_parameters.push(one.clone()),
+                (false, false) => {}
+            }
+        }
+        event
+    }
+
+    pub(super) fn describe(&self, name: &str) -> ParameterDescriptor {
+        let blank = ParameterDescriptor { name: name.to_owned(), ..Default::default() };
+        if name == USE_SIM_TIME {
+            return ParameterDescriptor {
+                r#type: ParameterType::PARAMETER_BOOL,
+                description: "Whether the nodes of this program run on simulated time.".into(),
+                read_only: true,
+                ..blank
+            };
+        }
+        if let Some(parameter) = self.values.as_ref().and_then(|values| values.table().find(name)) {
+            return convert::describe(parameter);
+        }
+        match self.free.as_ref().and_then(|free| free.get(name)) {
+            Some(value) => {
+                ParameterDescriptor { r#type: value.r#type, dynamic_typing: true, ..blank }
+            }
+            None => blank,
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! Driving by keys, as `teleop_twist_keyboard` does: the same keys, speeds and steps.
+//!
+//! A [`Keyboard`] knows the speeds and the way that is driven; [`Keyboard::press`] says what a key
+//! does. Nobody here reads a terminal or publishes.
+//!
+//! ```
+//! use periplus_teleop::{Keyboard, Pressed};
+//!
+//! let mut keyboard = Keyboard::default();
+//! assert_eq!(keyboard.press('i'), Pressed::Drive);
+//! assert_eq!(keyboard.velocity().linear_m_s, [0.5, 0.0, 0.0]);
+//! assert_eq!(keyboard.press('q'), Pressed::Speed { at_limit: false });
+//! assert_eq!(keyboard.velocity().linear_m_s, [0.55, 0.0, 0.0]);
+//! ```
+
+mod bindings;
+mod keyboard;
+mod screen;
+mod settings;
+
+pub use bindings::{Direction, Factors, direction, factors};
+pub use keyboard::{Keyboard, Pressed, Velocity};
+pub use screen::{SCREEN, status};
+pub use settings::{Settings, TELEOP};
