@@ -77,6 +77,12 @@ pub(crate) fn dispatch<T: Task>(task: T) -> T::Output {
     if !force_portable() && has_avx2() {
         return Avx2::run(task);
     }
+    portable(task)
+}
+
+/// Apart from [`dispatch`], whose frame would hold all that this one does.
+#[inline(never)]
+fn portable<T: Task>(task: T) -> T::Output {
     Portable::run(task)
 }
 
