@@ -48,6 +48,7 @@ fn main() -> ExitCode {
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),
         Command::Node(options) => options.run(),
+        Command::Param(options) => options.run(),
         Command::Service(options) => options.run(),
         Command::Topic(options) => options.run(),
         Command::Completions { shell } => completions(shell),

@@ -9,7 +9,8 @@ use crate::bag::BagCommand;
 use crate::sim::SimOptions;
 use crate::teleop::TeleopOptions;
 use crate::verbs::{
-    ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ServiceOptions, TopicOptions,
+    ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ParamOptions, ServiceOptions,
+    TopicOptions,
 };
 
 /// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
@@ -34,6 +35,7 @@ pub(crate) enum Command {
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),
+    Param(ParamOptions),
     Action(ActionOptions),
     Lifecycle(LifecycleOptions),
     Interface(InterfaceOptions),

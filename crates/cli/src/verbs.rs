@@ -5,6 +5,7 @@ mod common;
 mod interface;
 mod lifecycle;
 mod node;
+mod param;
 mod service;
 mod topic;
 mod wired;
@@ -16,7 +17,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_formats::load_interfaces;
 use periplus_graph::Graph;
+use periplus_host::Machine;
+use periplus_resources::Host as _;
 use periplus_verbs::{Failure, InGraph, Outcome, Session, Types};
 
 use crate::terminal;
@@ -25,6 +29,7 @@ pub(crate) use action::ActionOptions;
 pub(crate) use interface::InterfaceOptions;
 pub(crate) use lifecycle::LifecycleOptions;
 pub(crate) use node::NodeOptions;
+pub(crate) use param::ParamOptions;
 pub(crate) use service::ServiceOptions;
 pub(crate) use topic::TopicOptions;
 
@@ -36,7 +41,7 @@ fn with_session(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> io::Result<ExitCode> {
-    let types = Types::Builtin;
+    let types = types(common)?;
     let mut wired = match Wired::open() {
         Ok(wired) => wired,
         Err(words) => {
@@ -59,12 +64,25 @@ fn with_session(
     end(outcome)
 }
 
+/// The types that are built in and those of the user's packages; what is wrong with them is said.
+fn types(common: &Common) -> io::Result<Types> {
+    let has_prefix = Machine.variable("AMENT_PREFIX_PATH").is_some_and(|path| !path.is_empty());
+    if common.interfaces.is_empty() && !has_prefix {
+        return Ok(Types::Builtin);
+    }
+    let folder = terminal::working_folder();
+    let folders = common.interfaces.iter().map(|path| folder.join(path));
+    let loaded = load_interfaces(&Machine, &folders.collect::<Vec<_>>());
+    terminal::diagnostics(&mut anstream::stderr().lock(), &loaded.diagnostics, &loaded.sources)?;
+    Ok(Types::With(Box::new(loaded.types)))
+}
+
 /// Does what is asked where nobody else is needed.
 fn without_network(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> io::Result<ExitCode> {
-    let types = Types::Builtin;
+    let types = types(common)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     let outcome = verb(&mut Session {
         network: &InGraph(Graph::new()),

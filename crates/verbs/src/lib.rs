@@ -17,6 +17,7 @@ pub mod lifecycle;
 mod listen;
 mod network;
 pub mod node;
+pub mod param;
 mod qos;
 mod seen;
 pub mod service;

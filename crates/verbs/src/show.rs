@@ -10,6 +10,7 @@ use periplus_msgs::{DynamicMessage, Number, Part, Sink, Value, YamlStyle};
 use crate::{Failure, Outcome};
 
 pub use python::repr;
+pub(crate) use python::{float as python_float, text as python_text};
 
 /// The form in which messages are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

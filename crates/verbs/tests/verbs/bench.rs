@@ -10,6 +10,8 @@ use periplus_verbs::{InGraph, Network, Outcome, Seen, Session, Types};
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
     pub(crate) json: bool,
+    /// With what every node has.
+    pub(crate) all: bool,
     pub(crate) types: Types,
     /// When the verb is told to stop.
     pub(crate) stop_after: Option<Duration>,
@@ -17,7 +19,13 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(crate) fn new() -> Self {
-        Self { graph: Graph::live(), json: false, types: Types::Builtin, stop_after: None }
+        Self {
+            graph: Graph::live(),
+            json: false,
+            all: false,
+            types: Types::Builtin,
+            stop_after: None,
+        }
     }
 
     pub(crate) fn json(self) -> Self {
@@ -31,7 +39,9 @@ impl Bench {
     /// What a verb writes: results, then what it says (lines with `| ` in front), then how it ends
     /// if that is not well.
     pub(crate) fn run(&self, verb: impl FnOnce(&mut Session<'_>) -> Outcome) -> String {
-        let network = Quiet(InGraph(self.graph.clone()));
+        let (own, all) = (InGraph(self.graph.clone()), InGraph(self.graph.clone()));
+        let quiet = Quiet(own);
+        let network: &dyn Network = if self.all { &all } else { &quiet };
         let (mut out, mut talk) = (Vec::new(), Vec::new());
         let stop = AtomicBool::new(false);
         let stopping = &stop;
@@ -43,7 +53,7 @@ impl Bench {
                 });
             }
             let mut session = Session {
-                network: &network,
+                network,
                 types: &self.types,
                 out: &mut out,
                 talk: &mut talk,

@@ -6,5 +6,6 @@ mod bench;
 mod interface;
 mod lifecycle;
 mod node;
+mod param;
 mod service;
 mod topic;
