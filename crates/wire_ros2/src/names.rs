@@ -58,7 +58,13 @@ pub fn message(type_name: &str) -> Option<String> {
     let (path, last) = type_name.rsplit_once("::")?;
     let path = path.strip_suffix("dds_")?.strip_suffix("::")?;
     let last = last.strip_suffix('_')?;
-    (!path.is_empty() && !last.is_empty()).then(|| format!("{}/{last}", path.replace("::", "/")))
+    (path.split("::").all(is_word) && is_word(last))
+        .then(|| format!("{}/{last}", path.replace("::", "/")))
+}
+
+/// What a part of a type's name may be: letters, digits and underscores, as IDL and ROS have it.
+fn is_word(part: &str) -> bool {
+    !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
 /// The service of the DDS type of its question or answer.
@@ -104,5 +110,12 @@ mod tests {
             assert_eq!(message(name), None, "{name}");
         }
         assert_eq!(service_of("sensor_msgs::msg::dds_::LaserScan_"), None);
+    }
+
+    #[test]
+    fn parts_that_are_no_words_would_not_come_back_the_same() {
+        for name in ["a:::b::dds_::X_", "a::b/c::dds_::X_", "a:::dds_::X_", "a::dds_::X\0_"] {
+            assert_eq!(message(name), None, "{name:?}");
+        }
     }
 }
