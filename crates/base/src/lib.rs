@@ -5,9 +5,11 @@
 
 mod number;
 mod pose;
+mod pose2;
 mod stream;
 
 pub use glam::{DQuat, DVec3};
 pub use number::{format_number, parse_number, parse_numbers};
 pub use pose::{Pose, Rpy, quaternion_from_rpy, rpy_from_quaternion};
+pub use pose2::{Pose2, normalize_angle};
 pub use stream::Stream;

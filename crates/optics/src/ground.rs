@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use periplus_base::Pose;
+use periplus_pictures::Grey;
 use periplus_raycast::Heightfield;
 use periplus_scene::Heightmap;
 
-use crate::image::Grey;
 use crate::shapes::Shapes;
 
 /// More samples than this are refused: 8193 by 8193.

@@ -31,7 +31,6 @@
 
 mod body;
 mod ground;
-mod image;
 mod label;
 mod lens;
 mod light;
@@ -45,9 +44,9 @@ mod surroundings;
 mod walk;
 
 pub use ground::{Ground, ground};
-pub use image::{BadImage, Grey, Image};
 pub use lens::Lens;
 pub use mesh::{Selected, select};
+pub use periplus_pictures::{BadImage, Grey, Image};
 pub use picture::{Picture, Shot, Wanted};
 pub use shapes::{NoShapes, Shapes};
 pub use surroundings::{

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
+use periplus_pictures::Image;
 use periplus_scene::{Colour, Material};
-
-use crate::image::Image;
 
 /// Gazebo's own grey for what has no material.
 const PLAIN: [f32; 3] = [0.7; 3];

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use periplus_pictures::{BadImage, Image};
 use periplus_scene::Mesh;
 
-use crate::image::{BadImage, Image};
 use crate::mesh::{Prepared, select};
 use crate::shapes::Shapes;
 

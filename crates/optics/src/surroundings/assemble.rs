@@ -5,13 +5,13 @@ use std::sync::Arc;
 use periplus_base::Pose;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_meshes::Texture;
+use periplus_pictures::Image;
 use periplus_raycast::{Tags, World};
 use periplus_scene::{Material, Mesh, Model, Plugin, Shape, Visual, builtin_material};
 
 use super::rebuild::put;
 use super::{Geometry, Label, ModelId, ModelRecord, PartRecord, SHADOW_MASK, Surroundings, Thing};
 use crate::body::{Body, Problem, body_of};
-use crate::image::Image;
 use crate::label::label_of;
 use crate::light::Lamp;
 use crate::look::Look;

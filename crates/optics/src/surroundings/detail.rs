@@ -1,12 +1,12 @@
 //! What of a surface changes from point to point, and what gives light.
 
 use periplus_base::{DVec3, Pose};
+use periplus_pictures::Image;
 use periplus_raycast::{Hit, InstanceId};
 use periplus_scene::{Light, World};
 
 use super::{PartId, Surroundings};
 use crate::body::Body;
-use crate::image::Image;
 use crate::light::{Lamp, Shine};
 use crate::look::{Look, rgb};
 use crate::mesh::Selected;

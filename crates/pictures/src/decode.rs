@@ -1,0 +1,116 @@
+//! Pictures as colours and as brightness.
+
+use crate::raster::{BadImage, Layout, Raster};
+
+/// More pixels than this are no texture but an attack on memory: 8192 by 8192.
+const MOST_PIXELS: usize = 1 << 26;
+
+/// A picture of eight bits a channel, its first row at the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green, blue, alpha, row by row.
+    pub rgba: Vec<[u8; 4]>,
+}
+
+/// Brightness alone, as heightmaps have it: the first channel, in up to 16 bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grey {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Brightness, row by row from the top.
+    pub values: Vec<u16>,
+}
+
+impl Image {
+    /// Reads a PNG, JPEG, BMP or PNM; of 16 bits a channel the upper 8 count.
+    ///
+    /// # Errors
+    /// When the bytes are none of these, broken, or of more than 2^26 pixels.
+    pub fn decode(bytes: &[u8]) -> Result<Self, BadImage> {
+        let raster = decode(bytes)?.into_shallow();
+        let pixels = raster.bytes.chunks_exact(raster.layout.channels());
+        let rgba = pixels.map(|pixel| match (raster.layout, pixel) {
+            (Layout::Grey, &[grey]) => [grey, grey, grey, 255],
+            (Layout::GreyAlpha, &[grey, alpha]) => [grey, grey, grey, alpha],
+            (Layout::Rgb, &[r, g, b]) => [r, g, b, 255],
+            (Layout::Rgba, &[r, g, b, alpha]) => [r, g, b, alpha],
+            _ => [0, 0, 0, 255],
+        });
+        Ok(Self { width: raster.width, height: raster.height, rgba: rgba.collect() })
+    }
+}
+
+impl Grey {
+    /// Reads a PNG, JPEG, BMP or PNM.
+    ///
+    /// # Errors
+    /// As [`Image::decode`].
+    pub fn decode(bytes: &[u8]) -> Result<Self, BadImage> {
+        let raster = decode(bytes)?;
+        let channels = raster.layout.channels();
+        let values = if raster.is_deep {
+            let pixels = raster.bytes.chunks_exact(2 * channels);
+            pixels.map(|pixel| u16::from_be_bytes([pixel[0], pixel[1]])).collect()
+        } else {
+            raster.bytes.chunks_exact(channels).map(|pixel| u16::from(pixel[0])).collect()
+        };
+        Ok(Self { width: raster.width, height: raster.height, values })
+    }
+}
+
+fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
+    let raster = Raster::decode(bytes)?;
+    if raster.pixels() > MOST_PIXELS {
+        let (width, height) = (raster.width, raster.height);
+        return Err(BadImage(format!(
+            "it has {width} by {height} pixels, more than {MOST_PIXELS} in all; scale it down"
+        )));
+    }
+    Ok(raster)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn png_of(colour: png::ColorType, depth: png::BitDepth, bytes: &[u8]) -> Vec<u8> {
+        let mut out = Vec::new();
+        let mut encoder = png::Encoder::new(&mut out, 2, 1);
+        encoder.set_color(colour);
+        encoder.set_depth(depth);
+        encoder.write_header().unwrap().write_image_data(bytes).unwrap();
+        out
+    }
+
+    #[test]
+    fn colours_of_a_png() {
+        let bytes = png_of(png::ColorType::Rgb, png::BitDepth::Eight, &[1, 2, 3, 4, 5, 6]);
+        let image = Image::decode(&bytes).unwrap();
+        assert_eq!((image.width, image.height), (2, 1));
+        assert_eq!(image.rgba, [[1, 2, 3, 255], [4, 5, 6, 255]]);
+    }
+
+    #[test]
+    fn sixteen_bits_of_grey() {
+        let bytes =
+            png_of(png::ColorType::Grayscale, png::BitDepth::Sixteen, &[0x12, 0x34, 0xff, 0]);
+        assert_eq!(Grey::decode(&bytes).unwrap().values, [0x1234, 0xff00]);
+        assert_eq!(Image::decode(&bytes).unwrap().rgba[0], [0x12, 0x12, 0x12, 255]);
+    }
+
+    #[test]
+    fn broken_bytes_are_told() {
+        let bytes = png_of(png::ColorType::Rgb, png::BitDepth::Eight, &[1, 2, 3, 4, 5, 6]);
+        for cut in 0..bytes.len() - 12 {
+            assert!(Image::decode(&bytes[..cut]).is_err(), "{cut}");
+        }
+        assert!(Image::decode(&[0xff, 0xd8, 0xff, 0xe0, 1, 2]).is_err());
+        assert!(Image::decode(b"GIF89a").unwrap_err().to_string().contains("convert"));
+    }
+}

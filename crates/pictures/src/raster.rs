@@ -1,0 +1,154 @@
+//! Samples as a file holds them.
+
+use std::fmt;
+
+/// No side is longer.
+pub const LONGEST_SIDE: u32 = 1 << 16;
+
+/// Samples take no more bytes: 16,384 by 16,384 in grey, 8,192 by 8,192 in colour with alpha.
+pub const MOST_BYTES: usize = 1 << 28;
+
+/// The samples of a pixel, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Brightness.
+    Grey,
+    /// Brightness, opacity.
+    GreyAlpha,
+    /// Red, green, blue.
+    Rgb,
+    /// Red, green, blue, opacity.
+    Rgba,
+}
+
+impl Layout {
+    /// How many samples a pixel has.
+    #[must_use]
+    pub fn channels(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::GreyAlpha => 2,
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
+
+    /// Whether the last sample of a pixel is its opacity.
+    #[must_use]
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Self::GreyAlpha | Self::Rgba)
+    }
+}
+
+/// A picture, its first row at the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// What a pixel has.
+    pub layout: Layout,
+    /// Whether a sample has sixteen bits, the upper eight first; else eight.
+    pub is_deep: bool,
+    /// Samples, pixel by pixel, row by row.
+    pub bytes: Vec<u8>,
+}
+
+/// Why bytes are no picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadImage(pub(crate) String);
+
+impl fmt::Display for BadImage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadImage {}
+
+impl Raster {
+    /// Reads a PNG, JPEG, BMP or PNM, whichever it is. Palettes are looked up, fewer bits than eight
+    /// are spread over eight.
+    ///
+    /// # Errors
+    /// When the bytes are none of these, broken, or too large.
+    pub fn decode(bytes: &[u8]) -> Result<Self, BadImage> {
+        let raster = match bytes {
+            [0x89, b'P', b'N', b'G', ..] => crate::png_file::decode(bytes)?,
+            [0xff, 0xd8, ..] => crate::jpeg::decode(bytes)?,
+            [b'B', b'M', ..] => crate::bmp::decode(bytes)?,
+            [b'P', b'1'..=b'6', ..] => crate::pnm::decode(bytes)?,
+            _ => {
+                return Err(BadImage(
+                    "it is neither PNG, JPEG, BMP nor PGM; convert it to one of them".into(),
+                ));
+            }
+        };
+        let expected = raster.pixels() * raster.bytes_per_pixel();
+        if expected == 0 || raster.bytes.len() != expected {
+            return Err(BadImage("it holds fewer pixels than its header says".into()));
+        }
+        Ok(raster)
+    }
+
+    /// How many pixels there are.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    fn bytes_per_pixel(&self) -> usize {
+        self.layout.channels() * if self.is_deep { 2 } else { 1 }
+    }
+
+    /// The bytes of a pixel, counted from the first of the top row.
+    #[must_use]
+    pub fn sample(&self, pixel: usize) -> &[u8] {
+        let size = self.bytes_per_pixel();
+        &self.bytes[pixel * size..(pixel + 1) * size]
+    }
+
+    /// The same with eight bits a sample: of sixteen the upper eight count.
+    #[must_use]
+    pub fn into_shallow(self) -> Self {
+        if !self.is_deep {
+            return self;
+        }
+        let bytes = self.bytes.chunks_exact(2).map(|pair| pair[0]).collect();
+        Self { is_deep: false, bytes, ..self }
+    }
+}
+
+/// Refuses what would not fit before memory is asked for.
+pub(crate) fn within_limits(width: u32, height: u32, pixel_bytes: usize) -> Result<(), BadImage> {
+    // Sides first: the product of longer ones might not fit.
+    let has_sides = width <= LONGEST_SIDE && height <= LONGEST_SIDE;
+    if has_sides && u64::from(width) * u64::from(height) * pixel_bytes as u64 <= MOST_BYTES as u64 {
+        return Ok(());
+    }
+    Err(BadImage(format!(
+        "it has {width} by {height} pixels, which take more than {} MiB; scale it down",
+        MOST_BYTES >> 20
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn giants_are_refused_before_memory_is_asked_for() {
+        assert!(within_limits(16_384, 16_384, 1).is_ok());
+        assert!(within_limits(8192, 8192, 4).is_ok());
+        assert!(within_limits(8193, 8192, 4).is_err());
+        assert!(within_limits(1 << 17, 1, 1).is_err());
+        assert!(within_limits(u32::MAX, u32::MAX, 8).is_err());
+    }
+
+    #[test]
+    fn other_formats_are_told_what_to_do() {
+        assert!(Raster::decode(b"GIF89a").unwrap_err().to_string().contains("convert"));
+        assert!(Raster::decode(b"").is_err());
+    }
+}
