@@ -22,6 +22,7 @@
 //! File format: the MCAP specification, version 1 (mcap.dev); what ROS 2 puts into it: `ros2/rosbag2`,
 //! packages `rosbag2_storage` and `rosbag2_storage_mcap`.
 
+mod carmen;
 mod check;
 mod compression;
 mod metadata;
@@ -33,6 +34,7 @@ mod ros1;
 mod translate;
 mod write;
 
+pub use carmen::{CarmenLog, CarmenOdometry, CarmenScan, is_carmen, read_carmen};
 pub use check::{Fault, check};
 pub use compression::Compression;
 pub use metadata::{BagInfo, FileInfo, Metadata, Stored, Style, TopicInfo, read_metadata};

@@ -1,0 +1,257 @@
+//! The points of one scan.
+
+use crate::surface::{Beam, normal};
+
+/// A point of a scan and the surface it lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// In the frame of the cloud \[m\].
+    pub x: f32,
+    /// In the frame of the cloud \[m\].
+    pub y: f32,
+    /// Unit normal of the surface towards the scanner; (0, 0) where there is no clear one.
+    pub nx: f32,
+    /// See `nx`.
+    pub ny: f32,
+}
+
+impl Point {
+    /// Whether the surface at the point is known.
+    #[must_use]
+    pub fn is_on_line(&self) -> bool {
+        self.nx != 0.0 || self.ny != 0.0
+    }
+}
+
+/// How a cloud is made of beams.
+#[derive(Clone, Copy, Debug)]
+pub struct CloudSettings {
+    /// Points nearer to the last one kept are left out \[m\].
+    pub spacing_m: f32,
+    /// With more points than this the spacing grows.
+    pub most_points: usize,
+}
+
+impl Default for CloudSettings {
+    fn default() -> Self {
+        Self { spacing_m: 0.03, most_points: 360 }
+    }
+}
+
+/// What was seen along a bearing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Sight {
+    /// Nobody looked there, or nothing came back.
+    Unknown,
+    /// Free up to `near`; behind `far` nothing can be seen \[m\].
+    Surface { near: f32, far: f32 },
+}
+
+/// The points of one scan, in order of their bearing from the scanner.
+#[derive(Clone, Debug)]
+pub struct Cloud {
+    points: Vec<Point>,
+    /// Distance of each from the scanner \[m\].
+    ranges: Vec<f32>,
+    /// Direction of each, as [`turn_of`].
+    turns: Vec<f32>,
+    /// Whether everything between a point and the next was seen.
+    is_followed: Vec<bool>,
+    origin: [f32; 2],
+    /// For each bin of the full turn the first point in it or behind it; one more at the end.
+    starts: Vec<u16>,
+}
+
+const BINS: usize = 256;
+const BINS_PER_TURN: f32 = BINS as f32 / 4.0;
+
+/// A cloud never holds more points: they are counted in 16 bits.
+const MOST_POINTS: usize = 60_000;
+
+impl Cloud {
+    /// A cloud of the beams of one scan in their order: where each ended in the cloud's frame, none
+    /// for those that saw nothing. `origin` is the scanner in that frame \[m\], `step_rad` the angle
+    /// from beam to beam.
+    #[must_use]
+    pub fn new(
+        beams: impl IntoIterator<Item = Option<[f32; 2]>>,
+        origin: [f32; 2],
+        step_rad: f32,
+        settings: &CloudSettings,
+    ) -> Self {
+        let beams: Vec<Beam> = beams
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, end)| end.map(|[x, y]| Beam { x, y, index }))
+            .filter(|beam| beam.x.is_finite() && beam.y.is_finite())
+            .collect();
+        let kept = thin(&beams, settings);
+        let mut all: Vec<(f32, f32, Point, bool)> = Vec::with_capacity(kept.len());
+        for (place, &at) in kept.iter().enumerate() {
+            let beam = beams[at];
+            let [nx, ny] = normal(&beams, at, origin, step_rad.abs());
+            let (x, y) = (beam.x - origin[0], beam.y - origin[1]);
+            // A single lost beam between two that were not leaves no gap to see through.
+            let next = kept.get(place + 1).map(|&next| (next, beams[next].index));
+            let is_followed = next.is_some_and(|(next, index)| {
+                index - beam.index <= next - at + 1
+                    && (index - beam.index) as f32 * step_rad.abs() < 0.2
+            });
+            let point = Point { x: beam.x, y: beam.y, nx, ny };
+            all.push((turn_of(x, y), (x * x + y * y).sqrt(), point, is_followed));
+        }
+        // Clockwise scans: what follows a point is then the one before.
+        if step_rad < 0.0 {
+            for place in (1..all.len()).rev() {
+                all[place].3 = all[place - 1].3;
+            }
+            if let Some(first) = all.first_mut() {
+                first.3 = false;
+            }
+        }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut starts = Vec::with_capacity(BINS + 1);
+        let mut at = 0;
+        for bin in 0..=BINS {
+            while at < all.len() && ((all[at].0 * BINS_PER_TURN) as usize) < bin {
+                at += 1;
+            }
+            starts.push(at as u16);
+        }
+        if let Some(end) = starts.last_mut() {
+            *end = all.len() as u16;
+        }
+        Self {
+            points: all.iter().map(|it| it.2).collect(),
+            ranges: all.iter().map(|it| it.1).collect(),
+            turns: all.iter().map(|it| it.0).collect(),
+            is_followed: all.iter().map(|it| it.3).collect(),
+            origin,
+            starts,
+        }
+    }
+
+    /// The points, by bearing from the scanner.
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Where the scanner was, in the frame of the cloud \[m\].
+    #[must_use]
+    pub fn origin(&self) -> [f32; 2] {
+        self.origin
+    }
+
+    /// Bytes held, about.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.points.len() * (size_of::<Point>() + 9) + self.starts.len() * 2
+    }
+
+    /// The point nearest to a place, if one is within `reach_m`, and the square of its distance.
+    #[must_use]
+    #[inline]
+    pub fn nearest(&self, x: f32, y: f32, reach_m: f32) -> Option<(usize, f32)> {
+        let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
+        let distance = (dx * dx + dy * dy).sqrt();
+        // A unit of turn is at most a radian; the arc is a little longer than its sine.
+        let half = reach_m / distance.max(1e-3) * 1.15;
+        let mut best = (usize::MAX, reach_m * reach_m);
+        if half > 1.2 {
+            self.nearest_in(0, self.points.len(), x, y, &mut best);
+        } else {
+            let middle = turn_of(dx, dy) * BINS_PER_TURN;
+            let bins = BINS as i32;
+            // Rounds down, also below zero, without a call.
+            let bin = |turn: f32| (turn + BINS as f32) as i32 - bins;
+            let first = bin(middle - half * BINS_PER_TURN);
+            let last = bin(middle + half * BINS_PER_TURN);
+            let start = |bin: i32| usize::from(self.starts[bin as usize]);
+            let (low, high) = (first.max(0), last.min(bins - 1));
+            self.nearest_in(start(low), start(high + 1), x, y, &mut best);
+            if first < 0 {
+                self.nearest_in(start(first + bins), start(bins), x, y, &mut best);
+            }
+            if last >= bins {
+                self.nearest_in(0, start(last - bins + 1), x, y, &mut best);
+            }
+        }
+        (best.0 != usize::MAX).then_some(best)
+    }
+
+    #[inline]
+    fn nearest_in(&self, start: usize, end: usize, x: f32, y: f32, best: &mut (usize, f32)) {
+        for (place, point) in self.points[start..end].iter().enumerate() {
+            let (dx, dy) = (point.x - x, point.y - y);
+            let squared = dx * dx + dy * dy;
+            if squared < best.1 {
+                *best = (start + place, squared);
+            }
+        }
+    }
+
+    /// What was seen in the direction of a place, and how far the place is \[m\].
+    pub(crate) fn sight(&self, x: f32, y: f32) -> (Sight, f32) {
+        let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
+        let distance = (dx * dx + dy * dy).sqrt();
+        if self.points.len() < 2 {
+            return (Sight::Unknown, distance);
+        }
+        let turn = turn_of(dx, dy);
+        let bin = ((turn * BINS_PER_TURN) as usize).min(BINS - 1);
+        let mut after = usize::from(self.starts[bin]);
+        while after < self.turns.len() && self.turns[after] <= turn {
+            after += 1;
+        }
+        let before = if after == 0 { self.points.len() - 1 } else { after - 1 };
+        let after = if after == self.points.len() { 0 } else { after };
+        if !self.is_followed[before] {
+            return (Sight::Unknown, distance);
+        }
+        let (a, b) = (self.ranges[before], self.ranges[after]);
+        (Sight::Surface { near: a.min(b), far: a.max(b) }, distance)
+    }
+}
+
+/// Where a direction lies in the turn, from 0 to below 4, growing with the angle; a unit is between
+/// one radian and two, without a trigonometric function.
+#[inline]
+fn turn_of(x: f32, y: f32) -> f32 {
+    let sum = x.abs() + y.abs();
+    if sum == 0.0 {
+        return 0.0;
+    }
+    let part = y / sum;
+    let turn = if x < 0.0 {
+        2.0 - part
+    } else if y < 0.0 {
+        4.0 + part
+    } else {
+        part
+    };
+    // Rounding may reach the full turn.
+    if turn >= 4.0 { 0.0 } else { turn }
+}
+
+/// Places of the beams that are kept.
+fn thin(beams: &[Beam], settings: &CloudSettings) -> Vec<usize> {
+    let most = settings.most_points.clamp(8, MOST_POINTS);
+    let mut spacing = settings.spacing_m.max(1e-3);
+    loop {
+        let mut kept: Vec<usize> = Vec::with_capacity(most.min(beams.len()));
+        for (at, beam) in beams.iter().enumerate() {
+            let is_near = kept.last().is_some_and(|&last| {
+                let (dx, dy) = (beam.x - beams[last].x, beam.y - beams[last].y);
+                dx * dx + dy * dy < spacing * spacing
+            });
+            if !is_near {
+                kept.push(at);
+            }
+        }
+        if kept.len() <= most {
+            return kept;
+        }
+        spacing *= 1.25;
+    }
+}

@@ -1,0 +1,248 @@
+//! All logs of a folder, as they are and perturbed, in one table: `logs FOLDER [--out DIR] [--only
+//! NAME] [--runs plain,rotate,..]`.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "a tool that reads logs, measures time and says how it went"
+)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use periplus_bags::{CarmenLog, CarmenScan, read_carmen};
+use periplus_base::{Pose2, Stream};
+use periplus_slam::{Relation, Scan, Score, Settings, Slam, Stamped, read_relations, score};
+
+const RUNS: [&str; 6] = ["plain", "rotate", "drop", "thin", "jitter", "scale"];
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let after = |name: &str| {
+        arguments.iter().position(|it| it == name).and_then(|at| arguments.get(at + 1)).cloned()
+    };
+    let folder = PathBuf::from(arguments.first().cloned().unwrap_or("../shared/datasets".into()));
+    let out = after("--out").map(PathBuf::from);
+    let only = after("--only");
+    let runs = after("--runs");
+    println!(
+        "{:<22} {:>6} {:>7} {:>7} {:>7} {:>7} {:>6} | {:>6} {:>6} {:>6} | {:>5} {:>5} {:>4} {:>6} {:>6}",
+        "log",
+        "scans",
+        "all m",
+        "local",
+        "loop",
+        "max",
+        "rot",
+        "ms",
+        "p99",
+        "worst",
+        "kept",
+        "ties",
+        "lost",
+        "loops",
+        "kB"
+    );
+    let mut folders: Vec<PathBuf> =
+        fs::read_dir(&folder).unwrap().map(|it| it.unwrap().path()).collect();
+    folders.sort();
+    let only: Option<Vec<String>> = only.map(|it| it.split(',').map(str::to_owned).collect());
+    for folder in folders {
+        let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+        let is_wanted = only.as_ref().is_none_or(|only| only.contains(&name));
+        let Ok(text) = fs::read(folder.join("raw.clf")) else { continue };
+        if !is_wanted {
+            continue;
+        }
+        let relations = relations(&folder);
+        let log = read_carmen(&text);
+        let mut loops: BTreeMap<&str, Vec<Score>> = BTreeMap::new();
+        for run in RUNS {
+            if runs.as_ref().is_some_and(|runs| !runs.split(',').any(|it| it == run)) {
+                continue;
+            }
+            let score = race(
+                &format!("{name} {run}"),
+                &perturbed(&log, run),
+                &log,
+                &relations,
+                out.as_deref(),
+            );
+            if run != "plain" {
+                loops.entry("perturbed").or_default().push(score);
+            }
+        }
+        if let Some(scores) = loops.get("perturbed").filter(|it| it.len() > 1) {
+            let median = |value: fn(&Score) -> f64| {
+                let mut values: Vec<f64> = scores.iter().map(value).collect();
+                values.sort_by(f64::total_cmp);
+                values[values.len() / 2]
+            };
+            println!(
+                "{:<22} {:>6} {:>7.4} {:>7.4} {:>7.4} {:>7.3} {:>6.3}",
+                format!("{name} median"),
+                "",
+                median(|it| it.all.mean_m),
+                median(|it| it.local.mean_m),
+                median(|it| it.loops.mean_m),
+                median(|it| it.all.most_m),
+                median(|it| it.all.mean_deg)
+            );
+        }
+    }
+}
+
+fn relations(folder: &Path) -> Vec<Relation> {
+    let names = ["intel.clean.relations", "agreement.relations"];
+    let text = names.iter().find_map(|name| fs::read_to_string(folder.join(name)).ok());
+    read_relations(&text.unwrap_or_default()).unwrap()
+}
+
+/// A log and the stamp of each scan in the log as it was.
+struct Copy {
+    scans: Vec<CarmenScan>,
+    stamps: Vec<f64>,
+}
+
+/// As `perturb.py` does it, in memory.
+fn perturbed(log: &CarmenLog, how: &str) -> Copy {
+    let mut scans = log.scans.clone();
+    let stamps: Vec<f64> = scans.iter().map(|it| it.time_s).collect();
+    let mut keep = vec![true; scans.len()];
+    let mut stream = Stream::keyed(0, "perturbed", 0);
+    let mut last: Option<Pose2> = None;
+    let mut pose = Pose2::IDENTITY;
+    for (index, scan) in scans.iter_mut().enumerate() {
+        match how {
+            "rotate" => {
+                let turn = Pose2::new(0.0, 0.0, 1.0);
+                scan.odom_from_base = scan.odom_from_base.map(|it| (turn * it).normalized());
+            }
+            "drop" => keep[index] = (index + 1) % 10 != 0,
+            "thin" => {
+                scan.ranges_m = scan.ranges_m.iter().copied().step_by(2).collect();
+                scan.angle_increment_rad *= 2.0;
+            }
+            "jitter" => scan.time_s += 0.02 * (stream.unit() - 0.5),
+            "scale" => {
+                if let Some(now) = scan.odom_from_base {
+                    let step = last.map_or(now, |last| last.inverse() * now);
+                    let times = if last.is_some() { 1.03 } else { 1.0 };
+                    pose = (pose * Pose2::new(times * step.x_m, times * step.y_m, step.yaw_rad))
+                        .normalized();
+                    last = Some(now);
+                    scan.odom_from_base = Some(pose);
+                }
+            }
+            _ => {}
+        }
+    }
+    let kept = |index: &usize| keep[*index];
+    Copy {
+        stamps: (0..scans.len()).filter(kept).map(|it| stamps[it]).collect(),
+        scans: (0..scans.len()).filter(kept).map(|it| scans[it].clone()).collect(),
+    }
+}
+
+/// Nanoseconds of this thread on a CPU.
+fn cpu_ns() -> u64 {
+    let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    text.split_whitespace().next().and_then(|it| it.parse().ok()).unwrap_or(0)
+}
+
+fn race(
+    name: &str,
+    copy: &Copy,
+    log: &CarmenLog,
+    relations: &[Relation],
+    out: Option<&Path>,
+) -> Score {
+    let mut slam = Slam::new(Settings::default());
+    let mut spent: Vec<u64> = Vec::with_capacity(copy.scans.len());
+    for scan in &copy.scans {
+        let begin = cpu_ns();
+        let odometry = scan.odom_from_base;
+        let scan = Scan {
+            time_ns: (scan.time_s * 1e6).round() as i64 * 1000,
+            base_from_laser: scan.base_from_laser,
+            is_flipped: false,
+            angle_min_rad: scan.angle_min_rad,
+            angle_increment_rad: scan.angle_increment_rad,
+            time_increment_s: 0.0,
+            range_min_m: 0.05,
+            range_max_m: scan.range_max_m,
+            ranges_m: scan.ranges_m.clone(),
+        };
+        let _ = slam.add_scan(&scan, odometry);
+        spent.push(cpu_ns() - begin);
+    }
+    let begin = cpu_ns();
+    slam.finish();
+    let finish = cpu_ns() - begin;
+    let trajectory: Vec<Stamped> = copy
+        .stamps
+        .iter()
+        .zip(slam.trajectory())
+        .map(|(stamp, (_, pose))| (*stamp, pose))
+        .collect();
+    let scans: Vec<Stamped> =
+        log.scans.iter().filter_map(|it| Some((it.time_s, it.odom_from_base?))).collect();
+    let between: Vec<Stamped> =
+        log.odometry.iter().map(|it| (it.time_s, it.odom_from_base)).collect();
+    let score = score(&trajectory, &scans, &between, relations);
+    let total: u64 = spent.iter().sum::<u64>() + finish;
+    spent.sort_unstable();
+    let ms = |ns: u64| ns as f64 * 1e-6;
+    let counts = slam.counts();
+    let accepted = slam.closures().iter().filter(|it| it.is_accepted).count();
+    println!(
+        "{:<22} {:>6} {:>7.4} {:>7.4} {:>7.4} {:>7.3} {:>6.3} | {:>6.2} {:>6.2} {:>6.1} | {:>5} {:>5} {:>4} {:>6} {:>6}  finish {:.0} ms",
+        name,
+        counts.scans,
+        score.all.mean_m,
+        score.local.mean_m,
+        score.loops.mean_m,
+        score.all.most_m,
+        score.all.mean_deg,
+        ms(total) / copy.scans.len().max(1) as f64,
+        ms(spent[spent.len() * 99 / 100]),
+        ms(spent[spent.len() - 1]),
+        counts.kept,
+        counts.ties,
+        counts.lost,
+        format!("{accepted}/{}", slam.closures().len()),
+        slam.size() / 1000,
+        ms(finish)
+    );
+    if let Some(out) = out {
+        write(out, &name.replace(' ', "_"), &slam, copy);
+    }
+    score
+}
+
+fn write(out: &Path, name: &str, slam: &Slam, copy: &Copy) {
+    fs::create_dir_all(out).unwrap();
+    if let Some(map) = slam.map() {
+        let mut bytes =
+            format!("P5\n{} {}\n255\n", map.lattice.width, map.lattice.height).into_bytes();
+        for row in map.rows().rev() {
+            bytes.extend(
+                row.iter()
+                    .map(|&it| if it < 0 { 205 } else { 254 - (i32::from(it) * 254 / 100) as u8 }),
+            );
+        }
+        fs::write(out.join(format!("{name}.pgm")), bytes).unwrap();
+    }
+    let lines: String = copy
+        .stamps
+        .iter()
+        .zip(slam.trajectory())
+        .map(|(stamp, (_, pose))| {
+            format!("{stamp:.6} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
+        })
+        .collect();
+    fs::write(out.join(format!("{name}.txt")), lines).unwrap();
+    let told: String = slam.closures().iter().map(|it| format!("{it:?}\n")).collect();
+    fs::write(out.join(format!("{name}.closures")), told).unwrap();
+}

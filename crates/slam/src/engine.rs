@@ -1,0 +1,324 @@
+//! Scans in, poses out.
+
+mod work;
+
+use periplus_base::Pose2;
+use periplus_grid::OccupancyGrid;
+use periplus_matching::Symmetric3;
+
+use crate::graph::{Edge, Graph, Kind};
+use crate::key::{Key, Track};
+use crate::local::{apart, floored, locate, neighbours, placed};
+use crate::loops::{Closure, Loops};
+use crate::map;
+use crate::odometry::Trust;
+use crate::refine::refine;
+use crate::scan::Scan;
+use crate::settings::Settings;
+
+use work::Work;
+
+/// What was done with a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taken {
+    /// It is part of the map.
+    Kept,
+    /// The robot has moved too little for it to be kept.
+    Passed,
+    /// It did not fit to what was seen before; only odometry tells where it is.
+    Lost,
+    /// It says nothing, for this reason.
+    Ignored(&'static str),
+}
+
+/// Where the robot is after a scan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Update {
+    /// What was done with the scan.
+    pub taken: Taken,
+    /// Where the robot is.
+    pub map_from_base: Pose2,
+    /// What corrects odometry; the identity without odometry.
+    pub map_from_odom: Pose2,
+    /// Whether poses of earlier scans have moved.
+    pub is_map_bent: bool,
+}
+
+/// Counts of what happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Scans that came in.
+    pub scans: usize,
+    /// Scans that are part of the map.
+    pub kept: usize,
+    /// Scans that did not fit.
+    pub lost: usize,
+    /// Scans that said nothing.
+    pub ignored: usize,
+    /// Direct ties to old scans.
+    pub ties: usize,
+    /// Searches for loops.
+    pub searches: usize,
+    /// Slices of work in the background.
+    pub slices: usize,
+}
+
+/// The scan before.
+struct Last {
+    time_ns: i64,
+    odom_from_base: Option<Pose2>,
+    key: usize,
+    key_from_base: Pose2,
+    /// Motion in a second, when it is known.
+    motion: Option<Pose2>,
+}
+
+/// A map that grows with every scan.
+pub struct Slam {
+    settings: Settings,
+    keys: Vec<Key>,
+    tracks: Vec<Track>,
+    graph: Graph,
+    trust: Trust,
+    last: Option<Last>,
+    loops: Loops,
+    work: Work,
+    counts: Counts,
+    /// Part of the points that usually find partners.
+    usual: f64,
+}
+
+/// Less motion than this is standing still \[m, rad\].
+const STILL_M: f64 = 0.002;
+const STILL_RAD: f64 = 0.001;
+/// More motion than this since the scan before asks for a search \[m, rad\].
+const SEARCH_M: f64 = 0.1;
+const SEARCH_RAD: f64 = 0.05;
+/// Clouds of fewer points cannot be laid onto others.
+const LEAST_POINTS: usize = 12;
+/// How fast it is learnt what is usual.
+const USUAL: f64 = 0.05;
+/// A turn of a radian counts as so much way \[m\].
+const TURN_WAY_M: f64 = 0.3;
+
+impl Slam {
+    /// An empty map.
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            keys: Vec::new(),
+            tracks: Vec::new(),
+            graph: Graph::default(),
+            trust: Trust::default(),
+            last: None,
+            loops: Loops::default(),
+            work: Work::default(),
+            counts: Counts::default(),
+            usual: 0.7,
+        }
+    }
+
+    /// Takes a scan, and where odometry has the robot at its time, if it does. Work in the background
+    /// (ties, loops, bending of the map) goes on for as many slices as the settings allow.
+    pub fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+        self.counts.scans += 1;
+        let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
+        let bends = self.work.bends;
+        let taken = match scan.fault() {
+            Some(reason) => Taken::Ignored(reason),
+            None => self.take(scan, odom_from_base),
+        };
+        match taken {
+            Taken::Kept => self.counts.kept += 1,
+            Taken::Lost => self.counts.lost += 1,
+            Taken::Ignored(_) => self.counts.ignored += 1,
+            Taken::Passed => {}
+        }
+        self.work_slices(self.settings.slices_per_scan);
+        let map_from_base = self.map_from_base();
+        Update {
+            taken,
+            map_from_base,
+            map_from_odom: odom_from_base
+                .map_or(Pose2::IDENTITY, |odom| (map_from_base * odom.inverse()).normalized()),
+            is_map_bent: self.work.bends != bends,
+        }
+    }
+
+    /// Where the robot was at the last scan.
+    #[must_use]
+    pub fn map_from_base(&self) -> Pose2 {
+        self.last.as_ref().map_or(Pose2::IDENTITY, |last| {
+            (self.graph.poses[last.key] * last.key_from_base).normalized()
+        })
+    }
+
+    fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+        let Some(last) = &self.last else {
+            return self.begin(scan, odom_from_base);
+        };
+        let seconds = (scan.time_ns.saturating_sub(last.time_ns)) as f64 * 1e-9;
+        let told = match (last.odom_from_base, odom_from_base) {
+            (Some(before), Some(now)) => Some((before.inverse() * now).normalized()),
+            _ => None,
+        };
+        let is_recent = seconds > 0.0 && seconds < 1.0;
+        let motion = told.or_else(|| {
+            let before = last.motion.filter(|_| is_recent)?;
+            Some(Pose2::new(before.x_m * seconds, before.y_m * seconds, before.yaw_rad * seconds))
+        });
+        let motion = motion.unwrap_or(Pose2::IDENTITY);
+        let covariance =
+            if told.is_some() { self.trust.covariance(motion) } else { Trust::blind() };
+        let per_second = |motion: Pose2| {
+            let rate = 1.0 / seconds;
+            is_recent
+                .then(|| Pose2::new(motion.x_m * rate, motion.y_m * rate, motion.yaw_rad * rate))
+        };
+        let ends = scan.ends(per_second(motion), self.settings.range_max_m);
+        let (metres, radians) = apart(motion, Pose2::IDENTITY);
+        let is_still = told.is_some() && metres < STILL_M && radians < STILL_RAD;
+        let expected = (last.key_from_base * motion).normalized();
+        let cloud = ends.cloud(&self.settings.cloud);
+        let is_blank = cloud.points().len() < LEAST_POINTS;
+        let group: Vec<usize> = neighbours(&self.keys, &self.graph, self.settings.local_scans);
+        let (key, before) = (last.key, last.key_from_base);
+        let (key_from_base, information, is_matched) = if is_blank {
+            let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
+            (expected, information, false)
+        } else {
+            // The prior is about a motion that began at the last scan.
+            let turned = covariance.turned(before.yaw_rad);
+            let searches = told.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
+            let group = placed(&self.keys, &self.graph, &group, key);
+            let located =
+                locate(&cloud, &group, expected, &turned, &self.settings, searches, self.usual);
+            if located.is_matched {
+                self.usual += USUAL * (located.fit.matched - self.usual);
+            }
+            (located.fit.target_from_moving, located.information, located.is_matched)
+        };
+        let moved = (before.inverse() * key_from_base).normalized();
+        if told.is_some() && is_matched && !is_still {
+            self.trust.learn(motion, moved);
+        }
+        let (shift_m, turn_rad) = apart(key_from_base, Pose2::IDENTITY);
+        let is_kept = !is_blank
+            && (shift_m > self.settings.key_shift_m || turn_rad > self.settings.key_turn_rad);
+        let way_m = {
+            let (metres, radians) = apart(key_from_base, Pose2::IDENTITY);
+            metres + TURN_WAY_M * radians
+        };
+        let mut next = Last {
+            time_ns: scan.time_ns,
+            odom_from_base,
+            key,
+            key_from_base,
+            motion: per_second(moved),
+        };
+        if is_kept {
+            let travel_m = self.keys[key].travel_m + way_m;
+            let pose = (self.graph.poses[key] * key_from_base).normalized();
+            let new = self.graph.add_pose(pose);
+            self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m });
+            let information = floored(&information);
+            self.graph.add_edge(Edge::new((key, new), key_from_base, information, Kind::Chain));
+            next.key = new;
+            next.key_from_base = Pose2::IDENTITY;
+            self.work.ties.push_back(new);
+            if self.settings.closes_loops {
+                self.loops.notice(&self.keys, &self.graph, self.work.tied_m);
+            }
+        }
+        self.tracks.push(Track {
+            time_ns: scan.time_ns,
+            key: next.key,
+            key_from_base: next.key_from_base,
+        });
+        self.last = Some(next);
+        match (is_matched, is_kept) {
+            (false, _) => Taken::Lost,
+            (true, true) => Taken::Kept,
+            (true, false) => Taken::Passed,
+        }
+    }
+
+    /// The first scan: the map begins where odometry has the robot.
+    fn begin(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+        let ends = scan.ends(None, self.settings.range_max_m);
+        let cloud = ends.cloud(&self.settings.cloud);
+        self.graph.add_pose(odom_from_base.unwrap_or(Pose2::IDENTITY).normalized());
+        self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m: 0.0 });
+        let track = Track { time_ns: scan.time_ns, key: 0, key_from_base: Pose2::IDENTITY };
+        self.tracks.push(track);
+        self.last = Some(Last {
+            time_ns: scan.time_ns,
+            odom_from_base,
+            key: 0,
+            key_from_base: Pose2::IDENTITY,
+            motion: None,
+        });
+        Taken::Kept
+    }
+
+    /// Finishes all work in the background, then refines all poses together. More scans may follow.
+    pub fn finish(&mut self) {
+        self.work_slices(usize::MAX);
+        self.settle();
+        if self.keys.len() > 1 {
+            refine(&self.keys, &mut self.graph, &self.settings);
+        }
+    }
+
+    /// Where the robot was at each scan, in the order in which they came \[ns\].
+    #[must_use]
+    pub fn trajectory(&self) -> Vec<(i64, Pose2)> {
+        let place = |track: &Track| {
+            (track.time_ns, (self.graph.poses[track.key] * track.key_from_base).normalized())
+        };
+        self.tracks.iter().map(place).collect()
+    }
+
+    /// The map as it is now; none when it would be too large to hold.
+    #[must_use]
+    pub fn map(&self) -> Option<OccupancyGrid> {
+        map::draw(&self.keys, &self.graph.poses, self.settings.resolution_m)
+    }
+
+    /// What became of every closure that was looked at in earnest.
+    #[must_use]
+    pub fn closures(&self) -> &[Closure] {
+        &self.loops.told
+    }
+
+    /// Counts of what happened.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        Counts {
+            slices: self.work.slices,
+            ties: self.work.tied,
+            searches: self.work.searches,
+            ..self.counts
+        }
+    }
+
+    /// Bytes held, about.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        let keys: usize = self
+            .keys
+            .iter()
+            .map(|key| key.cloud.size() + key.ends.len() * 8 + size_of::<Key>())
+            .sum();
+        keys + self.graph.edges.len() * (size_of::<Edge>() + 8)
+            + self.tracks.len() * size_of::<Track>()
+            + self.loops.size()
+    }
+}
+
+/// Ends of beams that are kept for drawing.
+fn drawn(ends: &[Option<[f32; 2]>], settings: &Settings) -> Vec<[f32; 2]> {
+    let every = ends.len().div_ceil(settings.drawn_beams.max(1)).max(1);
+    ends.iter().step_by(every).filter_map(|end| *end).collect()
+}

@@ -1,0 +1,212 @@
+//! Work in the background, in slices that are short whatever the map.
+
+use std::collections::VecDeque;
+
+use periplus_base::Pose2;
+use periplus_matching::{Agreement, agreement};
+
+use super::Slam;
+use crate::graph::{Kind, Outcome, Solver};
+use crate::local::apart;
+use crate::near::ties;
+
+/// What is to be done.
+#[derive(Default)]
+pub(super) struct Work {
+    /// Keys whose ties to old ones are to be looked for.
+    pub(super) ties: VecDeque<usize>,
+    /// Way at the last tie to an old scan \[m\].
+    pub(super) tied_m: f64,
+    solving: Option<Solving>,
+    /// Ties since the map was last solved for, and whether one of them pulls.
+    loose: usize,
+    is_strained: bool,
+    pub(super) tied: usize,
+    pub(super) searches: usize,
+    pub(super) slices: usize,
+    /// How often the map was bent.
+    pub(super) bends: usize,
+}
+
+/// A map that is being bent.
+struct Solving {
+    solver: Solver,
+    steps: usize,
+    /// Poses and edges for which the solver was made.
+    size: (usize, usize),
+    /// What to go back to when the new map is worse: poses before, and the edges that are on trial.
+    trial: Option<(Vec<Pose2>, Vec<usize>)>,
+}
+
+/// A tie that is off by more pulls (squared Mahalanobis distance).
+const STRAIN: f64 = 6.0;
+/// So many ties that do not pull are solved for anyway.
+const LOOSE: usize = 60;
+/// A step that moves less is the last \[m\].
+const SETTLED_M: f64 = 1e-3;
+/// Ties whose squared Mahalanobis distance is far above this count little.
+const DOUBTED: f64 = 100.0;
+/// After a closure, points that overlap anew must agree to this part; fewer points are no evidence.
+const AGREEING: f64 = 0.65;
+const JUDGED: u32 = 600;
+/// Scans of the newest way that are looked at after a closure, and how near others are \[m\].
+const LOOKED_AT: usize = 40;
+const NEAR_M: f64 = 4.0;
+/// Way after which another scan is an old one \[m\].
+const OLD_M: f64 = 10.0;
+
+/// Weight of an edge by its squared distance: closures that were verified, and chains, count as they
+/// are; ties less when the map says otherwise (Geman and McClure).
+fn robust(kind: Kind, chi2: f64) -> f64 {
+    match kind {
+        Kind::Near => {
+            let shrink = DOUBTED / (DOUBTED + chi2);
+            shrink * shrink
+        }
+        _ => 1.0,
+    }
+}
+
+impl Slam {
+    /// Does so many slices of work, or all that there are.
+    pub fn work_slices(&mut self, most: usize) {
+        for _ in 0..most {
+            if !self.work_slice() {
+                break;
+            }
+        }
+    }
+
+    /// Does one slice of work; false when there is none.
+    fn work_slice(&mut self) -> bool {
+        if self.work.solving.is_some() {
+            self.solve_step();
+        } else if let Some(key) = self.work.ties.pop_front() {
+            self.tie(key);
+        } else if self.work.is_strained || self.work.loose >= LOOSE {
+            self.solve(None);
+        } else if self.loops.is_busy() {
+            self.search();
+        } else {
+            return false;
+        }
+        self.work.slices += 1;
+        true
+    }
+
+    fn tie(&mut self, key: usize) {
+        for edge in ties(&self.keys, &self.graph, key, &self.settings) {
+            self.work.is_strained |= edge.chi2(&self.graph.poses) > STRAIN;
+            self.work.loose += 1;
+            self.work.tied += 1;
+            self.work.tied_m = self.work.tied_m.max(self.keys[key].travel_m);
+            self.graph.add_edge(edge);
+        }
+    }
+
+    fn search(&mut self) {
+        self.work.searches += 1;
+        let edges = self.loops.work(&self.keys, &self.graph, &self.settings);
+        if edges.is_empty() {
+            return;
+        }
+        let poses = self.graph.poses.clone();
+        let added = edges.into_iter().map(|edge| self.graph.add_edge(edge)).collect();
+        self.solve(Some((poses, added)));
+    }
+
+    /// Begins to bend the map.
+    fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
+        self.work.loose = 0;
+        self.work.is_strained = false;
+        let size = (self.graph.poses.len(), self.graph.edges.len());
+        let solver = Solver::new(&self.graph);
+        self.work.solving = Some(Solving { solver, steps: 0, size, trial });
+    }
+
+    fn solve_step(&mut self) {
+        let Some(mut solving) = self.work.solving.take() else { return };
+        let size = (self.graph.poses.len(), self.graph.edges.len());
+        if solving.size != size {
+            solving.solver = Solver::new(&self.graph);
+            solving.size = size;
+        }
+        solving.steps += 1;
+        let outcome = solving.solver.step(&mut self.graph, &robust);
+        self.work.bends += 1;
+        let goes_on = matches!(outcome, Outcome::Moved(by) if by > SETTLED_M);
+        if goes_on && solving.steps < self.settings.solve_steps {
+            self.work.solving = Some(solving);
+        } else if let Some((poses, edges)) = solving.trial {
+            self.judge(poses, &edges);
+        }
+    }
+
+    /// Keeps a closure when what now overlaps agrees, or goes back.
+    fn judge(&mut self, before: Vec<Pose2>, edges: &[usize]) {
+        let sum = self.overlap();
+        if sum.judged() > JUDGED && sum.share() < AGREEING {
+            for &edge in edges {
+                self.graph.edges[edge].weight = 0.0;
+            }
+            for (pose, old) in self.graph.poses.iter_mut().zip(&before) {
+                *pose = *old;
+            }
+            // Keys that came in the meantime hang on the chain.
+            for key in before.len()..self.graph.poses.len() {
+                let chain = self.graph.at[key]
+                    .iter()
+                    .map(|&edge| self.graph.edges[edge as usize])
+                    .find(|edge| edge.kind == Kind::Chain && edge.to == key);
+                if let Some(edge) = chain {
+                    self.graph.poses[key] =
+                        (self.graph.poses[edge.from] * edge.from_from_to).normalized();
+                }
+            }
+            self.loops.undone(format!(
+                "undone: in the map that came of it {:.0} % of the points were seen through",
+                100.0 * (1.0 - sum.share())
+            ));
+            return;
+        }
+        self.loops.confirmed(&format!(
+            "; then {} points overlap and {:.0} % agree",
+            sum.judged(),
+            100.0 * sum.share()
+        ));
+        // The uncertainty is gone: near scans can now be compared directly.
+        self.loops.forget();
+        let first = self.keys.len().saturating_sub(LOOKED_AT);
+        self.work.ties.extend(first..self.keys.len());
+    }
+
+    /// Holds the newest way against the old scans that it now lies on.
+    fn overlap(&self) -> Agreement {
+        let mut sum = Agreement::default();
+        let first = self.keys.len().saturating_sub(LOOKED_AT);
+        for key in first..self.keys.len() {
+            let here = self.graph.poses[key];
+            let mut near: Vec<(f64, usize)> = (0..first)
+                .filter(|&old| self.keys[key].travel_m - self.keys[old].travel_m > OLD_M)
+                .map(|old| (apart(here, self.graph.poses[old]).0, old))
+                .filter(|it| it.0 < NEAR_M)
+                .collect();
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for &(_, old) in near.iter().take(2) {
+                let old_from_key = self.graph.between(old, key);
+                let (a, b) = (&self.keys[key].cloud, &self.keys[old].cloud);
+                sum += agreement(a, b, old_from_key, 0.25);
+                sum += agreement(b, a, old_from_key.inverse(), 0.25);
+            }
+        }
+        sum
+    }
+
+    /// Looks for ties that were missed while places were uncertain, and bends the map until it rests.
+    pub(super) fn settle(&mut self) {
+        self.work.ties.extend(0..self.keys.len());
+        self.work_slices(usize::MAX);
+        self.solve(None);
+        self.work_slices(usize::MAX);
+    }
+}

@@ -1,0 +1,101 @@
+//! Poses and what is known between them.
+
+mod cholesky;
+mod order;
+mod solve;
+
+use periplus_base::{Pose2, normalize_angle};
+use periplus_matching::Symmetric3;
+
+use crate::drift::reversed;
+
+pub(crate) use solve::{Outcome, Solver};
+
+/// Where what is known between two poses comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// From a scan to the next, by matching and odometry together.
+    Chain,
+    /// Between scans whose places were known well enough to be compared directly.
+    Near,
+    /// A loop closed after a search.
+    Loop,
+    /// From the last refinement, in which all scans are held against their neighbours.
+    Refined,
+}
+
+/// What is known between two poses.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    pub(crate) from_from_to: Pose2,
+    /// Errors are a shift along the axes of `from` and a turn.
+    pub(crate) information: Symmetric3,
+    /// Its inverse, and that for `to_from_from`.
+    pub(crate) covariances: [Symmetric3; 2],
+    pub(crate) kind: Kind,
+    /// 1 when it counts, 0 when it does not.
+    pub(crate) weight: f64,
+}
+
+impl Edge {
+    pub(crate) fn new(
+        (from, to): (usize, usize),
+        from_from_to: Pose2,
+        information: Symmetric3,
+        kind: Kind,
+    ) -> Self {
+        // What is known to nothing is uncertain without bound, in numbers that can be computed with.
+        let covariance = information.inverse().unwrap_or(Symmetric3::diagonal(1e6, 1e6, 1e6));
+        let covariances = [covariance, reversed(&covariance, from_from_to)];
+        Self { from, to, from_from_to, information, covariances, kind, weight: 1.0 }
+    }
+
+    /// Shift and turn by which poses differ from what this says.
+    pub(crate) fn error(&self, poses: &[Pose2]) -> [f64; 3] {
+        let found = poses[self.from].inverse() * poses[self.to];
+        [
+            found.x_m - self.from_from_to.x_m,
+            found.y_m - self.from_from_to.y_m,
+            normalize_angle(found.yaw_rad - self.from_from_to.yaw_rad),
+        ]
+    }
+
+    /// Squared Mahalanobis distance of the error.
+    pub(crate) fn chi2(&self, poses: &[Pose2]) -> f64 {
+        self.information.quadratic(self.error(poses))
+    }
+}
+
+/// Poses of key scans in the map and what is known between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Graph {
+    /// `map_from_key`.
+    pub(crate) poses: Vec<Pose2>,
+    pub(crate) edges: Vec<Edge>,
+    /// For each pose the edges at it.
+    pub(crate) at: Vec<Vec<u32>>,
+}
+
+impl Graph {
+    pub(crate) fn add_pose(&mut self, map_from_key: Pose2) -> usize {
+        self.poses.push(map_from_key);
+        self.at.push(Vec::new());
+        self.poses.len() - 1
+    }
+
+    pub(crate) fn add_edge(&mut self, edge: Edge) -> usize {
+        let index = self.edges.len();
+        self.at[edge.from].push(index as u32);
+        self.at[edge.to].push(index as u32);
+        self.edges.push(edge);
+        index
+    }
+
+    /// `a_from_b` of two poses.
+    pub(crate) fn between(&self, a: usize, b: usize) -> Pose2 {
+        let pose = self.poses[a].inverse() * self.poses[b];
+        pose.normalized()
+    }
+}

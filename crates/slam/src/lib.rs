@@ -1,0 +1,33 @@
+//! Simultaneous localization and mapping from flat laser scans.
+//!
+//! [`Slam::add_scan`] takes a scan and where odometry has the robot, and tells where the robot is.
+//! Values in, values out: no clock, no threads, no files, and the same input gives the same bits.
+//!
+//! The way of a scan:
+//! 1. it becomes a cloud of points with the surfaces they lie on (`scan`);
+//! 2. it is searched for and laid onto the scans just before (`local`), odometry being a prior whose
+//!    trust is learnt (`odometry`);
+//! 3. when the robot has moved enough it is kept: a pose in the graph, and an edge (`graph`);
+//! 4. old scans nearby whose place is well known are tied to it directly (`near`);
+//! 5. where the uncertainty has grown, loops are searched, doubted and believed (`loops`, `drift`);
+//! 6. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
+
+mod drift;
+mod engine;
+mod graph;
+mod key;
+mod local;
+mod loops;
+mod map;
+mod near;
+mod odometry;
+mod refine;
+mod relations;
+mod scan;
+mod settings;
+
+pub use engine::{Counts, Slam, Taken, Update};
+pub use loops::Closure;
+pub use relations::{Errors, Relation, Score, Stamped, read_relations, score};
+pub use scan::Scan;
+pub use settings::Settings;

@@ -1,0 +1,208 @@
+//! Where a scan is among those just before.
+
+use periplus_base::{Pose2, normalize_angle};
+use periplus_matching::{
+    Agreement, Cloud, Field, Fit, Placed, Prior, RegisterSettings, Symmetric3, Window, agreement,
+    register,
+};
+
+use crate::graph::Graph;
+use crate::key::Key;
+use crate::settings::Settings;
+
+/// Points of a scan that are searched with.
+const SEARCH_POINTS: usize = 120;
+/// A scan of which fewer points find partners is not where it was searched.
+const LEAST_MATCHED: f64 = 0.45;
+/// Scans and steps with which starts are told apart.
+const FEW_SCANS: usize = 3;
+const FEW_STEPS: usize = 5;
+/// A fit that matches less than this part of what is usual is doubted.
+const POOR: f64 = 0.75;
+/// What odometry counts when it is doubted, and by how much (squared standard deviations) a fit must
+/// be better then.
+const DISTRUST: f64 = 0.004;
+const PRICE: f64 = 20.0;
+/// Scans that agree on less than the first part of what both can see are in doubt; where they agree on
+/// more than the second they belong together.
+const DOUBTFUL: f64 = 0.75;
+const SURE: f64 = 0.9;
+/// With the range of most points, headings are so far apart that their ends move by a cell.
+const ARM_M: std::ops::Range<f64> = 2.0..12.0;
+
+/// Where a scan was found.
+pub(crate) struct Located {
+    pub(crate) fit: Fit,
+    /// What scans and odometry together say.
+    pub(crate) information: Symmetric3,
+    /// Whether the scan fits, or only odometry tells where it is.
+    pub(crate) is_matched: bool,
+}
+
+/// The key scans that a new one is laid onto: the last ones, nearby.
+pub(crate) fn neighbours(keys: &[Key], graph: &Graph, most: usize) -> Vec<usize> {
+    let Some(last) = keys.len().checked_sub(1) else { return Vec::new() };
+    let here = graph.poses[last];
+    (0..keys.len())
+        .rev()
+        .take(3 * most)
+        .filter(|&key| {
+            let pose = graph.poses[key];
+            libm::hypot(pose.x_m - here.x_m, pose.y_m - here.y_m) < 7.0
+        })
+        .take(most)
+        .collect()
+}
+
+/// Clouds of some keys in the frame of one.
+pub(crate) fn placed<'a>(
+    keys: &'a [Key],
+    graph: &Graph,
+    of: &[usize],
+    frame: usize,
+) -> Vec<Placed<'a>> {
+    of.iter()
+        .map(|&key| Placed { cloud: &keys[key].cloud, group_from_cloud: graph.between(frame, key) })
+        .collect()
+}
+
+/// Points of clouds in the frame of their group.
+pub(crate) fn points_of(group: &[Placed<'_>]) -> Vec<[f32; 2]> {
+    let mut points = Vec::with_capacity(group.iter().map(|it| it.cloud.points().len()).sum());
+    for placed in group {
+        let pose = placed.group_from_cloud;
+        let (s, c) = libm::sincos(pose.yaw_rad);
+        let (s, c) = (s as f32, c as f32);
+        let (x, y) = (pose.x_m as f32, pose.y_m as f32);
+        points.extend(
+            placed.cloud.points().iter().map(|p| [c * p.x - s * p.y + x, s * p.x + c * p.y + y]),
+        );
+    }
+    points
+}
+
+/// Some points of a cloud, evenly.
+pub(crate) fn sampled(cloud: &Cloud, most: usize) -> Vec<[f32; 2]> {
+    let every = cloud.points().len().div_ceil(most).max(1);
+    cloud.points().iter().step_by(every).map(|p| [p.x, p.y]).collect()
+}
+
+/// From one heading to the next, so that points move by about a cell \[rad\].
+pub(crate) fn heading_step(points: &[[f32; 2]], resolution_m: f32) -> f64 {
+    let mut ranges: Vec<f32> = points.iter().map(|p| p[0] * p[0] + p[1] * p[1]).collect();
+    if ranges.is_empty() {
+        return 0.02;
+    }
+    let at = ranges.len() * 3 / 4;
+    let (_, range, _) = ranges.select_nth_unstable_by(at, f32::total_cmp);
+    f64::from(resolution_m) / f64::from(range.sqrt()).clamp(ARM_M.start, ARM_M.end)
+}
+
+/// Finds a scan among the keys before. `frame_from_base` is where odometry has it in the frame of the
+/// first of `group`, with this covariance.
+pub(crate) fn locate(
+    cloud: &Cloud,
+    group: &[Placed<'_>],
+    frame_from_base: Pose2,
+    covariance: &Symmetric3,
+    settings: &Settings,
+    searches: bool,
+    usual: f64,
+) -> Located {
+    let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
+    let mut prior = Prior { target_from_moving: frame_from_base, information };
+    let moving = [Placed::alone(cloud)];
+    // To tell starts apart a few scans and steps are enough.
+    let few = &group[..group.len().min(FEW_SCANS)];
+    let quick = RegisterSettings { steps: FEW_STEPS, ..settings.register };
+    let fit_from = |start, prior: &Prior| register(&moving, few, start, Some(prior), &quick);
+    let finish = |fit: &Fit, prior: &Prior| {
+        let how = close_by(&settings.register);
+        register(&moving, group, fit.target_from_moving, Some(prior), &how)
+    };
+    let mut best = fit_from(frame_from_base, &prior);
+    let is_poor = |fit: &Fit| fit.matched < LEAST_MATCHED.max(POOR * usual);
+    if searches || is_poor(&best) {
+        let points = sampled(cloud, SEARCH_POINTS);
+        let step_rad = heading_step(&points, settings.local_field.resolution_m);
+        let middle = [frame_from_base.x_m as f32, frame_from_base.y_m as f32];
+        let field = Field::new(&points_of(group), middle, &settings.local_field);
+        let sigmas = [covariance.largest_shift().sqrt(), covariance.tt.sqrt()];
+        let mut window = Window {
+            middle: frame_from_base,
+            half_m: [(3.0 * sigmas[0]).clamp(0.15, 2.5); 2],
+            half_rad: (3.0 * sigmas[1]).clamp(0.08, 1.6),
+            step_rad,
+        };
+        if let (Some(peak), _) = field.search(&points, &window, 0.15, None) {
+            let fit = fit_from(peak.pose, &prior);
+            if fit.cost < best.cost {
+                best = fit;
+            }
+        }
+        let seen = |fit: &Fit| against(cloud, group, fit.target_from_moving);
+        if is_poor(&best) && seen(&best).share() < DOUBTFUL {
+            // Scans contradict each other, not only see different things. Perhaps the wheels slipped,
+            // or odometry stood still while the robot did not: with a wide window and little trust,
+            // at a price.
+            prior.information = prior.information * DISTRUST;
+            window.half_m = [(9.0 * sigmas[0]).clamp(1.0, 3.0); 2];
+            window.half_rad = std::f64::consts::PI;
+            if let (Some(peak), _) = field.search(&points, &window, 0.25, None) {
+                let fit = fit_from(peak.pose, &prior);
+                if fit.cost + PRICE < best.cost
+                    && fit.matched > 1.2 * best.matched
+                    && seen(&fit).share() > SURE
+                {
+                    let fit = finish(&fit, &prior);
+                    let information = prior.information + fit.information;
+                    return Located { fit, information, is_matched: true };
+                }
+            }
+        }
+    }
+    let fit = finish(&best, &Prior { information, ..prior });
+    let is_matched = fit.matched > LEAST_MATCHED * 0.7;
+    if !is_matched {
+        best.target_from_moving = frame_from_base;
+        return Located { fit: best, information, is_matched };
+    }
+    let information = information + fit.information;
+    Located { fit, information, is_matched }
+}
+
+/// A scan held against the first few of a group, both ways.
+fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
+    let mut sum = Agreement::default();
+    for one in group.iter().take(3) {
+        let one_from_cloud = one.group_from_cloud.inverse() * group_from_cloud;
+        sum += agreement(cloud, one.cloud, one_from_cloud, TOLERANCE_M);
+        sum += agreement(one.cloud, cloud, one_from_cloud.inverse(), TOLERANCE_M);
+    }
+    sum
+}
+
+/// How near two points are the same \[m\].
+const TOLERANCE_M: f32 = 0.2;
+
+/// What neighbours in time leave uncertain at least: readings of all beams are off together, and
+/// walls are not straight. One standard deviation \[m, rad\].
+const FLOOR_M: f64 = 0.008;
+const FLOOR_RAD: f64 = 0.0025;
+
+/// An information that never claims more than scans can say.
+pub(crate) fn floored(information: &Symmetric3) -> Symmetric3 {
+    let some = *information + Symmetric3::diagonal(1e-2, 1e-2, 1e-2);
+    let floor = Symmetric3::diagonal(FLOOR_M * FLOOR_M, FLOOR_M * FLOOR_M, FLOOR_RAD * FLOOR_RAD);
+    some.inverse().and_then(|covariance| (covariance + floor).inverse()).unwrap_or(some)
+}
+
+/// Settings for a registration whose start is good.
+pub(crate) fn close_by(settings: &RegisterSettings) -> RegisterSettings {
+    RegisterSettings { reach_m: [0.3, 0.2], scale_m: [0.2, 0.1], steps: 6, ..*settings }
+}
+
+/// Shift and turn between two poses.
+pub(crate) fn apart(a: Pose2, b: Pose2) -> (f64, f64) {
+    (libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m), normalize_angle(a.yaw_rad - b.yaw_rad).abs())
+}

@@ -1,0 +1,503 @@
+//! Closing of loops: searching, doubting, believing.
+//!
+//! A closure is believed for reasons that are counted, not for a score:
+//! 1. the stretch of way just driven is found in an old stretch within all of the region that the
+//!    uncertainty allows (three standard deviations; branch and bound, so nothing better was missed);
+//! 2. held against each other both ways, scans do not see through each other's walls;
+//! 3. no other place in the region passes the same tests (else it waits for more of the way);
+//! 4. where the region is large, other stretches must tell the same, independently: closures agree
+//!    pairwise with each other over the ways between them, and more do so than with any rival;
+//! 5. when the map has been bent accordingly, all that now overlaps still agrees; else all is undone.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use periplus_base::{Pose2, normalize_angle};
+use periplus_matching::{
+    Agreement, Field, Fit, Placed, Prior, Symmetric3, Window, agreement, register,
+};
+
+use crate::drift::{Sighting, from_here, reversed};
+use crate::graph::{Edge, Graph, Kind};
+use crate::key::Key;
+use crate::local::{apart, close_by, floored, heading_step, placed, points_of};
+use crate::settings::Settings;
+
+/// Length of a stretch that is searched for, and from one search to the next \[m\].
+const STRETCH_M: f64 = 9.0;
+const LEAST_STRETCH_M: f64 = 5.0;
+const EVERY_M: f64 = 2.5;
+/// Length of a stretch in which is searched, and how much of its surroundings belongs to it \[m\].
+const PLACE_M: f64 = 5.0;
+const AROUND_M: f64 = 3.0;
+/// Way between two stretches before one is old for the other \[m\].
+const OLD_M: f64 = 15.0;
+/// Middles of two stretches that show the same are not farther apart \[m\].
+const MEET_M: f64 = 9.0;
+/// So far is searched, to see whether something better lies just beyond \[m\].
+const SEEN_M: f64 = 10.5;
+/// Beyond this nothing is searched \[m\]: standard deviation of the place.
+const MOST_M: f64 = 25.0;
+/// Below this ties to near scans find all there is, 3 standard deviations \[m, rad\].
+const KNOWN_M: f64 = 0.5;
+const KNOWN_RAD: f64 = 0.2;
+/// Searched points have a mean likelihood of at least this.
+const LEAST_SCORE: f64 = 0.42;
+/// The second best place is looked at when its score is this part of the best one's.
+const RIVAL: f64 = 0.8;
+/// Places farther apart than this are different ones \[m, rad\].
+const OTHER_M: f64 = 0.8;
+const OTHER_RAD: f64 = 0.5;
+/// Part of judged points that must agree; points to judge; part of points with partners.
+const AGREEING: f64 = 0.88;
+const JUDGED: u32 = 400;
+const MATCHED: f64 = 0.6;
+const TOLERANCE_M: f32 = 0.2;
+/// Peaks this near to the rim of what was searched are none \[m\].
+const RIM_M: f64 = 0.15;
+/// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
+const CONSISTENT: f64 = 11.3;
+/// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
+const ONE_WITNESS_M: f64 = 2.0;
+const TWO_WITNESSES_M: f64 = 12.0;
+/// Witnesses are at least this way apart \[m\].
+const APART_M: f64 = 4.0;
+/// Fields that are kept.
+const KEPT_FIELDS: usize = 12;
+/// Points of a stretch that are searched with.
+const SEARCH_POINTS: usize = 350;
+
+/// What became of a closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Kept scans that it ties, the old one first.
+    pub keys: (usize, usize),
+    /// The place of the later in the frame of the older.
+    pub old_from_new: Pose2,
+    /// Whether it is part of the map.
+    pub is_accepted: bool,
+    /// Three standard deviations of the place before, in the worst direction \[m\].
+    pub region_m: f64,
+    /// Part of judged points that agreed.
+    pub agreeing: f64,
+    /// Why it was accepted, or why not.
+    pub reason: String,
+}
+
+/// One search: a stretch of way in an old one.
+struct Task {
+    stretch: Range<usize>,
+    anchor: usize,
+    place: usize,
+    covariance: Symmetric3,
+}
+
+/// A stretch of way in which others are searched.
+struct Place {
+    keys: Range<usize>,
+    middle: usize,
+}
+
+/// A closure that is waiting for others.
+#[derive(Clone)]
+struct Candidate {
+    anchor: usize,
+    middle: usize,
+    middle_from_anchor: Pose2,
+    information: Symmetric3,
+    region_m: f64,
+    share: f64,
+    is_unique: bool,
+}
+
+/// All that is known and asked about loops.
+#[derive(Default)]
+pub(crate) struct Loops {
+    places: Vec<Place>,
+    place_from: usize,
+    searched_m: f64,
+    tasks: VecDeque<Task>,
+    pending: Vec<Candidate>,
+    fields: VecDeque<(usize, Field)>,
+    pub(crate) told: Vec<Closure>,
+}
+
+impl Loops {
+    /// Takes note of a new key; asks for searches when it is time.
+    pub(crate) fn notice(&mut self, keys: &[Key], graph: &Graph, tied_m: f64) {
+        let last = keys.len() - 1;
+        let travel_m = keys[last].travel_m;
+        if travel_m - keys[self.place_from].travel_m >= PLACE_M {
+            let range = self.place_from..last + 1;
+            let half = keys[range.start].travel_m + 0.5 * PLACE_M;
+            let middle = range.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
+            self.places.push(Place { keys: range, middle });
+            self.place_from = last;
+        }
+        if travel_m - self.searched_m < EVERY_M {
+            return;
+        }
+        // Where near scans hold the way, nothing is to be searched.
+        self.searched_m = travel_m;
+        if travel_m - tied_m < STRETCH_M {
+            return;
+        }
+        self.ask(keys, graph, last);
+    }
+
+    /// Asks for all old stretches that the one up to a key may have met.
+    pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize) {
+        let start = (0..last)
+            .rev()
+            .find(|&key| keys[last].travel_m - keys[key].travel_m > STRETCH_M)
+            .unwrap_or(0);
+        let stretch = start..last + 1;
+        let way = keys[last].travel_m - keys[start].travel_m;
+        if way < LEAST_STRETCH_M {
+            return;
+        }
+        let half = keys[start].travel_m + 0.5 * way;
+        let anchor = stretch.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
+        let sightings = from_here(graph, anchor, MOST_M);
+        let mut covariances: Vec<Option<Sighting>> = vec![None; keys.len()];
+        for sighting in sightings {
+            covariances[sighting.key] = Some(sighting);
+        }
+        for (place, old) in self.places.iter().enumerate() {
+            if keys[start].travel_m - keys[old.keys.end - 1].travel_m < OLD_M - STRETCH_M {
+                break;
+            }
+            let Some(sighting) = &covariances[old.middle] else { continue };
+            let (region_m, region_rad) = (3.0 * sighting.shift_m(), 3.0 * sighting.turn_rad());
+            if region_m < KNOWN_M && region_rad < KNOWN_RAD {
+                continue;
+            }
+            let (metres, _) = apart(graph.poses[anchor], graph.poses[old.middle]);
+            if metres > region_m + MEET_M {
+                continue;
+            }
+            let covariance = reversed(&sighting.covariance, graph.between(anchor, old.middle));
+            self.tasks.push_back(Task { stretch: stretch.clone(), anchor, place, covariance });
+        }
+    }
+
+    /// Whether searches are waiting.
+    pub(crate) fn is_busy(&self) -> bool {
+        !self.tasks.is_empty()
+    }
+
+    /// Does one search; gives edges when closures are believed after it.
+    pub(crate) fn work(&mut self, keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<Edge> {
+        let Some(task) = self.tasks.pop_front() else { return Vec::new() };
+        match self.search(&task, keys, graph, settings) {
+            Some(candidate) => self.weigh(candidate, keys, graph),
+            None => Vec::new(),
+        }
+    }
+
+    fn search(
+        &mut self,
+        task: &Task,
+        keys: &[Key],
+        graph: &Graph,
+        settings: &Settings,
+    ) -> Option<Candidate> {
+        let middle = self.places[task.place].middle;
+        let around = self.around(task.place, keys);
+        let around: Vec<usize> = around.filter(|&key| key < task.stretch.start).collect();
+        let old = placed(keys, graph, &around, middle);
+        let stretch: Vec<usize> = task.stretch.clone().collect();
+        let new = placed(keys, graph, &stretch, task.anchor);
+        let expected = graph.between(middle, task.anchor);
+        let region = [3.0 * task.covariance.xx.sqrt() + 0.4, 3.0 * task.covariance.yy.sqrt() + 0.4];
+        let half_rad = (3.0 * task.covariance.tt.sqrt() + 0.03).min(std::f64::consts::PI);
+        // Only the part of the region where the two can meet.
+        let part = |middle: f64, half: f64| {
+            let (low, high) = ((middle - half).max(-SEEN_M), (middle + half).min(SEEN_M));
+            (low < high).then_some((0.5 * (low + high), 0.5 * (high - low)))
+        };
+        let (x_m, half_x_m) = part(expected.x_m, region[0])?;
+        let (y_m, half_y_m) = part(expected.y_m, region[1])?;
+        let points = spread(&points_of(&new), 0.15, 14.0);
+        if points.len() < 40 {
+            return None;
+        }
+        let window = Window {
+            middle: Pose2::new(x_m, y_m, expected.yaw_rad),
+            half_m: [half_x_m, half_y_m],
+            half_rad,
+            step_rad: heading_step(&points, settings.loop_field.resolution_m),
+        };
+        let field = self.field(task.place, &old, settings);
+        let (best, _) = field.search(&points, &window, LEAST_SCORE, None);
+        let best = best?;
+        // A peak at the rim is the slope of something beyond.
+        let rim = [best.pose.x_m - x_m, best.pose.y_m - y_m];
+        let is_at_rim = rim[0].abs() > half_x_m - RIM_M || rim[1].abs() > half_y_m - RIM_M;
+        let is_far = best.pose.x_m.abs() > MEET_M || best.pose.y_m.abs() > MEET_M;
+        if is_at_rim || is_far {
+            return None;
+        }
+        let least = (RIVAL * best.score).max(LEAST_SCORE);
+        let (second, _) =
+            field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
+        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
+        let verdict = verify(best.pose, &new, &old, settings);
+        let mut told = Closure {
+            keys: (middle, task.anchor),
+            old_from_new: best.pose,
+            is_accepted: false,
+            region_m,
+            agreeing: verdict.share,
+            reason: String::new(),
+        };
+        if let Some(reason) = verdict.fault {
+            told.reason = format!("{reason} (likelihood {:.2})", best.score);
+            self.told.push(told);
+            return None;
+        }
+        let rival = second.map(|peak| verify(peak.pose, &new, &old, settings)).filter(|other| {
+            let (metres, radians) =
+                apart(other.fit.target_from_moving, verdict.fit.target_from_moving);
+            other.fault.is_none()
+                && (metres > 0.5 * OTHER_M || radians > 0.5 * OTHER_RAD)
+                && other.fit.matched > 0.9 * verdict.fit.matched
+        });
+        Some(Candidate {
+            anchor: task.anchor,
+            middle,
+            middle_from_anchor: verdict.fit.target_from_moving,
+            information: floored(&verdict.fit.information),
+            region_m,
+            share: verdict.share,
+            is_unique: rival.is_none() && verdict.fit.firmness > 0.0,
+        })
+    }
+
+    /// Keys of a place and those around it.
+    fn around(&self, place: usize, keys: &[Key]) -> Range<usize> {
+        let own = &self.places[place].keys;
+        let (from_m, to_m) =
+            (keys[own.start].travel_m - AROUND_M, keys[own.end - 1].travel_m + AROUND_M);
+        let start = keys.partition_point(|key| key.travel_m < from_m);
+        let end = keys.partition_point(|key| key.travel_m <= to_m);
+        start..end
+    }
+
+    fn field(&mut self, place: usize, old: &[Placed<'_>], settings: &Settings) -> &Field {
+        let at = self.fields.iter().position(|(of, _)| *of == place);
+        let kept = match at {
+            Some(at) => self.fields.remove(at),
+            None => None,
+        };
+        let kept = kept.unwrap_or_else(|| {
+            (place, Field::new(&points_of(old), [0.0, 0.0], &settings.loop_field))
+        });
+        self.fields.truncate(KEPT_FIELDS - 1);
+        self.fields.push_front(kept);
+        &self.fields[0].1
+    }
+
+    /// Whether enough speaks for a closure; then its edge and those of its witnesses.
+    fn weigh(&mut self, new: Candidate, keys: &[Key], graph: &Graph) -> Vec<Edge> {
+        self.pending.push(new.clone());
+        let from_anchor = sightings(graph, new.anchor);
+        let from_middle = sightings(graph, new.middle);
+        let is_consistent = |other: &Candidate| {
+            consistency(&new, other, graph, &from_anchor, &from_middle) < CONSISTENT
+        };
+        let now_m = keys[new.anchor].travel_m;
+        let mut agreed: Vec<usize> = Vec::new();
+        let mut opposed: Vec<usize> = Vec::new();
+        for (index, other) in self.pending.iter().enumerate().take(self.pending.len() - 1) {
+            // What was far back says nothing of what is here.
+            if now_m - keys[other.anchor].travel_m > 60.0 {
+                continue;
+            }
+            if is_consistent(other) {
+                agreed.push(index);
+            } else if other.is_unique {
+                opposed.push(index);
+            }
+        }
+        // Witnesses: unique ones, far enough from each other.
+        let mut witnesses = vec![self.pending.len() - 1];
+        for &index in agreed.iter().rev() {
+            let candidate = &self.pending[index];
+            let is_apart = witnesses.iter().all(|&it| {
+                (keys[self.pending[it].anchor].travel_m - keys[candidate.anchor].travel_m).abs()
+                    >= APART_M
+            });
+            if is_apart {
+                witnesses.push(index);
+            }
+        }
+        let unique = witnesses.iter().filter(|&&it| self.pending[it].is_unique).count();
+        let mut rivals: Vec<f64> = Vec::new();
+        for &index in &opposed {
+            let travel_m = keys[self.pending[index].anchor].travel_m;
+            if rivals.iter().all(|other| (other - travel_m).abs() >= APART_M) {
+                rivals.push(travel_m);
+            }
+        }
+        let wanted = match new.region_m {
+            ..ONE_WITNESS_M => 1,
+            ..TWO_WITNESSES_M => 2,
+            _ => 3,
+        };
+        let is_believed = unique >= wanted && unique > rivals.len();
+        let reason = format!(
+            "{unique} of {wanted} independent witnesses, {} against; {}",
+            rivals.len(),
+            if new.is_unique { "the only place in the region" } else { "fits elsewhere too" }
+        );
+        self.told.push(Closure {
+            keys: (new.middle, new.anchor),
+            old_from_new: new.middle_from_anchor,
+            is_accepted: is_believed,
+            region_m: new.region_m,
+            agreeing: new.share,
+            reason,
+        });
+        if !is_believed {
+            return Vec::new();
+        }
+        // Ambiguous ones that agree are believed as well: their place is now known.
+        let mut believed = agreed;
+        believed.push(self.pending.len() - 1);
+        let edges = believed.iter().map(|&index| {
+            let it = &self.pending[index];
+            Edge::new((it.middle, it.anchor), it.middle_from_anchor, it.information, Kind::Loop)
+        });
+        let edges = edges.collect();
+        let mut index = 0;
+        self.pending.retain(|_| {
+            index += 1;
+            !believed.contains(&(index - 1))
+        });
+        edges
+    }
+
+    /// The map has moved: what was asked before is asked of another map.
+    pub(crate) fn forget(&mut self) {
+        self.tasks.clear();
+        self.fields.clear();
+    }
+
+    /// Says of the newest closure that it was undone.
+    pub(crate) fn undone(&mut self, reason: String) {
+        if let Some(last) = self.told.iter_mut().rev().find(|it| it.is_accepted) {
+            last.is_accepted = false;
+            last.reason = reason;
+        }
+    }
+
+    /// Adds to what is told of the newest closure.
+    pub(crate) fn confirmed(&mut self, how: &str) {
+        if let Some(last) = self.told.iter_mut().rev().find(|it| it.is_accepted) {
+            last.reason.push_str(how);
+        }
+    }
+
+    /// Bytes held.
+    pub(crate) fn size(&self) -> usize {
+        self.fields.iter().map(|(_, field)| field.size()).sum()
+    }
+}
+
+/// What came of a test.
+struct Verdict {
+    fit: Fit,
+    share: f64,
+    fault: Option<String>,
+}
+
+/// Registers two stretches from a start and holds them against each other both ways.
+fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Settings) -> Verdict {
+    // Far from where it was searched it would be another place.
+    let prior =
+        Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
+    let new_few: Vec<Placed<'_>> =
+        new.iter().step_by(new.len().div_ceil(8).max(1)).copied().collect();
+    let old_few: Vec<Placed<'_>> =
+        old.iter().step_by(old.len().div_ceil(8).max(1)).copied().collect();
+    let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
+    let mut sum = Agreement::default();
+    for one in new {
+        let old_from_one = fit.target_from_moving * one.group_from_cloud;
+        let mut near: Vec<(f64, &Placed<'_>)> =
+            old.iter().map(|it| (apart(it.group_from_cloud, old_from_one).0, it)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, other) in near.iter().take(3) {
+            let other_from_one = other.group_from_cloud.inverse() * old_from_one;
+            sum += agreement(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
+            sum += agreement(other.cloud, one.cloud, other_from_one.inverse(), TOLERANCE_M);
+        }
+    }
+    let share = sum.share();
+    let fault = if fit.matched < MATCHED {
+        Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
+    } else if sum.judged() < JUDGED {
+        Some(format!("only {} points are seen from both", sum.judged()))
+    } else if share < AGREEING {
+        Some(format!("{:.0} % of the points are seen through", 100.0 * (1.0 - share)))
+    } else {
+        None
+    };
+    Verdict { fit, share, fault }
+}
+
+/// Points that are not nearer than a spacing to each other, and not too far away; a lattice of cells
+/// keeps one each.
+fn spread(points: &[[f32; 2]], spacing_m: f32, most_m: f32) -> Vec<[f32; 2]> {
+    let mut cells: Vec<(i32, i32, u32)> = points
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p[0] * p[0] + p[1] * p[1] < most_m * most_m)
+        .map(|(index, p)| {
+            ((p[0] / spacing_m).floor() as i32, (p[1] / spacing_m).floor() as i32, index as u32)
+        })
+        .collect();
+    cells.sort_unstable();
+    cells.dedup_by_key(|it| (it.0, it.1));
+    let every = cells.len().div_ceil(SEARCH_POINTS).max(1);
+    cells.iter().step_by(every).map(|it| points[it.2 as usize]).collect()
+}
+
+fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {
+    let mut found = vec![None; graph.poses.len()];
+    for sighting in from_here(graph, key, MOST_M) {
+        found[sighting.key] = Some(sighting.covariance);
+    }
+    found
+}
+
+/// How far two closures are from agreeing over the ways between them, squared Mahalanobis distance:
+/// from the one old place along the old way to the other, by its closure to the new way, back along
+/// it, and by the first closure home. (Pairwise consistency: Mangelson et al. 2018.)
+fn consistency(
+    a: &Candidate,
+    b: &Candidate,
+    graph: &Graph,
+    from_anchor_a: &[Option<Symmetric3>],
+    from_middle_a: &[Option<Symmetric3>],
+) -> f64 {
+    let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
+        return f64::MAX;
+    };
+    // Both paths from the old place of a to the anchor of b.
+    let by_old = graph.between(a.middle, b.middle);
+    let by_new = graph.between(a.anchor, b.anchor);
+    let loose = Symmetric3::diagonal(0.01, 0.01, 0.0005);
+    let over_old = by_old * b.middle_from_anchor;
+    let old_covariance = old_way.compounded(by_old, b.middle_from_anchor, &loose);
+    let over_new = a.middle_from_anchor * by_new;
+    let new_covariance = loose.compounded(a.middle_from_anchor, by_new, &new_way);
+    let error = [
+        over_old.x_m - over_new.x_m,
+        over_old.y_m - over_new.y_m,
+        normalize_angle(over_old.yaw_rad - over_new.yaw_rad),
+    ];
+    let sum = old_covariance + new_covariance;
+    sum.inverse().map_or(f64::MAX, |information| information.quadratic(error))
+}

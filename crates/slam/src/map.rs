@@ -1,0 +1,91 @@
+//! Maps from scans at known places.
+
+use periplus_base::Pose2;
+use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
+
+use crate::key::Key;
+
+/// What a beam that passes a cell, and one that ends in it, say of it: log odds in hundredths, for
+/// chances of 0.4 and 0.75; sums end at +-4, so that a cell that changed is learnt anew.
+const MISS: i16 = -41;
+const HIT: i16 = 110;
+const LIMIT: i16 = 400;
+/// Cells beyond a map's edge \[cells\].
+const MARGIN: f64 = 4.0;
+/// Neither seen nor passed.
+const UNSEEN: i16 = i16::MIN;
+
+/// Draws scans at their places: cells that beams passed are free, those where they ended occupied.
+/// Within a scan a cell where a beam ends is not passed by others. None when the map would be too
+/// large to hold.
+pub(crate) fn draw(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Option<OccupancyGrid> {
+    let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+    let mut include = |x: f64, y: f64| {
+        low = [low[0].min(x), low[1].min(y)];
+        high = [high[0].max(x), high[1].max(y)];
+    };
+    for (key, pose) in keys.iter().zip(poses) {
+        include(pose.x_m, pose.y_m);
+        for end in &key.ends {
+            let (x, y) = pose.transform_point(end[0].into(), end[1].into());
+            include(x, y);
+        }
+    }
+    if keys.is_empty() {
+        (low, high) = ([0.0; 2], [0.0; 2]);
+    }
+    // Corners at whole cells, so that the same place has the same cell in every run.
+    let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN) * resolution_m);
+    let cells = |axis: usize| {
+        ((high[axis] - corner[axis]) / resolution_m + MARGIN).ceil().max(1.0) as usize
+    };
+    let origin = Pose2::new(corner[0], corner[1], 0.0);
+    let lattice = Lattice::new(resolution_m, cells(0), cells(1), origin).ok()?;
+    let finder = lattice.finder();
+    let mut odds: Grid<i16> = Grid::new(lattice, UNSEEN);
+    let mut stamp: Grid<u32> = Grid::new(lattice, 0);
+    for (number, (key, pose)) in keys.iter().zip(poses).enumerate() {
+        let [x, y] = key.cloud.origin();
+        let (x, y) = pose.transform_point(x.into(), y.into());
+        let Some(start) = finder.cell_of(x, y) else { continue };
+        let (s, c) = libm::sincos(pose.yaw_rad);
+        let ends: Vec<_> = key
+            .ends
+            .iter()
+            .filter_map(|end| {
+                let (x, y) = (f64::from(end[0]), f64::from(end[1]));
+                finder.cell_of(c * x - s * y + pose.x_m, s * x + c * y + pose.y_m)
+            })
+            .collect();
+        // 2 n + 1: an end of scan n; 2 n: passed by it.
+        let ended = 2 * number as u32 + 3;
+        for &end in &ends {
+            let index = lattice.index(end);
+            if stamp.cells[index] != ended {
+                stamp.cells[index] = ended;
+                vote(&mut odds.cells[index], HIT);
+            }
+        }
+        for &end in &ends {
+            for cell in Line::between(start, end) {
+                let index = lattice.index(cell);
+                if stamp.cells[index] < ended - 1 {
+                    stamp.cells[index] = ended - 1;
+                    vote(&mut odds.cells[index], MISS);
+                }
+            }
+        }
+    }
+    Some(odds.map(|&value| match value {
+        UNSEEN => occupancy::UNKNOWN,
+        value => {
+            let chance = 1.0 / (1.0 + libm::exp(-f64::from(value) / 100.0));
+            (100.0 * chance + 0.5) as i8
+        }
+    }))
+}
+
+fn vote(cell: &mut i16, by: i16) {
+    let before = if *cell == UNSEEN { 0 } else { *cell };
+    *cell = (before + by).clamp(-LIMIT, LIMIT);
+}

@@ -1,0 +1,114 @@
+//! All scans against their neighbours at once.
+
+use std::collections::BTreeMap;
+
+use periplus_matching::{agreement, compare};
+
+use crate::graph::{Edge, Graph, Kind, Solver};
+use crate::key::Key;
+use crate::local::apart;
+use crate::settings::Settings;
+
+/// Scans farther apart than this are not compared \[m\].
+const REACH_M: f64 = 5.0;
+/// Scans within this way of each other need no proof that they see the same \[m\].
+const SAME_VISIT_M: f64 = 6.0;
+/// Widths of partners and of weights from the first sweep to the last \[m\].
+const PARTNERS_M: [f32; 2] = [0.3, 0.15];
+const WEIGHTS_M: [f32; 2] = [0.12, 0.06];
+/// What chains say counts this much beside: along corridors only odometry knows.
+const CHAIN: f64 = 0.1;
+
+/// Refines all poses: each scan is held against its neighbours in place, points of each against lines
+/// of the other, and all poses are solved for together; a few times, as points find better partners.
+/// So a pose is held by all that was ever seen from around it, and not by the order of the drive.
+pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
+    let sweeps = settings.refine_sweeps;
+    let mut pairs = Vec::new();
+    for sweep in 0..sweeps {
+        if sweep == 0 || sweep == 2 {
+            pairs = choose(keys, graph, settings);
+        }
+        let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
+        let width = |[from, to]: [f32; 2]| from + (to - from) * part;
+        let mut refined = Graph::default();
+        for &pose in &graph.poses {
+            refined.add_pose(pose);
+        }
+        for edge in graph.edges.iter().filter(|edge| edge.kind == Kind::Chain) {
+            refined.add_edge(Edge { weight: CHAIN, ..*edge });
+        }
+        for &(from, to) in &pairs {
+            let held = compare(
+                &keys[to].cloud,
+                &keys[from].cloud,
+                graph.between(from, to),
+                width(PARTNERS_M),
+                width(WEIGHTS_M),
+                if sweep + 2 < sweeps { 2 } else { 1 },
+                &settings.register,
+            );
+            if held.matched < 0.3 {
+                continue;
+            }
+            let (pose, information) = (held.target_from_moving, held.information);
+            refined.add_edge(Edge::new((from, to), pose, information, Kind::Refined));
+        }
+        let mut solver = Solver::new(&refined);
+        for _ in 0..2 {
+            solver.step(&mut refined, &|_, _| 1.0);
+        }
+        graph.poses = refined.poses;
+    }
+}
+
+/// Pairs of scans that see the same, the earlier first.
+fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize)> {
+    let cell = |key: usize| {
+        let pose = graph.poses[key];
+        ((pose.x_m / REACH_M).floor() as i32, (pose.y_m / REACH_M).floor() as i32)
+    };
+    let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
+    let mut pairs = Vec::new();
+    for key in 0..keys.len() {
+        let (column, row) = cell(key);
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        for dx in -1..=1 {
+            for dy in -1..=1 {
+                let there = cells.get(&(column + dx, row + dy)).into_iter().flatten();
+                near.extend(there.filter_map(|&other| {
+                    let (metres, radians) = apart(graph.poses[key], graph.poses[other]);
+                    (metres < REACH_M).then_some((metres + radians, other))
+                }));
+            }
+        }
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut count = 0;
+        for (_, other) in near {
+            if count >= settings.refine_neighbours {
+                break;
+            }
+            if other + 1 == key || is_alike(keys, graph, other, key) {
+                pairs.push((other, key));
+                count += 1;
+            }
+        }
+        if key > 0 && !pairs.contains(&(key - 1, key)) {
+            pairs.push((key - 1, key));
+        }
+        cells.entry((column, row)).or_default().push(key);
+    }
+    pairs
+}
+
+/// Whether two scans see the same.
+fn is_alike(keys: &[Key], graph: &Graph, a: usize, b: usize) -> bool {
+    let a_from_b = graph.between(a, b);
+    let mut sum = agreement(&keys[b].cloud, &keys[a].cloud, a_from_b, 0.25);
+    let least = if (keys[b].travel_m - keys[a].travel_m).abs() < SAME_VISIT_M { 0.5 } else { 0.75 };
+    if sum.agreeing < 20 || sum.share() < least {
+        return false;
+    }
+    sum += agreement(&keys[a].cloud, &keys[b].cloud, a_from_b.inverse(), 0.25);
+    sum.share() >= least
+}

@@ -1,0 +1,70 @@
+//! What can be set.
+
+use periplus_matching::{CloudSettings, FieldSettings, RegisterSettings};
+
+/// What can be set. The defaults are meant to fit every scanner and building.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// A scan is kept after so much motion \[m\] ...
+    pub key_shift_m: f64,
+    /// ... or turn \[rad\] from the last one kept.
+    pub key_turn_rad: f64,
+    /// Readings from farther away are not used \[m\].
+    pub range_max_m: f32,
+    /// How clouds are made.
+    pub cloud: CloudSettings,
+    /// How scans are laid onto those before.
+    pub register: RegisterSettings,
+    /// The field in which a scan is searched for among those before.
+    pub local_field: FieldSettings,
+    /// The field in which closures of loops are searched.
+    pub loop_field: FieldSettings,
+    /// Scans before that a new one is laid onto.
+    pub local_scans: usize,
+    /// Whether loops are closed.
+    pub closes_loops: bool,
+    /// Side of a cell of the map \[m\].
+    pub resolution_m: f64,
+    /// Beams of a key scan that are kept for drawing, at most.
+    pub drawn_beams: usize,
+    /// Sweeps of the last refinement.
+    pub refine_sweeps: usize,
+    /// Neighbours that each scan is held against in the last refinement.
+    pub refine_neighbours: usize,
+    /// Slices of work in the background that follow a scan, at most; each takes some milliseconds.
+    pub slices_per_scan: usize,
+    /// Steps of the solver, at most, after a closure.
+    pub solve_steps: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            key_shift_m: 0.35,
+            key_turn_rad: 0.26,
+            range_max_m: 60.0,
+            cloud: CloudSettings::default(),
+            register: RegisterSettings::default(),
+            local_field: FieldSettings {
+                sigma_m: 0.1,
+                most_half_m: 20.0,
+                levels: 3,
+                resolution_m: 0.1,
+            },
+            loop_field: FieldSettings {
+                sigma_m: 0.12,
+                most_half_m: 20.0,
+                levels: 5,
+                resolution_m: 0.1,
+            },
+            local_scans: 8,
+            closes_loops: true,
+            resolution_m: 0.05,
+            drawn_beams: 720,
+            refine_sweeps: 4,
+            refine_neighbours: 10,
+            slices_per_scan: usize::MAX,
+            solve_steps: 8,
+        }
+    }
+}
