@@ -2,12 +2,12 @@
 #![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
 
 use std::fs;
-use std::io::{ErrorKind, Read as _};
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError};
+use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError, Store};
 
-/// The machine that this program runs on. It only ever reads.
+/// The machine that this program runs on.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
 
@@ -57,6 +57,28 @@ impl Host for Machine {
     }
 }
 
+impl Store for Machine {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+        let words = |error: std::io::Error| error.to_string();
+        let mut name = path.file_name().ok_or("this names no file")?.to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        let beside = path.with_file_name(name);
+        let written = write_new(&beside, content).and_then(|()| fs::rename(&beside, path));
+        if written.is_err() {
+            // Nobody can do more about it here.
+            let _ = fs::remove_file(&beside);
+        }
+        written.map_err(words)
+    }
+}
+
+/// On the disk before it gets its name, so that a loss of power leaves no empty file under it.
+fn write_new(path: &Path, content: &[u8]) -> std::io::Result<()> {
+    let mut file = fs::File::create(path)?;
+    file.write_all(content)?;
+    file.sync_all()
+}
+
 fn refusal(error: &std::io::Error) -> ReadError {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => ReadError::Missing,
@@ -102,6 +124,17 @@ mod tests {
         assert_eq!(read("a/b.txt/c"), Err(ReadError::Missing));
         assert_eq!(read("a"), Err(ReadError::NotAFile));
         assert!(Machine.read(Path::new("a\0b")).is_err());
+    }
+
+    #[test]
+    fn a_file_is_replaced_as_a_whole() {
+        let folder = Folder::new("replace").with_file("map.yaml", "old");
+        let path = folder.0.join("map.yaml");
+        assert_eq!(Machine.replace(&path, b"new"), Ok(()));
+        assert_eq!(Machine.read(&path), Ok(b"new".to_vec()));
+        assert!(Machine.replace(&folder.0.join("no/map.yaml"), b"new").is_err());
+        assert!(Machine.replace(&folder.0, b"new").is_err(), "a folder stays a folder");
+        assert_eq!(Machine.list(&folder.0), ["map.yaml"], "nothing is left behind");
     }
 
     #[test]

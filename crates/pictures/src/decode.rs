@@ -28,7 +28,7 @@ pub struct Grey {
 }
 
 impl Image {
-    /// Reads a PNG, JPEG, BMP or PNM; of 16 bits a channel the upper 8 count.
+    /// Reads a PNG, JPEG, BMP or PNM; 16 bits a channel become 8.
     ///
     /// # Errors
     /// When the bytes are none of these, broken, or of more than 2^26 pixels.

@@ -34,9 +34,9 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
     Ok(Raster { width, height, layout, is_deep: false, bytes })
 }
 
-/// Brought to 0 to 255, to the nearest.
+/// Brought to 0 to 255, rounded down as `GraphicsMagick` does.
 fn scaled(value: u32, most: u32) -> u8 {
-    u8::try_from((value * 255 + most / 2) / most).unwrap_or(u8::MAX)
+    u8::try_from(value * 255 / most).unwrap_or(u8::MAX)
 }
 
 /// Eight pixels in a byte, the first in the highest bit; a bit that is set is black. Rows begin with
@@ -139,8 +139,8 @@ mod tests {
     fn bytes_and_numbers() {
         assert_eq!(read(b"P5\n# by hand\n2 1\n255\n\x01\xfe"), Ok(vec![1, 254]));
         assert_eq!(read(b"P5 2 1 255 \n\xfe"), Ok(vec![b'\n', 254]), "one blank, no more");
-        assert_eq!(read(b"P2 3 1 100 0 50 100"), Ok(vec![0, 128, 255]));
-        assert_eq!(read(b"P5\n1 1\n65535\n\x80\x00"), Ok(vec![128]));
+        assert_eq!(read(b"P2 3 1 100 0 50 100"), Ok(vec![0, 127, 255]));
+        assert_eq!(read(b"P5\n1 1\n65535\n\x80\xff"), Ok(vec![128]));
         assert_eq!(read(b"P6 1 1 255\n\x01\x02\x03"), Ok(vec![1, 2, 3]));
         assert_eq!(read(b"P1 3 1 011"), Ok(vec![255, 0, 0]));
         assert_eq!(read(b"P4\n9 1\n\x80\x80"), Ok(vec![0, 255, 255, 255, 255, 255, 255, 255, 0]));

@@ -109,13 +109,15 @@ impl Raster {
         &self.bytes[pixel * size..(pixel + 1) * size]
     }
 
-    /// The same with eight bits a sample: of sixteen the upper eight count.
+    /// The same with eight bits a sample, rounded down as `GraphicsMagick` does.
     #[must_use]
     pub fn into_shallow(self) -> Self {
         if !self.is_deep {
             return self;
         }
-        let bytes = self.bytes.chunks_exact(2).map(|pair| pair[0]).collect();
+        let shallow = |pair: &[u8]| u16::from_be_bytes([pair[0], pair[1]]) / 257;
+        let samples = self.bytes.chunks_exact(2).map(shallow);
+        let bytes = samples.map(|it| u8::try_from(it).unwrap_or(u8::MAX)).collect();
         Self { is_deep: false, bytes, ..self }
     }
 }

@@ -66,3 +66,13 @@ pub trait Host {
     /// An environment variable.
     fn variable(&self, name: &str) -> Option<String>;
 }
+
+/// Files that are written, for those who may not touch the machine themselves.
+pub trait Store {
+    /// Puts a file at a path, in the place of what stands there. Whoever reads meanwhile finds the
+    /// old one or the new one, whole; when it cannot be written, the old one stays.
+    ///
+    /// # Errors
+    /// The machine's own words.
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String>;
+}

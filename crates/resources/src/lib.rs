@@ -11,7 +11,7 @@ mod resolver;
 mod surroundings;
 mod uri;
 
-pub use host::{Host, Kind, LARGEST_FILE, ReadError};
+pub use host::{Host, Kind, LARGEST_FILE, ReadError, Store};
 pub use manifest::package_name;
 pub use memory::MemoryHost;
 pub use miss::{Miss, MissKind};

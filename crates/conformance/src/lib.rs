@@ -1,0 +1,35 @@
+//! Case files, each of which says how another program behaves, run against this one.
+//!
+//! A case is a JSON file: an `id`, a `kind`, what is `given` and what to `expect`, and the
+//! distributions of ROS that it `applies_to`. Each kind has a module in [`kinds`], which does with the
+//! given what a user would, and tells every [`Differences`]. A kind that nobody checks yet is not
+//! passed: it is [`Verdict::Unknown`].
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use periplus_conformance::{Verdict, run};
+//! use periplus_resources::MemoryHost;
+//!
+//! let case = r#"{"id": "path_expand.home", "kind": "path_expand", "title": "home",
+//!     "applies_to": ["jazzy"], "given": {"pairs": [["~/a.yaml", "/home/user"]]},
+//!     "expect": {"paths": ["/home/user/a.yaml"]}}"#;
+//! let host = MemoryHost::new().with_file("/cases/a.json", case);
+//! let report = run(Path::new("/cases"), &host)?;
+//! assert_eq!(report.results[0].verdict, Verdict::Passed);
+//! # Ok::<(), periplus_conformance::NoCases>(())
+//! ```
+
+mod case;
+mod differences;
+pub mod kinds;
+mod reader;
+mod report;
+mod run;
+
+pub use case::Case;
+pub use differences::Differences;
+pub use kinds::{Check, Setting};
+pub use reader::{Reader, Unreadable};
+pub use report::{Report, Tally};
+pub use run::{NoCases, Outcome, Verdict, run};

@@ -1,0 +1,15 @@
+//! Nodes that serve and save maps, as `nav2_map_server` has them: [`MapServer`] and
+//! [`MapSaver`]. What is in the files is known to `periplus-maps`; here is who is told, under which
+//! name.
+
+mod saver;
+mod server;
+mod stamp;
+
+pub use saver::{MAP_SAVER, MapSaver, WAIT_NS};
+pub use server::{MAP_SERVER, MapServer, MapServerSettings};
+
+/// Files of the machine, for nodes that outlive whoever made them.
+pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}
+
+impl<F: periplus_resources::Host + periplus_resources::Store + Send + Sync> Files for F {}

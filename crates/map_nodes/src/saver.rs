@@ -1,0 +1,218 @@
+//! The map saver.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_graph::{
+    Actor, Call, Calls, GraphError, Io, Level, Lifecycle, Mailbox, Node, Qos, Step, StepOutcome,
+    Transition,
+};
+use periplus_maps::{Distro, Wish, from_message, render};
+use periplus_msgs::nav_msgs::OccupancyGrid;
+use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest, SaveMapResponse};
+use periplus_params::{Table, Values, flag, number};
+
+use crate::Files;
+
+/// How long a map is waited for \[ns\].
+pub const WAIT_NS: i64 = 2_000_000_000;
+
+/// How often a map that is waited for is looked for \[ns\].
+const LOOK_NS: i64 = 20_000_000;
+
+/// Parameters of [`MapSaver`].
+pub static MAP_SAVER: Table = Table {
+    name: "map_saver",
+    doc: "Saves maps from topics to files.",
+    parameters: &[
+        number("save_map_timeout", "s", "How long a map is waited for.").or("2.0").within(0.0, 1e6),
+        number("free_thresh_default", "", "Up to this share a cell is free.").or("0.25"),
+        number("occupied_thresh_default", "", "From this share on a cell is occupied.").or("0.65"),
+        flag("map_subscribe_transient_local", "Whether maps that were published before count.")
+            .or("true"),
+    ],
+};
+
+/// A managed node that saves maps: the service `~/save_map`. It waits for the next map on the topic
+/// that it is asked for, and answers when the files are written or no map came in time.
+///
+/// Source: `nav2_map_server/src/map_saver/map_saver.cpp`.
+pub struct MapSaver {
+    actor: Actor<State>,
+    life: Lifecycle,
+}
+
+struct State {
+    files: Arc<dyn Files>,
+    distro: Distro,
+    values: Values,
+    calls: Option<Calls<SaveMap>>,
+    waiting: Vec<Waiting>,
+    is_active: bool,
+}
+
+/// Somebody who waits for a map.
+struct Waiting {
+    request: Arc<SaveMapRequest>,
+    call: Call<SaveMap>,
+    mailbox: Mailbox<OccupancyGrid>,
+    until_ns: i64,
+}
+
+impl MapSaver {
+    /// As a node of a graph, which writes as the savers of a distribution do.
+    ///
+    /// # Errors
+    /// When a name is taken by another type.
+    pub fn new(node: Node, distro: Distro, files: Arc<dyn Files>) -> Result<Self, GraphError> {
+        let values = MAP_SAVER.check([], None, &mut Diagnostics::new());
+        let calls = Some(node.server::<SaveMap>("~/save_map")?);
+        let state = State {
+            files,
+            distro,
+            values: values.clone(),
+            calls,
+            waiting: Vec::new(),
+            is_active: false,
+        };
+        let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| {
+            state.values = values.clone();
+            Ok(())
+        })?;
+        actor.with(|state| state.values = parameters.values());
+        actor.timer(LOOK_NS, State::look)?;
+        let life = actor.managed(|state, step, _| {
+            state.is_active = step == Step::Activate;
+            StepOutcome::Success
+        })?;
+        Ok(Self { actor, life })
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+
+    /// Its life.
+    #[must_use]
+    pub fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+
+    /// Configures and activates it, where no lifecycle manager does.
+    pub fn start(&self) {
+        self.life.change(Transition::Configure);
+        self.life.change(Transition::Activate);
+    }
+}
+
+impl State {
+    /// New calls, and those that wait.
+    fn look(&mut self, io: &mut Io<'_, Self>) {
+        while let Some(call) = self.calls.as_ref().and_then(Calls::take) {
+            self.hear(call, io);
+        }
+        let waiting = std::mem::take(&mut self.waiting);
+        for one in waiting {
+            if let Some(map) = one.mailbox.latest() {
+                let result = self.save(&map, &one.request, io);
+                one.call.answer(SaveMapResponse { result });
+            } else if io.now_ns() >= one.until_ns {
+                let topic = one.mailbox.topic().to_owned();
+                io.node().log(
+                    Level::Error,
+                    format!(
+                        "no map came on `{topic}`; see who publishes it: \
+                         `periplus topic info -v {topic}`"
+                    ),
+                );
+                one.call.answer(SaveMapResponse { result: false });
+            } else {
+                self.waiting.push(one);
+            }
+        }
+    }
+
+    fn hear(&mut self, call: Call<SaveMap>, io: &mut Io<'_, Self>) {
+        let refuse = |call: Call<SaveMap>, io: &mut Io<'_, Self>, why: String| {
+            io.node().log(Level::Error, why);
+            call.answer(SaveMapResponse { result: false });
+        };
+        if !self.is_active {
+            return refuse(call, io, "the map saver is not active".into());
+        }
+        let request = call.request.clone();
+        // Thresholds that make no sense need no map to be refused.
+        if let Err(error) = self.wish(&request).settle(self.distro, 0) {
+            return refuse(call, io, error.to_string());
+        }
+        let topic = if request.map_topic.is_empty() { "map" } else { &request.map_topic };
+        let latched = self.values.flag("map_subscribe_transient_local").unwrap_or(true);
+        let qos = if latched { Qos::latched(1) } else { Qos::reliable(1) };
+        match io.node().mailbox(topic, qos) {
+            Ok(mailbox) => {
+                let wait_s = self.values.number("save_map_timeout").unwrap_or(2.0);
+                let until_ns = io.now_ns().saturating_add((wait_s * 1e9) as i64);
+                self.waiting.push(Waiting { request, call, mailbox, until_ns });
+            }
+            Err(error) => refuse(call, io, error.to_string()),
+        }
+    }
+
+    fn wish(&self, request: &SaveMapRequest) -> Wish {
+        let usual = |name: &str, given: f32| match given {
+            0.0 => self.values.number(name).unwrap_or(0.0),
+            given => decimal(given),
+        };
+        Wish {
+            name: request.map_url.clone(),
+            image_format: request.image_format.clone(),
+            mode: request.map_mode.clone(),
+            occupied_thresh: usual("occupied_thresh_default", request.occupied_thresh),
+            free_thresh: usual("free_thresh_default", request.free_thresh),
+        }
+    }
+
+    /// Writes both files; whether that went well.
+    fn save(&self, map: &OccupancyGrid, request: &SaveMapRequest, io: &mut Io<'_, Self>) -> bool {
+        let saved = self.try_save(map, request, io);
+        if let Err(words) = &saved {
+            io.node().log(Level::Error, format!("the map is not saved: {words}"));
+        }
+        saved.is_ok()
+    }
+
+    fn try_save(
+        &self,
+        map: &OccupancyGrid,
+        request: &SaveMapRequest,
+        io: &mut Io<'_, Self>,
+    ) -> Result<(), String> {
+        let grid = from_message(map).map_err(|error| error.to_string())?;
+        let unix_s = io.now_ns().div_euclid(1_000_000_000);
+        let settled = self.wish(request).settle(self.distro, unix_s);
+        let (saving, said) = settled.map_err(|error| error.to_string())?;
+        for words in said {
+            io.node().log(Level::Warn, words);
+        }
+        let files = render(&grid, &saving);
+        // The picture first: a YAML that is there names a picture that is there.
+        for (path, content) in
+            [(&files.image_path, files.image.as_slice()), (&files.yaml_path, files.yaml.as_bytes())]
+        {
+            self.files
+                .replace(Path::new(path), content)
+                .map_err(|words| format!("cannot write `{path}`: {words}"))?;
+        }
+        io.node().log(Level::Info, format!("Map saved to {}", files.yaml_path));
+        Ok(())
+    }
+}
+
+/// What was meant by a number that came in single precision.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}

@@ -1,0 +1,262 @@
+//! The map server.
+
+use std::sync::Arc;
+
+use periplus_diagnostics::{Diagnostics, Severity};
+use periplus_graph::{
+    Actor, GraphError, Io, Level, Lifecycle, Node, Publisher, Qos, Step, StepOutcome, Transition,
+};
+use periplus_maps::{Distro, Loaded, load, to_message};
+use periplus_msgs::nav_msgs::{GetMap, GetMapResponse, MapMetaData, OccupancyGrid};
+use periplus_msgs::nav2_msgs::{LoadMap, LoadMapResponse};
+use periplus_params::{Table, Value, Values, text};
+
+use crate::Files;
+use crate::stamp::stamp;
+
+/// Parameters of [`MapServer`].
+pub static MAP_SERVER: Table = Table {
+    name: "map_server",
+    doc: "Serves a map from its files.",
+    parameters: &[
+        text("yaml_filename", "The YAML of the map. Without it one is loaded by the service.")
+            .or(""),
+        text("topic_name", "The topic of the map.").or("map"),
+        text("frame_id", "The frame of the map.").or("map"),
+    ],
+};
+
+/// What a [`MapServer`] is told.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapServerSettings {
+    /// The YAML of the map; none when empty.
+    pub yaml_filename: String,
+    /// The topic of the map.
+    pub topic_name: String,
+    /// The frame of the map.
+    pub frame_id: String,
+    /// Whose rules apply to the files.
+    pub distro: Distro,
+}
+
+impl Default for MapServerSettings {
+    fn default() -> Self {
+        Self {
+            yaml_filename: String::new(),
+            topic_name: "map".into(),
+            frame_id: "map".into(),
+            distro: Distro::Jazzy,
+        }
+    }
+}
+
+impl MapServerSettings {
+    /// As parameters of [`MAP_SERVER`].
+    fn values(&self) -> Values {
+        let mut values = MAP_SERVER.check([], None, &mut Diagnostics::new());
+        let texts = [
+            ("yaml_filename", &self.yaml_filename),
+            ("topic_name", &self.topic_name),
+            ("frame_id", &self.frame_id),
+        ];
+        for (name, text) in texts {
+            values.set(name, Value::Text(text.clone()));
+        }
+        values
+    }
+
+    fn read(&mut self, values: &Values) {
+        let text = |name: &str, usual: &str| values.text(name).unwrap_or_else(|| usual.to_owned());
+        self.yaml_filename = text("yaml_filename", "");
+        self.topic_name = text("topic_name", "map");
+        self.frame_id = text("frame_id", "map");
+    }
+}
+
+/// A managed node that serves a map: on its topic and its description on `map_metadata`, both kept
+/// for latecomers, and through the services `~/map` and `~/load_map`. It loads when it is
+/// configured, and publishes when it is activated.
+///
+/// Source: `nav2_map_server/src/map_server/map_server.cpp`; `map_metadata` as in ROS 1.
+pub struct MapServer {
+    actor: Actor<State>,
+    life: Lifecycle,
+}
+
+struct State {
+    settings: MapServerSettings,
+    files: Arc<dyn Files>,
+    outlets: Option<Outlets>,
+    map: Option<OccupancyGrid>,
+    is_active: bool,
+}
+
+struct Outlets {
+    map: Publisher<OccupancyGrid>,
+    metadata: Publisher<MapMetaData>,
+}
+
+impl MapServer {
+    /// As a node of a graph. Arguments of the graph may change the settings, and so may others until
+    /// it is configured.
+    ///
+    /// # Errors
+    /// When a name is not valid or taken by another type.
+    pub fn new(
+        node: Node,
+        settings: MapServerSettings,
+        files: Arc<dyn Files>,
+    ) -> Result<Self, GraphError> {
+        let values = settings.values();
+        let state = State { settings, files, outlets: None, map: None, is_active: false };
+        let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| {
+            state.settings.read(values);
+            Ok(())
+        })?;
+        actor.with(|state| state.settings.read(&parameters.values()));
+        actor.serve::<GetMap>("~/map", |state, _, io| {
+            if state.is_active {
+                return GetMapResponse { map: state.map.clone().unwrap_or_default() };
+            }
+            io.node()
+                .log(Level::Warn, "somebody asks for the map, but the map server is not active");
+            GetMapResponse::default()
+        })?;
+        actor.serve::<LoadMap>("~/load_map", |state, request, io| {
+            state.reload(&request.map_url, io)
+        })?;
+        let life = actor.managed(State::step)?;
+        Ok(Self { actor, life })
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+
+    /// Its life.
+    #[must_use]
+    pub fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+
+    /// Configures and activates it, where no lifecycle manager does.
+    pub fn start(&self) {
+        self.life.change(Transition::Configure);
+        self.life.change(Transition::Activate);
+    }
+}
+
+impl State {
+    fn step(&mut self, step: Step, io: &mut Io<'_, Self>) -> StepOutcome {
+        match step {
+            Step::Configure => self.configure(io),
+            Step::Activate => {
+                self.is_active = true;
+                self.publish();
+                StepOutcome::Success
+            }
+            Step::Deactivate => {
+                self.is_active = false;
+                StepOutcome::Success
+            }
+            Step::Cleanup | Step::Shutdown | Step::Error => {
+                self.is_active = false;
+                self.outlets = None;
+                self.map = None;
+                StepOutcome::Success
+            }
+        }
+    }
+
+    fn configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let path = self.settings.yaml_filename.clone();
+        if path.is_empty() {
+            io.node().log(
+                Level::Info,
+                "`yaml_filename` is empty; a map comes through the service `load_map`",
+            );
+        } else if self.load(&path, io).map.is_none() {
+            return StepOutcome::Failure;
+        }
+        let outlets = self.outlets(io.node());
+        match outlets {
+            Ok(outlets) => {
+                self.outlets = Some(outlets);
+                StepOutcome::Success
+            }
+            Err(error) => {
+                io.node().log(Level::Error, error);
+                StepOutcome::Failure
+            }
+        }
+    }
+
+    fn outlets(&self, node: &Node) -> Result<Outlets, GraphError> {
+        Ok(Outlets {
+            map: node.publisher(&self.settings.topic_name, Qos::latched(1))?,
+            metadata: node
+                .publisher(&format!("{}_metadata", self.settings.topic_name), Qos::latched(1))?,
+        })
+    }
+
+    /// Loads a map, and keeps it if it is one. What is wrong is logged.
+    fn load(&mut self, path: &str, io: &mut Io<'_, Self>) -> Loaded {
+        let loaded = load(path, self.settings.distro, &*self.files);
+        for finding in loaded.diagnostics.iter() {
+            let level = match finding.severity {
+                Severity::Error => Level::Error,
+                Severity::Warning => Level::Warn,
+                Severity::Hint => Level::Info,
+            };
+            let place = finding.span.map_or(String::new(), |span| {
+                let (file, position) = loaded.sources.locate(span);
+                format!("{file}:{}:{}: ", position.line, position.column)
+            });
+            let help = finding.help.iter().map(|help| format!("; {help}"));
+            let words = format!("{place}{}{}", finding.message, help.collect::<String>());
+            io.node().log(level, words);
+        }
+        if let Some(map) = &loaded.map {
+            let lattice = map.grid.lattice;
+            io.node().log(
+                Level::Info,
+                format!(
+                    "Read map {}: {} X {} map @ {} m/cell",
+                    map.image_path.display(),
+                    lattice.width,
+                    lattice.height,
+                    lattice.resolution_m
+                ),
+            );
+            self.map = Some(to_message(&map.grid, &self.settings.frame_id, stamp(io.now_ns())));
+        }
+        loaded
+    }
+
+    fn reload(&mut self, path: &str, io: &mut Io<'_, Self>) -> LoadMapResponse {
+        if !self.is_active {
+            io.node()
+                .log(Level::Warn, "somebody wants a map loaded, but the map server is not active");
+            let result = LoadMapResponse::RESULT_UNDEFINED_FAILURE;
+            return LoadMapResponse { result, ..LoadMapResponse::default() };
+        }
+        // A URL of a file is a path with more in front.
+        let path = path.strip_prefix("file://").unwrap_or(path);
+        let result = self.load(path, io).status.code();
+        if result != LoadMapResponse::RESULT_SUCCESS {
+            return LoadMapResponse { result, ..LoadMapResponse::default() };
+        }
+        self.publish();
+        LoadMapResponse { map: self.map.clone().unwrap_or_default(), result }
+    }
+
+    fn publish(&self) {
+        if let (Some(outlets), Some(map)) = (&self.outlets, &self.map) {
+            outlets.metadata.publish(map.info.clone());
+            outlets.map.publish(map.clone());
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Map files: a YAML that describes, and a picture that is the map.
+//!
+//! [`load`] reads both as ROS 1, humble, or jazzy and later do, which differ in what a pixel means
+//! ([`Rule`]). [`render`] makes both, byte for byte as the savers of these do. [`compare`] lays one
+//! map over another and says how they differ. Maps as messages are [`from_message`] and
+//! [`to_message`]; the colours that `RViz` gives them are in [`palette`].
+//!
+//! ```
+//! use periplus_maps::{Distro, Status, load};
+//! use periplus_resources::MemoryHost;
+//!
+//! let host = MemoryHost::new()
+//!     .with_file("/maps/room.yaml", "image: room.pgm\nresolution: 0.5\norigin: [-1.0, 0, 0]\n\
+//!         negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n")
+//!     .with_file("/maps/room.pgm", b"P2 3 1 255 0 205 254");
+//! let loaded = load("/maps/room.yaml", Distro::Jazzy, &host);
+//! assert_eq!(loaded.status, Status::Success);
+//! assert_eq!(loaded.map.unwrap().grid.cells, [100, -1, 0]);
+//! ```
+
+mod align;
+mod compare;
+mod description;
+mod distro;
+mod load;
+mod message;
+mod number;
+pub mod palette;
+mod rule;
+mod save;
+mod words;
+
+pub use align::{Alignment, align};
+pub use compare::{Comparison, Options, Overlap, Walls, compare, picture};
+pub use description::{Description, read_description};
+pub use distro::{Distro, Mode};
+pub use load::{Loaded, Map, Status, expand_home, grid_of, load, load_image};
+pub use message::{BadMap, from_message, to_message};
+pub use rule::Rule;
+pub use save::{BadThresholds, Format, MapFiles, Saving, Wish, render};
+pub use words::{Words, WrongWords, read_words, usage};

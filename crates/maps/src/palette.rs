@@ -1,0 +1,100 @@
+//! The colours that `RViz` gives to the values of maps and costmaps.
+//!
+//! Source: `rviz_default_plugins/displays/map/palette_builder.cpp`. Values are taken as unsigned:
+//! -1 is 255.
+
+/// Red, green, blue, opacity.
+pub type Rgba = [u8; 4];
+
+/// A colour for each value.
+pub type Palette = [Rgba; 256];
+
+/// A colour scheme of the display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// White is free, black is occupied; illegal values are loud.
+    Map,
+    /// Blue to red by cost; inscribed is cyan, lethal is magenta, free is clear.
+    Costmap,
+    /// The value as grey.
+    Raw,
+}
+
+impl Scheme {
+    /// By the name that `.rviz` files have for it.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "map" => Some(Self::Map),
+            "costmap" => Some(Self::Costmap),
+            "raw" => Some(Self::Raw),
+            _ => None,
+        }
+    }
+
+    /// A colour for each value.
+    #[must_use]
+    pub fn palette(self) -> Palette {
+        std::array::from_fn(|value| self.colour(u8::try_from(value).unwrap_or(u8::MAX)))
+    }
+
+    /// A colour for each value of the binary display: below the threshold one, from it on another.
+    #[must_use]
+    pub fn binary(self, threshold: u8) -> Palette {
+        let (below, from) = match self {
+            Self::Map => ([255, 255, 255, 255], [0, 0, 0, 255]),
+            Self::Costmap => ([0, 0, 255, 255], [255, 0, 0, 255]),
+            Self::Raw => ([0, 0, 0, 255], [255, 255, 255, 255]),
+        };
+        std::array::from_fn(|value| match value {
+            255 if self != Self::Raw => UNKNOWN,
+            value if value < usize::from(threshold) => below,
+            value if value <= 100 || self == Self::Raw => from,
+            value => self.colour(u8::try_from(value).unwrap_or(u8::MAX)),
+        })
+    }
+
+    fn colour(self, value: u8) -> Rgba {
+        // A hundred and less in whole numbers, rounded down.
+        let part = |of: u8| u8::try_from(255 * u16::from(value) / u16::from(of)).unwrap_or(255);
+        match (self, value) {
+            (Self::Raw, grey) => [grey, grey, grey, 255],
+            (Self::Map, 0..=100) => {
+                let grey = 255 - part(100);
+                [grey, grey, grey, 255]
+            }
+            (Self::Costmap, 0) => [0, 0, 0, 0],
+            (Self::Costmap, 1..=98) => [part(100), 0, 255 - part(100), 255],
+            (Self::Costmap, 99) => [0, 255, 255, 255],
+            (Self::Costmap, 100) => [255, 0, 255, 255],
+            (_, 101..=127) => [0, 255, 0, 255],
+            (_, 128..=254) => {
+                let yellow = 255 * (u16::from(value) - 128) / (254 - 128);
+                [255, u8::try_from(yellow).unwrap_or(255), 0, 255]
+            }
+            (_, 255) => UNKNOWN,
+        }
+    }
+}
+
+/// The colour of -1.
+const UNKNOWN: Rgba = [0x70, 0x89, 0x86, 255];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_that_everybody_knows() {
+        let map = Scheme::Map.palette();
+        assert_eq!((map[0], map[100], map[255]), ([255; 4], [0, 0, 0, 255], UNKNOWN));
+        assert_eq!((map[1][0], map[50][0]), (253, 128));
+        let costs = Scheme::Costmap.palette();
+        assert_eq!(
+            (costs[0], costs[99], costs[254]),
+            ([0; 4], [0, 255, 255, 255], [255, 255, 0, 255])
+        );
+        assert_eq!(Scheme::Map.binary(50)[49], [255; 4]);
+        assert_eq!(Scheme::Map.binary(50)[50], [0, 0, 0, 255]);
+    }
+}
