@@ -9,6 +9,7 @@
     reason = "a program that measures"
 )]
 
+mod costmap;
 mod files;
 mod loading;
 mod peers;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Some((first, rest)) if first.as_os_str() == "physics" => physics(rest),
         Some((first, rest)) if first.as_os_str() == "rays" => tell(race_rays(rest)),
         Some((first, rest)) if first.as_os_str() == "cast" => tell(cast_rays(rest)),
+        Some((first, rest)) if first.as_os_str() == "costmap" => tell(measure_costmap(rest)),
         _ => loading(),
     }
 }
@@ -106,7 +108,7 @@ fn race_rays(words: &[PathBuf]) -> Result<(), String> {
         }
         Race::Tables(tables) => {
             println!("{tables}");
-            replace_section(results, &tables)
+            replace_section(results, RAYS, &tables)
                 .map_err(|error| format!("{}: {error}", results.display()))
         }
     }
@@ -120,13 +122,27 @@ fn cast_rays(words: &[PathBuf]) -> Result<(), String> {
     rays::cast(scenes, &scene.to_string_lossy(), out).map_err(|error| error.to_string())
 }
 
-const SECTION: [&str; 2] =
+/// `costmap PYTHON SCRIPT FOLDER RESULTS.md`
+fn measure_costmap(words: &[PathBuf]) -> Result<(), String> {
+    let [python, script, folder, results] = words else {
+        return Err("usage: periplus-benches costmap PYTHON SCRIPT FOLDER RESULTS.md".to_owned());
+    };
+    let table = costmap::compare(python, script, folder)?;
+    println!("{table}");
+    replace_section(results, COSTMAP, &table)
+        .map_err(|error| format!("{}: {error}", results.display()))
+}
+
+const RAYS: [&str; 2] =
     ["<!-- rays: written by `cargo xtask bench rays` -->\n", "<!-- end of rays -->\n"];
 
+const COSTMAP: [&str; 2] =
+    ["<!-- costmap: written by `cargo xtask bench costmap` -->\n", "<!-- end of costmap -->\n"];
+
 /// Puts new tables where the old ones were, or at the end.
-fn replace_section(results: &Path, tables: &str) -> std::io::Result<()> {
+fn replace_section(results: &Path, section: [&str; 2], tables: &str) -> std::io::Result<()> {
     let text = std::fs::read_to_string(results)?;
-    let [start, end] = SECTION;
+    let [start, end] = section;
     let (before, after) = match (text.split_once(start), text.split_once(end)) {
         (Some((before, _)), Some((_, after))) => (before, after),
         _ => (&*text, ""),

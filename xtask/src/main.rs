@@ -9,6 +9,7 @@
 mod bags;
 mod codegen;
 mod corpus;
+mod costmap;
 mod determinism;
 mod docs;
 mod drive;
@@ -60,7 +61,7 @@ enum Task {
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
     Bench {
-        /// Only this: `loading`; or `physics`, `rays` or `sim` (which need nothing of `corpus`)
+        /// Only this: `loading`; or `costmap`, `physics`, `rays` or `sim` (which need nothing of `corpus`)
         only: Option<Contest>,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
@@ -90,6 +91,8 @@ enum Task {
 enum Contest {
     /// Large recordings
     Bags,
+    /// Costmaps: inflation and updates
+    Costmap,
     Loading,
     Physics,
     Rays,
@@ -119,6 +122,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Corpus => corpus::run_all(),
         Task::Bench { only } => match only {
             Some(Contest::Bags) => bags::bench(),
+            Some(Contest::Costmap) => costmap::bench(),
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Physics) => physics::bench(),
             Some(Contest::Rays) => rays::bench(),
@@ -126,7 +130,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
             None => corpus::bench()
                 .and_then(|()| physics::bench())
                 .and_then(|()| rays::bench())
-                .and_then(|()| runs::bench()),
+                .and_then(|()| runs::bench())
+                .and_then(|()| costmap::bench()),
         },
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),

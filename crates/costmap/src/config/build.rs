@@ -1,0 +1,109 @@
+//! From a configuration to layers.
+
+use periplus_params::Values;
+
+use super::{Config, LayerConfig, LayerKind, footprint_of, lattice_of};
+use crate::filters::{BinaryFilter, KeepoutFilter, SpeedFilter};
+use crate::layers::{
+    ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
+    StaticLayer, VoxelLayer,
+};
+use crate::{Layer, LayeredCostmap, Source};
+
+impl Config {
+    /// The costmap.
+    #[must_use]
+    pub fn build(&self) -> LayeredCostmap {
+        let mut costmap = LayeredCostmap::new(self.frame(), self.lattice());
+        for layer in &self.layers {
+            costmap.add_layer(self.layer(layer));
+        }
+        for filter in &self.filters {
+            costmap.add_filter(self.layer(filter));
+        }
+        costmap.set_footprint(self.footprint.clone());
+        costmap
+    }
+
+    fn layer(&self, config: &LayerConfig) -> Box<dyn Layer> {
+        let tracks_unknown = self.node.flag("track_unknown_space").unwrap_or_default();
+        let name = config.name.clone();
+        let values = config.values.clone();
+        let sources = || {
+            config.sources.iter().map(|one| Source::new(&one.name, one.values.clone())).collect()
+        };
+        match config.kind {
+            LayerKind::Static => {
+                Box::new(StaticLayer::new(name, values, MapMeaning::read(&self.node, self.compat)))
+            }
+            LayerKind::Obstacle => {
+                Box::new(ObstacleLayer::new(name, values, tracks_unknown, sources()))
+            }
+            LayerKind::Voxel => Box::new(VoxelLayer::new(name, values, tracks_unknown, sources())),
+            LayerKind::Range => Box::new(RangeLayer::new(name, values)),
+            LayerKind::Inflation => Box::new(InflationLayer::new(name, values, self.compat)),
+            LayerKind::Denoise => Box::new(DenoiseLayer::new(name, values)),
+            LayerKind::Container => {
+                let children = config.children.iter().map(|child| self.layer(child)).collect();
+                Box::new(ContainerLayer::new(name, values, children))
+            }
+            LayerKind::Keepout => Box::new(KeepoutFilter::new(name, values)),
+            LayerKind::Speed => Box::new(SpeedFilter::new(name, values)),
+            LayerKind::Binary => Box::new(BinaryFilter::new(name, values)),
+        }
+    }
+
+    /// What changed parameters of the node do to a costmap that runs. Kinds and ranges have been
+    /// checked.
+    ///
+    /// # Errors
+    /// Why they cannot be, in words; nothing has changed then.
+    pub fn change(&mut self, costmap: &mut LayeredCostmap, values: Values) -> Result<(), String> {
+        refuse(&self.node, &values)?;
+        let is_other =
+            |names: &[&str]| names.iter().any(|name| values.get(name) != self.node.get(name));
+        let has_outline = is_other(&["footprint", "robot_radius", "footprint_padding"]);
+        let has_size = is_other(&["resolution", "width", "height", "origin_x", "origin_y"]);
+        if has_outline {
+            let (footprint, wrong) = footprint_of(&values);
+            if let Some(wrong) = wrong {
+                return Err(wrong.message);
+            }
+            self.footprint =
+                footprint.padded(values.number("footprint_padding").unwrap_or_default());
+            costmap.set_footprint(self.footprint.clone());
+        }
+        if has_size && !costmap.is_size_locked() {
+            costmap.resize(lattice_of(&values), false);
+        }
+        self.node = values;
+        Ok(())
+    }
+}
+
+/// Parameters that only count at the start.
+const FIXED: [&str; 8] = [
+    "plugins",
+    "filters",
+    "global_frame",
+    "rolling_window",
+    "track_unknown_space",
+    "compat",
+    "trinary_costmap",
+    "use_maximum",
+];
+
+/// Which changes are refused while a costmap runs.
+fn refuse(before: &Values, after: &Values) -> Result<(), String> {
+    for name in FIXED {
+        if before.get(name) != after.get(name) {
+            return Err(format!("`{name}` cannot be changed while the costmap runs"));
+        }
+    }
+    // At the start it may be anything, and 0 or less means never.
+    let publish_hz = after.number("publish_frequency").unwrap_or_default();
+    if before.number("publish_frequency") != Some(publish_hz) && publish_hz <= 0.0 {
+        return Err("`publish_frequency` must be above 0 while the costmap runs".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,138 @@
+//! Parameters from YAML, as Nav2 and ROS 1 have them in files.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_params::Given;
+use periplus_yaml::{Node, Value};
+
+use super::Config;
+use crate::Compat;
+
+/// Namespaces around a node nest no deeper.
+const DEEPEST: usize = 4;
+
+impl Config {
+    /// Reads a file for the node of a name: `local_costmap` finds `local_costmap: local_costmap:
+    /// ros__parameters:` and `/**`, and in files of ROS 1 `local_costmap:` or, when there is no such
+    /// section, everything.
+    pub fn read_yaml(
+        file: &Node,
+        node: &str,
+        compat: Option<Compat>,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let mut flat = Vec::new();
+        for section in sections(file, node) {
+            flatten(section, "", &mut flat, diagnostics);
+        }
+        let given = flat.iter().map(|one| Given {
+            name: &one.name,
+            text: one.text.as_str().into(),
+            name_origin: one.name_origin,
+            origin: one.origin,
+        });
+        Self::read(given, compat, diagnostics)
+    }
+}
+
+/// The mappings with parameters for a node.
+fn sections<'a>(file: &'a Node, node: &str) -> Vec<&'a Node> {
+    let mut found = Vec::new();
+    let last = node.rsplit('/').next().unwrap_or(node);
+    collect(file, last, &mut found, 0);
+    if found.is_empty() {
+        // ROS 1: without `ros__parameters`.
+        found.push(file.get(last).unwrap_or(file));
+    }
+    found
+}
+
+fn collect<'a>(at: &'a Node, node: &str, found: &mut Vec<&'a Node>, depth: usize) {
+    let Some(entries) = at.entries().filter(|_| depth < DEEPEST) else { return };
+    for (key, value) in entries {
+        let Some(key) = key.text() else { continue };
+        // A namespace, a node in one (`/local_costmap/local_costmap`), or either for all.
+        let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
+        if name != node && name != "**" && name != "*" {
+            continue;
+        }
+        match value.get("ros__parameters") {
+            Some(parameters) => found.push(parameters),
+            None => collect(value, node, found, depth + 1),
+        }
+    }
+}
+
+struct Flat {
+    name: String,
+    text: String,
+    name_origin: Origin,
+    origin: Origin,
+}
+
+/// Names with dots.
+fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut Diagnostics) {
+    for (key, value) in at.entries().unwrap_or_default() {
+        let Some(key_text) = key.text() else { continue };
+        let name =
+            if prefix.is_empty() { key_text.to_owned() } else { format!("{prefix}.{key_text}") };
+        let text = match &value.value {
+            Value::Map(_) => {
+                flatten(value, &name, flat, diagnostics);
+                continue;
+            }
+            Value::Scalar { text, .. } => text.clone(),
+            Value::List(list) => {
+                match named_types(list) {
+                    None => written(list),
+                    Some(layers) => {
+                        diagnostics.push(
+                        Diagnostic::hint(
+                            "ros1-name",
+                            "a list of names and types is the form of ROS 1",
+                        )
+                        .at(key.span)
+                        .help("in Nav2 `plugins` is a list of names, and each layer has a `plugin`"),
+                    );
+                        let names: Vec<&str> = layers.iter().map(|(name, _, _)| *name).collect();
+                        for (layer, plugin, origin) in &layers {
+                            flat.push(Flat {
+                                name: format!("{layer}.plugin"),
+                                text: (*plugin).to_owned(),
+                                name_origin: *origin,
+                                origin: *origin,
+                            });
+                        }
+                        names.join(" ")
+                    }
+                }
+            }
+        };
+        flat.push(Flat { name, text, name_origin: key.span.into(), origin: value.span.into() });
+    }
+}
+
+/// ROS 1: `plugins: [{name: static_layer, type: "costmap_2d::StaticLayer"}]`.
+fn named_types(list: &[Node]) -> Option<Vec<(&str, &str, Origin)>> {
+    if list.is_empty() {
+        return None;
+    }
+    list.iter()
+        .map(|item| {
+            let plugin = item.get("type")?;
+            Some((item.get("name")?.text()?, plugin.text()?, plugin.span.into()))
+        })
+        .collect()
+}
+
+/// A list as a text that reads back, with nested lists in brackets.
+fn written(list: &[Node]) -> String {
+    let items: Vec<String> = list
+        .iter()
+        .map(|item| match &item.value {
+            Value::Scalar { text, .. } => text.clone(),
+            Value::List(inner) => written(inner),
+            Value::Map(_) => String::new(),
+        })
+        .collect();
+    format!("[{}]", items.join(", "))
+}

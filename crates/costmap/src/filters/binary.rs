@@ -1,0 +1,144 @@
+//! Where something is to be switched.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/binary_filter.cpp`.
+
+use std::any::Any;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_params::Values;
+
+use super::{FilterInfo, FilterKind, Mask};
+use crate::{Bounds, Costmap, Layer, Moment, Window};
+
+/// Switches a state where the mask says so.
+pub struct BinaryFilter {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    default_state: bool,
+    info: Option<FilterInfo>,
+    mask: Option<Mask>,
+    state: bool,
+    outgoing: Option<bool>,
+    complaints: Vec<Diagnostic>,
+}
+
+impl BinaryFilter {
+    /// From parameters of [`crate::tables::BINARY`]. The default is published at the start.
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values) -> Self {
+        let default_state = values.flag("default_state").unwrap_or_default();
+        Self {
+            name: name.into(),
+            is_enabled: values.flag("enabled").unwrap_or_default(),
+            values,
+            default_state,
+            info: None,
+            mask: None,
+            state: default_state,
+            outgoing: Some(default_state),
+            complaints: Vec::new(),
+        }
+    }
+
+    /// Takes in what the numbers of the mask mean.
+    pub fn set_info(&mut self, info: FilterInfo) {
+        if info.kind == FilterKind::Binary {
+            self.info = Some(info);
+        } else {
+            self.complaints.push(
+                Diagnostic::error(
+                    "filter-info",
+                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
+                )
+                .at(self.values.origin("filter_info_topic"))
+                .help("publish type 3 (binary)"),
+            );
+        }
+    }
+
+    /// Takes in a mask.
+    pub fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
+    }
+
+    /// The state.
+    #[must_use]
+    pub fn state(&self) -> bool {
+        self.state
+    }
+
+    /// A state to publish, if it has changed.
+    pub fn take_state(&mut self) -> Option<bool> {
+        self.outgoing.take()
+    }
+
+    fn change(&mut self, state: bool) {
+        self.state = state;
+        self.outgoing = Some(state);
+    }
+}
+
+impl Layer for BinaryFilter {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+
+    fn costs(&mut self, moment: &Moment<'_>, _master: &mut Costmap, _window: Window) {
+        let (Some(mask), Some(info)) = (&self.mask, &self.info) else { return };
+        if !self.is_enabled {
+            return;
+        }
+        let Some(mask_from_global) = mask.placed(moment) else { return };
+        let Some(cell) = mask.cell_of(mask_from_global, moment.robot) else {
+            if self.state != self.default_state {
+                self.change(self.default_state);
+            }
+            return;
+        };
+        let number = mask.grid[cell];
+        if number == periplus_grid::occupancy::UNKNOWN {
+            return;
+        }
+        let threshold = self.values.number("flip_threshold").unwrap_or_default();
+        let state = (info.value(number) > threshold) != self.default_state;
+        if state != self.state {
+            self.change(state);
+        }
+    }
+
+    fn reset(&mut self) {
+        self.change(self.default_state);
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        self.is_enabled = values.flag("enabled").unwrap_or_default();
+        self.default_state = values.flag("default_state").unwrap_or_default();
+        self.values = values;
+        Ok(())
+    }
+
+    fn complaints(&mut self, into: &mut Diagnostics) {
+        for complaint in self.complaints.drain(..) {
+            into.push(complaint);
+        }
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}

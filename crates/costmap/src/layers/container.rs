@@ -1,0 +1,175 @@
+//! Layers with a grid of their own.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/plugin_container_layer.cpp`. As there, the grid is
+//! not reset in an update: what a layer within put there by maximum stays until it puts less there by
+//! another combination, or somebody clears it.
+
+use std::any::Any;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_grid::{Cell, Lattice};
+use periplus_params::Values;
+
+use crate::clear::clear_cells;
+use crate::cost::UNKNOWN;
+use crate::layer::is_settled;
+use crate::{Bounds, Combination, Compat, Costmap, Explanation, Footprint, Layer, Moment, Window};
+
+/// Layers with a grid of their own, put into the costmap together.
+pub struct ContainerLayer {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    combination: Combination,
+    grid: Costmap,
+    children: Vec<Box<dyn Layer>>,
+    is_waiting: bool,
+}
+
+impl ContainerLayer {
+    /// From parameters of [`crate::tables::CONTAINER`]. The names of layers within begin with the
+    /// container's and a dot.
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values, children: Vec<Box<dyn Layer>>) -> Self {
+        let mut layer = Self {
+            name: name.into(),
+            values: values.clone(),
+            is_enabled: true,
+            combination: Combination::Max,
+            grid: Costmap::empty(UNKNOWN),
+            children,
+            is_waiting: false,
+        };
+        layer.take(values);
+        layer
+    }
+
+    fn take(&mut self, values: Values) {
+        self.is_enabled = values.flag("enabled").unwrap_or_default();
+        self.combination =
+            Combination::from_number(values.integer("combination_method").unwrap_or(1));
+        self.values = values;
+    }
+}
+
+impl Layer for ContainerLayer {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+        if moment.is_rolling {
+            self.grid.roll_around(moment.robot, moment.compat);
+        }
+        for child in &mut self.children {
+            child.bounds(moment, bounds);
+        }
+    }
+
+    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+        if !self.is_enabled {
+            return;
+        }
+        for child in &mut self.children {
+            child.costs(moment, &mut self.grid, window);
+        }
+        self.combination.apply(master, &self.grid, &window);
+        self.is_waiting = false;
+    }
+
+    fn reset(&mut self) {
+        for child in &mut self.children {
+            child.reset();
+        }
+        self.grid.reset();
+        self.is_waiting = true;
+    }
+
+    fn is_clearable(&self) -> bool {
+        self.children.iter().any(|child| child.is_clearable())
+    }
+
+    fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
+        clear_cells(&mut self.grid, start, end, invert, compat);
+        for child in self.children.iter_mut().filter(|child| child.is_clearable()) {
+            child.clear_area(start, end, invert, compat);
+        }
+        self.is_waiting = true;
+    }
+
+    fn footprint_changed(&mut self, footprint: &Footprint) {
+        for child in &mut self.children {
+            child.footprint_changed(footprint);
+        }
+    }
+
+    fn resized(&mut self, lattice: &Lattice, is_rolling: bool) {
+        self.grid.resize(*lattice);
+        for child in &mut self.children {
+            child.resized(lattice, is_rolling);
+        }
+    }
+
+    fn wants_lattice(&self, current: &Lattice, is_size_locked: bool) -> Option<Lattice> {
+        self.children.iter().find_map(|child| child.wants_lattice(current, is_size_locked))
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn is_current(&self, now_ns: i64) -> bool {
+        !self.is_waiting && self.children.iter().all(|child| is_settled(&**child, now_ns))
+    }
+
+    fn grid(&self) -> Option<&Costmap> {
+        Some(&self.grid)
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        if values.get("plugins") != self.values.get("plugins") {
+            return Err("`plugins` cannot be changed while the costmap runs".into());
+        }
+        self.take(values);
+        Ok(())
+    }
+
+    fn children(&self) -> &[Box<dyn Layer>] {
+        &self.children
+    }
+
+    fn children_mut(&mut self) -> &mut [Box<dyn Layer>] {
+        &mut self.children
+    }
+
+    fn explain(&self, _master: &Costmap, cell: Cell, is_rolling: bool) -> Explanation {
+        let within = self
+            .children
+            .iter()
+            .map(|child| (child.name().to_owned(), child.explain(&self.grid, cell, is_rolling)));
+        Explanation {
+            value: self.grid.cost(cell),
+            reason: Some("its layers together".to_owned()),
+            within: within.collect(),
+            ..Explanation::default()
+        }
+    }
+
+    fn complaints(&mut self, into: &mut Diagnostics) {
+        for child in &mut self.children {
+            child.complaints(into);
+        }
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}

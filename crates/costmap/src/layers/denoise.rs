@@ -1,0 +1,213 @@
+//! Takes out obstacles that are too small.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/denoise_layer.cpp`.
+
+use std::any::Any;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_grid::Cell;
+use periplus_params::Values;
+
+use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
+use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
+
+/// Frees obstacles with fewer cells than `smallest`. Cells belong together when they are neighbours,
+/// with `diagonally` also across a corner. What is around the window does not count.
+pub fn denoise(
+    master: &mut Costmap,
+    window: &Window,
+    smallest: usize,
+    diagonally: bool,
+    unknown_is_obstacle: bool,
+) {
+    let (width, height) = (window.width(), window.height());
+    if smallest <= 1 || window.is_empty() {
+        return;
+    }
+    let is_obstacle = |cost: u8| match cost {
+        LETHAL | INSCRIBED => true,
+        UNKNOWN => unknown_is_obstacle,
+        _ => false,
+    };
+    let lattice = *master.lattice();
+    // Cells still to be looked at. Each is taken once, so the time is that of the window.
+    let mut waits: Vec<bool> = window
+        .spans(lattice.width)
+        .flat_map(|span| master.costs()[span].iter().map(|cost| is_obstacle(*cost)))
+        .collect();
+    let mut group: Vec<(usize, usize)> = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            if !std::mem::take(&mut waits[y * width + x]) {
+                continue;
+            }
+            group.clear();
+            group.push((x, y));
+            let mut next = 0;
+            while let Some(&at) = group.get(next) {
+                next += 1;
+                for (x, y) in neighbours(at, width, height, diagonally) {
+                    if std::mem::take(&mut waits[y * width + x]) {
+                        group.push((x, y));
+                    }
+                }
+            }
+            if group.len() < smallest {
+                for (x, y) in &group {
+                    let index = (window.y0 + y) * lattice.width + window.x0 + x;
+                    master.costs_mut()[index] = FREE;
+                }
+            }
+        }
+    }
+}
+
+fn neighbours(
+    (x, y): Cell,
+    width: usize,
+    height: usize,
+    diagonally: bool,
+) -> impl Iterator<Item = Cell> {
+    const STEPS: [(isize, isize); 8] =
+        [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
+    let count = if diagonally { 8 } else { 4 };
+    STEPS.into_iter().take(count).filter_map(move |(dx, dy)| {
+        let (x, y) = (x.checked_add_signed(dx)?, y.checked_add_signed(dy)?);
+        (x < width && y < height).then_some((x, y))
+    })
+}
+
+/// Takes out obstacles that are too small.
+pub struct DenoiseLayer {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    smallest: usize,
+    diagonally: bool,
+    is_waiting: bool,
+    complaints: Vec<Diagnostic>,
+}
+
+impl DenoiseLayer {
+    /// From parameters of [`crate::tables::DENOISE`].
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values) -> Self {
+        let mut layer = Self {
+            name: name.into(),
+            values: values.clone(),
+            is_enabled: true,
+            smallest: 2,
+            diagonally: true,
+            is_waiting: false,
+            complaints: Vec::new(),
+        };
+        layer.take(values);
+        layer
+    }
+
+    fn take(&mut self, values: Values) {
+        self.is_enabled = values.flag("enabled").unwrap_or_default();
+        let asked = values.integer("minimal_group_size").unwrap_or(2);
+        self.smallest = usize::try_from(asked).unwrap_or(1).max(1);
+        if asked <= 1 {
+            self.complain(
+                &values,
+                "minimal_group_size",
+                "keeps every obstacle, so nothing is done",
+            );
+        }
+        let ways = values.integer("group_connectivity_type").unwrap_or(8);
+        self.diagonally = ways != 4;
+        if ways != 4 && ways != 8 {
+            self.complain(&values, "group_connectivity_type", "is neither 4 nor 8, and taken as 8");
+        }
+        self.values = values;
+    }
+
+    fn complain(&mut self, values: &Values, parameter: &str, what: &str) {
+        let value = values.integer(parameter).unwrap_or_default();
+        self.complaints.push(
+            Diagnostic::warning(
+                "bad-value",
+                format!("`{}.{parameter}`: {value} {what}", self.name),
+            )
+            .at(values.origin(parameter)),
+        );
+    }
+
+    /// Groups with fewer cells go; 1 keeps all.
+    #[must_use]
+    pub fn smallest(&self) -> usize {
+        self.smallest
+    }
+
+    /// How many neighbours a cell has: 4 or 8.
+    #[must_use]
+    pub fn ways(&self) -> u8 {
+        if self.diagonally { 8 } else { 4 }
+    }
+}
+
+impl Layer for DenoiseLayer {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+
+    fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+        if !self.is_enabled {
+            return;
+        }
+        self.is_waiting = false;
+        let unknown_is_obstacle = master.default_cost != UNKNOWN;
+        denoise(master, &window, self.smallest, self.diagonally, unknown_is_obstacle);
+    }
+
+    fn reset(&mut self) {
+        self.is_waiting = true;
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn is_current(&self, _now_ns: i64) -> bool {
+        !self.is_waiting
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        self.take(values);
+        Ok(())
+    }
+
+    fn explain(&self, _master: &Costmap, _cell: Cell, _is_rolling: bool) -> Explanation {
+        let reason = match self.smallest {
+            1 => "it keeps every obstacle".to_owned(),
+            smallest => format!("it frees obstacles with fewer than {smallest} cells"),
+        };
+        Explanation {
+            reason: Some(reason),
+            parameter: Some(format!("{}.minimal_group_size", self.name)),
+            ..Explanation::default()
+        }
+    }
+
+    fn complaints(&mut self, into: &mut Diagnostics) {
+        for complaint in self.complaints.drain(..) {
+            into.push(complaint);
+        }
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}

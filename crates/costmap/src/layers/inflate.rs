@@ -1,0 +1,212 @@
+//! Costs around obstacles.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/inflation_layer.cpp`.
+
+use std::any::Any;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_grid::{Cell, Lattice};
+use periplus_params::Values;
+
+use crate::cost::{LETHAL, UNKNOWN};
+use crate::inflation::{CostTable, Inflation, Scratch, inflate};
+use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Layer, Moment, Window};
+
+/// Gives cells near obstacles a cost.
+pub struct InflationLayer {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    radius_m: f64,
+    how: Inflation,
+    /// Of the robot, without `custom_inscribed_radius` \[m\].
+    inscribed_radius_m: f64,
+    resolution_m: f64,
+    compat: Compat,
+    table: CostTable,
+    /// The bounds that the update before had, without the margin.
+    last: Bounds,
+    must_redo: bool,
+    is_waiting: bool,
+    scratch: Scratch,
+    complaints: Vec<Diagnostic>,
+}
+
+impl InflationLayer {
+    /// From parameters of [`crate::tables::INFLATION`].
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values, compat: Compat) -> Self {
+        let mut layer = Self {
+            name: name.into(),
+            values: values.clone(),
+            is_enabled: true,
+            radius_m: 0.0,
+            how: Inflation::default(),
+            inscribed_radius_m: 0.0,
+            resolution_m: 1.0,
+            compat,
+            table: CostTable::new(1.0, 0.0, 0.0, 0.0, compat),
+            last: Bounds::ALL,
+            must_redo: false,
+            is_waiting: false,
+            scratch: Scratch::default(),
+            complaints: Vec::new(),
+        };
+        layer.take(values);
+        layer.must_redo = false;
+        layer
+    }
+
+    fn take(&mut self, values: Values) {
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        self.is_enabled = flag("enabled");
+        self.radius_m = values.number("inflation_radius").unwrap_or_default();
+        self.how = Inflation {
+            into_unknown: flag("inflate_unknown"),
+            around_unknown: flag("inflate_around_unknown"),
+        };
+        self.values = values;
+        self.renew_table();
+    }
+
+    fn renew_table(&mut self) {
+        let scaling = self.values.number("cost_scaling_factor").unwrap_or_default();
+        let inscribed_m = self.inscribed_m();
+        self.table =
+            CostTable::new(self.resolution_m, self.radius_m, inscribed_m, scaling, self.compat);
+        self.must_redo = true;
+    }
+
+    fn inscribed_m(&self) -> f64 {
+        match self.values.number("custom_inscribed_radius") {
+            Some(custom_m) if custom_m >= 0.0 => custom_m,
+            _ => self.inscribed_radius_m,
+        }
+    }
+
+    /// The costs that it gives.
+    #[must_use]
+    pub fn table(&self) -> &CostTable {
+        &self.table
+    }
+}
+
+impl Layer for InflationLayer {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, _moment: &Moment<'_>, bounds: &mut Bounds) {
+        let last = std::mem::replace(&mut self.last, *bounds);
+        if std::mem::take(&mut self.must_redo) {
+            *bounds = Bounds::ALL;
+        } else {
+            // What has gone must lose its costs, too.
+            bounds.include(&last);
+            *bounds = bounds.grown(self.radius_m);
+        }
+    }
+
+    fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+        if self.is_enabled && self.table.radius_cells() > 0 {
+            inflate(master, &window, &self.table, self.how, &mut self.scratch);
+            self.is_waiting = false;
+        }
+    }
+
+    fn reset(&mut self) {
+        self.must_redo = true;
+        self.is_waiting = true;
+    }
+
+    fn is_current(&self, _now_ns: i64) -> bool {
+        !self.is_waiting
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn footprint_changed(&mut self, footprint: &Footprint) {
+        self.inscribed_radius_m = footprint.inscribed_radius_m;
+        self.renew_table();
+        let inscribed_m = self.inscribed_m();
+        if self.radius_m > 0.0 && self.radius_m < inscribed_m && inscribed_m < f64::MAX {
+            self.complaints.push(
+                Diagnostic::warning(
+                    "inflation-too-small",
+                    format!(
+                        "`{}.inflation_radius` is {} m, less than the robot's inscribed radius of \
+                         {inscribed_m:.3} m",
+                        self.name, self.radius_m
+                    ),
+                )
+                .at(self.values.origin("inflation_radius"))
+                .note("planners need costs in all cells in which the robot would touch something")
+                .help(format!("set it to {inscribed_m:.2} or more")),
+            );
+        }
+    }
+
+    fn resized(&mut self, lattice: &Lattice, _is_rolling: bool) {
+        let must_redo = self.must_redo;
+        self.resolution_m = lattice.resolution_m;
+        self.renew_table();
+        self.must_redo = must_redo;
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        self.take(values);
+        Ok(())
+    }
+
+    fn explain(&self, master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
+        let around = |cost| cost == LETHAL || (self.how.around_unknown && cost == UNKNOWN);
+        let (x, y) = cell;
+        let window = Window { x0: x, y0: y, xn: x + 1, yn: y + 1 };
+        let near = window.grown(self.table.radius_cells() as usize, master.lattice());
+        let nearest = (near.y0..near.yn)
+            .flat_map(|y| (near.x0..near.xn).map(move |x| (x, y)))
+            .filter(|cell| master.cost(*cell).is_some_and(around))
+            .map(|at| ((at.0.abs_diff(x).pow(2) + at.1.abs_diff(y).pow(2)) as u32, at))
+            .min();
+        let radius = Some(format!("{}.inflation_radius", self.name));
+        match nearest.map(|(square, at)| (square, at, self.table.cost(square))) {
+            Some((square, at, cost)) if cost > 0 => Explanation {
+                value: Some(cost),
+                reason: Some(format!(
+                    "the nearest obstacle is cell ({}, {}), {:.3} m away",
+                    at.0,
+                    at.1,
+                    f64::from(square).sqrt() * self.resolution_m
+                )),
+                parameter: radius,
+                ..Explanation::default()
+            },
+            _ => Explanation {
+                value: Some(0),
+                reason: Some("no obstacle is near".to_owned()),
+                parameter: radius,
+                ..Explanation::default()
+            },
+        }
+    }
+
+    fn complaints(&mut self, into: &mut Diagnostics) {
+        for complaint in self.complaints.drain(..) {
+            into.push(complaint);
+        }
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}
