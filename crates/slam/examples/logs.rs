@@ -158,7 +158,10 @@ fn race(
     relations: &[Relation],
     out: Option<&Path>,
 ) -> Score {
-    let mut slam = Slam::new(Settings::default());
+    let mut slam = Slam::new(Settings {
+        refine_sweeps: std::env::var("SWEEPS").map_or(4, |it| it.parse().unwrap()),
+        ..Settings::default()
+    });
     let mut spent: Vec<u64> = Vec::with_capacity(copy.scans.len());
     for scan in &copy.scans {
         let begin = cpu_ns();

@@ -280,6 +280,18 @@ impl Slam {
         self.tracks.iter().map(place).collect()
     }
 
+    /// Which of the scans of [`Slam::trajectory`] are kept; closures name them by their place here.
+    #[must_use]
+    pub fn kept(&self) -> Vec<usize> {
+        let mut kept = Vec::with_capacity(self.keys.len());
+        for (index, track) in self.tracks.iter().enumerate() {
+            if track.key == kept.len() {
+                kept.push(index);
+            }
+        }
+        kept
+    }
+
     /// The map as it is now; none when it would be too large to hold.
     #[must_use]
     pub fn map(&self) -> Option<OccupancyGrid> {

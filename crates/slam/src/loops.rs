@@ -256,9 +256,9 @@ impl Loops {
             self.told.push(told);
             return None;
         }
+        let place = verdict.fit.target_from_moving;
         let rival = second.map(|peak| verify(peak.pose, &new, &old, settings)).filter(|other| {
-            let (metres, radians) =
-                apart(other.fit.target_from_moving, verdict.fit.target_from_moving);
+            let (metres, radians) = apart(other.fit.target_from_moving, place);
             other.fault.is_none()
                 && (metres > 0.5 * OTHER_M || radians > 0.5 * OTHER_RAD)
                 && other.fit.matched > 0.9 * verdict.fit.matched
@@ -266,7 +266,7 @@ impl Loops {
         Some(Candidate {
             anchor: task.anchor,
             middle,
-            middle_from_anchor: verdict.fit.target_from_moving,
+            middle_from_anchor: place,
             information: floored(&verdict.fit.information),
             region_m,
             share: verdict.share,
@@ -362,9 +362,12 @@ impl Loops {
         if !is_believed {
             return Vec::new();
         }
-        // Ambiguous ones that agree are believed as well: their place is now known.
-        let mut believed = agreed;
-        believed.push(self.pending.len() - 1);
+        // Those that fit elsewhere too are not: near scans will tell better, now that the place is
+        // known. But they are done with.
+        let mut settled = agreed;
+        settled.push(self.pending.len() - 1);
+        let believed = settled.iter().copied().filter(|&index| self.pending[index].is_unique);
+        let believed: Vec<usize> = believed.collect();
         let edges = believed.iter().map(|&index| {
             let it = &self.pending[index];
             Edge::new((it.middle, it.anchor), it.middle_from_anchor, it.information, Kind::Loop)
@@ -373,7 +376,7 @@ impl Loops {
         let mut index = 0;
         self.pending.retain(|_| {
             index += 1;
-            !believed.contains(&(index - 1))
+            !settled.contains(&(index - 1))
         });
         edges
     }

@@ -1,5 +1,6 @@
 //! Ties to old scans at places that are known well enough to compare directly.
 
+use periplus_base::normalize_angle;
 use periplus_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, agreement, register};
 
 use crate::drift::{Sighting, from_here};
@@ -19,6 +20,14 @@ const OLD_M: f64 = 10.0;
 const JUDGED: u32 = 50;
 const AGREEING: f64 = 0.85;
 const MATCHED: f64 = 0.6;
+/// Beyond these uncertainties (3 standard deviations) the place is searched for \[m, rad\].
+const KNOWN_M: f64 = 0.2;
+const KNOWN_RAD: f64 = 0.06;
+/// Another place farther than this \[m\] with this part of the likelihood makes a tie ambiguous.
+const OTHER_M: f64 = 0.5;
+const RIVAL: f64 = 0.8;
+/// Squared Mahalanobis distance of what is possible: 99.9 % for 3 degrees of freedom.
+const POSSIBLE: f64 = 16.3;
 /// How near two points are the same \[m\].
 const TOLERANCE_M: f32 = 0.2;
 /// Old scans on either side of the one that is compared with.
@@ -90,7 +99,8 @@ pub(crate) fn tie(
     };
     let how = close_by(&settings.register);
     let mut fit = register(&moving, &group, expected, Some(&prior), &how);
-    if 3.0 * shift_m > 0.2 || 3.0 * turn_rad > 0.06 {
+    let mut rival = None;
+    if 3.0 * shift_m > KNOWN_M || 3.0 * turn_rad > KNOWN_RAD {
         let points = sampled(cloud, 120);
         let window = Window {
             middle: expected,
@@ -105,14 +115,29 @@ pub(crate) fn tie(
             if other.cost < fit.cost {
                 fit = other;
             }
+            let least = RIVAL * peak.score;
+            let elsewhere = (fit.target_from_moving, OTHER_M, 0.5);
+            let (second, _) = field.search(&points, &window, least, Some(elsewhere));
+            rival = second.map(|peak| register(&moving, &group, peak.pose, Some(&prior), &how));
         }
     }
-    if fit.matched < MATCHED {
+    // What ties say must be possible by what is known, in every direction.
+    let found = fit.target_from_moving;
+    let off = graph.between(key, old.key).inverse() * found.inverse();
+    let off = [off.x_m, off.y_m, normalize_angle(off.yaw_rad)];
+    let loose = Symmetric3::diagonal(1e-3, 1e-3, 1e-4);
+    let turned = old.covariance.turned(-graph.between(key, old.key).yaw_rad) + loose;
+    let is_possible = turned.inverse().is_some_and(|known| known.quadratic(off) < POSSIBLE);
+    let is_ambiguous = rival.is_some_and(|rival| {
+        apart(rival.target_from_moving, found).0 > 0.5 * OTHER_M
+            && rival.matched > 0.85 * fit.matched
+    });
+    if fit.matched < MATCHED || !is_possible || is_ambiguous {
         return None;
     }
     let mut sum = Agreement::default();
     for one in &group {
-        let one_from_key = one.group_from_cloud.inverse() * fit.target_from_moving;
+        let one_from_key = one.group_from_cloud.inverse() * found;
         sum += agreement(cloud, one.cloud, one_from_key, TOLERANCE_M);
         sum += agreement(one.cloud, cloud, one_from_key.inverse(), TOLERANCE_M);
     }
