@@ -3,7 +3,9 @@
 mod arguments;
 mod bag;
 mod check;
+mod conformance;
 mod convert;
+mod map;
 mod options;
 mod sim;
 mod teleop;
@@ -35,14 +37,16 @@ fn main() -> ExitCode {
     let outcome = match options.command {
         Command::Sim(options) => sim::run(&options, ros),
         Command::Teleop(options) => teleop::run(&options, ros),
+        Command::Map(command) => map::run(&command, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
-                "`--ros-args` are for commands that run nodes: `periplus sim` and `teleop`",
+                "`--ros-args` are for commands that run nodes: `periplus sim`, `teleop` and `map`",
             );
             return ExitCode::from(2);
         }
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
+        Command::Conformance(options) => conformance::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
@@ -50,6 +54,7 @@ fn main() -> ExitCode {
         Command::Node(options) => options.run(),
         Command::Param(options) => options.run(),
         Command::Service(options) => options.run(),
+        Command::Tf(options) => options.run(),
         Command::Topic(options) => options.run(),
         Command::Completions { shell } => completions(shell),
     };

@@ -6,11 +6,13 @@ use anstream::ColorChoice;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
+use crate::conformance::ConformanceOptions;
+use crate::map::MapCommand;
 use crate::sim::SimOptions;
 use crate::teleop::TeleopOptions;
 use crate::verbs::{
     ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ParamOptions, ServiceOptions,
-    TopicOptions,
+    TfOptions, TopicOptions,
 };
 
 /// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
@@ -39,12 +41,16 @@ pub(crate) enum Command {
     Action(ActionOptions),
     Lifecycle(LifecycleOptions),
     Interface(InterfaceOptions),
+    Tf(TfOptions),
     /// Print the script that completes words of this command in a shell
     Completions {
         /// Which shell
         shell: clap_complete::Shell,
     },
     Teleop(TeleopOptions),
+    #[command(subcommand)]
+    Map(MapCommand),
+    Conformance(ConformanceOptions),
 }
 
 /// Tell what files hold and what is wrong with them

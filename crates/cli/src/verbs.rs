@@ -7,6 +7,7 @@ mod lifecycle;
 mod node;
 mod param;
 mod service;
+mod tf;
 mod topic;
 mod wired;
 
@@ -31,13 +32,14 @@ pub(crate) use lifecycle::LifecycleOptions;
 pub(crate) use node::NodeOptions;
 pub(crate) use param::ParamOptions;
 pub(crate) use service::ServiceOptions;
+pub(crate) use tf::TfOptions;
 pub(crate) use topic::TopicOptions;
 
-use common::Common;
+pub(crate) use common::{Common, seconds};
 use wired::Wired;
 
 /// Joins the network and does what is asked.
-fn with_session(
+pub(crate) fn with_session(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> io::Result<ExitCode> {
@@ -78,7 +80,7 @@ fn types(common: &Common) -> io::Result<Types> {
 }
 
 /// Does what is asked where nobody else is needed.
-fn without_network(
+pub(crate) fn without_network(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> io::Result<ExitCode> {

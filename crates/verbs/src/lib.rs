@@ -1,5 +1,6 @@
 //! What the `ros2` command does with topics, nodes, services, parameters, actions, lifecycle nodes
-//! and interfaces: the same words, the same output.
+//! and interfaces: the same words, the same output. [`map`] does what the programs of
+//! map servers do, and [`tf`] what those of tf2 do.
 //!
 //! A [`Network`] says who is there and lets a graph take part; a [`Session`] is one use of the
 //! command: its network, the types it knows, and where it writes. Each verb is a function over a
@@ -15,6 +16,7 @@ mod filter;
 pub mod interface;
 pub mod lifecycle;
 mod listen;
+pub mod map;
 mod network;
 pub mod node;
 pub mod param;
@@ -23,6 +25,7 @@ mod seen;
 pub mod service;
 mod session;
 pub mod show;
+pub mod tf;
 pub mod topic;
 mod types;
 mod values;

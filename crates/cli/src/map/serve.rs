@@ -1,0 +1,86 @@
+//! `periplus map serve`.
+
+use std::io;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use periplus_diagnostics::SourceMap;
+use periplus_graph::{Graph, NodeSettings};
+use periplus_host::{Machine, sleep, unix_ns};
+use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_wire_ros2::{Settings, Wire};
+
+use super::options::{SaveOptions, ServeOptions};
+use crate::arguments;
+use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
+
+/// How often it is looked whether it is over.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    if let Some(name) = &options.file {
+        say(&format!("`-f` is for saving a map; this is `periplus map save -f {name}`"));
+        let words = vec!["-f".to_owned(), name.clone()];
+        return super::save(&SaveOptions { distro: options.distro, timeout: None, words }, &ros);
+    }
+    let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
+        return Ok(ExitCode::from(2));
+    };
+    let stop = stop_on_ctrl_c();
+    let graph = Graph::live();
+    graph.set_simulated_time(false);
+    graph.advance_to(unix_ns());
+    graph.set_arguments(arguments);
+    let (settings, said) = Settings::from_environment(&Machine);
+    diagnostics(&mut anstream::stderr().lock(), &said, &SourceMap::new())?;
+    let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
+    let wire = match attached {
+        Ok(wire) => wire,
+        Err(error) => {
+            complain(&format!("cannot join ROS 2: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let usual = MapServerSettings::default();
+    let settings = MapServerSettings {
+        yaml_filename: options.path.clone().unwrap_or_default(),
+        topic_name: options.topic_name.clone().unwrap_or(usual.topic_name),
+        frame_id: options.frame_id.clone().unwrap_or(usual.frame_id),
+        distro: options.distro,
+    };
+    let made = graph
+        .node(NodeSettings::new("map_server"))
+        .and_then(|node| MapServer::new(node, settings, Arc::new(Machine)));
+    let server = match made {
+        Ok(server) => server,
+        Err(error) => {
+            complain(&error.to_string());
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    for findings in [graph.take_findings(), graph.unused_arguments()] {
+        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    }
+    let mut starts = !options.managed;
+    if starts {
+        server.start();
+    }
+    while !stop.load(Ordering::Relaxed) {
+        graph.advance_to(unix_ns());
+        graph.settle();
+        if std::mem::take(&mut starts) && !server.life().is_active() {
+            // What is wrong has been logged.
+            return Ok(ExitCode::FAILURE);
+        }
+        sleep(LOOK);
+    }
+    let _ = wire.flush(LAST_WORD);
+    diagnostics(&mut anstream::stderr().lock(), &wire.take_findings(), &SourceMap::new())?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,9 @@
+//! `map`: maps to files and back, as `map_saver_cli` and `map_saver` do, and what is in them.
+
+mod diff;
+mod files;
+mod save;
+
+pub use diff::{Diff, diff};
+pub use files::{Convert, convert, info};
+pub use save::{Save, save};
