@@ -7,6 +7,7 @@ use periplus_resources::{Host, Kind};
 
 use crate::{Case, Differences, Unreadable};
 
+mod costmap;
 mod grid_coords;
 mod map_load;
 mod map_pixel;
@@ -45,15 +46,37 @@ impl Setting<'_> {
 
 /// All kinds that are checked, in the order of their names.
 pub const KINDS: &[(&str, Check)] = &[
+    ("binary_filter", costmap::check_binary),
+    ("clear_area", costmap::check_clear_area),
+    ("clear_service", costmap::check_clear_service),
+    ("collision_checker_topic", costmap::check_footprint_cost),
+    ("costmap_publisher", costmap::check_publisher),
+    ("costmap_to_occgrid", costmap::check_to_occupancy),
+    ("declare_params", costmap::check_parameters),
+    ("denoise", costmap::check_denoise),
+    ("footprint", costmap::check_footprint),
+    ("footprint_cost", costmap::check_footprint_cost),
     ("grid_coords", grid_coords::check),
+    ("inflation_cost", costmap::check_inflation),
+    ("keepout_filter", costmap::check_keepout),
+    ("laser_projection", costmap::check_projection),
+    ("layered_costmap", costmap::check_layered),
     ("map_load", map_load::check),
     ("map_pixel", map_pixel::check),
     ("map_save", map_save::check),
     ("map_save_pixel", map_save::check_pixels),
+    ("mask_cost", costmap::check_to_cost),
+    ("observation_buffer", costmap::check_buffer),
+    ("obstacle_layer", costmap::check_obstacle),
+    ("occgrid_to_costmap", costmap::check_to_cost),
     ("path_expand", path_expand::check),
+    ("range_sensor_layer", costmap::check_layered),
+    ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
+    ("speed_filter", costmap::check_speed),
+    ("static_layer_value", costmap::check_static),
     ("teleop_keys", teleop_keys::check),
     ("tf2_advanced", tf2::check_lookup),
     ("tf2_cache", tf2::check_cache),
@@ -61,4 +84,5 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_lookup", tf2::check_lookup),
     ("tf2_set", tf2::check_set),
     ("tf2_static", tf2::check_lookup),
+    ("voxel_grid", costmap::check_voxels),
 ];
