@@ -16,7 +16,7 @@ use periplus_graph::Arguments;
 use periplus_host::Stopwatch;
 use periplus_sim::{
     Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
-    Wanted, compose,
+    Wanted, compose, hear,
 };
 
 use crate::arguments;
@@ -51,6 +51,10 @@ pub(crate) struct SimOptions {
     /// Do not record topics that match this regular expression
     #[arg(long, value_name = "REGEX")]
     exclude: Option<regex::Regex>,
+    /// Measure topics that match this regular expression though nobody hears them, to see what they
+    /// cost
+    #[arg(long, value_name = "REGEX")]
+    hear: Option<regex::Regex>,
     /// Drive by a script (YAML) or by the commands of a bag
     #[arg(long, value_name = "FILE")]
     cmd: Option<std::path::PathBuf>,
@@ -166,6 +170,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             }
         },
     };
+    if let Some(heard) = options.hear.clone() {
+        hear(&simulation, Box::new(move |name| heard.is_match(name)));
+    }
     let mut services = match Services::new(&simulation, terminal::search(search)) {
         Ok(services) => services,
         Err(error) => {

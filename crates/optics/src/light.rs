@@ -114,33 +114,35 @@ impl Shine {
         Some(Beam { to_light, distance_m, share })
     }
 
-    /// The light that a surface sends back against `from_eye` (of any length): Lambert's, and Blinn's
-    /// highlight.
+    /// The light that a surface scatters everywhere alike: Lambert's.
     #[expect(clippy::cast_possible_truncation, reason = "colours need no more")]
-    pub(crate) fn reflect(
+    pub(crate) fn matt(&self, beam: &Beam, look: &Look, normal: DVec3) -> [f32; 3] {
+        let share = (beam.share * normal.dot(beam.to_light)) as f32;
+        std::array::from_fn(|channel| look.diffuse[channel] * self.diffuse[channel] * share)
+    }
+
+    /// The light that a surface throws back against `from_eye` (of any length): Blinn's highlight. Of
+    /// the vector half way between eye and light only its cosine to the normal is needed, and that
+    /// follows from the cosines of the two.
+    #[expect(clippy::cast_possible_truncation, reason = "colours need no more")]
+    pub(crate) fn gleam(
         &self,
         beam: &Beam,
         look: &Look,
         normal: DVec3,
         from_eye: DVec3,
-        sum: &mut [f32; 3],
-        highlights: &mut [f32; 3],
-    ) {
-        let matt = (beam.share * normal.dot(beam.to_light)) as f32;
-        for (sum, (mine, light)) in sum.iter_mut().zip(look.diffuse.iter().zip(&self.diffuse)) {
-            *sum += mine * light * matt;
+    ) -> [f32; 3] {
+        let per_length = 1.0 / (from_eye.length_squared() as f32).sqrt();
+        let normal_eye = -(normal.dot(from_eye) as f32) * per_length;
+        let light_eye = -(beam.to_light.dot(from_eye) as f32) * per_length;
+        let sum = normal.dot(beam.to_light) as f32 + normal_eye;
+        let half_squared = 2.0 + 2.0 * light_eye;
+        if !(sum > 0.0 && half_squared > 0.0) {
+            return [0.0; 3];
         }
-        if look.shininess > 0.0 && look.specular != [0.0; 3] {
-            let to_eye = -from_eye.normalize_or_zero();
-            let half = (beam.to_light + to_eye).normalize_or_zero();
-            let shine = normal.dot(half).max(0.0) as f32;
-            let shine = power(shine, look.shininess) * beam.share as f32;
-            for (sum, (mine, light)) in
-                highlights.iter_mut().zip(look.specular.iter().zip(&self.specular))
-            {
-                *sum += mine * light * shine;
-            }
-        }
+        let cosine = (sum / half_squared.sqrt()).min(1.0);
+        let share = power(cosine, look.shininess) * beam.share as f32;
+        std::array::from_fn(|channel| look.specular[channel] * self.specular[channel] * share)
     }
 }
 

@@ -29,6 +29,13 @@ pub(crate) struct Look {
     pub(crate) texture: Option<Arc<Image>>,
 }
 
+impl Look {
+    /// Whether it has highlights.
+    pub(crate) fn gleams(&self) -> bool {
+        self.shininess > 0.0 && self.specular != [0.0; 3]
+    }
+}
+
 impl Default for Look {
     fn default() -> Self {
         Self {

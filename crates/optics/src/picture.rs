@@ -114,8 +114,10 @@ struct Scratch<'a> {
     /// Through a pinhole, the part of directions that the column gives.
     columns: Vec<DVec3>,
     hits: Vec<Option<Hit>>,
-    /// For [`Shader::paint`]: what is met, rays from a light, what they meet, what is in shadow.
-    spots: Vec<shade::Spot<'a>>,
+    /// For [`Shader::paint`]: what is met, its colours, rays from a light, what they meet, what is
+    /// in shadow.
+    patches: Vec<shade::Patch<'a>>,
+    colours: Vec<[f32; 3]>,
     light_rays: Vec<Ray>,
     light_m: Vec<f32>,
     dark: Vec<bool>,

@@ -1,10 +1,12 @@
 //! Colours.
 
+use std::ops::Range;
+
 use periplus_base::DVec3;
 use periplus_raycast::{Filter, Hit, Ray};
 
 use super::{SHADOWS, Scratch};
-use crate::light::Shine;
+use crate::light::{Beam, Shine};
 use crate::look::Look;
 use crate::surroundings::{Met, Surroundings};
 
@@ -20,19 +22,16 @@ pub(super) struct Shader<'a> {
     shadows: bool,
 }
 
-/// A surface that a ray met.
-#[derive(Clone, Copy)]
-pub(super) struct Spot<'a> {
-    /// Which of the band's rays met it.
-    pixel: usize,
+/// Neighbouring rays of a band that met one face, so that what is the same for all is found once.
+#[derive(Clone, Debug)]
+pub(super) struct Patch<'a> {
+    /// Which of the band's rays.
+    pixels: Range<usize>,
     look: &'a Look,
-    point: DVec3,
     /// For light; where a mesh is smooth, that of its corners.
     normal: DVec3,
     /// What the texture multiplies with, and opacity.
     tint: [f32; 4],
-    matt: [f32; 3],
-    highlights: [f32; 3],
 }
 
 impl<'a> Shader<'a> {
@@ -55,82 +54,95 @@ impl<'a> Shader<'a> {
         seen: Filter,
         rgb: &mut [u8],
     ) {
-        scratch.spots.clear();
-        // Neighbours mostly meet the same thing.
-        let mut last = None;
-        for (pixel, (ray, hit)) in scratch.rays.iter().zip(&scratch.hits).enumerate() {
-            if let Some(hit) = hit {
-                scratch.spots.push(self.spot(pixel, ray, hit, &mut last));
-            }
+        self.find_patches(scratch);
+        scratch.colours.clear();
+        scratch.colours.resize(scratch.rays.len(), self.background);
+        for patch in &scratch.patches {
+            scratch.colours[patch.pixels.clone()].fill(self.unlit(patch));
         }
         for shine in &self.shines {
             self.light(shine, scratch, columns);
         }
-        let background = self.background.map(byte_of);
-        let (mut pixels, mut next) = (rgb.chunks_exact_mut(3), 0);
-        for spot in &scratch.spots {
-            for pixel in pixels.by_ref().take(spot.pixel - next) {
-                pixel.copy_from_slice(&background);
-            }
-            next = spot.pixel + 1;
-            let front = self.colour(spot);
-            let colour = if spot.tint[3] < 1.0 {
-                let hit = scratch.hits[spot.pixel];
-                hit.map_or(front, |hit| {
-                    self.through(&scratch.rays[spot.pixel], hit, spot.tint[3], front, seen)
-                })
-            } else {
-                front
-            };
-            if let Some(pixel) = pixels.next() {
-                pixel.copy_from_slice(&colour.map(byte_of));
+        for patch in scratch.patches.iter().filter(|patch| patch.tint[3] < 1.0) {
+            for pixel in patch.pixels.clone() {
+                let Some(hit) = scratch.hits[pixel] else { continue };
+                let front = scratch.colours[pixel];
+                scratch.colours[pixel] =
+                    self.through(&scratch.rays[pixel], hit, patch.tint[3], front, seen);
             }
         }
-        for pixel in pixels {
-            pixel.copy_from_slice(&background);
+        for (pixel, colour) in rgb.chunks_exact_mut(3).zip(&scratch.colours) {
+            pixel.copy_from_slice(&colour.map(byte_of));
         }
     }
 
-    fn spot(&self, pixel: usize, ray: &Ray, hit: &Hit, last: &mut Option<Met<'a>>) -> Spot<'a> {
+    fn find_patches(&self, scratch: &mut Scratch<'a>) {
+        let Scratch { rays, hits, patches, .. } = scratch;
+        patches.clear();
+        // Neighbours mostly meet the same thing.
+        let mut last = None;
+        for (pixel, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+            let Some(hit) = hit else { continue };
+            let patch = self.patch(pixel, ray, hit, &mut last);
+            match patches.last_mut() {
+                Some(open) if open.goes_on_with(&patch) => open.pixels.end = pixel + 1,
+                _ => patches.push(patch),
+            }
+        }
+    }
+
+    fn patch(&self, pixel: usize, ray: &Ray, hit: &Hit, last: &mut Option<Met<'a>>) -> Patch<'a> {
         let met = match last {
             Some(met) if (met.instance, met.primitive) == (hit.instance, hit.primitive) => *met,
             _ => *last.insert(self.surroundings.met(hit)),
         };
-        let point = ray.at(hit.distance_m);
         let (normal, tint) = if met.is_plain {
             (hit.normal, [1.0, 1.0, 1.0, met.look.opacity])
         } else {
-            self.surroundings.detail(hit, point)
+            self.surroundings.detail(hit, ray.at(hit.distance_m))
         };
-        Spot { pixel, look: met.look, point, normal, tint, matt: [0.0; 3], highlights: [0.0; 3] }
+        Patch { pixels: pixel..pixel + 1, look: met.look, normal, tint }
     }
 
-    /// Adds one light to all spots, where it is not in shadow.
+    /// Adds one light to all that a band sees, where it is not in shadow.
     fn light(&self, shine: &Shine, scratch: &mut Scratch<'a>, columns: usize) {
         let shadows = self.shadows && shine.casts_shadows;
         if shadows {
             self.darken(shine, scratch, columns);
         }
-        for spot in &mut scratch.spots {
-            if !spot.look.is_lit || shadows && scratch.dark[spot.pixel] {
-                continue;
+        let Scratch { rays, hits, patches, dark, colours, .. } = scratch;
+        for patch in patches.iter().filter(|patch| patch.look.is_lit) {
+            // The sun meets all of a face alike.
+            let sun = if shine.is_directional {
+                let Some(beam) = shine.beam(DVec3::ZERO, patch.normal) else { continue };
+                Some((beam, patch.matt(shine, &beam)))
+            } else {
+                None
+            };
+            let gleams = patch.look.gleams();
+            for pixel in patch.pixels.clone() {
+                let Some(hit) = hits[pixel].filter(|_| !(shadows && dark[pixel])) else { continue };
+                let ray = &rays[pixel];
+                let (beam, matt) = match sun {
+                    Some(sun) => sun,
+                    None => match shine.beam(ray.at(hit.distance_m), patch.normal) {
+                        Some(beam) => (beam, patch.matt(shine, &beam)),
+                        None => continue,
+                    },
+                };
+                let colour = &mut colours[pixel];
+                add(colour, matt);
+                if gleams {
+                    add(colour, shine.gleam(&beam, patch.look, patch.normal, ray.direction));
+                }
             }
-            let Some(beam) = shine.beam(spot.point, spot.normal) else { continue };
-            shine.reflect(
-                &beam,
-                spot.look,
-                spot.normal,
-                scratch.rays[spot.pixel].direction,
-                &mut spot.matt,
-                &mut spot.highlights,
-            );
         }
     }
 
-    /// Finds which spots of a band a light does not reach, with neighbours traced together: from a
-    /// lamp to the surfaces, so that rays share the origin; to the sun they share the direction.
+    /// Finds where in a band a light does not reach, with neighbours traced together: from a lamp to
+    /// the surfaces, so that rays share the origin; to the sun they share the direction.
     fn darken(&self, shine: &Shine, scratch: &mut Scratch<'a>, columns: usize) {
-        let Scratch { hits, spots, light_rays, light_m, dark, .. } = scratch;
+        let Scratch { rays: eyes, hits, patches, light_rays, light_m, dark, .. } = scratch;
         let rays = self.surroundings.rays();
         // What ends before it begins costs nothing.
         let none = Ray { max_m: -1.0, ..Ray::new(DVec3::ZERO, DVec3::X) };
@@ -138,15 +150,18 @@ impl<'a> Shader<'a> {
         light_rays.resize(hits.len(), none);
         dark.clear();
         dark.resize(hits.len(), false);
-        for spot in spots.iter().filter(|spot| spot.look.is_lit) {
-            let Some(hit) = hits[spot.pixel] else { continue };
-            let above = above(&hit, spot.point);
-            let ray = &mut light_rays[spot.pixel];
-            if shine.is_directional {
-                if shine.beam(spot.point, spot.normal).is_some() {
+        for patch in patches.iter().filter(|patch| patch.look.is_lit) {
+            if shine.is_directional && shine.beam(DVec3::ZERO, patch.normal).is_none() {
+                continue;
+            }
+            for pixel in patch.pixels.clone() {
+                let Some(hit) = hits[pixel] else { continue };
+                let above = above(&hit, eyes[pixel].at(hit.distance_m));
+                let ray = &mut light_rays[pixel];
+                if shine.is_directional {
                     *ray = Ray::new(above, -shine.direction);
+                    continue;
                 }
-            } else {
                 let way = above - shine.position_m;
                 if way != DVec3::ZERO {
                     *ray = Ray { max_m: 1.0, ..Ray::new(shine.position_m, way) };
@@ -164,19 +179,17 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Phong's sum.
-    fn colour(&self, spot: &Spot<'_>) -> [f32; 3] {
-        let look = spot.look;
-        let mut colour = [0.0; 3];
-        for (channel, value) in colour.iter_mut().enumerate() {
-            let lit = if look.is_lit {
-                look.ambient[channel] * self.ambient[channel] + spot.matt[channel]
+    /// Without the light of lamps and of the sun.
+    fn unlit(&self, patch: &Patch<'_>) -> [f32; 3] {
+        let look = patch.look;
+        std::array::from_fn(|channel| {
+            let own = if look.is_lit {
+                look.ambient[channel] * self.ambient[channel]
             } else {
                 look.diffuse[channel]
             };
-            *value = lit * spot.tint[channel] + look.emissive[channel] + spot.highlights[channel];
-        }
-        colour
+            own * patch.tint[channel] + look.emissive[channel]
+        })
     }
 
     /// What is seen through glass: the panes on the way, each once though it has two faces.
@@ -203,38 +216,60 @@ impl<'a> Shader<'a> {
                 continue;
             }
             pane = hit.instance;
-            let mut spot = self.spot(0, ray, &hit, &mut Some(met));
-            self.light_alone(ray, &hit, &mut spot);
-            for (sum, value) in colour.iter_mut().zip(self.colour(&spot)) {
-                *sum += value * left * spot.tint[3];
-            }
-            left *= 1.0 - spot.tint[3];
+            let patch = self.patch(0, ray, &hit, &mut Some(met));
+            let opacity = patch.tint[3];
+            add(&mut colour, self.alone(ray, &hit, &patch).map(|value| value * left * opacity));
+            left *= 1.0 - opacity;
             if left < 1.0 / 512.0 {
                 return colour;
             }
         }
-        for (sum, value) in colour.iter_mut().zip(self.background) {
-            *sum += value * left;
-        }
+        add(&mut colour, self.background.map(|value| value * left));
         colour
     }
 
-    /// All lights on one spot.
-    fn light_alone(&self, ray: &Ray, hit: &Hit, spot: &mut Spot<'_>) {
-        if !spot.look.is_lit {
-            return;
+    /// The colour of a single ray's surface under all lights.
+    fn alone(&self, ray: &Ray, hit: &Hit, patch: &Patch<'_>) -> [f32; 3] {
+        let mut colour = self.unlit(patch);
+        if !patch.look.is_lit {
+            return colour;
         }
+        let point = ray.at(hit.distance_m);
         for shine in &self.shines {
-            let Some(beam) = shine.beam(spot.point, spot.normal) else { continue };
-            let above = above(hit, spot.point);
-            let way = Ray { max_m: beam.distance_m, ..Ray::new(above, beam.to_light) };
+            let Some(beam) = shine.beam(point, patch.normal) else { continue };
+            let way = Ray { max_m: beam.distance_m, ..Ray::new(above(hit, point), beam.to_light) };
             let shadow = self.shadows && shine.casts_shadows;
             if shadow && self.surroundings.rays().occluded(&way, SHADOWS) {
                 continue;
             }
-            let Spot { look, normal, matt, highlights, .. } = spot;
-            shine.reflect(&beam, look, *normal, ray.direction, matt, highlights);
+            add(&mut colour, patch.matt(shine, &beam));
+            if patch.look.gleams() {
+                add(&mut colour, shine.gleam(&beam, patch.look, patch.normal, ray.direction));
+            }
         }
+        colour
+    }
+}
+
+impl Patch<'_> {
+    /// Whether `next` is the next pixel of the same face.
+    fn goes_on_with(&self, next: &Patch<'_>) -> bool {
+        self.pixels.end == next.pixels.start
+            && std::ptr::eq(self.look, next.look)
+            && self.normal == next.normal
+            && self.tint == next.tint
+    }
+
+    /// What it scatters of a light.
+    fn matt(&self, shine: &Shine, beam: &Beam) -> [f32; 3] {
+        let matt = shine.matt(beam, self.look, self.normal);
+        std::array::from_fn(|channel| matt[channel] * self.tint[channel])
+    }
+}
+
+fn add(sum: &mut [f32; 3], colour: [f32; 3]) {
+    for (sum, value) in sum.iter_mut().zip(colour) {
+        *sum += value;
     }
 }
 
