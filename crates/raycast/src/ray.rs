@@ -31,13 +31,17 @@ impl Ray {
 
     /// Whether there is anything to ask: finite numbers, some direction, a range. All others hit
     /// nothing.
+    #[inline]
     pub(crate) fn is_sound(&self) -> bool {
-        self.origin_m.is_finite()
-            && self.direction.is_finite()
-            && self.direction.length_squared() > 1e-30
-            && self.direction.length_squared() < 1e30
-            && self.origin_m.abs().max_element() < 1e15
-            && self.min_m.max(0.0) <= self.max_m
+        // No number is less or more than anything; without short cuts, as all are sound in practice.
+        let length_squared = self.direction.length_squared();
+        let near = |coordinate: f64| coordinate.abs() < 1e15;
+        near(self.origin_m.x)
+            & near(self.origin_m.y)
+            & near(self.origin_m.z)
+            & (length_squared > 1e-30)
+            & (length_squared < 1e30)
+            & (self.min_m.max(0.0) <= self.max_m)
     }
 }
 

@@ -59,7 +59,11 @@ impl Scratch {
 #[expect(clippy::cast_possible_truncation, reason = "rounded up when it was rounded down")]
 pub(super) fn single_above(distance: f64) -> f32 {
     let single = distance as f32;
-    if f64::from(single) < distance { single.next_up() } else { single }
+    // As `f32::next_up`, without its branches: a NaN is never less, and nothing is less than -0.0
+    // that rounds to it.
+    let bits = single.to_bits();
+    let above = if single < 0.0 { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
+    f32::from_bits(if f64::from(single) < distance { above } else { bits })
 }
 
 /// `normal` points outwards.
@@ -374,6 +378,18 @@ mod tests {
     use crate::simd::without_vectors;
     use crate::{Filter, Ray, Tags, World};
 
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "that is what is asked")]
+    fn no_single_lies_below_what_it_stands_for() {
+        let some = [0.0, -0.0, 1e-50, -1e-50, 0.1, -0.1, 1.0, 16_777_217.0, 1e300, -1e300];
+        for distance in some.into_iter().chain([f64::INFINITY, f64::NEG_INFINITY]) {
+            let nearest = distance as f32;
+            let low = f64::from(nearest) < distance;
+            let wanted = if low { nearest.next_up() } else { nearest };
+            assert_eq!(super::single_above(distance).to_bits(), wanted.to_bits(), "{distance}");
+        }
+        assert!(super::single_above(f64::NAN).is_nan());
+    }
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(32))]
 

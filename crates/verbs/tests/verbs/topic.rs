@@ -488,7 +488,7 @@ fn a_large_cloud_is_shown_at_once() {
     let text = echo(&bench, "/points", &once(), || publisher.publish_shared(&cloud));
     assert_eq!(text.lines().filter(|line| *line == "- 7").count(), 128);
     assert!(text.lines().count() < 160, "{}", text.lines().count());
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(15), "{:?}", start.elapsed());
 }
 
 #[test]
