@@ -22,6 +22,7 @@ mod runs;
 mod step;
 #[cfg(test)]
 mod tidy;
+mod wire;
 
 use std::process::ExitCode;
 
@@ -61,8 +62,11 @@ enum Task {
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
     Bench {
-        /// Only this: `loading`; or `costmap`, `physics`, `rays` or `sim` (which need nothing of `corpus`)
+        /// Only this: `loading`; or one of the others, which need nothing of `corpus`
         only: Option<Contest>,
+        /// Of `wire`: only loads whose names have this; the results are only shown then
+        #[arg(long)]
+        load: Option<String>,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
     Codegen {
@@ -98,6 +102,8 @@ enum Contest {
     Rays,
     /// Whole runs of `periplus sim`
     Sim,
+    /// Messages to and from Fast DDS and Cyclone DDS
+    Wire,
 }
 
 fn main() -> ExitCode {
@@ -120,13 +126,14 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
-        Task::Bench { only } => match only {
+        Task::Bench { only, load } => match only {
             Some(Contest::Bags) => bags::bench(),
             Some(Contest::Costmap) => costmap::bench(),
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Physics) => physics::bench(),
             Some(Contest::Rays) => rays::bench(),
             Some(Contest::Sim) => runs::bench(),
+            Some(Contest::Wire) => wire::bench(load.as_deref()),
             None => corpus::bench()
                 .and_then(|()| physics::bench())
                 .and_then(|()| rays::bench())

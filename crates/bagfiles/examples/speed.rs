@@ -67,6 +67,8 @@ fn measure(folder: &Path, bytes: u64) -> Outcome<()> {
 
 fn run(name: &str, from: &Path, to: &Path, write: WriteSettings, bytes: u64) -> Outcome<()> {
     let start = Start::now();
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let write = WriteSettings { threads, ..write };
     let conversion = Conversion { selection: Selection::default(), write };
     let report = convert(&[Bag::open(from)?], to, conversion, &mut |_| {})?;
     assert!(report.findings.is_empty(), "{:?}", report.findings);

@@ -20,22 +20,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     let _ = TypeRegistry::builtin().schema_text(Odometry::TYPE_NAME);
     let small = odometry(100_000)?;
     let large = clouds(30);
-    for is_threaded in [false, true] {
+    for threads in [0, 1, 2] {
         for compression in [Compression::None, Compression::Lz4, Compression::Zstd] {
-            let name = format!("{compression:?}{}", if is_threaded { ", thread" } else { "" });
+            let name = format!("{compression:?}, {threads} threads");
             measure::<Odometry>(
                 &format!("odometry 1 kHz, {name}"),
                 &small,
                 1_000_000,
                 compression,
-                is_threaded,
+                threads,
             )?;
             measure::<PointCloud2>(
                 &format!("clouds 9.8 MB, {name}"),
                 &large,
                 100_000_000,
                 compression,
-                is_threaded,
+                threads,
             )?;
         }
     }
@@ -92,10 +92,10 @@ fn measure<T: Message>(
     messages: &[Vec<u8>],
     period_ns: i64,
     compression: Compression,
-    is_threaded: bool,
+    threads: usize,
 ) -> Result<(), Box<dyn Error>> {
     let bytes: usize = messages.iter().map(Vec::len).sum();
-    let settings = Settings { compression, is_threaded, ..Settings::new("speed.mcap") };
+    let settings = Settings { compression, threads, ..Settings::new("speed.mcap") };
     let (cpu, wall) = (cpu_s(), Instant::now());
     let mut bag = Writer::new(Vec::with_capacity(bytes * 2), settings)?;
     let topic = bag.topic(Topic::of::<T>("/topic", &[]))?;

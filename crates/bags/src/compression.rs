@@ -41,7 +41,6 @@ impl Compression {
 pub(crate) struct Packer {
     compression: Compression,
     zstd: Option<zstd::bulk::Compressor<'static>>,
-    packed: Vec<u8>,
 }
 
 impl Packer {
@@ -50,28 +49,32 @@ impl Packer {
             Compression::Zstd => Some(zstd::bulk::Compressor::new(ZSTD_LEVEL)?),
             _ => None,
         };
-        Ok(Self { compression, zstd, packed: Vec::new() })
+        Ok(Self { compression, zstd })
     }
 
-    pub(crate) fn pack<'a>(&'a mut self, bytes: &'a [u8]) -> io::Result<&'a [u8]> {
-        self.packed.clear();
-        match (self.compression, &mut self.zstd) {
-            (Compression::None, _) => return Ok(bytes),
-            (Compression::Lz4, _) => {
+    /// Packs bytes into memory that is used again; into nothing where they stay as they are.
+    pub(crate) fn pack(&mut self, bytes: &[u8], packed: &mut Option<Vec<u8>>) -> io::Result<()> {
+        if self.compression == Compression::None {
+            *packed = None;
+            return Ok(());
+        }
+        let packed = packed.get_or_insert_default();
+        packed.clear();
+        match &mut self.zstd {
+            Some(zstd) => {
+                packed.reserve(zstd::zstd_safe::compress_bound(bytes.len()));
+                zstd.compress_to_buffer(bytes, packed)?;
+            }
+            None => {
                 let blocks = FrameInfo::new()
                     .block_size(BlockSize::Max4MB)
                     .content_size(Some(bytes.len() as u64));
-                let mut encoder = FrameEncoder::with_frame_info(blocks, &mut self.packed);
+                let mut encoder = FrameEncoder::with_frame_info(blocks, packed);
                 encoder.write_all(bytes)?;
                 encoder.finish()?;
             }
-            (Compression::Zstd, Some(zstd)) => {
-                self.packed.reserve(zstd::zstd_safe::compress_bound(bytes.len()));
-                zstd.compress_to_buffer(bytes, &mut self.packed)?;
-            }
-            (Compression::Zstd, None) => {}
         }
-        Ok(&self.packed)
+        Ok(())
     }
 }
 
@@ -121,8 +124,13 @@ mod tests {
         let bytes: Vec<u8> = (0..100_000_u32).map(|i| (i / 7 % 251) as u8).collect();
         for compression in [Compression::None, Compression::Lz4, Compression::Zstd] {
             let mut packer = Packer::new(compression).unwrap();
-            let first = packer.pack(&bytes).unwrap().to_vec();
-            assert_eq!(packer.pack(&bytes).unwrap(), first, "the same again");
+            let mut pack = || {
+                let mut packed = None;
+                packer.pack(&bytes, &mut packed).unwrap();
+                packed.unwrap_or_else(|| bytes.clone())
+            };
+            let first = pack();
+            assert_eq!(pack(), first, "the same again");
             assert_eq!(unpack(compression, &first, 100_000).unwrap(), bytes);
             assert!(unpack(compression, &first, 99_999).is_err(), "too long");
             assert!(unpack(compression, &first, 100_001).is_err(), "too short");

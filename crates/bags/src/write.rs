@@ -6,6 +6,7 @@
 //! first chunk that uses them, outside of it: a damaged chunk takes only its own messages with it.
 
 mod chunk;
+mod line;
 mod sealer;
 mod topics;
 
@@ -13,7 +14,8 @@ use std::fmt;
 use std::io::{self, Write};
 
 use chunk::Chunk;
-use sealer::{Line, Sealer};
+use line::Line;
+use sealer::Sealer;
 use topics::Topics;
 
 pub use topics::{Topic, TopicId};
@@ -34,14 +36,15 @@ pub struct Settings {
     pub chunk_span_ns: u64,
     /// A chunk is closed when it holds this many bytes, before they are packed.
     pub chunk_bytes: usize,
-    /// Whether chunks are packed and written by a thread of their own. The bytes are the same.
-    pub is_threaded: bool,
+    /// How many threads pack chunks, beside one that writes them; with none all is done by who calls.
+    /// The bytes are the same. Each thread holds up to four chunks.
+    pub threads: usize,
     /// The name of the ROS distribution whose messages these are; may be empty.
     pub ros_distro: String,
 }
 
 impl Settings {
-    /// Chunks of a second or 4 MiB, packed, by a thread of their own.
+    /// Chunks of a second or 4 MiB, packed by a thread of their own.
     #[must_use]
     pub fn new(file_name: impl Into<String>) -> Self {
         Self {
@@ -50,7 +53,7 @@ impl Settings {
             style: Style::default(),
             chunk_span_ns: 1_000_000_000,
             chunk_bytes: 4 << 20,
-            is_threaded: true,
+            threads: 1,
             ros_distro: String::new(),
         }
     }
@@ -139,7 +142,7 @@ impl<W: Write + Send + 'static> Writer<W> {
     /// When the sink does not take its first bytes.
     pub fn new(sink: W, settings: Settings) -> Result<Self, WriteError> {
         let sealer = Sealer::new(sink, &settings)?;
-        let line = Line::new(sealer, settings.is_threaded);
+        let line = Line::new(sealer, &settings)?;
         Ok(Self { settings, topics: Topics::default(), chunk: Chunk::default(), line })
     }
 

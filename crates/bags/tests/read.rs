@@ -32,7 +32,7 @@ fn read(bytes: &[u8]) -> Vec<Row> {
 
 /// Forty numbers on two topics, a tenth of a second apart, each pair in the wrong order.
 fn numbers(compression: Compression) -> (Vec<u8>, Vec<Row>) {
-    let settings = Settings { compression, is_threaded: false, ..Settings::new("n.mcap") };
+    let settings = Settings { compression, threads: 0, ..Settings::new("n.mcap") };
     let mut bag = Writer::new(Vec::new(), settings).unwrap();
     let names = ["/even", "/odd"];
     let topics = names.map(|name| bag.topic(Topic::of::<UInt32>(name, &[QosProfile::latched(1)])));
@@ -198,7 +198,7 @@ fn a_cut_file_is_made_whole() {
     // Behind the first chunk, in the middle of the second.
     let cut = &bytes[..find_record(&bytes, 0x07) + 250];
     let mut reader = Reader::open(Cursor::new(cut)).unwrap();
-    let settings = Settings { is_threaded: false, ..Settings::new("repaired.mcap") };
+    let settings = Settings { threads: 0, ..Settings::new("repaired.mcap") };
     let (repaired, info) = repair(&mut reader, Vec::new(), settings).unwrap();
     assert_eq!(periplus_bags::check(&repaired), []);
     assert_eq!(read(&repaired), read(cut));

@@ -10,7 +10,7 @@ use periplus_msgs::std_msgs::String as Text;
 use periplus_msgs::{Message, TypeRegistry};
 
 fn settings(compression: Compression) -> Settings {
-    Settings { compression, is_threaded: false, ..Settings::new("run.mcap") }
+    Settings { compression, threads: 0, ..Settings::new("run.mcap") }
 }
 
 /// Three topics for `seconds`: a clock at 100 Hz, a velocity at 10 Hz, one text at the start.
@@ -58,11 +58,13 @@ fn an_empty_bag_is_a_bag() {
 }
 
 #[test]
-fn a_thread_changes_no_byte() {
+fn threads_change_no_byte() {
     for compression in [Compression::None, Compression::Lz4, Compression::Zstd] {
         let straight = drive(settings(compression), 5);
-        let threaded = drive(Settings { is_threaded: true, ..settings(compression) }, 5);
-        assert!(straight == threaded, "{compression:?}");
+        for threads in [1, 3] {
+            let threaded = drive(Settings { threads, ..settings(compression) }, 5);
+            assert!(straight == threaded, "{compression:?}, {threads}");
+        }
     }
 }
 
@@ -171,8 +173,8 @@ impl std::io::Write for Full {
 
 #[test]
 fn a_full_disk_is_told_and_nothing_hangs() {
-    for is_threaded in [false, true] {
-        let settings = Settings { is_threaded, ..settings(Compression::None) };
+    for threads in [0, 1, 3] {
+        let settings = Settings { threads, ..settings(Compression::None) };
         let mut bag = Writer::new(Full(20_000), settings).unwrap();
         let topic = bag.topic(Topic::of::<Clock>("/clock", &[])).unwrap();
         let mut told = 0;

@@ -5,6 +5,7 @@ mod convert;
 mod info;
 mod live;
 mod options;
+mod outputs;
 mod play;
 mod progress;
 mod record;

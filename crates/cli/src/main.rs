@@ -13,6 +13,7 @@ mod terminal;
 mod verbs;
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser as _};
@@ -26,6 +27,23 @@ fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Options::command(), "periplus", &mut script);
     std::io::stdout().lock().write_all(&script)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The manual page of the command, or those of all its commands in a folder.
+fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
+    let mut command = Options::command();
+    command.build();
+    if let Some(folder) = folder {
+        if let Err(error) = clap_mangen::generate_to(command, folder) {
+            terminal::complain(&format!("cannot write to {}: {error}", folder.display()));
+            return Ok(ExitCode::FAILURE);
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut page = Vec::new();
+    clap_mangen::Man::new(command).render(&mut page)?;
+    std::io::stdout().lock().write_all(&page)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -57,6 +75,7 @@ fn main() -> ExitCode {
         Command::Tf(options) => options.run(),
         Command::Topic(options) => options.run(),
         Command::Completions { shell } => completions(shell),
+        Command::Man { folder } => manual(folder.as_deref()),
     };
     match outcome {
         Ok(code) => code,

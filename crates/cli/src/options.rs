@@ -47,6 +47,11 @@ pub(crate) enum Command {
         /// Which shell
         shell: clap_complete::Shell,
     },
+    /// Print the manual page, or write one for every command into a folder
+    Man {
+        /// The folder, such as /usr/local/share/man/man1
+        folder: Option<PathBuf>,
+    },
     Teleop(TeleopOptions),
     #[command(subcommand)]
     Map(MapCommand),

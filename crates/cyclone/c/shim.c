@@ -13,10 +13,12 @@
 #include "dds/ddsi/ddsi_thread.h"
 #include "dds/ddsrt/heap.h"
 #include "dds/ddsrt/log.h"
+#include "dds/ddsrt/sync.h"
 #include "dds__entity.h"
 #include "dds__guid.h"
 #include "dds__types.h"
 #include "dds__writer.h"
+#include "ddsi__whc.h"
 
 #include "blob.h"
 
@@ -133,8 +135,18 @@ int32_t pp_guid(int32_t entity, uint8_t *out) {
   return code;
 }
 
+/* Whether a sample would go without waiting: what `write_sample` of Cyclone's `ddsi_transmit.c` asks. */
+static bool has_room(struct ddsi_writer *writer) {
+  struct ddsi_whc_state state;
+  ddsrt_mutex_lock(&writer->e.lock);
+  ddsi_whc_get_state(writer->whc, &state);
+  const bool has = state.unacked_bytes <= writer->whc_high;
+  ddsrt_mutex_unlock(&writer->e.lock);
+  return has;
+}
+
 int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
-                 const struct pp_identity *related, int64_t *sequence) {
+                 const struct pp_identity *related, int32_t waits, int64_t *sequence) {
   dds_entity *entity;
   dds_return_t code = dds_entity_pin(writer, &entity);
   if (code >= 0 && dds_entity_kind(entity) != DDS_KIND_WRITER) {
@@ -146,6 +158,11 @@ int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
     return code;
   }
   const struct dds_writer *own = (const struct dds_writer *)entity;
+  if (!waits && !has_room(own->m_wr)) {
+    dds_entity_unpin(entity);
+    pp_hooks.owner_free(owner);
+    return DDS_RETCODE_TIMEOUT;
+  }
   struct pp_blob *blob = pp_blob_new(own->m_wr->type, SDK_DATA);
   blob->bytes = (uint8_t *)bytes;
   blob->size = size;

@@ -77,9 +77,10 @@ int32_t pp_reader(int32_t participant, int32_t topic, const struct pp_qos *qos,
 int32_t pp_delete(int32_t entity);
 int32_t pp_guid(int32_t entity, uint8_t *guid);
 
-/* Takes `owner`, which keeps `bytes` alive, in all cases. */
+/* Takes `owner`, which keeps `bytes` alive, in all cases. Unless `waits`, a writer without room is a
+   timeout at once. */
 int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
-                 const struct pp_identity *related, int64_t *sequence);
+                 const struct pp_identity *related, int32_t waits, int64_t *sequence);
 int32_t pp_take(int32_t reader, struct pp_sample *sample);
 int32_t pp_assert_liveliness(int32_t writer);
 int32_t pp_wait_acknowledged(int32_t writer, int64_t timeout_ns);

@@ -97,6 +97,7 @@ unsafe extern "C" {
         size: usize,
         owner: *mut c_void,
         related: *const Identity,
+        waits: i32,
         sequence: *mut i64,
     ) -> i32;
     pub(crate) fn pp_take(reader: i32, sample: *mut Sample) -> i32;

@@ -43,6 +43,18 @@ impl Writer {
     /// # Errors
     /// When it has waited too long, or the bytes are no sample.
     pub fn write(&self, bytes: impl Bytes, related: Option<Identity>) -> Result<i64, Error> {
+        self.put(bytes, related, true)
+    }
+
+    /// Writes a sample as [`Writer::write`], but never waits for slow readers.
+    ///
+    /// # Errors
+    /// When there is no room for it, which is a timeout; as [`Writer::write`].
+    pub fn write_at_once(&self, bytes: impl Bytes) -> Result<i64, Error> {
+        self.put(bytes, None, false)
+    }
+
+    fn put(&self, bytes: impl Bytes, related: Option<Identity>, waits: bool) -> Result<i64, Error> {
         let owner: ffi::Owner = Box::new(bytes);
         let what = || "to write a sample".to_owned();
         let size = owner.bytes().len();
@@ -66,6 +78,7 @@ impl Writer {
                 size.min(bytes.len()),
                 owner.cast(),
                 related,
+                waits.into(),
                 &raw mut sequence,
             )
         };

@@ -106,7 +106,7 @@ impl Graph {
     pub fn tap(&self, sink: Box<dyn Sink>) -> TapId {
         let is_live = self.is_live();
         let tap = lock(&self.0.registry).add_tap(sink, is_live, &self.0.common);
-        if is_live {
+        if tap.has_thread() {
             let (tap, common) = (tap.clone(), self.0.common.clone());
             live::spawn("tap", move || tap.feed(&common));
         }

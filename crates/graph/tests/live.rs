@@ -137,6 +137,31 @@ fn a_slow_tap_loses_the_oldest_and_says_so() {
 }
 
 #[test]
+fn a_quick_tap_is_fed_by_who_publishes() {
+    struct Quick(Sender<(u64, std::thread::ThreadId)>);
+    impl Sink for Quick {
+        fn wants(&self, topic: &TopicInfo) -> bool {
+            topic.name == "/x"
+        }
+        fn is_quick(&self) -> bool {
+            true
+        }
+        fn take(&self, _: &TopicInfo, sample: &Sample) {
+            self.0.send((sample.sequence, std::thread::current().id())).unwrap();
+        }
+    }
+    let graph = Graph::live();
+    let (taken, takes) = channel();
+    graph.tap(Box::new(Quick(taken)));
+    let node = graph.node(NodeSettings::new("a")).unwrap();
+    let x = node.publisher::<Int32>("x", Qos::reliable(1)).unwrap();
+    for sequence in 1..4 {
+        x.publish(number(7));
+        assert_eq!(takes.try_recv(), Ok((sequence, std::thread::current().id())));
+    }
+}
+
+#[test]
 fn a_node_that_panics_is_reported_and_the_others_go_on() {
     let graph = Graph::live();
     let node = graph.node(NodeSettings::new("source")).unwrap();

@@ -71,6 +71,27 @@ impl Listener {
     }
 }
 
+/// Waits until at least one of the topics is published; gives those that are not yet, and says so.
+/// All are waited for as long as one is at first.
+pub(crate) fn await_any(session: &mut Session<'_>, topics: &[String]) -> Outcome<Vec<String>> {
+    let is_there = |seen: &Seen, name: &String| is_published(seen, &full_name(name));
+    if !session.wait(Some(PATIENCE), |seen| topics.iter().all(|name| is_there(seen, name)))? {
+        let seen = session.network.seen();
+        for name in topics.iter().filter(|name| !is_there(&seen, name)) {
+            let name = full_name(name);
+            session.say(&format!("WARNING: topic [{name}] does not appear to be published yet"));
+        }
+        session.wait(None, |seen| topics.iter().any(|name| is_there(seen, name)))?;
+    }
+    let seen = session.network.seen();
+    Ok(topics.iter().filter(|name| !is_there(&seen, name)).cloned().collect())
+}
+
+/// Whether somebody publishes the topic of this full name.
+pub(crate) fn is_published(seen: &Seen, topic: &str) -> bool {
+    seen.topic(topic).is_some_and(|topic| !topic.publishers.is_empty())
+}
+
 /// Waits until somebody publishes the topic.
 fn await_topic(
     session: &mut Session<'_>,
@@ -78,8 +99,7 @@ fn await_topic(
     is_typed: bool,
     is_impatient: bool,
 ) -> Outcome<SeenTopic> {
-    let is_published =
-        |seen: &Seen| seen.topic(topic).is_some_and(|topic| !topic.publishers.is_empty());
+    let is_published = |seen: &Seen| is_published(seen, topic);
     let is_known = |seen: &Seen| seen.topic(topic).is_some();
     if !session.wait(Some(PATIENCE), is_published)? {
         session.say(&format!("WARNING: topic [{topic}] does not appear to be published yet"));
@@ -150,13 +170,13 @@ pub(crate) enum Next {
 }
 
 /// Hears topics until `hear` has enough or it is told to stop. `hear` gets the place of the listener
-/// and the time since the start; `tick` is called between.
+/// and the time since the start; `tick` is called between, and may add listeners.
 pub(crate) fn hear(
     session: &mut Session<'_>,
-    listeners: &mut [Listener],
+    listeners: &mut Vec<Listener>,
     pause: Duration,
     mut hear: impl FnMut(&mut Session<'_>, usize, &Sample, Duration) -> Outcome<Next>,
-    mut tick: impl FnMut(&mut Session<'_>, &mut [Listener], Duration) -> Outcome<Next>,
+    mut tick: impl FnMut(&mut Session<'_>, &mut Vec<Listener>, Duration) -> Outcome<Next>,
 ) -> Outcome {
     let clock = Stopwatch::start();
     loop {

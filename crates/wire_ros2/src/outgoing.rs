@@ -1,5 +1,5 @@
-//! What waits to be sent. Whoever publishes only puts it here; threads of the wire send it, so that
-//! a slow or dead peer holds up nobody.
+//! What waits to be sent. A small sample is sent by whoever publishes it, if it can go at once; others
+//! are only put here, and threads of the wire send them, so that a slow or dead peer holds up nobody.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,6 +14,9 @@ use crate::lock;
 
 /// Samples above this go a way of their own, so that small ones need not wait for them \[bytes\].
 const LARGE: usize = 64 << 10;
+
+/// Samples up to this are sent at once: to wake a thread for one costs more than to send it \[bytes\].
+const SMALL: usize = 8 << 10;
 
 /// How long a writer without room is let alone.
 const PAUSE: Duration = Duration::from_millis(2);
@@ -88,8 +91,15 @@ impl Outgoing {
         self.largest.load(Ordering::Relaxed)
     }
 
-    /// Puts a sample to be sent. When too many wait, the oldest goes.
+    /// Sends a sample, or puts it to be sent. When too many wait, the oldest goes.
     pub(crate) fn push(self: &Arc<Self>, parcel: Parcel) {
+        // Its size is known only when it is encoded; that of those before it has to do.
+        let is_small = (1..=SMALL).contains(&self.largest());
+        let pace = match &parcel {
+            Parcel::Sample(_) if is_small => Pace::AtOnce,
+            _ if self.largest() > LARGE => Pace::Bulk,
+            _ => Pace::Normal,
+        };
         let mut queue = lock(&self.queue);
         if queue.parcels.len() == self.depth {
             queue.parcels.pop_front();
@@ -98,14 +108,24 @@ impl Outgoing {
             self.lanes.waiting.fetch_add(1, Ordering::Relaxed);
         }
         queue.parcels.push_back(parcel);
-        if !std::mem::replace(&mut queue.is_scheduled, true) {
-            drop(queue);
-            self.lanes.schedule(self.clone(), self.largest() > LARGE);
+        // Who comes while one is sent waits behind it: they stay in order.
+        if std::mem::replace(&mut queue.is_scheduled, true) {
+            return;
+        }
+        drop(queue);
+        match pace {
+            Pace::AtOnce => match self.send(Pace::AtOnce) {
+                Next::Done => {}
+                Next::Again | Next::Later => self.lanes.schedule(self.clone(), false),
+                Next::Bulk => self.lanes.schedule(self.clone(), true),
+            },
+            Pace::Normal => self.lanes.schedule(self.clone(), false),
+            Pace::Bulk => self.lanes.schedule(self.clone(), true),
         }
     }
 
     /// Sends the oldest sample that waits, and says how it went on.
-    fn send(self: &Arc<Self>, is_bulk: bool) -> Next {
+    fn send(self: &Arc<Self>, pace: Pace) -> Next {
         let Some(parcel) = lock(&self.queue).parcels.pop_front() else { return Next::Done };
         let sample = match parcel {
             Parcel::Bytes(bytes, related) => {
@@ -120,12 +140,21 @@ impl Outgoing {
             // Its publisher made what its type does not allow.
             Err(_) => return self.sent(0, None, None),
         };
-        if size > LARGE && !is_bulk {
+        let most = match pace {
+            Pace::AtOnce => SMALL,
+            Pace::Normal => LARGE,
+            Pace::Bulk => usize::MAX,
+        };
+        if size > most {
             self.largest.fetch_max(size, Ordering::Relaxed);
             lock(&self.queue).parcels.push_front(Parcel::Sample(sample));
-            return Next::Bulk;
+            return if size > LARGE { Next::Bulk } else { Next::Again };
         }
-        let result = self.writer.write(Held(sample.clone()), None);
+        let held = Held(sample.clone());
+        let result = match pace {
+            Pace::AtOnce => self.writer.write_at_once(held),
+            Pace::Normal | Pace::Bulk => self.writer.write(held, None),
+        };
         self.sent(size, result.map(drop).err(), Some(sample))
     }
 
@@ -170,6 +199,17 @@ impl Drop for Outgoing {
         let left = lock(&self.queue).parcels.len();
         self.lanes.waiting.fetch_sub(left, Ordering::Relaxed);
     }
+}
+
+/// How a sample is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    /// By whoever publishes it, without waiting for anything.
+    AtOnce,
+    /// By the thread for small ones.
+    Normal,
+    /// By the thread for large ones.
+    Bulk,
 }
 
 /// What is to happen with a writer next.
@@ -257,7 +297,7 @@ impl Lanes {
             let next = ready.pop_front();
             drop(ready);
             let Some(writer) = next else { continue };
-            match writer.send(is_bulk) {
+            match writer.send(if is_bulk { Pace::Bulk } else { Pace::Normal }) {
                 Next::Done => {}
                 Next::Again => self.schedule(writer, is_bulk),
                 Next::Bulk => self.schedule(writer, true),

@@ -158,10 +158,6 @@ impl Peers {
         both.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    pub(crate) fn has_participant(&self, guid: Guid) -> bool {
-        self.participants.contains_key(&guid)
-    }
-
     /// All as plain data.
     pub(crate) fn view(&self) -> Remote {
         let mut remote = Remote::default();

@@ -426,6 +426,40 @@ fn we_call_their_services() {
 }
 
 #[test]
+fn what_two_vendors_serve_is_asked_of_one_in_its_own_way() {
+    if peers().len() < 2 {
+        return;
+    }
+    let ours = join(94, true);
+    let mut servers: Vec<_> = [(Peer::Cyclone, "from cyclone"), (Peer::Fast, "from fast")]
+        .into_iter()
+        .map(|(peer, says)| (peer.start(94, true, &["serve", "/theirs", "1000"]), says))
+        .collect();
+    let client = ours.node.client::<Trigger>("/theirs").unwrap();
+    // Time for both to be there before anybody is asked.
+    wait("a server", || client.is_ready().then_some(()));
+    std::thread::sleep(Duration::from_secs(2));
+    let ask = || {
+        wait("a server", || client.is_ready().then_some(()));
+        let pending = client.call(TriggerRequest::default());
+        wait("the answer, or that none will come", || pending.take())
+    };
+    let first = ask().unwrap().message.clone();
+    for _ in 0..5 {
+        assert_eq!(ask().unwrap().message, first);
+    }
+    // The one that answers is killed; when that is known, the other takes over.
+    servers.retain(|(_, says)| *says != first);
+    assert_eq!(servers.len(), 1);
+    let second = loop {
+        if let Ok(answer) = ask() {
+            break answer.message.clone();
+        }
+    };
+    assert_eq!(second, servers[0].1);
+}
+
+#[test]
 fn a_killed_peer_may_come_again() {
     for (at, peer) in peers() {
         let domain_id = 91 + at;

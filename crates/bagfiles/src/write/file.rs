@@ -62,6 +62,7 @@ impl FileWriter {
                 let settings = Settings {
                     compression,
                     style: settings.style,
+                    threads: settings.threads.max(1),
                     ros_distro: settings.ros_distro.clone(),
                     ..Settings::new(name)
                 };

@@ -167,6 +167,8 @@ pub struct WriteSettings {
     pub max_span_ns: Option<i64>,
     /// For which readers the metadata is written.
     pub style: Style,
+    /// How many threads pack the chunks of MCAP; the bytes are the same.
+    pub threads: usize,
     /// The name of the ROS distribution; may be empty.
     pub ros_distro: String,
     /// Whether it must survive the end of the program at any time: what is recorded, in contrast to
@@ -187,6 +189,7 @@ impl WriteSettings {
             max_bytes: None,
             max_span_ns: None,
             style: Style::default(),
+            threads: 1,
             ros_distro: String::new(),
             is_live: false,
         }

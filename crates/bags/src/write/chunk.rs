@@ -1,5 +1,8 @@
 //! The messages of about a second.
 
+use std::io;
+
+use crate::compression::Packer;
 use crate::record::MessageHead;
 
 /// Messages that are packed together.
@@ -13,6 +16,10 @@ pub(super) struct Chunk {
     pub(super) span: Option<(u64, u64)>,
     /// By channel: times, and where in `records` the message begins.
     pub(super) indexes: Vec<Vec<(u64, u64)>>,
+    /// The records when they are packed; none where they stay as they are.
+    pub(super) packed: Option<Vec<u8>>,
+    /// Sum of the records, once [`Chunk::pack`] has been called.
+    pub(super) crc: u32,
 }
 
 impl Chunk {
@@ -34,6 +41,12 @@ impl Chunk {
         head.put(data, &mut self.records);
         let (start, end) = self.span.unwrap_or((head.log_time, head.log_time));
         self.span = Some((start.min(head.log_time), end.max(head.log_time)));
+    }
+
+    /// What takes time before a chunk can be written.
+    pub(super) fn pack(&mut self, packer: &mut Packer) -> io::Result<()> {
+        self.crc = crc32fast::hash(&self.records);
+        packer.pack(&self.records, &mut self.packed)
     }
 
     /// Empty again, with the memory that it has.

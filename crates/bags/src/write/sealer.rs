@@ -1,14 +1,11 @@
-//! Packs chunks, writes them, and remembers where they are.
+//! Writes packed chunks, and remembers where they are.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
-use std::thread::JoinHandle;
 
 use super::Settings;
 use super::chunk::Chunk;
 use super::topics::Topics;
-use crate::compression::Packer;
 use crate::record::{
     ChunkHead, ChunkIndex, Footer, MAGIC, PREFIX, Statistics, begin, end, op, put_message_index,
     put_metadata, put_metadata_index, put_summary_offset, put_text,
@@ -37,7 +34,6 @@ impl<W: Write> Counter<W> {
 /// Everything behind the open chunk.
 pub(super) struct Sealer<W> {
     out: Counter<W>,
-    packer: Packer,
     compression: Compression,
     chunks: Vec<ChunkIndex>,
     /// Offset and length of the metadata records.
@@ -56,7 +52,6 @@ impl<W: Write> Sealer<W> {
         end(&mut head, start, 0);
         let mut sealer = Self {
             out,
-            packer: Packer::new(settings.compression)?,
             compression: settings.compression,
             chunks: Vec::new(),
             metadata: Vec::new(),
@@ -78,7 +73,7 @@ impl<W: Write> Sealer<W> {
         self.out.put(&self.scratch)
     }
 
-    /// Writes a chunk with what stands in front of it and its index, and flushes.
+    /// Writes a packed chunk with what stands in front of it and its index, and flushes.
     pub(super) fn seal(&mut self, chunk: &Chunk) -> io::Result<()> {
         self.out.put(&chunk.preamble)?;
         if let Some((start, end)) = chunk.span {
@@ -88,12 +83,12 @@ impl<W: Write> Sealer<W> {
     }
 
     fn put_chunk(&mut self, chunk: &Chunk, start: u64, end: u64) -> io::Result<()> {
-        let packed = self.packer.pack(&chunk.records)?;
+        let packed = chunk.packed.as_ref().unwrap_or(&chunk.records);
         let head = ChunkHead {
             start,
             end,
             length: chunk.records.len() as u64,
-            crc: crc32fast::hash(&chunk.records),
+            crc: chunk.crc,
             compression: self.compression.name().into(),
             packed: packed.len() as u64,
         };
@@ -213,79 +208,4 @@ impl<W: Write> Sealer<W> {
         out.extend(MAGIC);
         out
     }
-}
-
-/// The way to the sealer: straight, or by a thread.
-pub(super) enum Line<W> {
-    Straight(Sealer<W>),
-    Threaded(Thread<W>),
-    /// The thread ended early; its error was told.
-    Broken,
-}
-
-pub(super) struct Thread<W> {
-    full: SyncSender<Chunk>,
-    empty: Receiver<Chunk>,
-    thread: JoinHandle<io::Result<Sealer<W>>>,
-}
-
-/// How many closed chunks may wait for the thread; then the writer waits.
-const MOST_WAITING: usize = 2;
-
-impl<W: Write + Send + 'static> Line<W> {
-    pub(super) fn new(mut sealer: Sealer<W>, is_threaded: bool) -> Self {
-        if !is_threaded {
-            return Self::Straight(sealer);
-        }
-        let (full, waiting) = sync_channel::<Chunk>(MOST_WAITING);
-        let (done, empty) = channel();
-        let thread = std::thread::spawn(move || {
-            for mut chunk in waiting {
-                sealer.seal(&chunk)?;
-                chunk.clear();
-                // Its memory is used again; when nobody wants it, the writer is gone.
-                let _ = done.send(chunk);
-            }
-            Ok(sealer)
-        });
-        Self::Threaded(Thread { full, empty, thread })
-    }
-
-    /// Seals a chunk and leaves an empty one.
-    pub(super) fn seal(&mut self, chunk: &mut Chunk) -> io::Result<()> {
-        match self {
-            Self::Straight(sealer) => {
-                let result = sealer.seal(chunk);
-                chunk.clear();
-                if result.is_err() {
-                    *self = Self::Broken;
-                }
-                result
-            }
-            Self::Threaded(line) => {
-                let next = line.empty.try_recv().unwrap_or_default();
-                match line.full.send(std::mem::replace(chunk, next)) {
-                    Ok(()) => Ok(()),
-                    Err(_) => std::mem::replace(self, Self::Broken).finish().map(|_| ()),
-                }
-            }
-            Self::Broken => Err(broken()),
-        }
-    }
-
-    /// Waits until all is written.
-    pub(super) fn finish(self) -> io::Result<Sealer<W>> {
-        match self {
-            Self::Straight(sealer) => Ok(sealer),
-            Self::Threaded(Thread { full, thread, .. }) => {
-                drop(full);
-                thread.join().unwrap_or_else(|_| Err(broken()))
-            }
-            Self::Broken => Err(broken()),
-        }
-    }
-}
-
-fn broken() -> io::Error {
-    io::Error::other("an earlier part of it could not be written")
 }

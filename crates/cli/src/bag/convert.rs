@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use periplus_bagfiles::{Bag, Conversion, Kind, Storage, WriteSettings, convert};
 
 use super::options::{ConvertOptions, CutOptions, SelectOptions};
+use super::outputs;
 use super::progress::Line;
 use crate::terminal;
 
@@ -19,8 +20,23 @@ pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
             None => return Ok(ExitCode::FAILURE),
         }
     }
-    let settings = options.write.settings(&options.output, Storage::Mcap);
-    write(&bags, &options.output, &options.select, settings)
+    if !outputs::is_one(&options.output) {
+        let settings = options.write.settings(&options.output, Storage::Mcap);
+        return write(&bags, &options.output, &options.select, settings);
+    }
+    let (wanted, findings, sources) = outputs::read(&options.output)?;
+    terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
+    if findings.has_errors() {
+        return Ok(ExitCode::FAILURE);
+    }
+    for one in wanted {
+        let settings = one.write.settings(&one.output, Storage::Mcap);
+        let code = write(&bags, &one.output, &one.select, settings)?;
+        if code != ExitCode::SUCCESS {
+            return Ok(code);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 pub(super) fn cut(options: &CutOptions) -> io::Result<ExitCode> {
@@ -50,6 +66,9 @@ fn write(
         return Ok(ExitCode::from(2));
     }
     let selection = select.of(bags);
+    // Nobody waits for the other cores.
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let write = WriteSettings { threads, ..write };
     let line = Line::new(bags.iter().map(Bag::message_count).sum());
     let done =
         convert(bags, output, Conversion { selection, write }, &mut |count| line.show(count));

@@ -48,8 +48,9 @@ pub(crate) struct ConvertOptions {
     /// A recording, as `ros2 bag convert` has it; may be given several times
     #[arg(long, short, value_name = "BAG")]
     pub(crate) input: Vec<PathBuf>,
-    /// The new file or folder
-    #[arg(long, short, value_name = "FILE|FOLDER")]
+    /// The new file or folder; or a YAML file with `output_bags`, as `ros2 bag convert` reads it, which
+    /// names one or many and says what each holds and how
+    #[arg(long, short, visible_alias = "output-options", value_name = "FILE|FOLDER|YAML")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) select: SelectOptions,
@@ -178,7 +179,7 @@ pub(crate) struct ReindexOptions {
 }
 
 /// Which messages.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct SelectOptions {
     /// Only these topics
     #[arg(long, num_args = 1.., value_name = "TOPIC")]
@@ -207,7 +208,7 @@ pub(crate) struct SelectOptions {
 }
 
 /// How recordings are written.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct WriteOptions {
     /// How files are stored, where the ending does not say it
     #[arg(long, short, value_enum)]
@@ -271,8 +272,9 @@ impl From<Chunks> for ChunkPacking {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Mode {
+    #[default]
     None,
     File,
     Message,
@@ -288,9 +290,10 @@ impl From<Mode> for PackingMode {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// The one that `ros2 bag` comes with
+    #[default]
     Zstd,
     /// For `ros2 bag` with a plugin
     Lz4,
@@ -305,11 +308,12 @@ impl From<Format> for Packing {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Readers {
     /// ROS 2 Humble and later
     Humble,
     /// ROS 2 Jazzy and later
+    #[default]
     Jazzy,
 }
 

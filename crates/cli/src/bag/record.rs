@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage};
-use periplus_graph::{Durability, Node, NodeSettings, Qos, RawMailbox, Reliability};
+use periplus_graph::{Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability};
 use periplus_host::{sleep, unix_ns};
 use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_wire_ros2::{Remote, RemoteTopic};
@@ -103,30 +103,52 @@ fn record(options: &RecordOptions, live: &Live) -> Result<(), BagError> {
 /// What is subscribed to.
 struct Heard {
     node: Node,
-    mailboxes: BTreeMap<String, RawMailbox>,
+    /// By topic: what is asked for, and the subscription.
+    mailboxes: BTreeMap<String, (Qos, RawMailbox)>,
 }
 
 impl Heard {
-    /// Subscribes to wanted topics that are new.
+    /// Subscribes to wanted topics that are new, and again where a publisher has come that offers less
+    /// than is asked for.
     fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {
         for topic in &remote.topics {
-            let is_new = !self.mailboxes.contains_key(&topic.name);
-            let (Some(type_name), true) = (topic.type_names.first(), is_new) else { continue };
+            let Some(type_name) = topic.type_names.first() else { continue };
             if topic.publishers.is_empty() || !options.wants(&topic.name) {
+                continue;
+            }
+            let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
+            let is_heard =
+                |asked: Qos| topic.publishers.iter().all(|one| one.qos.lacks(&asked).is_empty());
+            if before.is_some_and(is_heard) {
                 continue;
             }
             let hash = topic.publishers.iter().find_map(|one| one.type_hash.as_deref());
             let qos = request(topic);
+            if before == Some(qos) {
+                // Whatever is lacking is nothing that can be asked for less.
+                continue;
+            }
             let mailbox = self.node.raw_mailbox(&topic.name, type_name, hash, qos)?;
-            terminal::say(&format!("records {} ({type_name})", topic.name));
-            self.mailboxes.insert(topic.name.clone(), mailbox);
+            let (reliability, durability) =
+                (qos.spelled(Policy::Reliability), qos.spelled(Policy::Durability));
+            terminal::say(&if before.is_none() {
+                format!("records {} ({type_name})", topic.name)
+            } else {
+                format!(
+                    "records {} again, {reliability} and {durability}: not all who publish it \
+                     offer more",
+                    topic.name
+                )
+            });
+            // The one before goes when this one is there, so that little is missed.
+            self.mailboxes.insert(topic.name.clone(), (qos, mailbox));
         }
         Ok(())
     }
 
     /// The recorder has its own way to the messages; these only keep the topics alive.
     fn drop_read(&self) {
-        for mailbox in self.mailboxes.values() {
+        for (_, mailbox) in self.mailboxes.values() {
             drop(mailbox.drain());
         }
     }

@@ -16,6 +16,9 @@ not the texts.
 hashes.tsv: type hashes, and who says so. `jazzy` is the build of ROS 2 Jazzy that the wheels on PyPI
 hold (`share/<package>/*/<Name>.json`, written by rosidl); `rosbags-jazzy` is the type as rosbags
 knows it; `rosbags` is its calculation over our text, which judges our calculation, not the text.
+
+published.tsv is not made here: its hashes were read one by one, `running` off `ros2 topic info -v` of
+a ROS 2 Jazzy, `rosidl` off code that rosidl made (`*__description.c`) in public workspaces.
 """
 
 import base64

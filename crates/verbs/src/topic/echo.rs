@@ -53,7 +53,7 @@ pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
         true => None,
         false => Some(session.types.message(&open.type_name)?.clone()),
     };
-    let mut listeners = [open];
+    let mut listeners = vec![open];
     let mut heard = None;
     let mut rejected = 0_u64;
     let shown = std::cell::Cell::new(Duration::ZERO);

@@ -2,16 +2,18 @@
 
 mod window;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use periplus_graph::Node;
-use periplus_msgs::{DynamicMessage, Format, Number, Value};
+use periplus_msgs::{DynamicMessage, Format, Layout, Number, Value};
 use serde_json::json;
 
 use crate::failure::endless;
 use crate::filter::Filter;
-use crate::listen::{Listener, Next, hear};
-use crate::{Failure, Outcome, QosWish, Session, clock};
+use crate::listen::{Listener, Next, await_any, hear, is_published};
+use crate::session::full_name;
+use crate::{Failure, Outcome, QosWish, Seen, Session, clock};
 
 use window::{Sizes, Spread, Window};
 
@@ -36,38 +38,41 @@ pub struct Rate {
 const WINDOW: usize = 10_000;
 const BANDWIDTH_WINDOW: usize = 100;
 
-/// How often messages come, of one topic or several.
+/// How often messages come, of one topic or several. Of several it begins with those that are there;
+/// the others are heard from when they come.
 ///
 /// # Errors
 /// When a name or filter is not usable, or the output cannot be written.
 pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outcome {
     let filter = options.filter.as_deref().map(Filter::read).transpose()?;
     let node = session.node(None)?;
-    let mut listeners = open(session, &node, topics, options)?;
-    let mut layouts = Vec::new();
-    for listener in &listeners {
-        layouts.push(match &filter {
-            None => None,
-            Some(_) => Some(session.types.message(&listener.type_name)?.clone()),
-        });
-    }
     let size = options.window.unwrap_or(WINDOW);
-    let windows: Vec<_> = listeners.iter().map(|_| Window::new(size)).collect();
-    let windows = std::cell::RefCell::new(windows);
+    let mut missing = match topics {
+        [_] => Vec::new(),
+        _ => await_any(session, topics)?,
+    };
+    let (mut listeners, mut measured) = (Vec::new(), Vec::new());
+    for topic in topics.iter().filter(|topic| !missing.contains(topic)) {
+        let listener = Listener::open(session, &node, topic, None, &options.qos, false)?;
+        measured.push(Measured::new(session, &listener, filter.is_some(), size)?);
+        listeners.push(listener);
+    }
+    let measured = std::cell::RefCell::new(measured);
     let mut told = Duration::ZERO;
     endless(hear(
         session,
         &mut listeners,
         PAUSE,
         |_, place, sample, at| {
-            if let (Some(filter), Some(layout)) = (&filter, &layouts[place]) {
+            let one = &mut measured.borrow_mut()[place];
+            if let (Some(filter), Some(layout)) = (&filter, &one.layout) {
                 let Ok(cdr) = sample.cdr() else { return Ok(Next::Go) };
                 let message = DynamicMessage::decode(layout, Format::CDR, cdr);
                 if !message.is_ok_and(|message| filter.wants(&message).unwrap_or(false)) {
                     return Ok(Next::Go);
                 }
             }
-            windows.borrow_mut()[place].arrive(at.as_secs_f64());
+            one.window.arrive(at.as_secs_f64());
             Ok(Next::Go)
         },
         |session, listeners, now| {
@@ -75,18 +80,52 @@ pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outco
                 return Ok(Next::Go);
             }
             told = now;
-            let mut windows = windows.borrow_mut();
-            let spreads: Vec<_> = windows.iter_mut().map(Window::spread_if_new).collect();
-            tell_hz(session, listeners, &spreads)?;
+            let mut measured = measured.borrow_mut();
+            let spreads: Vec<_> =
+                measured.iter_mut().map(|one| one.window.spread_if_new()).collect();
+            tell_hz(session, listeners, &spreads, topics.len() > 1)?;
+            let seen = if missing.is_empty() { Seen::default() } else { session.network.seen() };
+            let (here, still) = std::mem::take(&mut missing)
+                .into_iter()
+                .partition(|name| is_published(&seen, &full_name(name)));
+            missing = still;
+            for topic in here {
+                let listener = Listener::open(session, &node, &topic, None, &options.qos, false)?;
+                measured.push(Measured::new(session, &listener, filter.is_some(), size)?);
+                listeners.push(listener);
+            }
             Ok(Next::Go)
         },
     ))
+}
+
+/// A topic of `hz`.
+struct Measured {
+    /// Where messages are looked into.
+    layout: Option<Arc<Layout>>,
+    window: Window,
+}
+
+impl Measured {
+    fn new(
+        session: &Session<'_>,
+        listener: &Listener,
+        is_filtered: bool,
+        size: usize,
+    ) -> Outcome<Self> {
+        let layout = match is_filtered {
+            true => Some(session.types.message(&listener.type_name)?.clone()),
+            false => None,
+        };
+        Ok(Self { layout, window: Window::new(size) })
+    }
 }
 
 fn tell_hz(
     session: &mut Session<'_>,
     listeners: &[Listener],
     spreads: &[Option<Spread>],
+    are_many: bool,
 ) -> Outcome {
     if session.json {
         for (listener, spread) in listeners.iter().zip(spreads) {
@@ -103,8 +142,10 @@ fn tell_hz(
         return Ok(());
     }
     match spreads {
-        [None] => {}
-        [Some(spread)] => writeln!(
+        _ if are_many && spreads.iter().any(Option::is_some) => {
+            session.out.write_all(table(listeners, spreads).as_bytes())?;
+        }
+        [Some(spread)] if !are_many => writeln!(
             session.out,
             "average rate: {:.3}\n\tmin: {:.3}s max: {:.3}s std dev: {:.5}s window: {}",
             spread.rate(),
@@ -113,7 +154,7 @@ fn tell_hz(
             spread.deviation,
             spread.count
         )?,
-        _ => session.out.write_all(table(listeners, spreads).as_bytes())?,
+        _ => {}
     }
     session.out.flush()?;
     Ok(())

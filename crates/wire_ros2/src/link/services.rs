@@ -56,7 +56,9 @@ struct Calling {
     nodes: Vec<String>,
     type_name: String,
     type_hash: Option<String>,
-    questions: Writer,
+    /// A writer for each way, which the servers of the other do not hear: to them a question in the
+    /// wrong form would be another question.
+    questions: [(Mapping, Writer); 2],
     answers: Reader,
     token: u32,
     /// Who answers, while somebody does.
@@ -142,7 +144,12 @@ impl Services {
         let told = Subject { topic: &reply, type_name: &answer, type_hash };
         // Answers first: who sees the questions' writer may send an answer at once.
         let Some((answers, token)) = net.reader(&told, &qos) else { return };
-        let Some(questions) = net.raw_writer(&asked, &qos) else { return };
+        let writer =
+            |mapping, audience| Some((mapping, net.raw_writer(&asked, &Qos { audience, ..qos })?));
+        let fast = writer(Mapping::Fast, Audience::Others);
+        let cyclone = writer(Mapping::Cyclone, Audience::Cyclone);
+        let (Some(fast), Some(cyclone)) = (fast, cyclone) else { return };
+        let questions = [fast, cyclone];
         let calling = Calling {
             nodes: Vec::new(),
             type_name: service.type_name.clone(),
@@ -160,8 +167,9 @@ impl Services {
     /// Finds who answers what the graph calls.
     pub(super) fn meet(&mut self, net: &Net, node: &Node, peers: &Peers) {
         for (name, calling) in &mut self.calling {
-            let is_gone = |one: &Server| !peers.has_participant(one.participant);
-            if calling.server.as_ref().is_some_and(is_gone) {
+            let servers = peers.servers(name);
+            let is_there = |one: &Server| servers.iter().any(|(guid, _)| *guid == one.participant);
+            if !calling.server.as_ref().is_none_or(is_there) {
                 // Their callers are told that no answer will come.
                 calling.server = None;
                 calling.waiting.clear();
@@ -169,9 +177,7 @@ impl Services {
             if calling.server.is_some() {
                 continue;
             }
-            let Some((participant, vendor)) = peers.servers(name).into_iter().next() else {
-                continue;
-            };
+            let Some((participant, vendor)) = servers.into_iter().next() else { continue };
             let type_hash = calling.type_hash.as_deref();
             match node.raw_server(name, &calling.type_name, type_hash) {
                 Ok(calls) => {
@@ -241,7 +247,9 @@ impl Services {
             answers.chain([(node, one.questions.guid(), false)])
         });
         let calling = self.calling.values().flat_map(|one| {
-            let ends = [(one.answers.guid(), false), (one.questions.guid(), true)];
+            let [fast, cyclone] = &one.questions;
+            let ends =
+                [(one.answers.guid(), false), (fast.1.guid(), true), (cyclone.1.guid(), true)];
             let nodes = one.nodes.iter();
             nodes.flat_map(move |node| ends.map(|(guid, writes)| (node.as_str(), guid, writes)))
         });
@@ -288,9 +296,16 @@ impl Serving {
 }
 
 impl Calling {
+    /// What servers of this way hear.
+    fn writer(&self, mapping: Mapping) -> &Writer {
+        let [fast, cyclone] = &self.questions;
+        if fast.0 == mapping { &fast.1 } else { &cyclone.1 }
+    }
+
     fn take_answers(&mut self) {
-        let (caller, answers_to) = (self.questions.guid(), self.answers.guid());
+        let answers_to = self.answers.guid();
         while let Ok(Some(sample)) = self.answers.take() {
+            let caller = self.writer(Mapping::of_answer(&sample)).guid();
             let answer = request::read_answer(sample, caller, answers_to);
             let Some((mapping, number, body)) = answer else { continue };
             if let Some(call) = self.waiting.remove(&(mapping, number)) {
@@ -301,7 +316,8 @@ impl Calling {
 
     fn send_questions(&mut self, net: &Net, name: &str) {
         let Some(server) = &self.server else { return };
-        let (caller, answers_to) = (self.questions.guid(), self.answers.guid());
+        let mapping = server.mapping;
+        let answers_to = self.answers.guid();
         while let Some(call) = server.calls.take() {
             let body = match call.request.cdr() {
                 Ok(body) => body,
@@ -311,10 +327,10 @@ impl Calling {
                 }
             };
             self.number += 1;
-            let mapping = server.mapping;
+            let writer = self.writer(mapping);
             let (bytes, related) =
-                request::write_question(mapping, caller, answers_to, self.number, body);
-            match self.questions.write(bytes, related) {
+                request::write_question(mapping, writer.guid(), answers_to, self.number, body);
+            match writer.write(bytes, related) {
                 Ok(sequence) => {
                     let number = if mapping == Mapping::Fast { sequence } else { self.number };
                     if self.waiting.len() == MOST_CALLS {

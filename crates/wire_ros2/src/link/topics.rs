@@ -100,9 +100,15 @@ impl Sink for SinkHandle {
         topic.name == self.0.topic
     }
 
+    /// What cannot be sent at once waits in a queue of the wire.
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn take(&self, _: &TopicInfo, sample: &Sample) {
         let mut writers = lock(&self.0.writers);
-        if let Some(outgoing) = writers.of.get(&sample.publisher) {
+        if let Some(outgoing) = writers.of.get(&sample.publisher).cloned() {
+            drop(writers);
             if outgoing.is_wanted() {
                 outgoing.push(Parcel::Sample(sample.clone()));
             }
