@@ -1,4 +1,4 @@
-"""Cyclone DDS of PyPI as a publisher and a subscriber that measure. See benches/src/wire/peer.rs.
+"""Cyclone DDS of PyPI as a publisher and a subscriber that measure. See crates/wire_ros2/examples/race/peer.rs.
 
 wire_cyclone.py DOMAIN pub TOPIC TYPE DEPTH TEMPLATE COUNT PERIOD_US
 wire_cyclone.py DOMAIN sub TOPIC TYPE DEPTH

@@ -1,9 +1,9 @@
 //! Our wire beside those of others.
 
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
-use crate::step::{Failed, cargo, root, run};
+use crate::step::{Failed, cargo, root};
 
 /// The Python that has the peers; `python3` when it is not set.
 const PYTHON: &str = "PERIPLUS_PYTHON";
@@ -28,8 +28,32 @@ pub(crate) fn bench(only: Option<&str>) -> Result<(), Failed> {
     }
     let python = std::env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let mut race = cargo();
-    race.args(["run", "--quiet", "--release", "--package", "periplus-benches", "--", "wire"]);
-    race.arg(fast).arg(python).arg(oracles.join("wire_cyclone.py")).arg(folder);
-    race.arg(root().join("benches/RESULTS.md")).args(only);
-    run(&mut race, "see what it says above")
+    race.args(["run", "--quiet", "--release", "--package", "periplus-wire_ros2", "--example"]);
+    race.args(["race", "--"]).arg(fast).arg(python).arg(oracles.join("wire_cyclone.py"));
+    race.arg(&folder).args(only);
+    let output = race
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| Failed(format!("cannot run the race: {error}")))?;
+    let tables = String::from_utf8_lossy(&output.stdout);
+    print!("{tables}");
+    if !output.status.success() {
+        return Err(Failed("the race failed, see above".to_owned()));
+    }
+    // A part of it is no result.
+    if only.is_none() { write(&tables) } else { Ok(()) }
+}
+
+/// Puts the tables where the old ones were, or at the end.
+fn write(tables: &str) -> Result<(), Failed> {
+    const START: &str = "<!-- wire: written by `cargo xtask bench wire` -->\n";
+    const END: &str = "<!-- end of wire -->\n";
+    let path = root().join("benches/RESULTS.md");
+    let failed = |error| Failed(format!("{}: {error}", path.display()));
+    let text = std::fs::read_to_string(&path).map_err(failed)?;
+    let (before, after) = match (text.split_once(START), text.split_once(END)) {
+        (Some((before, _)), Some((_, after))) => (before, after),
+        _ => (&*text, ""),
+    };
+    std::fs::write(&path, format!("{before}{START}\n{tables}\n{END}{after}")).map_err(failed)
 }

@@ -8,6 +8,7 @@
 #include "dds/ddsi/ddsi_radmin.h"
 #include "dds/ddsi/ddsi_guid.h"
 #include "dds/ddsrt/heap.h"
+#include "dds/ddsrt/time.h"
 #include "ddsi__protocol.h"
 #include "ddsi__xmsg.h"
 
@@ -255,6 +256,9 @@ static void data_to_ser(const struct ddsi_serdata *data, size_t at, size_t size,
   memset((uint8_t *)out + length, 0, size - length);
 }
 
+/* Whether this thread has just made a fragment that is not the first of its sample. */
+static _Thread_local bool has_fragment;
+
 static bool reaches_behind(const struct pp_blob *blob, size_t at, size_t size) {
   return blob->size < at + size;
 }
@@ -264,6 +268,7 @@ static bool reaches_behind(const struct pp_blob *blob, size_t at, size_t size) {
 static struct ddsi_serdata *data_to_ser_ref(const struct ddsi_serdata *data, size_t at, size_t size,
                                             ddsrt_iovec_t *out) {
   const struct pp_blob *blob = blob_of(data);
+  has_fragment = at > 0;
   out->iov_len = (ddsrt_iov_len_t)size;
   if (reaches_behind(blob, at, size)) {
     out->iov_base = ddsrt_malloc(size);
@@ -327,6 +332,19 @@ const struct ddsi_serdata_ops pp_blob_ops = {
     .print = data_print,
     .get_keyhash = data_get_keyhash,
 };
+
+/* How long a sender pauses between fragments; the system makes some 60 us of it. */
+#define PAUSE_NS 10000
+
+/* What transmit.c puts into packets, with no lock held. */
+int pp_add_to_packet(struct ddsi_xpack *packet, struct ddsi_xmsg *message, uint32_t flags) {
+  const int result = ddsi_xpack_addmsg(packet, message, flags);
+  if (has_fragment) {
+    has_fragment = false;
+    dds_sleepfor(PAUSE_NS);
+  }
+  return result;
+}
 
 /* What transmit.c adds to the inline QoS of a sample. */
 int pp_finish_inline_qos(struct ddsi_xmsg *message, const struct ddsi_serdata *data) {

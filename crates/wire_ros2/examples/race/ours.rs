@@ -36,7 +36,7 @@ macro_rules! stamped {
 stamped!(PointStamped, LaserScan, PointCloud2);
 
 /// Publishes or subscribes, as the words say.
-pub(crate) fn run(words: &[String]) -> Result<(), String> {
+pub(super) fn run(words: &[String]) -> Result<(), String> {
     let type_name = words.get(3).map_or("", String::as_str);
     match Kind::of_dds_type(type_name) {
         Some(Kind::Cloud) => take_part::<PointCloud2>(words),

@@ -84,7 +84,7 @@ impl Peers {
         let mut command = match side {
             Side::Ours => {
                 let mut own = Command::new(&self.own);
-                own.arg("wire-peer");
+                own.arg("peer");
                 own
             }
             Side::Fast | Side::FastByUdp => {

@@ -1,24 +1,59 @@
 //! The wire beside the peers: from whom to whom, how fast, how late, for how much of a core.
+//! `cargo xtask bench wire` builds the peers and runs it.
 //!
 //! All pairs run one after the other in one go, with the same samples. Programs of all sides say the
 //! same words (see [`peer`]), and the CPU time of each is read from the system, thread by thread.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program that measures"
+)]
 
 mod load;
 mod ours;
 mod peer;
 mod table;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use serde_json::Value;
-
-pub(crate) use ours::run as take_part;
 
 use load::{LOADS, Load, PAIRS};
 use peer::{Peers, Side};
 
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let outcome = match words.split_first() {
+        Some((first, rest)) if first == "peer" => ours::run(rest),
+        _ => race(&words),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// `FAST PYTHON SCRIPT FOLDER [ONLY]`: prints the tables, and writes `wire.json` into the folder.
+fn race(words: &[String]) -> Result<(), String> {
+    let [fast, python, script, folder, only @ ..] = words else {
+        return Err("usage: race FAST PYTHON SCRIPT FOLDER [ONLY]".to_owned());
+    };
+    let [fast, python, script, folder] = [fast, python, script, folder].map(PathBuf::from);
+    let only = only.first().map_or("", String::as_str);
+    let (tables, figures) = compare(&fast, &python, &script, &folder, only)?;
+    print!("{tables}");
+    let record = folder.join("wire.json");
+    std::fs::write(&record, format!("{figures:#}\n"))
+        .map_err(|error| format!("{}: {error}", record.display()))
+}
+
 /// Runs all pairs under all loads whose name has `only`; gives the tables and the figures.
-pub(crate) fn compare(
+fn compare(
     fast: &Path,
     python: &Path,
     script: &Path,
