@@ -24,7 +24,13 @@ pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
         let settings = options.write.settings(&options.output, Storage::Mcap);
         return write(&bags, &options.output, &options.select, settings);
     }
-    let (wanted, findings, sources) = outputs::read(&options.output)?;
+    let (wanted, findings, sources) = match outputs::read(&options.output) {
+        Ok(read) => read,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
     if findings.has_errors() {
         return Ok(ExitCode::FAILURE);

@@ -2,10 +2,9 @@
 
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use periplus_graph::{Graph, Io, Node, NodeSettings, Qos};
-use periplus_host::unix_ns;
 use periplus_msgs::Message;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::PointStamped;
@@ -115,6 +114,11 @@ fn subscribe<T: Stamped>(node: &Node, topic: &str, qos: Qos) -> Result<(), Strin
         say(&format!("got {}{latencies}", (last_ns - first_ns) as f64 * 1e-9));
     });
     Ok(())
+}
+
+fn unix_ns() -> i64 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+    i64::try_from(since.as_nanos()).unwrap_or_default()
 }
 
 fn say(words: &str) {
