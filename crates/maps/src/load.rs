@@ -73,6 +73,9 @@ pub struct Loaded {
     pub diagnostics: Diagnostics,
 }
 
+/// Endings of pictures that are read.
+const PICTURES: [&str; 6] = ["pgm", "png", "bmp", "jpg", "jpeg", "ppm"];
+
 /// `~/` in front of a path becomes the home of the user, if that is known.
 #[must_use]
 pub fn expand_home(path: &str, home: &str) -> String {
@@ -144,7 +147,8 @@ fn read(
     let path = expand_home(path, &host.variable("HOME").unwrap_or_default());
     let bytes = host.read(Path::new(&path)).map_err(|error| {
         let wrong = format!("cannot read the map `{path}`: {error}");
-        with_neighbour(failed(Status::InvalidMapMetadata, wrong, None), Path::new(&path), host)
+        let wrong = failed(Status::InvalidMapMetadata, wrong, None);
+        with_neighbour(wrong, Path::new(&path), &["yaml", "yml"], host)
     })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let is_picture = Raster::decode(error.as_bytes()).is_ok();
@@ -177,7 +181,10 @@ fn picture(
     let bytes = host.read(&image_path).map_err(|error| {
         let wrong = format!("cannot read the picture `{shown}` of the map: {error}");
         let wrong = failed(Status::InvalidMapData, wrong, span);
-        if error == ReadError::Missing { with_neighbour(wrong, &image_path, host) } else { wrong }
+        match error {
+            ReadError::Missing => with_neighbour(wrong, &image_path, &PICTURES, host),
+            _ => wrong,
+        }
     })?;
     let raster = Raster::decode(&bytes).map_err(|error| {
         let wrong = format!("cannot use the picture `{shown}` of the map: {error}");
@@ -250,16 +257,21 @@ fn lost_unknown(raster: &Raster, description: &Description, distro: Distro) -> O
 }
 
 /// Names the file beside it that may be meant.
-fn with_neighbour(wrong: Failed, path: &Path, host: &dyn Host) -> Failed {
+fn with_neighbour(wrong: Failed, path: &Path, endings: &[&str], host: &dyn Host) -> Failed {
     let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return wrong };
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let names = host.list(folder);
-    let with_ending = ["yaml", "yml"].map(|ending| format!("{name}.{ending}"));
-    let meant = with_ending.iter().find(|it| names.contains(it)).map(String::as_str);
-    match meant.or_else(|| closest(name, names.iter().map(String::as_str))) {
+    let has_ending = |name: &String| {
+        let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+        endings.contains(&ending.as_str())
+    };
+    let names: Vec<String> = host.list(folder).into_iter().filter(has_ending).collect();
+    let mut with_ending = endings.iter().map(|ending| format!("{name}.{ending}"));
+    let meant = with_ending.find(|it| names.contains(it));
+    let near = || closest(name, names.iter().map(String::as_str)).map(str::to_owned);
+    match meant.or_else(near) {
         Some(near) => {
             wrong.help(format!("did you mean `{}`?", path.with_file_name(near).display()))
         }
@@ -270,7 +282,9 @@ fn with_neighbour(wrong: Failed, path: &Path, host: &dyn Host) -> Failed {
 #[cfg(test)]
 mod tests {
     use periplus_diagnostics::{Style, render};
+    use periplus_pictures::{write_bmp, write_png};
     use periplus_resources::MemoryHost;
+    use proptest::prelude::*;
 
     use super::*;
 
@@ -329,6 +343,39 @@ mod tests {
         let loaded = load("/m/a.yaml", Distro::Humble, &wide);
         assert!(said(&loaded).contains("1 unknown pixels"), "{}", said(&loaded));
         assert_eq!(loaded.map.unwrap().grid.cells, [0, 0, 100, 100, 0, 0]);
+    }
+
+    proptest! {
+        #[test]
+        fn no_files_are_too_strange(
+            line in 0..7_usize, text in "[a-z0-9.:{}\\[\\], &*!'\"#\n-]{0,30}",
+            cut in 0..90_usize, at in 0..90_usize, byte in any::<u8>(), kind in 0..3_usize,
+        ) {
+            let mut lines: Vec<&str> = YAML.lines().collect();
+            if line < lines.len() {
+                lines[line] = &text;
+            }
+            let mut picture = match kind {
+                0 => b"P5 3 2 255 123456".to_vec(),
+                1 => write_png(3, 2, Layout::Grey, &[0, 1, 2, 3, 4, 5]),
+                _ => write_bmp(3, 2, Layout::Grey, &[0, 1, 2, 3, 4, 5]),
+            };
+            if let Some(place) = picture.get_mut(at) {
+                *place = byte;
+            }
+            picture.truncate(picture.len().max(cut) - cut);
+            let host = MemoryHost::new()
+                .with_file("/m/a.yaml", lines.join("\n"))
+                .with_file("/m/a.pgm", picture);
+            for distro in [Distro::Noetic, Distro::Humble, Distro::Jazzy] {
+                let loaded = load("/m/a.yaml", distro, &host);
+                prop_assert_eq!(loaded.map.is_some(), loaded.status == Status::Success);
+                prop_assert_eq!(loaded.map.is_none(), loaded.diagnostics.has_errors());
+                if let Some(map) = loaded.map {
+                    prop_assert_eq!(map.grid.cells.len(), map.grid.lattice.len());
+                }
+            }
+        }
     }
 
     #[test]

@@ -8,7 +8,8 @@
 use std::path::Path;
 
 use periplus_host::Machine;
-use periplus_maps::{Distro, Loaded, Status, load};
+use periplus_maps::{Distro, Loaded, Saving, Status, load, render};
+use periplus_resources::Host as _;
 
 fn folder() -> Option<&'static Path> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/maps"));
@@ -74,4 +75,23 @@ fn negated_maps_turn_round() {
     assert!(map.description.negate);
     let first = map.grid.cells.iter().filter(|&&cell| cell == 100).count();
     assert!(first > 0 && first < map.grid.cells.len());
+}
+
+/// A robot's map, saved by `map_saver` of ROS 1.
+#[test]
+fn a_map_of_ros_1_is_written_again_byte_for_byte() {
+    let folder = Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../../shared/corpus/turtlebot3/turtlebot3_navigation2/map"
+    ));
+    let read = |name: &str| Machine.read(&folder.join(name)).ok();
+    let (Some(yaml), Some(pgm)) = (read("map.yaml"), read("map.pgm")) else {
+        println!("SKIPPED: there is no map in {}", folder.display());
+        return;
+    };
+    let path = folder.join("map.yaml");
+    let map = load(path.to_str().unwrap(), Distro::Noetic, &Machine).map.unwrap();
+    let files = render(&map.grid, &Saving::new("map", Distro::Noetic));
+    assert!(files.image == pgm, "the picture is another");
+    assert_eq!(files.yaml.as_bytes(), yaml);
 }

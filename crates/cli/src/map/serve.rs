@@ -7,9 +7,11 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
-use periplus_graph::{Graph, NodeSettings};
+use periplus_graph::{Graph, GraphError, Level, Mailbox, Node, NodeSettings, Qos};
 use periplus_host::{Machine, sleep, unix_ns};
 use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_msgs::lifecycle_msgs::{State, TransitionEvent};
+use periplus_msgs::rcl_interfaces::Log;
 use periplus_wire_ros2::{Settings, Wire};
 
 use super::options::{SaveOptions, ServeOptions};
@@ -67,20 +69,54 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
-    let mut starts = !options.managed;
-    if starts {
+    let watched = Watched::new(&server).map_err(|error| complain(&error.to_string()));
+    let Ok(watched) = watched else { return Ok(ExitCode::FAILURE) };
+    if !options.managed {
         server.start();
     }
+    let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
         graph.advance_to(unix_ns());
-        graph.settle();
-        if std::mem::take(&mut starts) && !server.life().is_active() {
-            // What is wrong has been logged.
-            return Ok(ExitCode::FAILURE);
-        }
         sleep(LOOK);
+        if watched.tell() && !options.managed {
+            // It has been logged why.
+            code = ExitCode::FAILURE;
+            break;
+        }
     }
     let _ = wire.flush(LAST_WORD);
     diagnostics(&mut anstream::stderr().lock(), &wire.take_findings(), &SourceMap::new())?;
-    Ok(ExitCode::SUCCESS)
+    Ok(code)
+}
+
+/// What the server says and becomes.
+struct Watched {
+    logger: String,
+    logs: Mailbox<Log>,
+    events: Mailbox<TransitionEvent>,
+    _node: Node,
+}
+
+impl Watched {
+    fn new(server: &MapServer) -> Result<Self, GraphError> {
+        let node = server.node().graph().node(NodeSettings::new("_map_server_watch").bare())?;
+        let events = format!("{}/transition_event", server.node().full_name());
+        Ok(Self {
+            logger: server.node().logger(),
+            logs: node.mailbox("/rosout", Qos::latched(100))?,
+            events: node.mailbox(&events, Qos::reliable(100))?,
+            _node: node,
+        })
+    }
+
+    /// Writes what has been logged; whether the server gave up.
+    fn tell(&self) -> bool {
+        // Before the lines, which come first.
+        let events = self.events.drain();
+        for line in self.logs.drain().iter().filter(|line| line.name == self.logger) {
+            say(&format!("[{}] [{}]: {}", Level::of_number(line.level), line.name, line.msg));
+        }
+        let gave_up = [State::PRIMARY_STATE_UNCONFIGURED, State::PRIMARY_STATE_FINALIZED];
+        events.iter().any(|event| gave_up.contains(&event.goal_state.id))
+    }
 }

@@ -33,12 +33,14 @@ pub(super) fn check(
         }
     }
     if let Some(cells) = given.find("cells").or(given.find("map")) {
-        let points = expect.get("world").or(expect.get("centres"))?.list()?;
+        let names = ["world", "centres", "centers", "points"];
+        let points = names.iter().find_map(|name| expect.find(name));
+        let points = points.ok_or_else(|| expect.unreadable("points of the cells"))?.list()?;
+        differences.same("number of points", &cells.list()?.len(), &points.len());
         for (cell, expected) in cells.list()?.iter().zip(&points) {
             let (x_m, y_m) = lattice.centre_of(cell.cell()?);
-            let [expected_x_m, expected_y_m] = expected.array()?;
-            differences.near(format_args!("x of {}", cell.value()), x_m, expected_x_m);
-            differences.near(format_args!("y of {}", cell.value()), y_m, expected_y_m);
+            let what = format!("centre of {}", cell.value());
+            differences.all_near(what, &[x_m, y_m], &expected.array::<2>()?);
         }
     }
     if let Some(moves) = expect.find("moves") {

@@ -97,7 +97,9 @@ fn command_of(words: &[String], distro: Distro, map: &OccupancyGrid) -> (i64, Op
 fn files(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
     let map = grid(&given)?;
-    let mut saving = Saving::new(given.get("base_name")?.text()?, distro);
+    let names = ["base_name", "name", "map_file_name"];
+    let name = names.iter().find_map(|name| given.find(name)).map(|name| name.text());
+    let mut saving = Saving::new(name.transpose()?.unwrap_or("map"), distro);
     if let Some(mode) = given.find("mode") {
         saving.mode = Mode::from_name(mode.text()?).ok_or_else(|| mode.unreadable("a mode"))?;
     }
@@ -122,8 +124,15 @@ fn files(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(
         let got = files.image.get(header.map_or(0, str::len)..).unwrap_or_default();
         differences.same("pixels", got, pixels.each(Reader::byte)?.as_slice());
     }
-    if let Some(yaml) = expect.find("yaml") {
-        differences.same("YAML", files.yaml.as_str(), yaml.text()?);
+    for name in ["yaml", "yaml_text"] {
+        if let Some(yaml) = expect.find(name) {
+            differences.same("YAML", files.yaml.as_str(), yaml.text()?);
+        }
+    }
+    for name in ["pgm_bytes", "image_bytes"] {
+        if let Some(size) = expect.find(name) {
+            differences.same("bytes of the picture", &files.image.len(), &size.count()?);
+        }
     }
     Ok(())
 }

@@ -114,28 +114,87 @@ pub(super) fn check_lookup(
     let given = case.given();
     let buffer = buffer(&given)?;
     let (queries, results) = (given.get("queries")?.list()?, case.expect().get("results")?.list()?);
+    let order = given.find("query_fields").map(|it| it.text()).transpose()?;
     differences.same("number of results", &queries.len(), &results.len());
     for (query, expected) in queries.iter().zip(&results) {
-        let got = ask(&buffer, query)?;
+        let got = Query::read(query, order)?.ask(&buffer);
         compare(query, &got, expected, distro, differences)?;
     }
     Ok(())
 }
 
-fn ask(buffer: &Buffer, query: &Reader<'_>) -> Result<Result<Found, LookupError>, Unreadable> {
-    let words = query.list()?;
-    let time = |at: &Reader<'_>| at.number().map(ns);
-    match words.as_slice() {
-        [target, source, at] => Ok(buffer.lookup(target.text()?, source.text()?, time(at)?)),
-        [target, target_time, source, source_time, fixed] => Ok(buffer.lookup_across(Lookup {
-            target: target.text()?,
-            target_time_ns: time(target_time)?,
-            source: source.text()?,
-            source_time_ns: time(source_time)?,
-            fixed: fixed.text()?,
-        })),
-        _ => Err(query.unreadable("target, source and time")),
+/// What is asked for.
+#[derive(Default)]
+struct Query<'v> {
+    target: &'v str,
+    source: &'v str,
+    time_ns: i64,
+    /// Target time, source time and what stood still.
+    across: Option<(i64, i64, &'v str)>,
+}
+
+impl<'v> Query<'v> {
+    /// A list in an order that the case may tell, or an object.
+    fn read(query: &Reader<'v>, order: Option<&str>) -> Result<Self, Unreadable> {
+        let named: Vec<(String, Reader<'v>)> = match query.list() {
+            Ok(words) => names(order, words.len())
+                .ok_or_else(|| query.unreadable("target, source and time"))?
+                .into_iter()
+                .zip(words)
+                .collect(),
+            Err(_) => query.members()?.into_iter().map(|(name, it)| (name.into(), it)).collect(),
+        };
+        let find = |wanted: &[&str]| {
+            named.iter().find(|(name, _)| wanted.contains(&name.as_str())).map(|(_, value)| value)
+        };
+        let text = |wanted: &[&str]| match find(wanted) {
+            Some(value) => value.text(),
+            None => Err(query.unreadable(&format!("a query with `{}`", wanted[0]))),
+        };
+        let time = |wanted: &[&str]| find(wanted).map_or(Ok(0), |value| value.number().map(ns));
+        let fixed = find(&["fixed", "fixed_frame"]);
+        let across = match fixed {
+            Some(fixed) => Some((time(&["target_time"])?, time(&["source_time"])?, fixed.text()?)),
+            None => None,
+        };
+        Ok(Self {
+            target: text(&["target", "target_frame"])?,
+            source: text(&["source", "source_frame"])?,
+            time_ns: time(&["time", "stamp"])?,
+            across,
+        })
     }
+
+    fn ask(&self, buffer: &Buffer) -> Result<Found, LookupError> {
+        let &Self { target, source, time_ns, across } = self;
+        match across {
+            None => buffer.lookup(target, source, time_ns),
+            Some((target_time_ns, source_time_ns, fixed)) => buffer.lookup_across(Lookup {
+                target,
+                target_time_ns,
+                source,
+                source_time_ns,
+                fixed,
+            }),
+        }
+    }
+}
+
+/// The names of the parts of a query: those that the case tells, as `target, source, time (0 =
+/// latest)`, or the usual ones.
+fn names(order: Option<&str>, count: usize) -> Option<Vec<String>> {
+    let told = order.map(|order| {
+        let words = order.split(',').filter_map(|part| part.split_whitespace().next());
+        words.map(str::to_owned).collect::<Vec<_>>()
+    });
+    let usual: &[&str] = match count {
+        3 => &["target", "source", "time"],
+        5 => &["target", "target_time", "source", "source_time", "fixed"],
+        _ => &[],
+    };
+    told.filter(|told| told.len() == count)
+        .or_else(|| Some(usual.iter().map(|&name| name.to_owned()).collect()))
+        .filter(|names| names.len() == count)
 }
 
 fn compare(
@@ -146,6 +205,10 @@ fn compare(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let what = query.value().to_string();
+    if expected.is_null() {
+        differences.same(format_args!("{what} is found"), &got.is_ok(), &false);
+        return Ok(());
+    }
     // An exception by name, or by name and words.
     let exception = expected.value().as_str();
     let exception = exception.or(expected.find("exception").and_then(|it| it.value().as_str()));
