@@ -67,6 +67,9 @@ fn compare(
         let template = folder.join(format!("{}.cdr", load.kind.name()));
         std::fs::write(&template, load.kind.template())
             .map_err(|error| format!("{}: {error}", template.display()))?;
+        if !load.is_large {
+            lines.push(waking(&peers, load)?);
+        }
         for pair in PAIRS.iter().filter(|pair| pair.is_for(load)) {
             if !peers.has(pair.from) || !peers.has(pair.to) {
                 continue;
@@ -78,6 +81,21 @@ fn compare(
     }
     let figures = Value::from(lines);
     Ok((table::tables(&figures), figures))
+}
+
+/// What it costs a program to wake as often as it publishes, without publishing.
+fn waking(peers: &Peers, load: &Load) -> Result<Value, String> {
+    let words = ["loop".to_owned(), load.count.to_string(), load.period_us.to_string()];
+    let mut program = peers.start(Side::Ours, None, &words)?;
+    program.expect("begin")?;
+    let (before, start) = (program.cpu(), std::time::Instant::now());
+    program.expect("done")?;
+    let core = peer::share(&before, &program.cpu(), start.elapsed().as_secs_f64());
+    Ok(serde_json::json!({
+        "load": load.name,
+        "from": "a loop that only wakes",
+        "publisher_core": core,
+    }))
 }
 
 fn measure(

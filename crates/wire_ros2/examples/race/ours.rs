@@ -34,8 +34,18 @@ macro_rules! stamped {
 
 stamped!(PointStamped, LaserScan, PointCloud2);
 
-/// Publishes or subscribes, as the words say.
+/// Publishes or subscribes, as the words say; with `loop COUNT PERIOD_US` it only wakes as often.
 pub(super) fn run(words: &[String]) -> Result<(), String> {
+    if let [verb, count, period_us] = words
+        && verb == "loop"
+    {
+        let number = |word: &String| word.parse::<u32>().map_err(|error| error.to_string());
+        let period = Duration::from_micros(number(period_us)?.into());
+        let count = number(count)?;
+        repeat(count, period, || ());
+        await_end();
+        return Ok(());
+    }
     let type_name = words.get(3).map_or("", String::as_str);
     match Kind::of_dds_type(type_name) {
         Some(Kind::Cloud) => take_part::<PointCloud2>(words),
@@ -72,22 +82,29 @@ fn take_part<T: Stamped>(words: &[String]) -> Result<(), String> {
     }
     // The other end may find us later than we found it.
     std::thread::sleep(Duration::from_millis(700));
-    say("begin");
-    let mut next = Instant::now();
-    for _ in 0..count {
+    repeat(count, period, || {
         let now_ns = unix_ns();
         let sec = i32::try_from(now_ns / 1_000_000_000).unwrap_or_default();
         *message.stamp() = Time { sec, nanosec: (now_ns % 1_000_000_000) as u32 };
         publisher.publish(message.clone());
-        next += period;
-        std::thread::sleep(next.saturating_duration_since(Instant::now()));
-    }
-    say(&format!("done {count}"));
+    });
     await_end();
     for finding in wire.take_findings().iter() {
         eprintln!("{}", finding.message);
     }
     Ok(())
+}
+
+/// Acts so often, and says when it begins and ends.
+fn repeat(count: u32, period: Duration, mut act: impl FnMut()) {
+    say("begin");
+    let mut next = Instant::now();
+    for _ in 0..count {
+        act();
+        next += period;
+        std::thread::sleep(next.saturating_duration_since(Instant::now()));
+    }
+    say(&format!("done {count}"));
 }
 
 #[derive(Default)]

@@ -21,6 +21,12 @@ pub(super) fn tables(figures: &Value) -> String {
                 if out.is_empty() { "" } else { "\n" }
             );
         }
+        if line["to"].is_null() {
+            let core = number(&line["publisher_core"]) * 100.0;
+            let from = line["from"].as_str().unwrap_or_default();
+            let _ = writeln!(out, "| {from} | | | | | {core:.1} % | |");
+            continue;
+        }
         let (sent, received) = (number(&line["sent"]), number(&line["received"]));
         let _ = writeln!(
             out,
