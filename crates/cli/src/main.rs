@@ -5,6 +5,7 @@ mod bag;
 mod check;
 mod conformance;
 mod convert;
+mod costmap;
 mod map;
 mod options;
 mod sim;
@@ -20,7 +21,7 @@ use clap::{CommandFactory as _, Parser as _};
 
 use periplus_graph::split_arguments;
 
-use options::{Command, Options};
+use options::{Command, DoctorCommand, Options};
 
 /// All at once, so that a reader that has seen enough is an error that [`main`] knows.
 fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
@@ -66,6 +67,7 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Convert(options) => convert::run(&options),
+        Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
+use crate::costmap::DoctorCostmapOptions;
 use crate::map::MapCommand;
 use crate::sim::SimOptions;
 use crate::teleop::TeleopOptions;
@@ -56,6 +57,14 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Map(MapCommand),
     Conformance(ConformanceOptions),
+    #[command(subcommand)]
+    Doctor(DoctorCommand),
+}
+
+/// Tell what is wrong with what somebody set up, and what to do about it
+#[derive(Debug, Subcommand)]
+pub(crate) enum DoctorCommand {
+    Costmap(DoctorCostmapOptions),
 }
 
 /// Tell what files hold and what is wrong with them

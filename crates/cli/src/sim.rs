@@ -20,6 +20,7 @@ use periplus_sim::{
 };
 
 use crate::arguments;
+use crate::costmap::{CostmapOptions, Costmaps};
 use crate::options::{SearchOptions, split};
 use crate::terminal;
 
@@ -92,6 +93,8 @@ pub(crate) struct SimOptions {
     /// Parameters for nodes, as ROS 2 writes them; later ones win. All of `--ros-args` is understood too
     #[arg(long, value_name = "FILE")]
     params_file: Vec<String>,
+    #[command(flatten)]
+    costmaps: CostmapOptions,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -184,6 +187,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         terminal::complain(&format!("the script cannot be driven: {error}"));
         return Ok(ExitCode::FAILURE);
     }
+    let Some(costmaps) = Costmaps::join(simulation.graph(), &options.costmaps)? else {
+        return Ok(ExitCode::FAILURE);
+    };
     let factor = options.factor(&composition);
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
@@ -225,6 +231,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
     } else if !options.quiet {
         report.tell(&mut anstream::stderr().lock())?;
+    }
+    if !options.quiet {
+        costmaps.tell(&mut anstream::stderr().lock())?;
     }
     // Without an end of its own, being stopped is how a run ends.
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();

@@ -11,6 +11,17 @@ use crate::Compat;
 const DEEPEST: usize = 4;
 
 impl Config {
+    /// Whether a file names a node.
+    #[must_use]
+    pub fn is_in(file: &Node, node: &str) -> bool {
+        let names = |at: &Node| {
+            let keys = at.entries().unwrap_or_default().iter();
+            keys.filter_map(|(key, _)| key.text())
+                .any(|key| key.trim_start_matches('/').rsplit('/').next() == Some(node))
+        };
+        names(file) || file.entries().unwrap_or_default().iter().any(|(_, inner)| names(inner))
+    }
+
     /// Reads a file for the node of a name: `local_costmap` finds `local_costmap: local_costmap:
     /// ros__parameters:` and `/**`, and in files of ROS 1 `local_costmap:` or, when there is no such
     /// section, everything.

@@ -1,0 +1,541 @@
+//! What layers and filters hear.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use periplus_base::{DVec3, Pose};
+use periplus_costmap::filters::{
+    BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, SpeedFilter,
+};
+use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
+use periplus_costmap::{
+    Beams, Compat, Config, DataType, LayerConfig, LayerKind, LayeredCostmap, Projector, Source,
+    Window,
+};
+use periplus_diagnostics::Diagnostic;
+use periplus_graph::{GraphError, Mailbox, Node, Qos};
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::{map_msgs, nav_msgs, nav2_msgs, sensor_msgs};
+
+use crate::clouds;
+use crate::frames::Listener;
+use crate::messages::{map, nanoseconds};
+use crate::topics::resolve;
+
+/// A message whose frame nobody knows is dropped after so long \[ns\].
+const PATIENCE_NS: i64 = 1_000_000_000;
+
+/// Most messages of a source that wait for their frame.
+const MOST_WAITING: usize = 50;
+
+/// What is heard between two updates, at most, by a source that keeps only its newest.
+const FEW: usize = 5;
+
+/// Topics of layers and filters.
+#[derive(Default)]
+pub(crate) struct Inputs {
+    sources: Vec<SourcePort>,
+    maps: Vec<MapPort>,
+    ranges: Vec<RangePort>,
+    filters: Vec<FilterPort>,
+}
+
+/// Where an update takes place.
+pub(crate) struct Scene<'a> {
+    pub(crate) tf: &'a Listener,
+    pub(crate) global_frame: &'a str,
+    pub(crate) now_ns: i64,
+}
+
+impl Inputs {
+    /// Listens for all layers and filters. Topics that cannot be are told, and the rest works.
+    pub(crate) fn new(node: &Node, config: &Config) -> (Self, Vec<GraphError>) {
+        let mut inputs = Self::default();
+        let mut errors = Vec::new();
+        let mut layers: Vec<&LayerConfig> = Vec::new();
+        for layer in config.layers.iter().chain(&config.filters) {
+            gather(layer, &mut layers);
+        }
+        let namespace = node.names().namespace().to_owned();
+        let place = Place { node, namespace: &namespace, compat: config.compat };
+        let shared_map = config.node.text("map_topic").unwrap_or_default();
+        for layer in layers {
+            if let Err(error) = inputs.listen(&place, layer, &shared_map) {
+                errors.push(error);
+            }
+        }
+        (inputs, errors)
+    }
+
+    fn listen(
+        &mut self,
+        place: &Place<'_>,
+        layer: &LayerConfig,
+        shared_map: &str,
+    ) -> Result<(), GraphError> {
+        let text = |name: &str| layer.values.text(name).unwrap_or_default();
+        let flag = |name: &str| layer.values.flag(name).unwrap_or_default();
+        match layer.kind {
+            LayerKind::Static => {
+                let own = text("map_topic");
+                let topic = [own.as_str(), shared_map, "map"];
+                let topic = topic.into_iter().find(|topic| !topic.is_empty()).unwrap_or("map");
+                let topic = place.resolve(topic);
+                let is_latched = flag("map_subscribe_transient_local");
+                let qos = if is_latched { Qos::latched(3) } else { Qos::reliable(10) };
+                let updates = flag("subscribe_to_updates")
+                    .then(|| place.node.mailbox(&format!("{topic}_updates"), Qos::reliable(50)));
+                self.maps.push(MapPort {
+                    layer: layer.name.clone(),
+                    map: place.node.mailbox(&topic, qos)?,
+                    updates: updates.transpose()?,
+                });
+            }
+            LayerKind::Range => {
+                let mut ranges = Vec::new();
+                for topic in layer.values.texts("topics") {
+                    ranges.push(place.node.mailbox(&place.resolve(&topic), Qos::best_effort(50))?);
+                }
+                let (layer, waiting) = (layer.name.clone(), Waiting::default());
+                self.ranges.push(RangePort { layer, ranges, waiting });
+            }
+            kind if kind.has_sources() => {
+                for source in &layer.sources {
+                    let settings = source.settings();
+                    let topic = place.resolve(&settings.topic);
+                    let depth = if settings.persistence_ns == 0 { FEW } else { MOST_WAITING };
+                    let qos = Qos::best_effort(depth);
+                    let messages = match settings.data_type {
+                        DataType::LaserScan => Messages::Scans(place.node.mailbox(&topic, qos)?),
+                        DataType::PointCloud2 => Messages::Clouds(place.node.mailbox(&topic, qos)?),
+                    };
+                    self.sources.push(SourcePort {
+                        layer: layer.name.clone(),
+                        source: source.name.clone(),
+                        messages,
+                        scans: Waiting::default(),
+                        clouds: Waiting::default(),
+                        projector: Projector::default(),
+                        points: Vec::new(),
+                        is_lost: false,
+                    });
+                }
+            }
+            kind if kind.is_filter() => {
+                let topic = text("filter_info_topic");
+                if topic.is_empty() {
+                    return Ok(());
+                }
+                self.filters.push(FilterPort {
+                    filter: layer.name.clone(),
+                    kind,
+                    info: place.node.mailbox(&place.resolve(&topic), Qos::latched(1))?,
+                    mask: None,
+                });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Gives the layers what has come. What there is to complain about is told once.
+    pub(crate) fn take(
+        &mut self,
+        costmap: &mut LayeredCostmap,
+        scene: &Scene<'_>,
+        node: &Node,
+        compat: Compat,
+    ) -> Vec<Diagnostic> {
+        let mut complaints = Vec::new();
+        for port in &mut self.maps {
+            port.take(costmap, &mut complaints);
+        }
+        for port in &mut self.sources {
+            port.take(costmap, scene, &mut complaints);
+        }
+        for port in &mut self.ranges {
+            port.take(costmap, scene);
+        }
+        let namespace = node.names().namespace().to_owned();
+        let place = Place { node, namespace: &namespace, compat };
+        for port in &mut self.filters {
+            port.take(costmap, &place, &mut complaints);
+        }
+        complaints
+    }
+
+    /// Topics of sources, with the sources.
+    pub(crate) fn topics(&self) -> impl Iterator<Item = (&str, &str, &str)> {
+        self.sources.iter().map(|port| {
+            let topic = match &port.messages {
+                Messages::Scans(scans) => scans.topic(),
+                Messages::Clouds(clouds) => clouds.topic(),
+            };
+            (port.layer.as_str(), port.source.as_str(), topic)
+        })
+    }
+}
+
+fn gather<'a>(layer: &'a LayerConfig, layers: &mut Vec<&'a LayerConfig>) {
+    layers.push(layer);
+    for child in &layer.children {
+        gather(child, layers);
+    }
+}
+
+struct Place<'a> {
+    node: &'a Node,
+    namespace: &'a str,
+    compat: Compat,
+}
+
+impl Place<'_> {
+    fn resolve(&self, topic: &str) -> String {
+        resolve(topic, self.namespace, self.compat)
+    }
+}
+
+/// Messages that wait until somebody knows where their frame was.
+struct Waiting<T> {
+    messages: VecDeque<(i64, Arc<T>)>,
+}
+
+impl<T> Default for Waiting<T> {
+    fn default() -> Self {
+        Self { messages: VecDeque::new() }
+    }
+}
+
+/// What came of a message.
+enum Tried {
+    Taken,
+    /// Its frame may still come.
+    Later,
+}
+
+impl<T: periplus_msgs::Message> Waiting<T> {
+    /// Takes in what has come and tries all that wait, oldest first; gives how many were dropped.
+    fn take(
+        &mut self,
+        mailbox: &Mailbox<T>,
+        now_ns: i64,
+        mut attempt: impl FnMut(&T) -> Tried,
+    ) -> u64 {
+        for (sample, message) in mailbox.drain_samples() {
+            self.messages.push_back((sample.time_ns, message));
+        }
+        let mut dropped = 0;
+        while self.messages.len() > MOST_WAITING {
+            self.messages.pop_front();
+            dropped += 1;
+        }
+        self.messages.retain(|(came_ns, message)| match attempt(message) {
+            Tried::Taken => false,
+            Tried::Later if now_ns - came_ns <= PATIENCE_NS => true,
+            Tried::Later => {
+                dropped += 1;
+                false
+            }
+        });
+        dropped
+    }
+}
+
+/// `global_from_frame` at the time of a message.
+fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Option<Pose> {
+    let stamp_ns = nanoseconds(&header.stamp);
+    scene.tf.at(scene.global_frame, frame, stamp_ns).ok().map(|(pose, _)| pose)
+}
+
+struct SourcePort {
+    layer: String,
+    source: String,
+    messages: Messages,
+    scans: Waiting<sensor_msgs::LaserScan>,
+    clouds: Waiting<sensor_msgs::PointCloud2>,
+    projector: Projector,
+    points: Vec<[f32; 3]>,
+    is_lost: bool,
+}
+
+enum Messages {
+    Scans(Mailbox<sensor_msgs::LaserScan>),
+    Clouds(Mailbox<sensor_msgs::PointCloud2>),
+}
+
+impl SourcePort {
+    fn take(
+        &mut self,
+        costmap: &mut LayeredCostmap,
+        scene: &Scene<'_>,
+        complaints: &mut Vec<Diagnostic>,
+    ) {
+        let Some(source) = costmap.source_mut(&self.layer, &self.source) else { return };
+        let (projector, points) = (&mut self.projector, &mut self.points);
+        let mut last_frame = None;
+        let dropped = match &self.messages {
+            Messages::Scans(scans) => self.scans.take(scans, scene.now_ns, |scan| {
+                last_frame = Some(scan.header.frame_id.clone());
+                take_scan(source, scene, scan, projector, points)
+            }),
+            Messages::Clouds(clouds) => self.clouds.take(clouds, scene.now_ns, |cloud| {
+                last_frame = Some(cloud.header.frame_id.clone());
+                take_cloud(source, scene, cloud, points)
+            }),
+        };
+        source.counters.without_frame += dropped;
+        if dropped == 0 {
+            self.is_lost &= last_frame.is_none();
+        } else if !std::mem::replace(&mut self.is_lost, true) {
+            let frame = last_frame.unwrap_or_default();
+            complaints.push(lost(&self.layer, source, scene, &frame));
+        }
+    }
+}
+
+/// Says why the frame of a message is not known.
+fn lost(layer: &str, source: &Source, scene: &Scene<'_>, frame: &str) -> Diagnostic {
+    let why = match scene.tf.at(scene.global_frame, frame, 0) {
+        Err(error) => error.to_string(),
+        Ok(_) => "its time is too far from that of the transforms".to_owned(),
+    };
+    let help = if !scene.tf.has(frame) {
+        "start what publishes this frame (robot_state_publisher, a static transform), or set `sensor_frame`"
+    } else if !scene.tf.has(scene.global_frame) {
+        "start what publishes the global frame: odometry, SLAM or localization with an initial pose"
+    } else {
+        "check that all nodes use the same time (`use_sim_time`)"
+    };
+    Diagnostic::warning(
+        "message-dropped",
+        format!(
+            "messages of `{layer}.{}` in frame `{frame}` are dropped: no transform to `{}`: {why}",
+            source.name, scene.global_frame
+        ),
+    )
+    .at(source.values.origin("topic"))
+    .help(help)
+}
+
+/// Where rays begin: the sensor's own frame if one is set.
+fn origin(source: &Source, scene: &Scene<'_>, header: &Header, cloud: Pose) -> Option<DVec3> {
+    if source.settings.sensor_frame.is_empty() {
+        return Some(cloud.translation);
+    }
+    Some(placed(scene, &source.settings.sensor_frame, header)?.translation)
+}
+
+fn take_scan(
+    source: &mut Source,
+    scene: &Scene<'_>,
+    scan: &sensor_msgs::LaserScan,
+    projector: &mut Projector,
+    points: &mut Vec<[f32; 3]>,
+) -> Tried {
+    let frame = scan.header.frame_id.as_str();
+    let Some(first) = placed(scene, frame, &scan.header) else { return Tried::Later };
+    let Some(origin) = origin(source, scene, &scan.header, first) else { return Tried::Later };
+    let beams = Beams {
+        angle_min_rad: scan.angle_min,
+        angle_increment_rad: scan.angle_increment,
+        range_min_m: scan.range_min,
+        range_max_m: scan.range_max,
+    };
+    let stamp_ns = nanoseconds(&scan.header.stamp);
+    let count = scan.ranges.len().saturating_sub(1) as f64;
+    let length_ns = (f64::from(scan.time_increment) * count * 1e9) as i64;
+    let inf_is_valid = source.settings.inf_is_valid;
+    points.clear();
+    // When the end of the scan is not known yet, it is taken as one moment, as Nav2 does.
+    let last = (length_ns > 0)
+        .then(|| scene.tf.at(scene.global_frame, frame, stamp_ns + length_ns).ok())
+        .flatten();
+    let global_from_points = match last {
+        Some((last, _)) => {
+            let moving = projector.points_in_motion(beams, &scan.ranges, inf_is_valid, first, last);
+            points.extend(moving);
+            Pose::IDENTITY
+        }
+        None => {
+            points.extend(projector.points(beams, &scan.ranges, inf_is_valid));
+            first
+        }
+    };
+    source.counters.without_return += (scan.ranges.len() - points.len()) as u64;
+    let points = points.iter().copied();
+    source.insert(scene.now_ns, stamp_ns, global_from_points, origin, points);
+    Tried::Taken
+}
+
+fn take_cloud(
+    source: &mut Source,
+    scene: &Scene<'_>,
+    cloud: &sensor_msgs::PointCloud2,
+    points: &mut Vec<[f32; 3]>,
+) -> Tried {
+    let Some(pose) = placed(scene, &cloud.header.frame_id, &cloud.header) else {
+        return Tried::Later;
+    };
+    let Some(origin) = origin(source, scene, &cloud.header, pose) else { return Tried::Later };
+    points.clear();
+    match clouds::points(cloud) {
+        Ok(all) => {
+            let stamp_ns = nanoseconds(&cloud.header.stamp);
+            source.insert(scene.now_ns, stamp_ns, pose, origin, all);
+        }
+        Err(_) => source.counters.malformed += 1,
+    }
+    Tried::Taken
+}
+
+struct MapPort {
+    layer: String,
+    map: Mailbox<nav_msgs::OccupancyGrid>,
+    updates: Option<Mailbox<map_msgs::OccupancyGridUpdate>>,
+}
+
+impl MapPort {
+    fn take(&self, costmap: &mut LayeredCostmap, complaints: &mut Vec<Diagnostic>) {
+        let Some(layer) = costmap.find_as::<StaticLayer>(&self.layer) else { return };
+        let topic = self.map.topic();
+        let mut refuse = |why: String| {
+            complaints.push(
+                Diagnostic::error(
+                    "malformed-map",
+                    format!("layer `{}`: a map on `{topic}` is refused: {why}", self.layer),
+                )
+                .help("the layer keeps the map that it had"),
+            );
+        };
+        if let Some(message) = self.map.latest() {
+            let taken = map(&message).and_then(|map| layer.set_map(map, &message.header.frame_id));
+            if let Err(why) = taken {
+                refuse(why);
+            }
+        }
+        for update in self.updates.iter().flat_map(Mailbox::drain) {
+            let (Ok(x0), Ok(y0)) = (usize::try_from(update.x), usize::try_from(update.y)) else {
+                refuse("an update begins beside the map".into());
+                continue;
+            };
+            let (width, height) = (update.width as usize, update.height as usize);
+            let window = Window { x0, y0, xn: x0 + width, yn: y0 + height };
+            if let Err(why) = layer.update_map(window, &update.data, &update.header.frame_id) {
+                refuse(format!("an update: {why}"));
+            }
+        }
+    }
+}
+
+struct RangePort {
+    layer: String,
+    ranges: Vec<Mailbox<sensor_msgs::Range>>,
+    waiting: Waiting<sensor_msgs::Range>,
+}
+
+impl RangePort {
+    fn take(&mut self, costmap: &mut LayeredCostmap, scene: &Scene<'_>) {
+        let Some(layer) = costmap.find_as::<RangeLayer>(&self.layer) else { return };
+        for ranges in &self.ranges {
+            self.waiting.take(ranges, scene.now_ns, |range| {
+                let Some(pose) = placed(scene, &range.header.frame_id, &range.header) else {
+                    return Tried::Later;
+                };
+                layer.insert(RangeReading {
+                    global_from_sensor: pose,
+                    range_m: range.range.into(),
+                    min_range_m: range.min_range.into(),
+                    max_range_m: range.max_range.into(),
+                    field_of_view_rad: range.field_of_view.into(),
+                });
+                Tried::Taken
+            });
+        }
+    }
+}
+
+struct FilterPort {
+    filter: String,
+    kind: LayerKind,
+    info: Mailbox<nav2_msgs::CostmapFilterInfo>,
+    mask: Option<Mailbox<nav_msgs::OccupancyGrid>>,
+}
+
+impl FilterPort {
+    fn take(
+        &mut self,
+        costmap: &mut LayeredCostmap,
+        place: &Place<'_>,
+        complaints: &mut Vec<Diagnostic>,
+    ) {
+        let mut complain = |what: String| {
+            let what = format!("filter `{}`: {what}", self.filter);
+            complaints.push(Diagnostic::error("filter-info", what));
+        };
+        if let Some(info) = self.info.latest() {
+            match FilterKind::from_number(info.r#type) {
+                Some(kind) => {
+                    let told = FilterInfo {
+                        kind,
+                        base: info.base.into(),
+                        multiplier: info.multiplier.into(),
+                    };
+                    self.tell(costmap, told);
+                    let topic = place.resolve(&info.filter_mask_topic);
+                    match place.node.mailbox(&topic, Qos::latched(3)) {
+                        Ok(mask) => self.mask = Some(mask),
+                        Err(error) => complain(error.to_string()),
+                    }
+                }
+                None => complain(format!("type {} is not known", info.r#type)),
+            }
+        }
+        let Some(message) = self.mask.as_ref().and_then(Mailbox::latest) else { return };
+        match map(&message) {
+            Ok(grid) => self.draw(costmap, Mask { grid, frame: message.header.frame_id.clone() }),
+            Err(why) => complain(format!("the mask is refused: {why}")),
+        }
+    }
+
+    fn tell(&self, costmap: &mut LayeredCostmap, info: FilterInfo) {
+        let name = &self.filter;
+        match self.kind {
+            LayerKind::Keepout => {
+                if let Some(filter) = costmap.find_as::<KeepoutFilter>(name) {
+                    filter.set_info(info);
+                }
+            }
+            LayerKind::Speed => {
+                if let Some(filter) = costmap.find_as::<SpeedFilter>(name) {
+                    filter.set_info(info);
+                }
+            }
+            _ => {
+                if let Some(filter) = costmap.find_as::<BinaryFilter>(name) {
+                    filter.set_info(info);
+                }
+            }
+        }
+    }
+
+    fn draw(&self, costmap: &mut LayeredCostmap, mask: Mask) {
+        let name = &self.filter;
+        match self.kind {
+            LayerKind::Keepout => {
+                if let Some(filter) = costmap.find_as::<KeepoutFilter>(name) {
+                    filter.set_mask(mask);
+                }
+            }
+            LayerKind::Speed => {
+                if let Some(filter) = costmap.find_as::<SpeedFilter>(name) {
+                    filter.set_mask(mask);
+                }
+            }
+            _ => {
+                if let Some(filter) = costmap.find_as::<BinaryFilter>(name) {
+                    filter.set_mask(mask);
+                }
+            }
+        }
+    }
+}

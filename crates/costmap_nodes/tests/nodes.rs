@@ -1,0 +1,347 @@
+//! Costmaps on a graph, as other nodes see them.
+#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+
+use std::sync::Arc;
+
+use periplus_costmap::{Compat, Config};
+use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::geometry_msgs::{Polygon, Quaternion, Transform, TransformStamped, Vector3};
+use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid};
+use periplus_msgs::nav2_msgs::*;
+use periplus_msgs::rcl_interfaces::{
+    Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
+};
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::Marker;
+use periplus_msgs::{Service, map_msgs};
+
+const LOCAL: &str = "
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      global_frame: odom
+      rolling_window: true
+      width: 3
+      height: 3
+      resolution: 0.1
+      update_frequency: 10.0
+      publish_frequency: 10.0
+      robot_radius: 0.1
+      plugins: [voxel_layer, inflation_layer]
+      voxel_layer:
+        plugin: nav2_costmap_2d::VoxelLayer
+        publish_voxel_map: true
+        observation_sources: scan
+        scan: {max_obstacle_height: 1.0, clearing: true, raytrace_max_range: 5.0}
+      inflation_layer: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.3}
+";
+
+const GLOBAL: &str = "
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      update_frequency: 10.0
+      publish_frequency: 10.0
+      plugins: [static_layer]
+      static_layer: {plugin: 'nav2_costmap_2d::StaticLayer', subscribe_to_updates: true}
+";
+
+fn config(text: &str, node: &str, compat: Compat) -> Config {
+    let mut sources = SourceMap::new();
+    let file = sources.add("params.yaml", text);
+    let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();
+    let mut diagnostics = Diagnostics::new();
+    let config = Config::read_yaml(&tree, node, Some(compat), &mut diagnostics);
+    assert!(diagnostics.is_empty(), "{:?}", diagnostics.iter().next());
+    config
+}
+
+struct Stage {
+    graph: Graph,
+    user: Node,
+    costmap: CostmapNode,
+    tf: Publisher<TFMessage>,
+    scan: Publisher<LaserScan>,
+    now_ns: i64,
+}
+
+impl Stage {
+    fn new(text: &str, name: &str, compat: Compat) -> Self {
+        let graph = Graph::new();
+        let costmap = CostmapNode::new(&graph, name, config(text, name, compat)).unwrap();
+        let user = graph.node(NodeSettings::new("user")).unwrap();
+        let tf = user.publisher("/tf", Qos::reliable(100)).unwrap();
+        let scan = user.publisher("/scan", Qos::sensor_data()).unwrap();
+        Self { graph, user, costmap, tf, scan, now_ns: 0 }
+    }
+
+    fn local() -> Self {
+        let stage = Self::new(LOCAL, "local_costmap", Compat::Main);
+        stage.costmap.start();
+        stage
+    }
+
+    fn stamp(&self) -> Time {
+        Time { sec: 0, nanosec: 0 }.later(self.now_ns)
+    }
+
+    /// The robot is at x in `parent`.
+    fn place(&self, parent: &str, x: f64) {
+        let transform = |parent: &str, child: &str, [x, y, z]: [f64; 3]| TransformStamped {
+            header: Header { stamp: self.stamp(), frame_id: parent.into() },
+            child_frame_id: child.into(),
+            transform: Transform {
+                translation: Vector3 { x, y, z },
+                rotation: Quaternion { w: 1.0, ..Quaternion::default() },
+            },
+        };
+        let transforms = vec![
+            transform(parent, "base_link", [x, 0.05, 0.0]),
+            transform("base_link", "laser", [0.0, 0.0, 0.2]),
+        ];
+        self.tf.publish(TFMessage { transforms });
+    }
+
+    /// Four beams, to the front, left, back and right.
+    fn see(&self, ranges: [f32; 4]) {
+        self.scan.publish(LaserScan {
+            header: Header { stamp: self.stamp(), frame_id: "laser".into() },
+            angle_increment: std::f32::consts::FRAC_PI_2,
+            range_min: 0.1,
+            range_max: 10.0,
+            ranges: ranges.to_vec(),
+            ..LaserScan::default()
+        });
+    }
+
+    fn advance(&mut self, milliseconds: i64) {
+        self.now_ns += milliseconds * 1_000_000;
+        self.graph.advance_to(self.now_ns);
+    }
+
+    fn hear<T: periplus_msgs::Message>(&self, topic: &str) -> Mailbox<T> {
+        self.user.mailbox(topic, Qos::latched(10)).unwrap()
+    }
+
+    fn ask<S: Service>(&self, name: &str, request: S::Request) -> Arc<S::Response> {
+        let asked = self.user.client::<S>(name).unwrap().call(request);
+        self.graph.settle();
+        asked.take().unwrap().unwrap()
+    }
+}
+
+trait Later {
+    fn later(self, ns: i64) -> Self;
+}
+
+impl Later for Time {
+    fn later(self, ns: i64) -> Self {
+        Self { sec: (ns / 1_000_000_000) as i32, nanosec: (ns % 1_000_000_000) as u32 }
+    }
+}
+
+/// The value of a grid at a point.
+fn at(grid: &OccupancyGrid, x: f64, y: f64) -> i8 {
+    let MapMetaData { resolution, width, origin, .. } = &grid.info;
+    let column = ((x - origin.position.x) / f64::from(*resolution)) as usize;
+    let row = ((y - origin.position.y) / f64::from(*resolution)) as usize;
+    grid.data[row * *width as usize + column]
+}
+
+#[test]
+fn an_obstacle_is_seen_published_and_cleared() {
+    let mut stage = Stage::local();
+    let grids = stage.hear::<OccupancyGrid>("/local_costmap/costmap");
+    let updates = stage.hear::<map_msgs::OccupancyGridUpdate>("/local_costmap/costmap_updates");
+    let markers = VoxelMarkers::new(&stage.graph, "/local_costmap").unwrap();
+    let marker = "/local_costmap/visualization_marker";
+    let cubes = stage.user.mailbox::<Marker>(marker, Qos::reliable(10)).unwrap();
+    stage.advance(1);
+    stage.place("odom", 0.05);
+    stage.see([1.0, 9.0, 9.0, 9.0]);
+    stage.advance(100);
+    let grid = grids.latest().unwrap();
+    assert_eq!((grid.info.width, grid.info.height), (30, 30));
+    assert_eq!(grid.header.frame_id, "odom");
+    assert_eq!(at(&grid, 1.05, 0.05), 100);
+    assert!((1..100).contains(&at(&grid, 0.85, 0.05)));
+    assert_eq!(cubes.latest().unwrap().points.len(), 1);
+    // It goes away: a wall further off.
+    stage.place("odom", 0.05);
+    stage.see([1.4, 9.0, 9.0, 9.0]);
+    stage.advance(100);
+    assert!(grids.latest().is_none(), "only what has changed");
+    let update = updates.latest().unwrap();
+    assert!(update.data.contains(&100));
+    assert_eq!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 0);
+    // It rolls on: another grid.
+    stage.place("odom", 1.05);
+    stage.advance(100);
+    assert!(grids.latest().unwrap().info.origin.position.x > -0.6);
+    drop(markers);
+}
+
+#[test]
+fn it_waits_for_the_robot_and_says_so() {
+    let mut stage = Stage::local();
+    stage.see([1.0; 4]);
+    stage.advance(500);
+    let status = stage.costmap.status();
+    assert_eq!(status.updates, 0);
+    assert!(status.trouble.unwrap().contains("`base_link` to `odom`"));
+    stage.place("odom", 0.0);
+    stage.advance(100);
+    let status = stage.costmap.status();
+    assert!(status.updates > 0 && status.trouble.is_none());
+    assert_eq!(status.sources[0].1, "/scan", "beside the costmap, not in it");
+    // The pose gets old.
+    stage.advance(1000);
+    assert!(stage.costmap.status().trouble.unwrap().contains("old"));
+}
+
+#[test]
+fn readings_wait_for_their_frame_but_not_for_ever() {
+    let mut stage = Stage::local();
+    stage.advance(1);
+    stage.see([1.0, 9.0, 9.0, 9.0]);
+    stage.advance(200);
+    // Its transform comes late, and it counts.
+    stage.now_ns = 1_000_000;
+    stage.place("odom", 0.05);
+    stage.now_ns = 250_000_000;
+    stage.place("odom", 0.05);
+    stage.advance(100);
+    assert_eq!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 254);
+    // This frame never comes.
+    stage.scan.publish(LaserScan {
+        header: Header { stamp: stage.stamp(), frame_id: "nowhere".into() },
+        ranges: vec![1.0],
+        ..LaserScan::default()
+    });
+    for _ in 0..20 {
+        stage.place("odom", 0.05);
+        stage.advance(100);
+    }
+    let advice = stage.costmap.status().advice;
+    assert!(advice.iter().any(|one| one.parameter.ends_with("scan.sensor_frame")), "{advice:?}");
+}
+
+#[test]
+fn it_is_managed() {
+    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Main);
+    stage.place("odom", 0.0);
+    stage.advance(500);
+    assert!(stage.costmap.look(|_| ()).is_none(), "not configured");
+    stage.costmap.start();
+    stage.advance(1);
+    stage.place("odom", 0.0);
+    stage.advance(200);
+    assert!(stage.costmap.status().updates > 0);
+    assert!(stage.costmap.life().is_active());
+}
+
+#[test]
+fn services_answer() {
+    let mut stage = Stage::local();
+    stage.advance(1);
+    stage.place("odom", 0.05);
+    stage.see([1.0, 9.0, 9.0, 9.0]);
+    stage.advance(100);
+    let grid = stage.ask::<GetCostmap>("/local_costmap/get_costmap", GetCostmapRequest::default());
+    assert!(grid.map.data.contains(&254));
+    let layer =
+        stage.ask::<GetCostmap>("/local_costmap/get_voxel_layer", GetCostmapRequest::default());
+    assert_eq!(layer.map.data.iter().filter(|cost| **cost == 254).count(), 1);
+    let mut request = GetCostsRequest { use_footprint: false, poses: vec![] };
+    for (frame, x) in [("odom", 1.05), ("base_link", 1.0), ("odom", 99.0), ("mars", 0.0)] {
+        let mut pose = periplus_msgs::geometry_msgs::PoseStamped::default();
+        pose.header.frame_id = frame.into();
+        (pose.pose.position.x, pose.pose.position.y) = (x, 0.0);
+        if frame == "odom" {
+            pose.pose.position.y = 0.05;
+        }
+        request.poses.push(pose);
+    }
+    let costs = stage.ask::<GetCosts>("/local_costmap/get_cost_local_costmap", request);
+    assert_eq!((costs.costs.as_slice(), costs.success), (&[254.0, 254.0, 254.0, 255.0][..], false));
+    let request = ClearCostmapAroundRobotRequest { reset_distance: 5.0 };
+    stage.ask::<ClearCostmapAroundRobot>("/local_costmap/clear_around_local_costmap", request);
+    stage.place("odom", 0.05);
+    stage.see([9.0; 4]);
+    stage.advance(100);
+    assert_ne!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 254);
+}
+
+#[test]
+fn older_distributions_have_other_forms() {
+    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Humble);
+    stage.costmap.start();
+    stage.place("odom", 0.05);
+    stage.advance(200);
+    assert_eq!(stage.costmap.status().sources[0].1, "/local_costmap/scan");
+    let request = GetCostRequest { x: 0.0, y: 0.0, ..GetCostRequest::default() };
+    let answer = stage.ask::<GetCost>("/local_costmap/get_cost_local_costmap", request);
+    assert_eq!(answer.cost, 0.0);
+    assert!(stage.graph.topics().iter().all(|topic| topic.name != "/local_costmap/voxel_layer"));
+}
+
+#[test]
+fn parameters_are_read_and_set() {
+    let mut stage = Stage::local();
+    stage.advance(1);
+    stage.place("odom", 0.05);
+    stage.see([1.0, 9.0, 9.0, 9.0]);
+    stage.advance(100);
+    let set = |stage: &Stage, name: &str, value: ParameterValue| {
+        let parameters = vec![Parameter { name: name.into(), value }];
+        let name = "/local_costmap/local_costmap/set_parameters";
+        let answer = stage.ask::<SetParameters>(name, SetParametersRequest { parameters });
+        answer.results[0].successful
+    };
+    let double = |double_value| ParameterValue {
+        r#type: ParameterType::PARAMETER_DOUBLE,
+        double_value,
+        ..ParameterValue::default()
+    };
+    assert!(set(&stage, "inflation_layer.inflation_radius", double(0.6)));
+    assert!(!set(&stage, "inflation_layer.inflation_radius", double(-1.0)));
+    assert!(!set(&stage, "publish_frequency", double(-1.0)));
+    assert!(set(&stage, "voxel_layer.scan.obstacle_max_range", double(0.5)));
+    stage.place("odom", 0.05);
+    stage.see([1.0, 9.0, 9.0, 9.0]);
+    stage.advance(100);
+    assert_ne!(stage.costmap.inspect(0.55, 0.05).unwrap().cost, 0, "further than before");
+}
+
+#[test]
+fn a_map_sets_the_size_and_a_footprint_comes_by_topic() {
+    let mut stage = Stage::new(GLOBAL, "global_costmap", Compat::Main);
+    stage.costmap.start();
+    let maps = stage.user.publisher::<OccupancyGrid>("/map", Qos::latched(1)).unwrap();
+    let outlines =
+        stage.user.publisher::<Polygon>("/global_costmap/footprint", Qos::reliable(1)).unwrap();
+    stage.advance(1);
+    maps.publish(OccupancyGrid {
+        header: Header { stamp: Time::default(), frame_id: "map".into() },
+        info: MapMetaData { resolution: 0.5, width: 3, height: 2, ..MapMetaData::default() },
+        data: vec![0, 100, 0, 0, 0, -1],
+    });
+    let point = |x, y| periplus_msgs::geometry_msgs::Point32 { x, y, z: 0.0 };
+    let points = vec![point(1.0, 1.0), point(1.0, -1.0), point(-1.0, 0.0)];
+    outlines.publish(Polygon { points });
+    stage.place("map", 0.2);
+    stage.advance(200);
+    stage.place("map", 0.2);
+    stage.advance(100);
+    let (costs, corners) = stage
+        .costmap
+        .look(|costmap| (costmap.costmap().costs().to_vec(), costmap.footprint().points().len()))
+        .unwrap();
+    assert_eq!(costs, [0, 254, 0, 0, 0, 0]);
+    assert_eq!(corners, 3);
+}
