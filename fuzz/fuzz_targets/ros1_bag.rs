@@ -28,7 +28,9 @@ fuzz_target!(|rest: &[u8]| {
         bag.write(topics[message.topic], stamp, message.data).expect("what was read can be written");
         written.push((message.log_ns.max(1), message.data.to_vec()));
     }
-    assert!(written.is_sorted_by_key(|(time_ns, _)| *time_ns));
+    // Only an index that is wrong, and said to be, leads astray.
+    assert!(written.is_sorted_by_key(|(time_ns, _)| *time_ns) || !reader.faults().is_empty());
+    written.sort_by_key(|(time_ns, _)| *time_ns);
     let again = bag.finish().expect("memory takes all").0.into_inner();
     let mut reader = Reader::open(Cursor::new(&*again)).expect("what was written can be read");
     assert!(reader.has_summary() && reader.faults().is_empty(), "{:?}", reader.faults());

@@ -220,7 +220,8 @@ impl<R: Read + Seek> Reader<R> {
         Some((signed(start), signed(end)))
     }
 
-    /// Messages in the order of their log times; those of one time in the order of the file.
+    /// Messages in the order of their log times; those of one time in the order of the file. Where the
+    /// index is wrong about times, which becomes a [fault](Self::faults), some may come late.
     pub fn messages(&mut self, selection: Selection) -> Messages<'_, R> {
         Messages::new(self, selection)
     }

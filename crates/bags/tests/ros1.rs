@@ -108,6 +108,21 @@ fn a_bag_that_was_not_closed_is_read_without_its_index() {
 }
 
 #[test]
+fn an_index_with_wrong_times_is_found_out() {
+    let (mut bytes, expected) = numbers(Ros1Compression::None);
+    // The last record of the index says when the last chunk begins, which is at 3 s.
+    let key = b"start_time=";
+    let at = bytes.windows(key.len()).rposition(|window| window == key).unwrap() + key.len();
+    assert_eq!(bytes[at], 3);
+    bytes[at] = 4;
+    let mut reader = open(&bytes);
+    assert!(reader.has_summary() && reader.faults().is_empty());
+    assert_eq!(rows(&mut reader, Selection::default()), expected);
+    let faults: Vec<String> = reader.faults().iter().map(ToString::to_string).collect();
+    assert!(faults.len() == 1 && faults[0].contains("older than the index says"), "{faults:?}");
+}
+
+#[test]
 fn nothing_stands_before_the_first_nanosecond() {
     let settings = Ros1Settings::new("n.bag");
     let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), settings).unwrap();

@@ -221,6 +221,11 @@ impl Walk {
             }
             Err(error) => return Err(error.into()),
         };
+        let times = block.kind.messages(&records, 0).map(|entry| entry.log_time);
+        if times.min().is_some_and(|earliest| earliest < block.start) {
+            let wrong = "messages are older than the index says, and may come late";
+            fault(&mut reader.faults, block.offset, wrong);
+        }
         let mut ahead: Vec<(u64, usize)> = block
             .kind
             .messages(&records, 0)
