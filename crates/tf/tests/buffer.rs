@@ -134,8 +134,11 @@ fn another_kind_or_a_clearing_forgets() {
 fn frames_as_yaml() {
     let mut buffer = moving(&[("odom", "base", 1, 0.0), ("odom", "base", 3, 0.0)]);
     buffer.set(&along_x("base", "laser", S, 0.0), "Authority undetectable", Kind::Fixed).unwrap();
+    let yaml = buffer.frames_yaml(Some(4 * S + S / 2));
+    // tf2 leaves a space behind the name of each frame, which no line of this file may have.
+    assert_eq!(yaml.matches(": \n").count(), 2);
     expect![[r#"
-        base: 
+        base:
           parent: 'odom'
           broadcaster: 'test'
           rate: 1.000
@@ -143,7 +146,7 @@ fn frames_as_yaml() {
           oldest_transform: 1.000000
           transform_delay: 1.500
           buffer_length: 2.000
-        laser: 
+        laser:
           parent: 'base'
           broadcaster: 'Authority undetectable'
           rate: 10000.000
@@ -152,7 +155,7 @@ fn frames_as_yaml() {
           transform_delay: 4.500
           buffer_length: 0.000
     "#]]
-    .assert_eq(&buffer.frames_yaml(Some(4 * S + S / 2)));
+    .assert_eq(&yaml.replace(": \n", ":\n"));
     assert_eq!(Buffer::default().frames_yaml(None), "[]");
 }
 
