@@ -141,9 +141,24 @@ struct Reading<'a, 'd> {
 }
 
 impl<'a> Reading<'a, '_> {
+    /// As in ROS 2, what comes later wins.
     fn add(&mut self, given: Given<'a>) {
         let (group, name) = given.name.rsplit_once('.').unwrap_or(("", given.name));
-        self.tree.groups.entry(group.to_owned()).or_default().push(Given { name, ..given });
+        let whole = given.name;
+        let given = Given { name, ..given };
+        let entries = self.tree.groups.entry(group.to_owned()).or_default();
+        let Some(earlier) = entries.iter_mut().find(|entry| entry.name == name) else {
+            return entries.push(given);
+        };
+        self.diagnostics.push(
+            Diagnostic::warning(
+                "repeated-parameter",
+                format!("`{whole}` is set twice; the last one counts"),
+            )
+            .at(given.name_origin)
+            .related(earlier.name_origin, "first set here"),
+        );
+        *earlier = given;
     }
 
     /// Takes a parameter out of a group.

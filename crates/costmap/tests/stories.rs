@@ -236,6 +236,15 @@ local_costmap:
 }
 
 #[test]
+fn what_is_set_last_counts() {
+    let text =
+        "/**:\n  ros__parameters:\n    resolution: 0.1\n    resolution: 0.2\n    plugins: []\n";
+    let (config, said) = read(text, "local_costmap");
+    assert_eq!(config.lattice().resolution_m, 0.2);
+    assert!(said.contains("`resolution` is set twice; the last one counts"), "{said}");
+}
+
+#[test]
 fn the_tutorial_file_needs_no_change() {
     let shared = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpus");
     let file =
