@@ -33,8 +33,7 @@ fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
 
 /// The manual page of the command, or those of all its commands in a folder.
 fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
-    let mut command = Options::command();
-    command.build();
+    let command = Options::command();
     if let Some(folder) = folder {
         if let Err(error) = clap_mangen::generate_to(command, folder) {
             terminal::complain(&format!("cannot write to {}: {error}", folder.display()));
