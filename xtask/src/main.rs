@@ -19,6 +19,7 @@ mod physics;
 mod pictures;
 mod rays;
 mod runs;
+mod slam;
 mod step;
 #[cfg(test)]
 mod tidy;
@@ -104,6 +105,8 @@ enum Contest {
     Sim,
     /// Messages to and from Fast DDS and Cyclone DDS
     Wire,
+    /// Maps and trajectories from logs of real robots
+    Slam,
 }
 
 fn main() -> ExitCode {
@@ -134,6 +137,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Rays) => rays::bench(),
             Some(Contest::Sim) => runs::bench(),
             Some(Contest::Wire) => wire::bench(load.as_deref()),
+            Some(Contest::Slam) => slam::bench(),
             None => corpus::bench()
                 .and_then(|()| physics::bench())
                 .and_then(|()| rays::bench())

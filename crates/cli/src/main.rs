@@ -9,6 +9,7 @@ mod costmap;
 mod map;
 mod options;
 mod sim;
+mod slam;
 mod teleop;
 mod terminal;
 mod verbs;
@@ -72,6 +73,7 @@ fn main() -> ExitCode {
         Command::Lifecycle(options) => options.run(),
         Command::Node(options) => options.run(),
         Command::Param(options) => options.run(),
+        Command::Slam(options) => slam::run(&options),
         Command::Service(options) => options.run(),
         Command::Tf(options) => options.run(),
         Command::Topic(options) => options.run(),

@@ -10,6 +10,7 @@ use crate::conformance::ConformanceOptions;
 use crate::costmap::DoctorCostmapOptions;
 use crate::map::MapCommand;
 use crate::sim::SimOptions;
+use crate::slam::SlamOptions;
 use crate::teleop::TeleopOptions;
 use crate::verbs::{
     ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ParamOptions, ServiceOptions,
@@ -35,6 +36,7 @@ pub(crate) enum Command {
     Check(CheckOptions),
     Convert(ConvertOptions),
     Sim(Box<SimOptions>),
+    Slam(SlamOptions),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),

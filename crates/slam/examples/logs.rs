@@ -15,7 +15,7 @@ use periplus_bags::{CarmenLog, CarmenScan, read_carmen};
 use periplus_base::{Pose2, Stream};
 use periplus_slam::{Relation, Scan, Score, Settings, Slam, Stamped, read_relations, score};
 
-const RUNS: [&str; 6] = ["plain", "rotate", "drop", "thin", "jitter", "scale"];
+const RUNS: [&str; 7] = ["plain", "rotate", "drop", "thin", "jitter", "scale", "awful"];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -125,12 +125,20 @@ fn perturbed(log: &CarmenLog, how: &str) -> Copy {
                 scan.angle_increment_rad *= 2.0;
             }
             "jitter" => scan.time_s += 0.02 * (stream.unit() - 0.5),
-            "scale" => {
+            "scale" | "awful" => {
                 if let Some(now) = scan.odom_from_base {
-                    let step = last.map_or(now, |last| last.inverse() * now);
-                    let times = if last.is_some() { 1.03 } else { 1.0 };
-                    pose = (pose * Pose2::new(times * step.x_m, times * step.y_m, step.yaw_rad))
-                        .normalized();
+                    let step = last.map_or(now, |last| last.inverse() * now).normalized();
+                    let mut times = if last.is_some() { 1.03 } else { 1.0 };
+                    let mut turn = step.yaw_rad;
+                    // Wheels that slip at random, and a robot that pulls to one side.
+                    if how == "awful" && last.is_some() {
+                        let way = libm::hypot(step.x_m, step.y_m);
+                        times += 0.12 * stream.normal();
+                        turn += 0.2 * turn * stream.normal();
+                        turn += way * (0.03 + 0.05 * stream.normal());
+                    }
+                    let step = Pose2::new(times * step.x_m, times * step.y_m, turn);
+                    pose = (pose * step).normalized();
                     last = Some(now);
                     scan.odom_from_base = Some(pose);
                 }

@@ -56,6 +56,13 @@ fn main() {
             };
             go("ring 40x25", &World::ring(40.0, 25.0, 2.4, seed), &ring(40.0, 25.0, 1), 0.6);
             go("ring 120x80", &World::ring(120.0, 80.0, 2.6, seed), &ring(120.0, 80.0, 1), 0.7);
+            if seed == 0 {
+                // Growth with the length of the way.
+                for laps in [4, 12] {
+                    let world = World::ring(120.0, 80.0, 2.6, seed);
+                    go(&format!("ring 120x80, {laps} laps"), &world, &ring(120.0, 80.0, laps), 0.7);
+                }
+            }
             let bare = World::blocks(1, 1, 30.0, 2.4);
             go(
                 "bare ring",

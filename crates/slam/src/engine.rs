@@ -96,6 +96,12 @@ const SEARCH_M: f64 = 0.1;
 const SEARCH_RAD: f64 = 0.05;
 /// Clouds of fewer points cannot be laid onto others.
 const LEAST_POINTS: usize = 12;
+/// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
+const JUMP_M: f64 = 4.0;
+const FASTEST_M_S: f64 = 5.0;
+/// Without odometry the robot is thought to go on as it did, when it was not faster than this.
+const STEADY_M_S: f64 = 2.0;
+const STEADY_RAD_S: f64 = 2.5;
 /// How fast it is learnt what is usual.
 const USUAL: f64 = 0.05;
 /// A turn of a radian counts as so much way \[m\].
@@ -163,6 +169,10 @@ impl Slam {
             (Some(before), Some(now)) => Some((before.inverse() * now).normalized()),
             _ => None,
         };
+        // Odometry that was set back, or is lost for a while, tells nothing of this step.
+        let told = told.filter(|motion| {
+            libm::hypot(motion.x_m, motion.y_m) < JUMP_M + FASTEST_M_S * seconds.max(0.0)
+        });
         let is_recent = seconds > 0.0 && seconds < 1.0;
         let motion = told.or_else(|| {
             let before = last.motion.filter(|_| is_recent)?;
@@ -184,9 +194,9 @@ impl Slam {
         let is_blank = cloud.points().len() < LEAST_POINTS;
         let group: Vec<usize> = neighbours(&self.keys, &self.graph, self.settings.local_scans);
         let (key, before) = (last.key, last.key_from_base);
-        let (key_from_base, information, is_matched) = if is_blank {
+        let (key_from_base, information, doubted, is_matched) = if is_blank {
             let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
-            (expected, information, false)
+            (expected, information, information, false)
         } else {
             // The prior is about a motion that began at the last scan.
             let turned = covariance.turned(before.yaw_rad);
@@ -197,14 +207,21 @@ impl Slam {
             if located.is_matched {
                 self.usual += USUAL * (located.fit.matched - self.usual);
             }
-            (located.fit.target_from_moving, located.information, located.is_matched)
+            (
+                located.fit.target_from_moving,
+                located.information,
+                located.doubted,
+                located.is_matched,
+            )
         };
         let moved = (before.inverse() * key_from_base).normalized();
         if told.is_some() && is_matched && !is_still {
             self.trust.learn(motion, moved);
         }
         let (shift_m, turn_rad) = apart(key_from_base, Pose2::IDENTITY);
+        // Where neither scans nor odometry tell where it is, a scan would only spoil the map.
         let is_kept = !is_blank
+            && (is_matched || told.is_some())
             && (shift_m > self.settings.key_shift_m || turn_rad > self.settings.key_turn_rad);
         let way_m = {
             let (metres, radians) = apart(key_from_base, Pose2::IDENTITY);
@@ -215,7 +232,11 @@ impl Slam {
             odom_from_base,
             key,
             key_from_base,
-            motion: per_second(moved),
+            motion: per_second(moved).filter(|it| {
+                is_matched
+                    && libm::hypot(it.x_m, it.y_m) < STEADY_M_S
+                    && it.yaw_rad.abs() < STEADY_RAD_S
+            }),
         };
         if is_kept {
             let travel_m = self.keys[key].travel_m + way_m;
@@ -223,7 +244,8 @@ impl Slam {
             let new = self.graph.add_pose(pose);
             self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m });
             let information = floored(&information);
-            self.graph.add_edge(Edge::new((key, new), key_from_base, information, Kind::Chain));
+            let edge = Edge::new((key, new), key_from_base, information, Kind::Chain);
+            self.graph.add_edge(edge.doubting(&floored(&doubted)));
             next.key = new;
             next.key_from_base = Pose2::IDENTITY;
             self.work.ties.push_back(new);

@@ -52,6 +52,13 @@ impl Edge {
         Self { from, to, from_from_to, information, covariances, kind, weight: 1.0 }
     }
 
+    /// The same, with another information for questions of uncertainty.
+    pub(crate) fn doubting(self, information: &Symmetric3) -> Self {
+        let covariances =
+            Self::new((self.from, self.to), self.from_from_to, *information, self.kind);
+        Self { covariances: covariances.covariances, ..self }
+    }
+
     /// Shift and turn by which poses differ from what this says.
     pub(crate) fn error(&self, poses: &[Pose2]) -> [f64; 3] {
         let found = poses[self.from].inverse() * poses[self.to];
@@ -91,6 +98,14 @@ impl Graph {
         self.at[edge.to].push(index as u32);
         self.edges.push(edge);
         index
+    }
+
+    /// Whether a tie or a closure holds a pose to older ones.
+    pub(crate) fn is_held(&self, key: usize) -> bool {
+        self.at[key].iter().any(|&edge| {
+            let edge = &self.edges[edge as usize];
+            edge.kind != Kind::Chain && edge.to == key && edge.weight > 0.5
+        })
     }
 
     /// `a_from_b` of two poses.

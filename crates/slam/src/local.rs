@@ -21,6 +21,7 @@ const FEW_STEPS: usize = 5;
 const POOR: f64 = 0.75;
 /// What odometry counts when it is doubted, and by how much (squared standard deviations) a fit must
 /// be better then.
+const HALF_TRUST: f64 = 0.1;
 const DISTRUST: f64 = 0.004;
 const PRICE: f64 = 20.0;
 /// Scans that agree on less than the first part of what both can see are in doubt; where they agree on
@@ -35,6 +36,8 @@ pub(crate) struct Located {
     pub(crate) fit: Fit,
     /// What scans and odometry together say.
     pub(crate) information: Symmetric3,
+    /// The same for asking how far off the place may be.
+    pub(crate) doubted: Symmetric3,
     /// Whether the scan fits, or only odometry tells where it is.
     pub(crate) is_matched: bool,
 }
@@ -128,7 +131,7 @@ pub(crate) fn locate(
         let middle = [frame_from_base.x_m as f32, frame_from_base.y_m as f32];
         let field = Field::new(&points_of(group), middle, &settings.local_field);
         let sigmas = [covariance.largest_shift().sqrt(), covariance.tt.sqrt()];
-        let mut window = Window {
+        let window = Window {
             middle: frame_from_base,
             half_m: [(3.0 * sigmas[0]).clamp(0.15, 2.5); 2],
             half_rad: (3.0 * sigmas[1]).clamp(0.08, 1.6),
@@ -140,24 +143,29 @@ pub(crate) fn locate(
                 best = fit;
             }
         }
-        let seen = |fit: &Fit| against(cloud, group, fit.target_from_moving);
-        if is_poor(&best) && seen(&best).share() < DOUBTFUL {
-            // Scans contradict each other, not only see different things. Perhaps the wheels slipped,
-            // or odometry stood still while the robot did not: with a wide window and little trust,
-            // at a price.
-            prior.information = prior.information * DISTRUST;
-            window.half_m = [(9.0 * sigmas[0]).clamp(1.0, 3.0); 2];
-            window.half_rad = std::f64::consts::PI;
-            if let (Some(peak), _) = field.search(&points, &window, 0.25, None) {
-                let fit = fit_from(peak.pose, &prior);
-                if fit.cost + PRICE < best.cost
-                    && fit.matched > 1.2 * best.matched
-                    && seen(&fit).share() > SURE
-                {
-                    let fit = finish(&fit, &prior);
-                    let information = prior.information + fit.information;
-                    return Located { fit, information, is_matched: true };
-                }
+        let seen = |fit: &Fit| against(cloud, group, fit.target_from_moving).share();
+        // Perhaps the wheels slipped, or odometry stood still while the robot did not. First not far
+        // away, with less trust in odometry; then, where scans contradict each other and do not only
+        // see different things, all around, with hardly any.
+        let stages = [
+            (HALF_TRUST, [(6.0 * sigmas[0]).clamp(0.4, 1.0); 2], (6.0 * sigmas[1]).clamp(0.4, 0.8)),
+            (DISTRUST, [(9.0 * sigmas[0]).clamp(1.0, 3.0); 2], std::f64::consts::PI),
+        ];
+        for (trust, half_m, half_rad) in stages {
+            if !is_poor(&best) || (trust == DISTRUST && seen(&best) >= DOUBTFUL) {
+                break;
+            }
+            prior.information = information * trust;
+            let window = Window { half_m, half_rad, ..window };
+            let (Some(peak), _) = field.search(&points, &window, 0.25, None) else { continue };
+            let fit = fit_from(peak.pose, &prior);
+            if fit.cost + PRICE < best.cost
+                && fit.matched > 1.2 * best.matched
+                && seen(&fit) > SURE.max(seen(&best))
+            {
+                let fit = finish(&fit, &prior);
+                let information = prior.information + fit.information;
+                return Located { fit, information, doubted: information, is_matched: true };
             }
         }
     }
@@ -165,10 +173,19 @@ pub(crate) fn locate(
     let is_matched = fit.matched > LEAST_MATCHED * 0.7;
     if !is_matched {
         best.target_from_moving = frame_from_base;
-        return Located { fit: best, information, is_matched };
+        let doubted = doubted(&information, 0.0);
+        return Located { fit: best, information, doubted, is_matched };
     }
+    let doubted = doubted(&information, fit.firmness) + fit.information;
     let information = information + fit.information;
-    Located { fit, information, is_matched }
+    Located { fit, information, doubted, is_matched }
+}
+
+/// What odometry tells where scans do not hold, when it is asked how far off a place may be. Along a
+/// corridor its errors are all to one side: they add up and do not average out, so that for the
+/// uncertainty of a way it counts less than its scatter would have it.
+fn doubted(information: &Symmetric3, firmness: f64) -> Symmetric3 {
+    *information * (ALONG + (1.0 - ALONG) * firmness)
 }
 
 /// A scan held against the first few of a group, both ways.
@@ -182,6 +199,9 @@ fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agre
     sum
 }
 
+/// What odometry counts where scans do not hold: errors of 3 % over a hundred steps are as likely as
+/// their scatter says only when one step errs by so much more.
+const ALONG: f64 = 0.15;
 /// How near two points are the same \[m\].
 const TOLERANCE_M: f32 = 0.2;
 

@@ -62,6 +62,9 @@ const ONE_WITNESS_M: f64 = 2.0;
 const TWO_WITNESSES_M: f64 = 12.0;
 /// Witnesses are at least this way apart \[m\].
 const APART_M: f64 = 4.0;
+/// Searches for one stretch, and searches that wait, at most.
+const MOST_ASKED: usize = 30;
+const MOST_WAITING: usize = 300;
 /// Fields that are kept.
 const KEPT_FIELDS: usize = 12;
 /// Points of a stretch that are searched with.
@@ -163,6 +166,7 @@ impl Loops {
         for sighting in sightings {
             covariances[sighting.key] = Some(sighting);
         }
+        let mut asked: Vec<(f64, Task)> = Vec::new();
         for (place, old) in self.places.iter().enumerate() {
             if keys[start].travel_m - keys[old.keys.end - 1].travel_m < OLD_M - STRETCH_M {
                 break;
@@ -177,8 +181,33 @@ impl Loops {
                 continue;
             }
             let covariance = reversed(&sighting.covariance, graph.between(anchor, old.middle));
-            self.tasks.push_back(Task { stretch: stretch.clone(), anchor, place, covariance });
+            let task = Task { stretch: stretch.clone(), anchor, place, covariance };
+            // The likeliest first: how far out in its region a meeting would be.
+            asked.push(((metres - MEET_M).max(0.0) / region_m.max(0.1), task));
         }
+        asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
+        asked.truncate(MOST_ASKED);
+        // Under load the oldest questions go unanswered; they are asked again at the end.
+        let over = (self.tasks.len() + asked.len()).saturating_sub(MOST_WAITING);
+        self.tasks.drain(..over.min(self.tasks.len()));
+        self.tasks.extend(asked.into_iter().map(|it| it.1));
+    }
+
+    /// Ends of all stretches that no tie or closure holds.
+    pub(crate) fn unheld(keys: &[Key], graph: &Graph) -> Vec<usize> {
+        let mut ends = Vec::new();
+        let mut asked_m = 0.0;
+        let mut held_m = f64::NEG_INFINITY;
+        for (key, it) in keys.iter().enumerate() {
+            if graph.is_held(key) {
+                held_m = it.travel_m;
+            }
+            if it.travel_m - asked_m >= EVERY_M && it.travel_m - held_m > STRETCH_M {
+                asked_m = it.travel_m;
+                ends.push(key);
+            }
+        }
+        ends
     }
 
     /// Whether searches are waiting.

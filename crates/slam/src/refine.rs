@@ -26,7 +26,7 @@ pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
     let sweeps = settings.refine_sweeps;
     let mut pairs = Vec::new();
     for sweep in 0..sweeps {
-        if sweep == 0 || sweep == 2 {
+        if sweep == 0 {
             pairs = choose(keys, graph, settings);
         }
         let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
@@ -84,16 +84,18 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
         }
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut count = 0;
+        let mut is_chained = key == 0;
         for (_, other) in near {
             if count >= settings.refine_neighbours {
                 break;
             }
             if other + 1 == key || is_alike(keys, graph, other, key) {
                 pairs.push((other, key));
+                is_chained |= other + 1 == key;
                 count += 1;
             }
         }
-        if key > 0 && !pairs.contains(&(key - 1, key)) {
+        if !is_chained {
             pairs.push((key - 1, key));
         }
         cells.entry((column, row)).or_default().push(key);

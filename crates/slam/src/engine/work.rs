@@ -8,6 +8,7 @@ use periplus_matching::{Agreement, agreement};
 use super::Slam;
 use crate::graph::{Kind, Outcome, Solver};
 use crate::local::apart;
+use crate::loops::Loops;
 use crate::near::ties;
 
 /// What is to be done.
@@ -21,6 +22,8 @@ pub(super) struct Work {
     /// Ties since the map was last solved for, and whether one of them pulls.
     loose: usize,
     is_strained: bool,
+    /// Keys when the map was last solved for.
+    solved_at: usize,
     pub(super) tied: usize,
     pub(super) searches: usize,
     pub(super) slices: usize,
@@ -40,6 +43,9 @@ struct Solving {
 
 /// A tie that is off by more pulls (squared Mahalanobis distance).
 const STRAIN: f64 = 6.0;
+/// Keys between two times that the map is bent for ties, and of how many more one is added to that.
+const SOLVE_EVERY: usize = 4;
+const SOLVE_PART: usize = 60;
 /// So many ties that do not pull are solved for anyway.
 const LOOSE: usize = 60;
 /// A step that moves less is the last \[m\].
@@ -83,7 +89,7 @@ impl Slam {
             self.solve_step();
         } else if let Some(key) = self.work.ties.pop_front() {
             self.tie(key);
-        } else if self.work.is_strained || self.work.loose >= LOOSE {
+        } else if self.is_to_be_solved() {
             self.solve(None);
         } else if self.loops.is_busy() {
             self.search();
@@ -92,6 +98,14 @@ impl Slam {
         }
         self.work.slices += 1;
         true
+    }
+
+    /// A map is bent for ties that pull, but not for every one: the larger it is, the more scans share
+    /// the work.
+    fn is_to_be_solved(&self) -> bool {
+        let keys = self.keys.len();
+        let is_due = keys >= self.work.solved_at + SOLVE_EVERY + keys / SOLVE_PART;
+        (self.work.is_strained && is_due) || self.work.loose >= LOOSE + keys / SOLVE_PART
     }
 
     fn tie(&mut self, key: usize) {
@@ -119,6 +133,7 @@ impl Slam {
     fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
         self.work.loose = 0;
         self.work.is_strained = false;
+        self.work.solved_at = self.keys.len();
         let size = (self.graph.poses.len(), self.graph.edges.len());
         let solver = Solver::new(&self.graph);
         self.work.solving = Some(Solving { solver, steps: 0, size, trial });
@@ -204,9 +219,17 @@ impl Slam {
 
     /// Looks for ties that were missed while places were uncertain, and bends the map until it rests.
     pub(super) fn settle(&mut self) {
-        self.work.ties.extend(0..self.keys.len());
+        let is_held = |key: &usize| self.graph.is_held(*key);
+        self.work.ties.extend((0..self.keys.len()).filter(|key| !is_held(key)));
         self.work_slices(usize::MAX);
         self.solve(None);
         self.work_slices(usize::MAX);
+        if self.settings.closes_loops {
+            // Places are known better now.
+            for key in Loops::unheld(&self.keys, &self.graph) {
+                self.loops.ask(&self.keys, &self.graph, key);
+                self.work_slices(usize::MAX);
+            }
+        }
     }
 }

@@ -1,0 +1,114 @@
+//! `periplus slam`.
+
+mod bag;
+mod log;
+mod options;
+mod picture;
+mod report;
+
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use periplus_host::{Machine, Stopwatch};
+use periplus_maps::{Distro, Saving, render};
+use periplus_resources::Store as _;
+use periplus_slam::{Settings, Slam};
+
+use crate::terminal;
+use log::Log;
+use report::Report;
+
+pub(crate) use options::SlamOptions;
+
+pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
+    let watch = Stopwatch::start();
+    let mut log = match Log::open(options)? {
+        Ok(log) => log,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    if log.scans.is_empty() {
+        terminal::complain(&format!("{} holds no scans", options.log.display()));
+        return Ok(ExitCode::FAILURE);
+    }
+    let mut slam = Slam::new(Settings {
+        resolution_m: options.resolution,
+        range_max_m: options.max_range,
+        closes_loops: !options.no_loops,
+        ..Settings::default()
+    });
+    let loaded_s = watch.elapsed().as_secs_f64();
+    let mut spent_s = Vec::with_capacity(log.scans.len());
+    // Which scans have a line in the trajectory.
+    let mut stamps = Vec::with_capacity(log.scans.len());
+    for logged in &log.scans {
+        let one = Stopwatch::start();
+        let before = slam.counts().ignored;
+        let _ = slam.add_scan(&logged.scan, logged.odom_from_base);
+        spent_s.push(one.elapsed().as_secs_f64());
+        if slam.counts().ignored == before {
+            stamps.push(logged.stamp.as_str());
+        }
+    }
+    let last = Stopwatch::start();
+    slam.finish();
+    let report = Report {
+        options,
+        slam: &slam,
+        log: &log,
+        loaded_s,
+        finish_s: last.elapsed().as_secs_f64(),
+        wall_s: watch.elapsed().as_secs_f64(),
+        spent_s: &spent_s,
+    };
+    let written = write(&options.out, &slam, &stamps, &report);
+    if !options.quiet {
+        report.tell(&mut anstream::stdout().lock())?;
+    }
+    if let Err(why) = written {
+        terminal::complain(&why);
+        return Ok(ExitCode::FAILURE);
+    }
+    log.faults.truncate(MOST_TOLD);
+    for fault in &log.faults {
+        terminal::complain(fault);
+    }
+    Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// So many faults of a log are told one by one.
+const MOST_TOLD: usize = 20;
+
+/// Writes all that comes of a run.
+fn write(out: &Path, slam: &Slam, stamps: &[&str], report: &Report<'_>) -> Result<(), String> {
+    std::fs::create_dir_all(out).map_err(|why| format!("cannot make {}: {why}", out.display()))?;
+    let put = |name: &str, bytes: &[u8]| {
+        let path = out.join(name);
+        Machine
+            .replace(&path, bytes)
+            .map_err(|why| format!("cannot write {}: {why}", path.display()))
+    };
+    let trajectory = slam.trajectory();
+    let lines: String = stamps
+        .iter()
+        .zip(&trajectory)
+        .map(|(stamp, (_, pose))| {
+            format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
+        })
+        .collect();
+    put("trajectory.txt", lines.as_bytes())?;
+    put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
+    let Some(map) = slam.map() else {
+        return Err("the map is too large to draw; try `--max-range 30` or a coarser \
+                    `--resolution`. The trajectory is written"
+            .into());
+    };
+    let files = render(&map, &Saving::new("map", Distro::Jazzy));
+    put(&files.image_path, &files.image)?;
+    put(&files.yaml_path, files.yaml.as_bytes())?;
+    let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
+    put("trajectory.png", &picture::draw(&map, &poses))
+}

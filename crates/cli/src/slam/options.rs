@@ -1,0 +1,51 @@
+//! What can be typed after `periplus slam`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Make a map and a trajectory from a log of laser scans
+///
+/// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
+/// bag`). DIR receives map.yaml and map.pgm, trajectory.txt (a line for each scan: `stamp x y
+/// theta`), trajectory.png and report.json. What is damaged is told, the rest is used, and the exit
+/// code is 1.
+#[derive(Debug, Args)]
+pub(crate) struct SlamOptions {
+    /// The log
+    #[arg(value_name = "LOG")]
+    pub(crate) log: PathBuf,
+    /// Where the results go
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Side of a cell of the map [m]
+    #[arg(long, default_value_t = 0.05, value_name = "M", value_parser = side)]
+    pub(crate) resolution: f64,
+    /// Readings from farther away are not used [m]
+    #[arg(long, default_value_t = 60.0, value_name = "M")]
+    pub(crate) max_range: f32,
+    /// Close no loops
+    #[arg(long)]
+    pub(crate) no_loops: bool,
+    /// The topic with the scans; without it the one with the most
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) scan_topic: Option<String>,
+    /// The frame in which odometry tells where the robot is
+    #[arg(long, default_value = "odom", value_name = "FRAME")]
+    pub(crate) odom_frame: String,
+    /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
+    #[arg(long, value_name = "FRAME")]
+    pub(crate) base_frame: Option<String>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+fn side(text: &str) -> Result<f64, String> {
+    let side: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    if (0.005..=2.0).contains(&side) {
+        Ok(side)
+    } else {
+        Err("cells have sides of 0.005 to 2 m".into())
+    }
+}
