@@ -7,6 +7,7 @@ use periplus_resources::{Host, Kind};
 
 use crate::{Case, Differences, Unreadable};
 
+mod amcl;
 mod costmap;
 mod grid_coords;
 mod map_load;
@@ -46,6 +47,14 @@ impl Setting<'_> {
 
 /// All kinds that are checked, in the order of their names.
 pub const KINDS: &[(&str, Check)] = &[
+    ("amcl_beam", amcl::check_beam),
+    ("amcl_beams", amcl::check_beams),
+    ("amcl_kld", amcl::check_kld),
+    ("amcl_likelihood", amcl::check_likelihood),
+    ("amcl_map", amcl::check_map),
+    ("amcl_motion", amcl::check_motion),
+    ("amcl_pose_file", amcl::check_pose_file),
+    ("amcl_update", amcl::check_update),
     ("binary_filter", costmap::check_binary),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
