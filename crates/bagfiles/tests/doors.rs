@@ -140,6 +140,21 @@ fn a_database_without_index_is_read_in_order() {
 
 /// The tables of Foxy, Galactic and Humble, as `rosbag2_storage_sqlite3` had them.
 #[test]
+fn a_database_whose_index_leads_back_is_read_up_to_there() {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/bag_database");
+    let bag = Bag::open(seeds.join("index_out_of_order.db3")).unwrap();
+    let mut messages = bag.messages(Selection::default());
+    let wrong = loop {
+        match messages.next() {
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("the damage went unseen"),
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(wrong.contains("not in order"), "{wrong}");
+}
+
+#[test]
 fn databases_of_older_releases_are_read() {
     let folder = Folder::new("older");
     let topics = "id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, \

@@ -211,6 +211,12 @@ impl Rows {
         let mut count = 0;
         while let Some(row) = rows.next()? {
             let (time, id): (i64, i64) = (row.get(0)?, row.get(1)?);
+            // A damaged index leads back, perhaps for ever.
+            if (time, id) <= self.after {
+                let corrupt = rusqlite::ffi::Error::new(rusqlite::ffi::SQLITE_CORRUPT);
+                let what = "the index of times is damaged: it is not in order".to_owned();
+                return Err(rusqlite::Error::SqliteFailure(corrupt, Some(what)));
+            }
             self.after = (time, id);
             count += 1;
             if let Some(topic) = self.wanted.get(&row.get(2)?) {
