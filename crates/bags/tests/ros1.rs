@@ -123,6 +123,31 @@ fn an_index_with_wrong_times_is_found_out() {
 }
 
 #[test]
+fn nothing_stands_after_the_last_nanosecond() {
+    const LATEST: i64 = 4_294_967_295_999_999_999;
+    let write = |time_ns| {
+        let settings = Ros1Settings::new("late.bag");
+        let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), settings).unwrap();
+        let topic = bag.topic(&topic("/late")).unwrap();
+        bag.write(topic, Stamp::at(time_ns), &7_u32.to_le_bytes()).unwrap();
+        bag.finish().unwrap().0.into_inner()
+    };
+    let times = |bytes: &[u8]| -> Vec<i64> {
+        rows(&mut open(bytes), Selection::default()).iter().map(|row| row.1).collect()
+    };
+    assert_eq!(times(&write(i64::MAX)), [LATEST]);
+    // Four seconds of nanoseconds after the last second; found by fuzzing.
+    let mut bytes = write(LATEST);
+    let last = [u32::MAX.to_le_bytes(), 999_999_999_u32.to_le_bytes()].concat();
+    for at in 0..bytes.len() - 8 {
+        if bytes[at..at + 8] == last {
+            bytes[at + 4..at + 8].copy_from_slice(&u32::MAX.to_le_bytes());
+        }
+    }
+    assert_eq!(times(&bytes), [LATEST]);
+}
+
+#[test]
 fn nothing_stands_before_the_first_nanosecond() {
     let settings = Ros1Settings::new("n.bag");
     let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), settings).unwrap();

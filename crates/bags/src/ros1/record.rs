@@ -45,10 +45,13 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Seconds and nanoseconds \[ns\].
+/// The last time that a bag can tell, in the year 2106 \[ns\].
+const LATEST: u64 = u32::MAX as u64 * 1_000_000_000 + 999_999_999;
+
+/// Seconds and nanoseconds \[ns\]. The latter may be more than a second, in bags that are damaged.
 pub(super) fn time(cursor: &mut Cursor<'_>) -> Option<u64> {
     let (sec, nsec) = (cursor.u32()?, cursor.u32()?);
-    Some(u64::from(sec) * 1_000_000_000 + u64::from(nsec))
+    Some((u64::from(sec) * 1_000_000_000 + u64::from(nsec)).min(LATEST))
 }
 
 /// The next record: its header and its data.
@@ -103,8 +106,9 @@ pub(super) fn put_u32(out: &mut Vec<u8>, value: usize) {
     out.extend((value as u32).to_le_bytes());
 }
 
-/// A time as seconds and nanoseconds; the last one when it is later than the year 2106.
+/// A time as seconds and nanoseconds; the last one when it is later than that.
 pub(super) fn time_bytes(time: u64) -> [u8; 8] {
+    let time = time.min(LATEST);
     let sec = u32::try_from(time / 1_000_000_000).unwrap_or(u32::MAX);
     let nsec = (time % 1_000_000_000) as u32;
     let mut bytes = [0; 8];
