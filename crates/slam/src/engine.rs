@@ -186,7 +186,7 @@ impl Slam {
             is_recent
                 .then(|| Pose2::new(motion.x_m * rate, motion.y_m * rate, motion.yaw_rad * rate))
         };
-        let ends = scan.ends(per_second(motion), self.settings.range_max_m);
+        let ends = scan.ends(per_second(motion), self.settings.used_m());
         let (metres, radians) = apart(motion, Pose2::IDENTITY);
         let is_still = told.is_some() && metres < STILL_M && radians < STILL_RAD;
         let expected = (last.key_from_base * motion).normalized();
@@ -268,7 +268,7 @@ impl Slam {
 
     /// The first scan: the map begins where odometry has the robot.
     fn begin(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
-        let ends = scan.ends(None, self.settings.range_max_m);
+        let ends = scan.ends(None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         self.graph.add_pose(odom_from_base.unwrap_or(Pose2::IDENTITY).normalized());
         self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m: 0.0 });

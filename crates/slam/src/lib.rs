@@ -14,20 +14,25 @@
 
 mod drift;
 mod engine;
+mod gmapping;
 mod graph;
 mod key;
 mod local;
 mod loops;
 mod map;
+mod method;
 mod near;
 mod odometry;
 mod refine;
 mod relations;
 mod scan;
 mod settings;
+pub mod tables;
 
 pub use engine::{Counts, Slam, Taken, Update};
+pub use gmapping::{GmappingSettings, Noise};
 pub use loops::Closure;
+pub use method::{Mapper, Method};
 pub use relations::{Errors, Relation, Score, Stamped, read_relations, score};
 pub use scan::Scan;
 pub use settings::Settings;

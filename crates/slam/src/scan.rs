@@ -39,11 +39,12 @@ pub(crate) struct Ends {
 
 impl Scan {
     /// Where beams ended in the frame of the base at the time of the scan. `motion` is how the base
-    /// moved in a second, to undo that beams were not at once.
-    pub(crate) fn ends(&self, motion: Option<Pose2>, farthest_m: f32) -> Ends {
+    /// moved in a second, to undo that beams were not at once; readings are used from `nearest_m` to
+    /// `farthest_m`.
+    pub(crate) fn ends(&self, motion: Option<Pose2>, [nearest_m, farthest_m]: [f32; 2]) -> Ends {
         let every = self.ranges_m.len().div_ceil(MOST_BEAMS).max(1);
         let sign = if self.is_flipped { -1.0 } else { 1.0 };
-        let least = self.range_min_m.max(0.01);
+        let least = self.range_min_m.max(nearest_m).max(0.01);
         // A little below, for scanners round what they send.
         let most = (self.range_max_m * 0.9995).min(farthest_m);
         let end = |index: usize, range: f32| {

@@ -9,6 +9,8 @@ pub struct Settings {
     pub key_shift_m: f64,
     /// ... or turn \[rad\] from the last one kept.
     pub key_turn_rad: f64,
+    /// Nearer readings are not used \[m\].
+    pub range_min_m: f32,
     /// Readings from farther away are not used \[m\].
     pub range_max_m: f32,
     /// How clouds are made.
@@ -37,11 +39,19 @@ pub struct Settings {
     pub solve_steps: usize,
 }
 
+impl Settings {
+    /// Which readings are used \[m\].
+    pub(crate) fn used_m(&self) -> [f32; 2] {
+        [self.range_min_m, self.range_max_m]
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
             key_shift_m: 0.35,
             key_turn_rad: 0.26,
+            range_min_m: 0.0,
             range_max_m: 60.0,
             cloud: CloudSettings::default(),
             register: RegisterSettings::default(),

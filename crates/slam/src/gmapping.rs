@@ -1,0 +1,5 @@
+//! Particles that each have a map of their own.
+
+mod settings;
+
+pub use settings::{GmappingSettings, Noise};

@@ -1,0 +1,75 @@
+//! What can be set of the particles.
+
+use periplus_diagnostics::Diagnostics;
+
+use crate::tables::GMAPPING;
+
+/// How odometry errs: standard deviations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of the place, per metre of way.
+    pub place_by_way: f64,
+    /// Of the place \[m\], per radian of turn.
+    pub place_by_turn: f64,
+    /// Of the heading \[rad\], per metre of way.
+    pub heading_by_way: f64,
+    /// Of the heading, per radian of turn.
+    pub heading_by_turn: f64,
+}
+
+/// What can be set of the particles. The defaults are those of [`GMAPPING`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct GmappingSettings {
+    /// How many there are.
+    pub particles: usize,
+    /// Seed of all randomness.
+    pub seed: u64,
+    /// On so many threads; the result is the same.
+    pub threads: usize,
+    /// Nearer readings are not used \[m\].
+    pub range_min_m: f32,
+    /// The map is drawn, and scans are laid onto it, up to here \[m\].
+    pub range_used_m: f32,
+    /// Readings beyond say nothing at all \[m\]; none for what scans say.
+    pub range_max_m: Option<f32>,
+    /// Beams that are left out after each one when scans are laid onto maps.
+    pub skipped_beams: usize,
+    /// A scan is used after so much motion \[m\] ...
+    pub update_shift_m: f64,
+    /// ... or turn \[rad\] ...
+    pub update_turn_rad: f64,
+    /// ... or time \[s\] since the last one.
+    pub update_time_s: Option<f64>,
+    /// In a match a beam that ends a distance d from the map's points counts exp(-d^2 / this) \[m^2\].
+    pub match_sigma_m2: f64,
+    /// Cells around the end of a beam that are looked at.
+    pub kernel_cells: usize,
+    /// Steps towards the best fit.
+    pub steps: usize,
+    /// A scan fits when its beams count more than this together.
+    pub least_score: f64,
+    /// A beam is likely by exp(-d^2 / this) \[m^2\].
+    pub likelihood_sigma_m2: f64,
+    /// How much likelihoods are flattened for weights.
+    pub gain: f64,
+    /// How far around the best fit the likelihood is sampled \[m, rad\].
+    pub sample_range: [f64; 2],
+    /// In which steps \[m, rad\].
+    pub sample_step: [f64; 2],
+    /// How odometry errs.
+    pub noise: Noise,
+    /// Particles are drawn anew when fewer than this part of them count.
+    pub resample_share: f64,
+    /// Side of a cell of the map \[m\].
+    pub resolution_m: f64,
+    /// A cell is occupied from this share of hits on.
+    pub occupied_share: f64,
+    /// The map reaches at least over this: least x and y, most x and y \[m\].
+    pub bounds_m: [Option<f64>; 4],
+}
+
+impl Default for GmappingSettings {
+    fn default() -> Self {
+        Self::of(&GMAPPING.check([], None, &mut Diagnostics::new()))
+    }
+}

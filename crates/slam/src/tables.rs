@@ -1,0 +1,171 @@
+//! Parameters by the names that `slam_toolbox` and `slam_gmapping` have for them, and what they mean
+//! to the methods here.
+//!
+//! A parameter of theirs that nothing here listens to is in the tables all the same, so that files
+//! can be taken as they are. When somebody sets one of these to something else than its default, a
+//! warning tells why that changes nothing ([`idle`]).
+
+mod gmapping;
+mod toolbox;
+
+use periplus_diagnostics::Diagnostic;
+use periplus_params::{Default, Given, Value, Values};
+
+use crate::settings::Settings;
+
+pub use gmapping::GMAPPING;
+pub use toolbox::SLAM_TOOLBOX;
+
+use crate::method::Method;
+
+/// Parameters that change nothing here.
+struct Idle {
+    names: &'static [&'static str],
+    /// Why: a sentence without its full stop.
+    because: &'static str,
+}
+
+impl Method {
+    /// The parameters by which a method is set up: of `slam_toolbox` for the graph, of
+    /// `slam_gmapping` for particles.
+    #[must_use]
+    pub fn table(self) -> &'static periplus_params::Table {
+        match self {
+            Self::Graph => &SLAM_TOOLBOX,
+            Self::Gmapping => &GMAPPING,
+        }
+    }
+}
+
+/// A warning for each parameter that was set to something else than its default and changes nothing.
+#[must_use]
+pub fn idle(values: &Values) -> Vec<Diagnostic> {
+    let table = values.table();
+    let lists: &[Idle] = match table.name {
+        name if name == SLAM_TOOLBOX.name => toolbox::IDLE,
+        name if name == GMAPPING.name => gmapping::IDLE,
+        _ => &[],
+    };
+    let mut findings = Vec::new();
+    for list in lists {
+        for name in list.names {
+            if !is_changed(values, name) {
+                continue;
+            }
+            let Some(value) = values.get(name) else { continue };
+            findings.push(
+                Diagnostic::warning("idle-parameter", format!("`{name}: {value}` changes nothing"))
+                    .at(values.origin(name))
+                    .note(list.because),
+            );
+        }
+    }
+    findings
+}
+
+/// What values of a table say together that cannot be meant.
+#[must_use]
+pub fn conflicts(values: &Values) -> Vec<Diagnostic> {
+    let table = values.table();
+    if table.name == GMAPPING.name { gmapping::conflicts(values) } else { Vec::new() }
+}
+
+/// Whether a parameter was set to something else than its default.
+fn is_changed(values: &Values, name: &str) -> bool {
+    let default = values.table().find(name).and_then(|parameter| match parameter.default {
+        Default::Value(default) => Value::read(parameter, default).ok(),
+        Default::Required | Default::None => None,
+    });
+    values.is_given(name) && values.get(name) != default
+}
+
+impl Settings {
+    /// What values of [`SLAM_TOOLBOX`] say to the graph. Only what was given counts: the defaults here
+    /// are the engine's own.
+    #[must_use]
+    pub fn of(values: &Values) -> Self {
+        toolbox::settings(values)
+    }
+}
+
+/// Names of parameters that can be told apart from those of the other method by their spelling.
+///
+/// A file that holds parameters of both, or of none, tells nothing.
+#[must_use]
+pub fn method_of<'a>(given: impl IntoIterator<Item = &'a Given<'a>>) -> Option<Method> {
+    let (mut graph, mut gmapping) = (false, false);
+    for one in given {
+        let known = Method::ALL.map(|method| method.table().find(one.name).is_some());
+        match known {
+            [true, false] => graph = true,
+            [false, true] => gmapping = true,
+            _ => {}
+        }
+    }
+    match (graph, gmapping) {
+        (true, false) => Some(Method::Graph),
+        (false, true) => Some(Method::Gmapping),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_diagnostics::Diagnostics;
+
+    use super::*;
+
+    fn values(method: Method, given: &[(&'static str, &'static str)]) -> Values {
+        let mut diagnostics = Diagnostics::new();
+        let given = given.iter().map(|(name, text)| Given::new(name, *text));
+        let values = method.table().check(given, None, &mut diagnostics);
+        assert!(diagnostics.is_empty(), "{diagnostics:?}");
+        values
+    }
+
+    #[test]
+    fn the_tables_have_no_slips() {
+        for method in Method::ALL {
+            assert_eq!(method.table().slips(), [""; 0]);
+        }
+    }
+
+    #[test]
+    fn what_changes_nothing_is_a_parameter_and_is_named_once() {
+        for (method, lists) in [(Method::Graph, toolbox::IDLE), (Method::Gmapping, gmapping::IDLE)]
+        {
+            let mut seen = Vec::new();
+            for name in lists.iter().flat_map(|list| list.names) {
+                assert!(method.table().find(name).is_some(), "{name}");
+                assert!(!seen.contains(name), "{name}");
+                seen.push(name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_parameter_that_changes_nothing_says_why() {
+        let given = [
+            ("ceres_loss_function", "HuberLoss"),
+            ("ceres_linear_solver", "SPARSE_NORMAL_CHOLESKY"),
+            ("minimum_travel_distance", "0.2"),
+        ];
+        let values = values(Method::Graph, &given);
+        let told: Vec<String> = idle(&values).into_iter().map(|it| it.message).collect();
+        assert_eq!(told, ["`ceres_loss_function: HuberLoss` changes nothing"]);
+        assert_eq!(Settings::of(&values).key_shift_m, 0.2);
+        assert_eq!(Settings::of(&values).key_turn_rad, Settings::default().key_turn_rad);
+    }
+
+    #[test]
+    fn a_file_tells_its_method_by_the_names_in_it() {
+        let of = |names: &[&'static str]| {
+            let given: Vec<Given<'_>> = names.iter().map(|name| Given::new(name, "1")).collect();
+            method_of(&given)
+        };
+        assert_eq!(of(&["map_frame", "resolution"]), Some(Method::Graph));
+        assert_eq!(of(&["map_frame", "maxUrange"]), Some(Method::Gmapping));
+        assert_eq!(of(&["map_frame", "odom_frame"]), None);
+        assert_eq!(of(&["resolution", "delta"]), None);
+    }
+}
