@@ -15,13 +15,15 @@ use crate::particles::{Covariance2, Moments, Particles};
 use crate::recovery::Recovery;
 use crate::scan::{Beams, Scan};
 use crate::settings::{Compat, Settings};
-use crate::status::{Status, Watch};
+use crate::status::{State, Status, Watch};
 
 /// Particles nearer to their mean than this agree, so that beams may be skipped \[m\].
 const CONVERGED_M: f64 = 0.5;
 
 /// Standard deviations around a place that was found by its scan \[m\], \[rad\].
 const FOUND: (f64, f64) = (0.15, 0.06);
+
+const FITS_NOWHERE: &str = "fits-nowhere";
 
 /// Where the robot is.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +77,10 @@ pub struct Amcl {
     status: Status,
     estimate: Option<Estimate>,
     map_from_odom: Option<Pose2>,
+    /// Where odometry had the robot when it was looked for in vain, and what was said.
+    sought: Option<(Pose2, Box<Diagnostic>)>,
+    /// Whether somebody has said where the robot is, or it has found out.
+    is_settled: bool,
 }
 
 impl Amcl {
@@ -97,6 +103,8 @@ impl Amcl {
             status: Status::default(),
             estimate: None,
             map_from_odom: None,
+            sought: None,
+            is_settled: false,
         }
     }
 
@@ -134,6 +142,19 @@ impl Amcl {
     #[must_use]
     pub fn status(&self) -> &Status {
         &self.status
+    }
+
+    /// Whether a pose is known: somebody has said where the robot is, or after a start anywhere one
+    /// place was left over. Before, [`Amcl::estimate`] is one guess among others.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.is_settled
+    }
+
+    /// Forgets where odometry was: it began anew, or is another one.
+    pub fn forget_odometry(&mut self) {
+        self.odom_from_base = None;
+        self.sought = None;
     }
 
     /// How well scans fit, as recovery sees it.
@@ -221,6 +242,7 @@ impl Amcl {
         let mut particles = Particles::default();
         scatter(&mut particles, self.settings.size.most, pose, covariance, &mut stream);
         self.begin(particles);
+        self.is_settled = true;
         Ok(doubt)
     }
 
@@ -236,6 +258,7 @@ impl Amcl {
             particles.push(map.random_pose(&mut stream).ok_or_else(nothing_free)?);
         }
         self.begin(particles);
+        self.is_settled = true;
         Ok(())
     }
 
@@ -252,7 +275,7 @@ impl Amcl {
         let places = anywhere::places(map, &ends);
         if places.is_empty() {
             let (hits, beams) = (ends.len(), scan.ranges_m.len());
-            return Err(Diagnostic::error("fits-nowhere", "the scan fits nowhere on the map")
+            return Err(Diagnostic::error(FITS_NOWHERE, "the scan fits nowhere on the map")
                 .note(format!("{hits} of its {beams} beams hit anything"))
                 .help("move the robot to where it sees walls, or check that this is the right map")
                 .into());
@@ -283,6 +306,8 @@ impl Amcl {
         self.recovery = Recovery::default();
         self.watch = Watch::default();
         self.waiting = None;
+        self.sought = None;
+        self.is_settled = false;
         self.estimate = Some(self.sum_up());
         self.status =
             Status { reason: "no scan has been used since the start".into(), ..Status::default() };
@@ -299,9 +324,8 @@ impl Amcl {
         odom_from_base: Pose2,
         scan: &Scan,
     ) -> Result<Option<Update>, Box<Diagnostic>> {
-        let Some(map) = &self.map else { return Err(no_map()) };
-        if self.particles.is_empty() {
-            return Err(no_pose());
+        if self.map.is_none() {
+            return Err(no_map());
         }
         if !odom_from_base.is_finite() {
             return Err(Diagnostic::error(
@@ -311,12 +335,16 @@ impl Amcl {
             .help("check what publishes `odom_frame_id` to `base_frame_id`")
             .into());
         }
+        if self.particles.is_empty() {
+            self.seek(odom_from_base, scan)?;
+        }
         if let Some(old) = self.odom_from_base
             && !self.is_forced
             && !has_moved(old, odom_from_base, self.settings.update_min)
         {
             return Ok(None);
         }
+        let Some(map) = &self.map else { return Err(no_map()) };
         let settings = &self.settings;
         let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
         let range_max_m = beams.range_max_m;
@@ -358,10 +386,31 @@ impl Amcl {
         let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
         let fit = self.fit(estimate.pose, &beams.ends());
         self.status = self.watch.judge(&estimate.clusters, fit);
+        self.is_settled |= self.status.state == State::Tracking;
         self.map_from_odom = Some(map_from_odom);
         self.estimate = Some(estimate.clone());
         let status = self.status.clone();
         Ok(Some(Update { estimate, map_from_odom, likelihood, random_share, is_resampled, status }))
+    }
+
+    /// Looks for the robot on all of the map, once for each place where odometry has it.
+    fn seek(&mut self, odom_from_base: Pose2, scan: &Scan) -> Result<(), Box<Diagnostic>> {
+        if !self.settings.starts_anywhere {
+            return Err(no_pose());
+        }
+        if let Some((place, why)) = &self.sought
+            && !self.is_forced
+            && !has_moved(*place, odom_from_base, self.settings.update_min)
+        {
+            return Err(why.clone());
+        }
+        let found = self.start_anywhere(scan);
+        if let Err(why) = &found
+            && why.code == FITS_NOWHERE
+        {
+            self.sought = Some((odom_from_base, why.clone()));
+        }
+        found.map(|_| ())
     }
 
     /// Draws particles anew, each as often as it counts, until there are enough for the bins they

@@ -57,6 +57,8 @@ pub struct Settings {
     pub first_map_only: bool,
     /// Whether only every other row and column of free cells is kept for random poses.
     pub thins_free: bool,
+    /// Whether a robot of which nobody says where it is looks for itself on all of the map.
+    pub starts_anywhere: bool,
     /// Where to start, and how uncertain that is.
     pub start: Option<(Pose2, Covariance2)>,
     /// Seed of all randomness.
@@ -153,8 +155,11 @@ impl Settings {
             yy: number("initial_cov_yy"),
             yaw: number("initial_cov_aa"),
         };
+        let compat = if text("compat") == "nav2" { Compat::Nav2 } else { Compat::None };
+        // What Nav2 does not have is off with its habits, unless somebody wants it.
+        let better = |name: &str| flag(name) && (compat == Compat::None || values.is_given(name));
         Self {
-            compat: if text("compat") == "nav2" { Compat::Nav2 } else { Compat::None },
+            compat,
             global_frame: text("global_frame_id"),
             drive: match text("robot_model_type").as_str() {
                 "nav2_amcl::OmniMotionModel" | "omnidirectional" | "omni" | "omni-corrected" => {
@@ -199,6 +204,7 @@ impl Settings {
             update_min: (number("update_min_d"), number("update_min_a")),
             first_map_only: flag("first_map_only"),
             thins_free: flag("freespace_downsampling"),
+            starts_anywhere: better("global_start"),
             start: flag("set_initial_pose").then_some((start, covariance)),
             // -1 becomes the largest seed, as good as any.
             seed: values.integer("random_seed").unwrap_or(-1).cast_unsigned(),

@@ -139,6 +139,10 @@ pub static AMCL: Table = Table {
             .or("-1"),
         flag("selective_resampling", "Whether to resample only when few particles count.")
             .or("false"),
+        flag("global_start", "Whether to look on all of the map when nobody says where to start.")
+            .or("true"),
+        flag("use_map_topic", "Whether the map comes by its topic; else by service `static_map`.")
+            .or("true"),
         flag("use_sim_time", "Whether time comes from `/clock`.").or("false"),
         choice(
             "compat",

@@ -150,10 +150,16 @@ fn a_robot_finds_itself_anywhere() {
         amcl.set_map("map", &map).unwrap();
         let scan = look(&map, truth, &mut Stream::keyed(3, "scan", 0));
         let places = amcl.start_anywhere(&scan).unwrap();
+        assert!(!amcl.is_settled());
         let update = amcl.update(Pose2::IDENTITY, &scan).unwrap().unwrap();
         let error = truth.inverse() * update.estimate.pose;
         let is_near = libm::hypot(error.x_m, error.y_m) < 0.15;
         assert!(is_near && normalize_angle(error.yaw_rad).abs() < 0.1, "{places:?} {error:?}");
+        assert!(amcl.is_settled());
+        // Without being asked it does the same.
+        let mut other = Amcl::new(Settings::default());
+        other.set_map("map", &map).unwrap();
+        assert_eq!(other.update(Pose2::IDENTITY, &scan), Ok(Some(update)));
     }
 }
 
@@ -218,7 +224,7 @@ fn scans_count_when_the_robot_moved() {
 fn what_cannot_be_is_told_and_changes_nothing() {
     let map = room(Pose2::IDENTITY);
     let scan = look(&map, truth(0), &mut Stream::keyed(3, "scan", 0));
-    let mut amcl = Amcl::new(Settings::default());
+    let mut amcl = Amcl::new(Settings { starts_anywhere: false, ..Settings::default() });
     assert_eq!(amcl.update(Pose2::IDENTITY, &scan).unwrap_err().code, "no-map");
     assert_eq!(amcl.spread().unwrap_err().code, "no-map");
     assert_eq!(amcl.set_map("world", &map).unwrap_err().code, "map-in-other-frame");
@@ -268,7 +274,7 @@ fn a_start_waits_for_its_map_and_outlives_a_change() {
     let near = |amcl: &Amcl| (amcl.estimate().unwrap().pose.x_m - truth(7).x_m).abs() < 0.2;
     assert!(near(&amcl));
     assert_eq!(amcl.set_map("map", &map), Ok(false), "only the first");
-    amcl.set_settings(Settings::default()).unwrap();
+    amcl.set_settings(Settings { starts_anywhere: false, ..Settings::default() }).unwrap();
     assert_eq!(amcl.set_map("map", &map), Ok(true));
     assert!(near(&amcl));
     // A map without the place where the robot is: never a silent wrong pose.

@@ -1,0 +1,106 @@
+//! Parameters from files: those of ROS 2 (`amcl: ros__parameters:`), and those of ROS 1.
+
+use periplus_diagnostics::{Diagnostics, Origin};
+use periplus_localization::Settings;
+use periplus_params::{Given, Values};
+use periplus_yaml::{Node, Value};
+
+/// Namespaces around a node nest no deeper.
+const DEEPEST: usize = 4;
+
+/// Reads the parameters of a node from a file: `amcl` finds `amcl: ros__parameters:`, `/**:` and, in
+/// files of ROS 1, `amcl:`, or everything when there is no such section. What is wrong is told, and
+/// the default stands in for it.
+#[must_use]
+pub fn read(file: &Node, node: &str, diagnostics: &mut Diagnostics) -> Values {
+    let mut sections = Vec::new();
+    collect(file, node, 0, &mut sections);
+    if sections.is_empty() {
+        let is_of_others = |(_, value): &(Node, Node)| value.entries().is_some();
+        let is_plain = !file.entries().unwrap_or_default().iter().all(is_of_others);
+        sections.extend(file.get(node).or(is_plain.then_some(file)));
+    }
+    let mut flat = Vec::new();
+    for section in sections {
+        flatten(section, "", &mut flat);
+    }
+    let given = flat.iter().map(|one| Given {
+        name: &one.name,
+        text: one.text.as_str().into(),
+        name_origin: one.name_origin,
+        origin: one.origin,
+    });
+    Settings::read(given, diagnostics).0
+}
+
+fn collect<'a>(at: &'a Node, node: &str, depth: usize, found: &mut Vec<&'a Node>) {
+    for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
+        let Some(key) = key.text() else { continue };
+        let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
+        match value.get("ros__parameters") {
+            Some(parameters) if [node, "**", "*"].contains(&name) => found.push(parameters),
+            Some(_) => {}
+            None => collect(value, node, depth + 1, found),
+        }
+    }
+}
+
+struct Flat {
+    name: String,
+    text: String,
+    name_origin: Origin,
+    origin: Origin,
+}
+
+/// Names with dots. A list is no value of any parameter here; it is told as its first one would be.
+fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>) {
+    for (key, value) in at.entries().unwrap_or_default() {
+        let Some(last) = key.text() else { continue };
+        let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
+        let text = match &value.value {
+            Value::Map(_) => {
+                flatten(value, &name, flat);
+                continue;
+            }
+            Value::Scalar { text, .. } => text.clone(),
+            Value::List(list) => list.first().and_then(Node::text).unwrap_or_default().to_owned(),
+        };
+        flat.push(Flat { name, text, name_origin: key.span.into(), origin: value.span.into() });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_diagnostics::SourceMap;
+
+    use super::*;
+
+    fn values(text: &str) -> (Values, Vec<&'static str>) {
+        let mut sources = SourceMap::new();
+        let file = sources.add("params.yaml", text);
+        let tree = periplus_yaml::parse(file, &sources).ok().flatten();
+        let mut diagnostics = Diagnostics::new();
+        let values = tree.map(|tree| read(&tree, "amcl", &mut diagnostics));
+        (values.unwrap_or_else(|| panic!("{text}")), diagnostics.iter().map(|it| it.code).collect())
+    }
+
+    #[test]
+    fn files_of_ros_2_and_of_ros_1() {
+        let ros2 = "
+/**: {ros__parameters: {use_sim_time: true}}
+planner: {ros__parameters: {tolerance: 0.5}}
+amcl: {ros__parameters: {alpha1: 0.1, initial_pose: {x: 2.5}, set_initial_pose: true}}
+";
+        let (read, codes) = values(ros2);
+        assert!(codes.is_empty(), "{codes:?}");
+        assert_eq!((read.number("alpha1"), read.number("initial_pose.x")), (Some(0.1), Some(2.5)));
+        assert_eq!(read.flag("use_sim_time"), Some(true));
+        for ros1 in ["amcl: {odom_alpha1: 0.1}", "odom_alpha1: 0.1"] {
+            let (read, codes) = values(ros1);
+            assert_eq!((read.number("alpha1"), codes), (Some(0.1), vec!["ros1-name"]), "{ros1}");
+        }
+        let (read, codes) = values("planner: {ros__parameters: {tolerance: 0.5}}");
+        assert!(codes.is_empty() && !read.is_given("alpha1"), "{codes:?}");
+        assert_eq!(values("amcl: {ros__parameters: {alpha_1: 1}}").1, ["unknown-parameter"]);
+    }
+}
