@@ -2,6 +2,8 @@
 // It says on its output what it saw, a line each; the tests compare the lines. See `peers.rs`.
 //
 //   fast DOMAIN pub  KIND TOPIC COUNT PERIOD_MS [latched]
+//   fast DOMAIN hasty KIND TOPIC COUNT     one message on each of so many topics, TOPIC0 and on, the
+//                                          moment that somebody is there to hear it
 //   fast DOMAIN sub  KIND TOPIC COUNT [latched]
 //   fast DOMAIN serve SERVICE COUNT        std_srvs/srv/Trigger
 //   fast DOMAIN call  SERVICE COUNT
@@ -18,6 +20,7 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
@@ -243,7 +246,22 @@ static Topic* topic_of(const std::string& kind, const std::string& name) {
     return participant->create_topic(name, type.get_type_name(), TOPIC_QOS_DEFAULT);
 }
 
-static DataWriter* writer_of(const std::string& kind, const std::string& name, bool latched) {
+// Writes as soon as somebody is known to hear it, from the very thread that finds out.
+class Hasty : public DataWriterListener {
+public:
+    explicit Hasty(const std::string& of) : kind(of) {}
+    void on_publication_matched(DataWriter* writer, const PublicationMatchedStatus& matched) override {
+        if (matched.current_count_change <= 0) return;
+        Message message = make(kind, 0, 100);
+        writer->write(&message);
+    }
+
+private:
+    std::string kind;
+};
+
+static DataWriter* writer_of(const std::string& kind, const std::string& name, bool latched,
+                             DataWriterListener* listener = nullptr) {
     DataWriterQos qos = DATAWRITER_QOS_DEFAULT;
     qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = eprosima::fastrtps::Duration_t(2, 0);
@@ -251,9 +269,10 @@ static DataWriter* writer_of(const std::string& kind, const std::string& name, b
     qos.history().depth = latched ? 1 : 10;
     qos.endpoint().history_memory_policy =
         eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    qos.publish_mode().kind = ASYNCHRONOUS_PUBLISH_MODE;
+    // Who writes as soon as it may has no thread in between.
+    qos.publish_mode().kind = listener ? SYNCHRONOUS_PUBLISH_MODE : ASYNCHRONOUS_PUBLISH_MODE;
     return participant->create_publisher(PUBLISHER_QOS_DEFAULT)
-        ->create_datawriter(topic_of(kind, name), qos);
+        ->create_datawriter(topic_of(kind, name), qos, listener);
 }
 
 static DataReader* reader_of(const std::string& kind, const std::string& name, bool latched) {
@@ -300,6 +319,12 @@ int main(int count, char** words) {
             pause(period_ms);
         }
         std::cout << "done" << std::endl;
+        std::string line;
+        std::getline(std::cin, line);
+    } else if (verb == "hasty") {
+        Hasty hasty(args[2]);
+        for (int i = 0; i < std::stoi(args[4]); i++)
+            writer_of(args[2], args[3] + std::to_string(i), false, &hasty);
         std::string line;
         std::getline(std::cin, line);
     } else if (verb == "sub") {
