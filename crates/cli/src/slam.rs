@@ -5,6 +5,7 @@ mod log;
 mod options;
 mod picture;
 mod report;
+mod session;
 
 use std::io;
 use std::path::Path;
@@ -34,12 +35,21 @@ pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
         terminal::complain(&format!("{} holds no scans", options.log.display()));
         return Ok(ExitCode::FAILURE);
     }
-    let mut slam = Slam::new(Settings {
+    let settings = Settings {
         resolution_m: options.resolution,
         range_max_m: options.max_range,
         closes_loops: !options.no_loops,
         ..Settings::default()
-    });
+    };
+    let mut slam = match session::begin(options, settings) {
+        Ok(slam) => slam,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    // Poses of the session have their places in the trajectory before those of the log.
+    let before = slam.trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let mut spent_s = Vec::with_capacity(log.scans.len());
     // Which scans have a line in the trajectory.
@@ -53,6 +63,7 @@ pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
             stamps.push(logged.stamp.as_str());
         }
     }
+    let saved = options.save_session.as_ref().map_or(Ok(()), |path| put(path, &slam.save()));
     let last = Stopwatch::start();
     slam.finish();
     let report = Report {
@@ -64,7 +75,12 @@ pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
         wall_s: watch.elapsed().as_secs_f64(),
         spent_s: &spent_s,
     };
-    let written = write(&options.out, &slam, &stamps, &report);
+    let written = saved
+        .and_then(|()| write(&options.out, &slam, (&stamps, before), &report))
+        .and_then(|()| match &options.g2o {
+            Some(path) => put(path, slam.to_g2o().as_bytes()),
+            None => Ok(()),
+        });
     if !options.quiet {
         report.tell(&mut anstream::stdout().lock())?;
     }
@@ -82,19 +98,25 @@ pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
 /// So many faults of a log are told one by one.
 const MOST_TOLD: usize = 20;
 
+fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    Machine.replace(path, bytes).map_err(|why| format!("cannot write {}: {why}", path.display()))
+}
+
 /// Writes all that comes of a run.
-fn write(out: &Path, slam: &Slam, stamps: &[&str], report: &Report<'_>) -> Result<(), String> {
+///
+/// The trajectory has the scans of this log; `before` poses of a session come before theirs.
+fn write(
+    out: &Path,
+    slam: &Slam,
+    (stamps, before): (&[&str], usize),
+    report: &Report<'_>,
+) -> Result<(), String> {
     std::fs::create_dir_all(out).map_err(|why| format!("cannot make {}: {why}", out.display()))?;
-    let put = |name: &str, bytes: &[u8]| {
-        let path = out.join(name);
-        Machine
-            .replace(&path, bytes)
-            .map_err(|why| format!("cannot write {}: {why}", path.display()))
-    };
+    let put = |name: &str, bytes: &[u8]| put(&out.join(name), bytes);
     let trajectory = slam.trajectory();
     let lines: String = stamps
         .iter()
-        .zip(&trajectory)
+        .zip(trajectory.iter().skip(before))
         .map(|(stamp, (_, pose))| {
             format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
         })

@@ -110,25 +110,50 @@ impl Cloud {
             }
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut starts = Vec::with_capacity(BINS + 1);
-        let mut at = 0;
-        for bin in 0..=BINS {
-            while at < all.len() && ((all[at].0 * BINS_PER_TURN) as usize) < bin {
-                at += 1;
-            }
-            starts.push(at as u16);
-        }
-        if let Some(end) = starts.last_mut() {
-            *end = all.len() as u16;
-        }
+        let turns: Vec<f32> = all.iter().map(|it| it.0).collect();
         Self {
             points: all.iter().map(|it| it.2).collect(),
             ranges: all.iter().map(|it| it.1).collect(),
-            turns: all.iter().map(|it| it.0).collect(),
+            starts: starts(&turns),
+            turns,
             is_followed: all.iter().map(|it| it.3).collect(),
             origin,
-            starts,
         }
+    }
+
+    /// The cloud whose [`Cloud::points`], [`Cloud::followed`] and [`Cloud::origin`] these are, to the
+    /// bit. None when they are those of no cloud: too many, not in order, or not finite.
+    #[must_use]
+    pub fn restored(points: Vec<Point>, is_followed: Vec<bool>, origin: [f32; 2]) -> Option<Self> {
+        let is_finite = points
+            .iter()
+            .all(|p| p.x.is_finite() && p.y.is_finite() && p.nx.is_finite() && p.ny.is_finite())
+            && origin.iter().all(|it| it.is_finite());
+        if !is_finite || points.len() != is_followed.len() || points.len() > MOST_POINTS {
+            return None;
+        }
+        let offset = |p: &Point| (p.x - origin[0], p.y - origin[1]);
+        let turn = |p: &Point| {
+            let (x, y) = offset(p);
+            turn_of(x, y)
+        };
+        let range = |p: &Point| {
+            let (x, y) = offset(p);
+            (x * x + y * y).sqrt()
+        };
+        let turns: Vec<f32> = points.iter().map(turn).collect();
+        let ranges: Vec<f32> = points.iter().map(range).collect();
+        let is_sorted = turns.windows(2).all(|pair| pair[0] <= pair[1]);
+        if !is_sorted || !ranges.iter().all(|it| it.is_finite()) {
+            return None;
+        }
+        Some(Self { starts: starts(&turns), points, ranges, turns, is_followed, origin })
+    }
+
+    /// For each point whether everything up to the next was seen.
+    #[must_use]
+    pub fn followed(&self) -> &[bool] {
+        &self.is_followed
     }
 
     /// The points, by bearing from the scanner.
@@ -212,6 +237,22 @@ impl Cloud {
         let (a, b) = (self.ranges[before], self.ranges[after]);
         (Sight::Surface { near: a.min(b), far: a.max(b) }, distance)
     }
+}
+
+/// For each bin of the full turn the first point in it or behind it; one more at the end.
+fn starts(turns: &[f32]) -> Vec<u16> {
+    let mut starts = Vec::with_capacity(BINS + 1);
+    let mut at = 0;
+    for bin in 0..=BINS {
+        while at < turns.len() && ((turns[at] * BINS_PER_TURN) as usize) < bin {
+            at += 1;
+        }
+        starts.push(at as u16);
+    }
+    if let Some(end) = starts.last_mut() {
+        *end = turns.len() as u16;
+    }
+    starts
 }
 
 /// Where a direction lies in the turn, from 0 to below 4, growing with the angle; a unit is between

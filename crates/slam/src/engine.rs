@@ -1,16 +1,21 @@
 //! Scans in, poses out.
 
+mod place;
+mod state;
+mod thin;
 mod work;
+
+use std::sync::Arc;
 
 use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_matching::Symmetric3;
+use periplus_matching::{Cloud, Symmetric3};
 
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::{Key, Track};
 use crate::local::{apart, floored, locate, neighbours, placed};
 use crate::loops::{Closure, Loops};
-use crate::map;
+use crate::map::Sketch;
 use crate::odometry::Trust;
 use crate::refine::refine;
 use crate::scan::Scan;
@@ -63,6 +68,17 @@ pub struct Counts {
     pub slices: usize,
 }
 
+/// What holds two kept scans together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Link {
+    /// One came after the other.
+    Chain,
+    /// They were compared directly: their places were known well enough.
+    Tie,
+    /// A loop that was closed.
+    Closure,
+}
+
 /// The scan before.
 struct Last {
     time_ns: i64,
@@ -71,6 +87,8 @@ struct Last {
     key_from_base: Pose2,
     /// Motion in a second, when it is known.
     motion: Option<Pose2>,
+    /// Of its place, along the axes of the key.
+    covariance: Symmetric3,
 }
 
 /// A map that grows with every scan.
@@ -86,6 +104,8 @@ pub struct Slam {
     counts: Counts,
     /// Part of the points that usually find partners.
     usual: f64,
+    /// Where somebody says that the robot is, and how sure: for the next scan.
+    start: Option<(Pose2, Symmetric3)>,
 }
 
 /// Less motion than this is standing still \[m, rad\].
@@ -122,6 +142,7 @@ impl Slam {
             work: Work::default(),
             counts: Counts::default(),
             usual: 0.7,
+            start: None,
         }
     }
 
@@ -161,8 +182,12 @@ impl Slam {
     }
 
     fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+        if let Some((pose, covariance)) = self.start.take() {
+            return self.take_at(scan, odom_from_base, pose, covariance);
+        }
         let Some(last) = &self.last else {
-            return self.begin(scan, odom_from_base);
+            let start = odom_from_base.unwrap_or(Pose2::IDENTITY);
+            return self.begin(scan, odom_from_base, start);
         };
         let seconds = (scan.time_ns.saturating_sub(last.time_ns)) as f64 * 1e-9;
         let told = match (last.odom_from_base, odom_from_base) {
@@ -232,6 +257,7 @@ impl Slam {
             odom_from_base,
             key,
             key_from_base,
+            covariance: information.inverse().unwrap_or(covariance),
             motion: per_second(moved).filter(|it| {
                 is_matched
                     && libm::hypot(it.x_m, it.y_m) < STEADY_M_S
@@ -266,11 +292,11 @@ impl Slam {
         }
     }
 
-    /// The first scan: the map begins where odometry has the robot.
-    fn begin(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+    /// The first scan: the map begins where odometry has the robot, or where it is said to be.
+    fn begin(&mut self, scan: &Scan, odom_from_base: Option<Pose2>, start: Pose2) -> Taken {
         let ends = scan.ends(None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
-        self.graph.add_pose(odom_from_base.unwrap_or(Pose2::IDENTITY).normalized());
+        self.graph.add_pose(start.normalized());
         self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m: 0.0 });
         let track = Track { time_ns: scan.time_ns, key: 0, key_from_base: Pose2::IDENTITY };
         self.tracks.push(track);
@@ -280,6 +306,7 @@ impl Slam {
             key: 0,
             key_from_base: Pose2::IDENTITY,
             motion: None,
+            covariance: Symmetric3::ZERO,
         });
         Taken::Kept
     }
@@ -317,13 +344,65 @@ impl Slam {
     /// The map as it is now; none when it would be too large to hold.
     #[must_use]
     pub fn map(&self) -> Option<OccupancyGrid> {
-        map::draw(&self.keys, &self.graph.poses, self.settings.resolution_m)
+        self.sketch().draw()
+    }
+
+    /// What the map is drawn of as it is now, to be drawn by somebody else.
+    #[must_use]
+    pub fn sketch(&self) -> Sketch {
+        Sketch::new(&self.keys, &self.graph.poses, self.settings.resolution_m)
+    }
+
+    /// How uncertain the last scan left the place of the robot among the scans around it, along the
+    /// axes of the map \[m, rad\].
+    #[must_use]
+    pub fn covariance(&self) -> Symmetric3 {
+        self.last.as_ref().map_or(Symmetric3::ZERO, |last| {
+            last.covariance.turned(self.graph.poses[last.key].yaw_rad)
+        })
+    }
+
+    /// Places of the kept scans in the map.
+    #[must_use]
+    pub fn poses(&self) -> &[Pose2] {
+        &self.graph.poses
+    }
+
+    /// What is known between kept scans, where it counts: from which to which, and by what.
+    pub fn links(&self) -> impl Iterator<Item = (usize, usize, Link)> {
+        let counts = |edge: &&Edge| edge.weight > 0.0;
+        self.graph.edges.iter().filter(counts).map(|edge| {
+            let link = match edge.kind {
+                Kind::Chain | Kind::Refined => Link::Chain,
+                Kind::Near => Link::Tie,
+                Kind::Loop => Link::Closure,
+            };
+            (edge.from, edge.to, link)
+        })
+    }
+
+    /// Grows with every bend of the map: who keeps places of scans looks whether it has changed.
+    #[must_use]
+    pub fn bends(&self) -> usize {
+        self.work.bends
     }
 
     /// What became of every closure that was looked at in earnest.
     #[must_use]
     pub fn closures(&self) -> &[Closure] {
         &self.loops.told
+    }
+
+    pub(crate) fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    pub(crate) fn cloud(&self, key: usize) -> &Cloud {
+        &self.keys[key].cloud
+    }
+
+    pub(crate) fn graph(&self) -> &Graph {
+        &self.graph
     }
 
     /// Counts of what happened.
@@ -352,7 +431,7 @@ impl Slam {
 }
 
 /// Ends of beams that are kept for drawing.
-fn drawn(ends: &[Option<[f32; 2]>], settings: &Settings) -> Vec<[f32; 2]> {
+fn drawn(ends: &[Option<[f32; 2]>], settings: &Settings) -> Arc<[[f32; 2]]> {
     let every = ends.len().div_ceil(settings.drawn_beams.max(1)).max(1);
     ends.iter().step_by(every).filter_map(|end| *end).collect()
 }

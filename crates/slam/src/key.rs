@@ -1,5 +1,7 @@
 //! Scans that are kept.
 
+use std::sync::Arc;
+
 use periplus_base::Pose2;
 use periplus_matching::Cloud;
 
@@ -7,7 +9,7 @@ use periplus_matching::Cloud;
 pub(crate) struct Key {
     pub(crate) cloud: Cloud,
     /// Ends of beams for drawing, in the base's frame \[m\].
-    pub(crate) ends: Vec<[f32; 2]>,
+    pub(crate) ends: Arc<[[f32; 2]]>,
     /// Length of the way from the first one \[m\], a turn counted as a little way.
     pub(crate) travel_m: f64,
 }

@@ -14,10 +14,12 @@
 
 mod drift;
 mod engine;
+mod g2o;
 mod gmapping;
 mod graph;
 mod key;
 mod local;
+mod localizer;
 mod loops;
 mod map;
 mod method;
@@ -26,13 +28,17 @@ mod odometry;
 mod refine;
 mod relations;
 mod scan;
+mod session;
 mod settings;
 pub mod tables;
 
-pub use engine::{Counts, Slam, Taken, Update};
+pub use engine::{Counts, Link, Slam, Taken, Update};
 pub use gmapping::{GmappingSettings, Noise};
+pub use localizer::Localizer;
 pub use loops::Closure;
+pub use map::Sketch;
 pub use method::{Mapper, Method};
 pub use relations::{Errors, Relation, Score, Stamped, read_relations, score};
 pub use scan::Scan;
+pub use session::{SESSION_MAGIC, SESSION_VERSION, SessionError};
 pub use settings::Settings;

@@ -9,6 +9,8 @@
 //!    pairwise with each other over the ways between them, and more do so than with any rival;
 //! 5. when the map has been bent accordingly, all that now overlaps still agrees; else all is undone.
 
+mod state;
+
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -113,6 +115,15 @@ struct Candidate {
     is_unique: bool,
 }
 
+/// A field that is kept, of a place.
+struct Kept {
+    place: usize,
+    /// What it was made of: keys, and where they were from the middle of the place.
+    of: Vec<(usize, Pose2)>,
+    /// Made when it is asked for.
+    field: Option<Field>,
+}
+
 /// All that is known and asked about loops.
 #[derive(Default)]
 pub(crate) struct Loops {
@@ -121,7 +132,7 @@ pub(crate) struct Loops {
     searched_m: f64,
     tasks: VecDeque<Task>,
     pending: Vec<Candidate>,
-    fields: VecDeque<(usize, Field)>,
+    fields: VecDeque<Kept>,
     pub(crate) told: Vec<Closure>,
 }
 
@@ -257,7 +268,8 @@ impl Loops {
             half_rad,
             step_rad: heading_step(&points, settings.loop_field.resolution_m),
         };
-        let field = self.field(task.place, &old, settings);
+        let of = around.iter().map(|&key| (key, graph.between(middle, key)));
+        let field = self.field(task.place, of, keys, settings);
         let (best, _) = field.search(&points, &window, LEAST_SCORE, None);
         let best = best?;
         // A peak at the rim is the slope of something beyond.
@@ -313,18 +325,27 @@ impl Loops {
         start..end
     }
 
-    fn field(&mut self, place: usize, old: &[Placed<'_>], settings: &Settings) -> &Field {
-        let at = self.fields.iter().position(|(of, _)| *of == place);
-        let kept = match at {
-            Some(at) => self.fields.remove(at),
-            None => None,
-        };
-        let kept = kept.unwrap_or_else(|| {
-            (place, Field::new(&points_of(old), [0.0, 0.0], &settings.loop_field))
-        });
+    /// The field of a place: the one that is kept, or one of these keys.
+    fn field(
+        &mut self,
+        place: usize,
+        of: impl Iterator<Item = (usize, Pose2)>,
+        keys: &[Key],
+        settings: &Settings,
+    ) -> &Field {
+        let at = self.fields.iter().position(|kept| kept.place == place);
+        let kept = at.and_then(|at| self.fields.remove(at));
+        let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
         self.fields.truncate(KEPT_FIELDS - 1);
         self.fields.push_front(kept);
-        &self.fields[0].1
+        let Kept { of, field, .. } = &mut self.fields[0];
+        field.get_or_insert_with(|| {
+            let placed: Vec<Placed<'_>> = of
+                .iter()
+                .map(|&(key, pose)| Placed { cloud: &keys[key].cloud, group_from_cloud: pose })
+                .collect();
+            Field::new(&points_of(&placed), [0.0, 0.0], &settings.loop_field)
+        })
     }
 
     /// Whether enough speaks for a closure; then its edge and those of its witnesses.
@@ -433,7 +454,7 @@ impl Loops {
 
     /// Bytes held.
     pub(crate) fn size(&self) -> usize {
-        self.fields.iter().map(|(_, field)| field.size()).sum()
+        self.fields.iter().filter_map(|kept| kept.field.as_ref()).map(Field::size).sum()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Maps from scans at known places.
 
+use std::sync::Arc;
+
 use periplus_base::Pose2;
 use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
 
@@ -15,23 +17,56 @@ const MARGIN: f64 = 4.0;
 /// Neither seen nor passed.
 const UNSEEN: i16 = i16::MIN;
 
+/// Scans at their places at one moment. It can be drawn somewhere else while the map grows on; the
+/// scans themselves are shared.
+#[derive(Clone, Debug, Default)]
+pub struct Sketch {
+    scans: Vec<Drawn>,
+    resolution_m: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Drawn {
+    ends: Arc<[[f32; 2]]>,
+    /// The scanner in the frame of the key \[m\].
+    origin: [f32; 2],
+    map_from_key: Pose2,
+}
+
+impl Sketch {
+    pub(crate) fn new(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Self {
+        let drawn = |(key, &map_from_key): (&Key, &Pose2)| Drawn {
+            ends: key.ends.clone(),
+            origin: key.cloud.origin(),
+            map_from_key,
+        };
+        Self { scans: keys.iter().zip(poses).map(drawn).collect(), resolution_m }
+    }
+
+    /// The map; none when it would be too large to hold.
+    #[must_use]
+    pub fn draw(&self) -> Option<OccupancyGrid> {
+        draw(&self.scans, self.resolution_m)
+    }
+}
+
 /// Draws scans at their places: cells that beams passed are free, those where they ended occupied.
 /// Within a scan a cell where a beam ends is not passed by others. None when the map would be too
 /// large to hold.
-pub(crate) fn draw(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Option<OccupancyGrid> {
+fn draw(scans: &[Drawn], resolution_m: f64) -> Option<OccupancyGrid> {
     let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
     let mut include = |x: f64, y: f64| {
         low = [low[0].min(x), low[1].min(y)];
         high = [high[0].max(x), high[1].max(y)];
     };
-    for (key, pose) in keys.iter().zip(poses) {
+    for Drawn { ends, map_from_key: pose, .. } in scans {
         include(pose.x_m, pose.y_m);
-        for end in &key.ends {
+        for end in ends.iter() {
             let (x, y) = pose.transform_point(end[0].into(), end[1].into());
             include(x, y);
         }
     }
-    if keys.is_empty() {
+    if scans.is_empty() {
         (low, high) = ([0.0; 2], [0.0; 2]);
     }
     // Corners at whole cells, so that the same place has the same cell in every run.
@@ -44,13 +79,11 @@ pub(crate) fn draw(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Option<O
     let finder = lattice.finder();
     let mut odds: Grid<i16> = Grid::new(lattice, UNSEEN);
     let mut stamp: Grid<u32> = Grid::new(lattice, 0);
-    for (number, (key, pose)) in keys.iter().zip(poses).enumerate() {
-        let [x, y] = key.cloud.origin();
-        let (x, y) = pose.transform_point(x.into(), y.into());
+    for (number, Drawn { ends, origin: [x, y], map_from_key: pose }) in scans.iter().enumerate() {
+        let (x, y) = pose.transform_point((*x).into(), (*y).into());
         let Some(start) = finder.cell_of(x, y) else { continue };
         let (s, c) = libm::sincos(pose.yaw_rad);
-        let ends: Vec<_> = key
-            .ends
+        let ends: Vec<_> = ends
             .iter()
             .filter_map(|end| {
                 let (x, y) = (f64::from(end[0]), f64::from(end[1]));

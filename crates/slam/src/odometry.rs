@@ -62,3 +62,5 @@ impl Trust {
         toward(&mut self.heading, turn * turn / model[1]);
     }
 }
+
+crate::session::packed!(Trust { place, heading });

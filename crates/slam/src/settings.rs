@@ -37,6 +37,9 @@ pub struct Settings {
     pub slices_per_scan: usize,
     /// Steps of the solver, at most, after a closure.
     pub solve_steps: usize,
+    /// Whether kept scans go when a newer one shows the same from the same place: in a bounded area the
+    /// map then stays bounded, however long the robot drives, and follows what changes.
+    pub is_lifelong: bool,
 }
 
 impl Settings {
@@ -75,6 +78,7 @@ impl Default for Settings {
             refine_neighbours: 10,
             slices_per_scan: usize::MAX,
             solve_steps: 8,
+            is_lifelong: false,
         }
     }
 }

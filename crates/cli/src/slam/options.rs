@@ -36,6 +36,15 @@ pub(crate) struct SlamOptions {
     /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
     #[arg(long, value_name = "FRAME")]
     pub(crate) base_frame: Option<String>,
+    /// Go on with the map of a session, as if the logs were one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) session: Option<PathBuf>,
+    /// Save a session, to go on with later; the last refinement is not part of it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) save_session: Option<PathBuf>,
+    /// Write the graph for g2o: poses, edges, information
+    #[arg(long, value_name = "FILE")]
+    pub(crate) g2o: Option<PathBuf>,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(crate) quiet: bool,

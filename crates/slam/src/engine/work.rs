@@ -1,5 +1,7 @@
 //! Work in the background, in slices that are short whatever the map.
 
+mod state;
+
 use std::collections::VecDeque;
 
 use periplus_base::Pose2;
@@ -16,6 +18,8 @@ use crate::near::ties;
 pub(super) struct Work {
     /// Keys whose ties to old ones are to be looked for.
     pub(super) ties: VecDeque<usize>,
+    /// Keys for which older ones may go.
+    pub(super) thins: VecDeque<usize>,
     /// Way at the last tie to an old scan \[m\].
     pub(super) tied_m: f64,
     solving: Option<Solving>,
@@ -33,7 +37,9 @@ pub(super) struct Work {
 
 /// A map that is being bent.
 struct Solving {
-    solver: Solver,
+    solver: Option<Solver>,
+    /// Without a solver, what it was when a session was saved.
+    resumed: Option<(Vec<u32>, f64)>,
     steps: usize,
     /// Poses and edges for which the solver was made.
     size: (usize, usize),
@@ -93,6 +99,8 @@ impl Slam {
             self.solve(None);
         } else if self.loops.is_busy() {
             self.search();
+        } else if let Some(key) = self.work.thins.pop_front() {
+            self.thin(key);
         } else {
             return false;
         }
@@ -116,6 +124,9 @@ impl Slam {
             self.work.tied_m = self.work.tied_m.max(self.keys[key].travel_m);
             self.graph.add_edge(edge);
         }
+        if self.settings.is_lifelong {
+            self.work.thins.push_back(key);
+        }
     }
 
     fn search(&mut self) {
@@ -130,24 +141,37 @@ impl Slam {
     }
 
     /// Begins to bend the map.
-    fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
+    pub(super) fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
         self.work.loose = 0;
         self.work.is_strained = false;
         self.work.solved_at = self.keys.len();
         let size = (self.graph.poses.len(), self.graph.edges.len());
-        let solver = Solver::new(&self.graph);
-        self.work.solving = Some(Solving { solver, steps: 0, size, trial });
+        let solver = Some(Solver::new(&self.graph));
+        self.work.solving = Some(Solving { solver, resumed: None, steps: 0, size, trial });
+    }
+
+    /// Bends the map to the end, if it is being bent.
+    pub(super) fn rest(&mut self) {
+        while self.work.solving.is_some() {
+            self.solve_step();
+        }
     }
 
     fn solve_step(&mut self) {
         let Some(mut solving) = self.work.solving.take() else { return };
         let size = (self.graph.poses.len(), self.graph.edges.len());
-        if solving.size != size {
-            solving.solver = Solver::new(&self.graph);
-            solving.size = size;
-        }
+        let resumed = solving.resumed.take();
+        let mut solver = match solving.solver.take() {
+            Some(solver) if solving.size == size => solver,
+            None if solving.size == size => resumed
+                .and_then(|state| Solver::resumed(&self.graph, state))
+                .unwrap_or_else(|| Solver::new(&self.graph)),
+            _ => Solver::new(&self.graph),
+        };
+        solving.size = size;
         solving.steps += 1;
-        let outcome = solving.solver.step(&mut self.graph, &robust);
+        let outcome = solver.step(&mut self.graph, &robust);
+        solving.solver = Some(solver);
         self.work.bends += 1;
         let goes_on = matches!(outcome, Outcome::Moved(by) if by > SETTLED_M);
         if goes_on && solving.steps < self.settings.solve_steps {
@@ -231,5 +255,12 @@ impl Slam {
                 self.work_slices(usize::MAX);
             }
         }
+    }
+}
+
+impl Work {
+    /// So many keys are gone.
+    pub(super) fn renumbered(&mut self, gone: usize) {
+        self.solved_at = self.solved_at.saturating_sub(gone);
     }
 }

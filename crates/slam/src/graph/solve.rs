@@ -25,17 +25,26 @@ pub(crate) struct Solver {
     damping: f64,
 }
 
+/// The poses at the other ends of edges that count.
+fn neighbours(graph: &Graph) -> Vec<Vec<u32>> {
+    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); graph.poses.len()];
+    for edge in graph.edges.iter().filter(|edge| edge.weight > 0.0) {
+        neighbours[edge.from].push(edge.to as u32);
+        neighbours[edge.to].push(edge.from as u32);
+    }
+    neighbours
+}
+
 impl Solver {
     /// Prepares for all edges that count.
     pub(crate) fn new(graph: &Graph) -> Self {
-        let size = graph.poses.len();
-        let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); size];
-        for edge in graph.edges.iter().filter(|edge| edge.weight > 0.0) {
-            neighbours[edge.from].push(edge.to as u32);
-            neighbours[edge.to].push(edge.from as u32);
-        }
+        let neighbours = neighbours(graph);
         let order = order(&graph.poses, &neighbours);
-        let mut place = vec![0; size];
+        Self::ordered(&neighbours, &order, 0.0)
+    }
+
+    fn ordered(neighbours: &[Vec<u32>], order: &[u32], damping: f64) -> Self {
+        let mut place = vec![0; order.len()];
         for (at, &node) in order.iter().enumerate() {
             place[node as usize] = at as u32;
         }
@@ -45,7 +54,25 @@ impl Solver {
                 neighbours[node as usize].iter().map(|&next| place[next as usize]).collect()
             })
             .collect();
-        Self { place, factor: Factor::new(&below), damping: 0.0 }
+        Self { place, factor: Factor::new(&below), damping }
+    }
+
+    /// What is to be known to go on later: the place of each pose in the order of elimination, and
+    /// the damping.
+    pub(crate) fn state(&self) -> (Vec<u32>, f64) {
+        (self.place.clone(), self.damping)
+    }
+
+    /// A solver for the edges that count, as it was; none when this is no state for so many poses.
+    pub(crate) fn resumed(graph: &Graph, (place, damping): (Vec<u32>, f64)) -> Option<Self> {
+        let size = graph.poses.len();
+        let mut order = vec![u32::MAX; size];
+        for (node, &at) in place.iter().enumerate() {
+            *order.get_mut(at as usize)? = node as u32;
+        }
+        let is_whole = place.len() == size && !order.contains(&u32::MAX);
+        let is_damping = (0.0..1e12).contains(&damping);
+        (is_whole && is_damping).then(|| Self::ordered(&neighbours(graph), &order, damping))
     }
 
     /// One step; the first pose stays where it is.

@@ -1,0 +1,52 @@
+//! Work that is waiting, in a session.
+
+use super::{Solving, Work};
+use crate::graph::{Graph, Solver};
+use crate::session::{Bytes, Fault, Pack, Reader, packed};
+
+packed!(Work {
+    ties,
+    thins,
+    tied_m,
+    solving,
+    loose,
+    is_strained,
+    solved_at,
+    tied,
+    searches,
+    slices,
+    bends,
+});
+
+impl Pack for Solving {
+    fn pack(&self, out: &mut Bytes) {
+        let Self { solver, resumed, steps, size, trial } = self;
+        solver.as_ref().map(Solver::state).or_else(|| resumed.clone()).pack(out);
+        steps.pack(out);
+        size.pack(out);
+        trial.pack(out);
+    }
+
+    fn unpack(from: &mut Reader<'_>) -> Result<Self, Fault> {
+        Ok(Self {
+            solver: None,
+            resumed: Pack::unpack(from)?,
+            steps: Pack::unpack(from)?,
+            size: Pack::unpack(from)?,
+            trial: Pack::unpack(from)?,
+        })
+    }
+}
+
+impl Work {
+    /// Whether all keys and edges that are named are there.
+    pub(in crate::engine) fn fits(&self, graph: &Graph) -> bool {
+        let (keys, edges) = (graph.poses.len(), graph.edges.len());
+        self.ties.iter().chain(&self.thins).all(|&key| key < keys)
+            && self
+                .solving
+                .iter()
+                .flat_map(|it| &it.trial)
+                .all(|(poses, trial)| poses.len() <= keys && trial.iter().all(|&edge| edge < edges))
+    }
+}

@@ -1,0 +1,83 @@
+//! What is known and asked about loops, in a session.
+
+use super::{Candidate, Closure, Kept, Loops, Place, Task};
+use crate::session::{Bytes, Fault, Pack, Reader, packed};
+
+packed!(Closure { keys, old_from_new, is_accepted, region_m, agreeing, reason });
+packed!(Task { stretch, anchor, place, covariance });
+packed!(Place { keys, middle });
+packed!(Candidate { anchor, middle, middle_from_anchor, information, region_m, share, is_unique });
+packed!(Loops { places, place_from, searched_m, tasks, pending, fields, told });
+
+/// What is told of closures, at most, in a map that lives for ever.
+const MOST_TOLD: usize = 300;
+
+impl Pack for Kept {
+    fn pack(&self, out: &mut Bytes) {
+        self.place.pack(out);
+        self.of.pack(out);
+    }
+
+    fn unpack(from: &mut Reader<'_>) -> Result<Self, Fault> {
+        let (place, of) = Pack::unpack(from)?;
+        Ok(Self { place, of, field: None })
+    }
+}
+
+impl Loops {
+    /// The robot was set elsewhere: a stretch of way begins with this key.
+    pub(crate) fn restart(&mut self, key: usize, travel_m: f64) {
+        self.place_from = key;
+        self.searched_m = travel_m;
+    }
+
+    /// Keys have new numbers, or are gone. What was asked before is asked of another map.
+    pub(crate) fn renumber(&mut self, number: &[Option<usize>]) {
+        self.forget();
+        // The first that is left at or after a key.
+        let left = |key: usize| number[key..].iter().find_map(|it| *it);
+        self.places.retain_mut(|place| {
+            let mut there = number[place.keys.clone()].iter().filter_map(|it| *it);
+            let (Some(first), last) = (there.next(), there.next_back()) else { return false };
+            place.keys = first..last.unwrap_or(first) + 1;
+            place.middle = left(place.middle).unwrap_or(first).clamp(first, place.keys.end - 1);
+            true
+        });
+        self.place_from = left(self.place_from).unwrap_or(0);
+        self.pending.retain_mut(|it| match (number[it.anchor], number[it.middle]) {
+            (Some(anchor), Some(middle)) => {
+                (it.anchor, it.middle) = (anchor, middle);
+                true
+            }
+            _ => false,
+        });
+        self.told.retain_mut(|it| match (number[it.keys.0], number[it.keys.1]) {
+            (Some(old), Some(new)) => {
+                it.keys = (old, new);
+                true
+            }
+            _ => false,
+        });
+        let many = self.told.len().saturating_sub(MOST_TOLD);
+        self.told.drain(..many);
+    }
+
+    /// Whether all keys and places that are named are there.
+    pub(crate) fn fits(&self, keys: usize) -> bool {
+        let is_key = |key: usize| key < keys;
+        let is_place = |place: usize| place < self.places.len();
+        let is_way = |way: &std::ops::Range<usize>| way.start < way.end && way.end <= keys;
+        self.places.iter().all(|it| is_way(&it.keys) && is_key(it.middle))
+            && (is_key(self.place_from) || self.place_from == 0)
+            && self
+                .tasks
+                .iter()
+                .all(|it| is_way(&it.stretch) && is_key(it.anchor) && is_place(it.place))
+            && self.pending.iter().all(|it| is_key(it.anchor) && is_key(it.middle))
+            && self
+                .fields
+                .iter()
+                .all(|it| is_place(it.place) && it.of.iter().all(|&(key, _)| is_key(key)))
+            && self.told.iter().all(|it| is_key(it.keys.0) && is_key(it.keys.1))
+    }
+}
