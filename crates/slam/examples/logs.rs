@@ -57,6 +57,7 @@ fn main() {
         }
         let relations = relations(&folder);
         let log = read_carmen(&text);
+        let truth = fs::read_to_string(folder.join("truth.txt")).ok().map(|text| poses(&text));
         let mut loops: BTreeMap<&str, Vec<Score>> = BTreeMap::new();
         for run in RUNS {
             if runs.as_ref().is_some_and(|runs| !runs.split(',').any(|it| it == run)) {
@@ -67,6 +68,7 @@ fn main() {
                 &perturbed(&log, run),
                 &log,
                 &relations,
+                truth.as_deref().filter(|_| run != "drop"),
                 out.as_deref(),
             );
             if run != "plain" {
@@ -164,6 +166,7 @@ fn race(
     copy: &Copy,
     log: &CarmenLog,
     relations: &[Relation],
+    truth: Option<&[Pose2]>,
     out: Option<&Path>,
 ) -> Score {
     let mut slam = Slam::new(Settings {
@@ -191,6 +194,7 @@ fn race(
     let begin = cpu_ns();
     slam.finish();
     let finish = cpu_ns() - begin;
+    let ate = truth.map(|truth| ate(truth, &slam.trajectory()));
     let trajectory: Vec<Stamped> = copy
         .stamps
         .iter()
@@ -226,10 +230,50 @@ fn race(
         slam.size() / 1000,
         ms(finish)
     );
+    if let Some((rms_m, most_m)) = ate {
+        println!("    against the truth: {rms_m:.4} m rms, {most_m:.4} m at most");
+    }
+    if name.ends_with("plain") {
+        for remark in slam.remarks() {
+            println!("    {remark}");
+        }
+    }
     if let Some(out) = out {
         write(out, &name.replace(' ', "_"), &slam, copy);
     }
     score
+}
+
+/// Poses of lines `stamp x y yaw`.
+fn poses(text: &str) -> Vec<Pose2> {
+    let numbers =
+        |line: &str| -> Vec<f64> { line.split(' ').map(|it| it.parse().unwrap()).collect() };
+    text.lines().map(numbers).map(|it| Pose2::new(it[1], it[2], it[3])).collect()
+}
+
+/// Root mean square and largest error of place after the best rigid alignment.
+fn ate(truth: &[Pose2], trajectory: &[(i64, Pose2)]) -> (f64, f64) {
+    let pairs: Vec<(Pose2, Pose2)> =
+        truth.iter().zip(trajectory).map(|(truth, (_, found))| (*truth, *found)).collect();
+    let count = pairs.len() as f64;
+    let mean = |of: fn(&(Pose2, Pose2)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
+    let (tx, ty) = (mean(|it| it.0.x_m), mean(|it| it.0.y_m));
+    let (fx, fy) = (mean(|it| it.1.x_m), mean(|it| it.1.y_m));
+    let (mut along, mut across) = (0.0, 0.0);
+    for (truth, found) in &pairs {
+        let (a, b, c, d) = (found.x_m - fx, found.y_m - fy, truth.x_m - tx, truth.y_m - ty);
+        along += a * c + b * d;
+        across += a * d - b * c;
+    }
+    let (s, c) = across.atan2(along).sin_cos();
+    let squares = pairs.iter().map(|(truth, found)| {
+        let (a, b) = (found.x_m - fx, found.y_m - fy);
+        let (x, y) = (truth.x_m - tx - c * a + s * b, truth.y_m - ty - s * a - c * b);
+        x * x + y * y
+    });
+    let squares: Vec<f64> = squares.collect();
+    let most = squares.iter().copied().fold(0.0, f64::max).sqrt();
+    ((squares.iter().sum::<f64>() / count).sqrt(), most)
 }
 
 fn write(out: &Path, name: &str, slam: &Slam, copy: &Copy) {

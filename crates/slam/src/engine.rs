@@ -11,6 +11,7 @@ use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_matching::{Cloud, Symmetric3};
 
+use crate::doubts::{Doubts, Remark, Step};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::{Key, Track};
 use crate::local::{apart, floored, locate, neighbours, placed};
@@ -102,6 +103,7 @@ pub struct Slam {
     loops: Loops,
     work: Work,
     counts: Counts,
+    doubts: Doubts,
     /// Part of the points that usually find partners.
     usual: f64,
     /// Where somebody says that the robot is, and how sure: for the next scan.
@@ -141,6 +143,7 @@ impl Slam {
             loops: Loops::default(),
             work: Work::default(),
             counts: Counts::default(),
+            doubts: Doubts::default(),
             usual: 0.7,
             start: None,
         }
@@ -219,9 +222,9 @@ impl Slam {
         let is_blank = cloud.points().len() < LEAST_POINTS;
         let group: Vec<usize> = neighbours(&self.keys, &self.graph, self.settings.local_scans);
         let (key, before) = (last.key, last.key_from_base);
-        let (key_from_base, information, doubted, is_matched) = if is_blank {
+        let (key_from_base, information, doubted, is_matched, firmness) = if is_blank {
             let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
-            (expected, information, information, false)
+            (expected, information, information, false, 0.0)
         } else {
             // The prior is about a motion that began at the last scan.
             let turned = covariance.turned(before.yaw_rad);
@@ -237,6 +240,7 @@ impl Slam {
                 located.information,
                 located.doubted,
                 located.is_matched,
+                located.fit.firmness,
             )
         };
         let moved = (before.inverse() * key_from_base).normalized();
@@ -266,6 +270,15 @@ impl Slam {
         };
         if is_kept {
             let travel_m = self.keys[key].travel_m + way_m;
+            let heading_rad = self.graph.poses[key].yaw_rad;
+            self.doubts.take(&Step {
+                time_ns: scan.time_ns,
+                odom_from_base,
+                key_from_base,
+                heading_rad,
+                is_matched,
+                firmness,
+            });
             let pose = (self.graph.poses[key] * key_from_base).normalized();
             let new = self.graph.add_pose(pose);
             self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m });
@@ -297,6 +310,7 @@ impl Slam {
         let ends = scan.ends(None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         self.graph.add_pose(start.normalized());
+        self.doubts.begin(odom_from_base);
         self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m: 0.0 });
         let track = Track { time_ns: scan.time_ns, key: 0, key_from_base: Pose2::IDENTITY };
         self.tracks.push(track);
@@ -314,6 +328,8 @@ impl Slam {
     /// Finishes all work in the background, then refines all poses together. More scans may follow.
     pub fn finish(&mut self) {
         self.work_slices(usize::MAX);
+        let end_ns = self.tracks.last().map_or(0, |it| it.time_ns);
+        self.doubts.leave_corridor(end_ns);
         self.settle();
         if self.keys.len() > 1 {
             refine(&self.keys, &mut self.graph, &self.settings);
@@ -403,6 +419,12 @@ impl Slam {
 
     pub(crate) fn graph(&self) -> &Graph {
         &self.graph
+    }
+
+    /// What a person should know of the drive, in the order in which it was noticed; grows only.
+    #[must_use]
+    pub fn remarks(&self) -> &[Remark] {
+        &self.doubts.remarks
     }
 
     /// Counts of what happened.

@@ -10,8 +10,10 @@
 //! 3. when the robot has moved enough it is kept: a pose in the graph, and an edge (`graph`);
 //! 4. old scans nearby whose place is well known are tied to it directly (`near`);
 //! 5. where the uncertainty has grown, loops are searched, doubted and believed (`loops`, `drift`);
-//! 6. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
+//! 6. what odometry and scans say of each other is weighed, and told when it is odd (`doubts`);
+//! 7. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
 
+mod doubts;
 mod drift;
 mod engine;
 mod g2o;
@@ -32,6 +34,7 @@ mod session;
 mod settings;
 pub mod tables;
 
+pub use doubts::{Doubt, Remark};
 pub use engine::{Counts, Link, Slam, Taken, Update};
 pub use gmapping::{GmappingSettings, Noise};
 pub use localizer::Localizer;

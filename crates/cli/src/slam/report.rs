@@ -72,7 +72,7 @@ impl Report<'_> {
             "loop_searches": counts.searches,
             "map_memory_bytes": self.slam.size(),
             "closures": closures,
-            "warnings": self.log.warnings,
+            "warnings": self.warnings(),
             "faults": self.log.faults,
         })
     }
@@ -80,7 +80,7 @@ impl Report<'_> {
     /// For a person.
     pub(super) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         let counts = self.slam.counts();
-        for warning in &self.log.warnings {
+        for warning in self.warnings() {
             writeln!(out, "warning: {warning}")?;
         }
         writeln!(
@@ -98,6 +98,16 @@ impl Report<'_> {
             writeln!(out, "  {} scans did not fit, {} said nothing", counts.lost, counts.ignored)?;
         }
         writeln!(out, "  map and trajectory are in {}", self.options.out.display())
+    }
+
+    /// What is odd about the log, and about what the drive in it shows.
+    fn warnings(&self) -> Vec<String> {
+        let begin_ns = self.log.scans.first().map_or(0, |it| it.scan.time_ns);
+        let remarks = self.slam.remarks().iter().map(|remark| {
+            let after_s = remark.time_ns.saturating_sub(begin_ns) as f64 * 1e-9;
+            format!("{remark} (noticed after {after_s:.0} s)")
+        });
+        self.log.warnings.iter().cloned().chain(remarks).collect()
     }
 
     fn accepted(&self) -> usize {

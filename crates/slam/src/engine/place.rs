@@ -70,6 +70,7 @@ impl Slam {
             let found = locate(&cloud, &group, expected, &turned, &self.settings, true, self.usual);
             (found.fit.target_from_moving, found.information, found.doubted, found.is_matched)
         };
+        self.doubts.begin(odom_from_base);
         let pose = (map_from_key * key_from_base).normalized();
         let new = self.graph.add_pose(pose);
         let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;

@@ -5,6 +5,7 @@ use periplus_matching::Symmetric3;
 
 use super::work::Work;
 use super::{Counts, Last, Slam};
+use crate::doubts::Doubts;
 use crate::graph::{Edge, Graph};
 use crate::key::{Key, Track};
 use crate::loops::Loops;
@@ -33,6 +34,8 @@ impl Slam {
             counts,
             usual,
             start,
+            // What was noticed is no part of the map: who goes on begins with an open mind.
+            doubts: _,
         } = self;
         let Graph { poses, edges, at: _ } = graph;
         let mut rest = Bytes::default();
@@ -101,6 +104,20 @@ impl Slam {
         if !work.fits(&graph) {
             return misfit(b"WORK", "work is waiting for a scan that is not there");
         }
-        Ok(Self { settings, keys, tracks, graph, trust, last, loops, work, counts, usual, start })
+        let doubts = Doubts::default();
+        Ok(Self {
+            settings,
+            keys,
+            tracks,
+            graph,
+            trust,
+            last,
+            loops,
+            work,
+            counts,
+            usual,
+            start,
+            doubts,
+        })
     }
 }
