@@ -6,13 +6,18 @@ mod check;
 mod conformance;
 mod convert;
 mod costmap;
+mod localize;
+mod log;
 mod map;
 mod options;
+mod picture;
 mod sim;
 mod slam;
+mod spent;
 mod teleop;
 mod terminal;
 mod verbs;
+mod watched;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -56,10 +61,11 @@ fn main() -> ExitCode {
     let outcome = match options.command {
         Command::Sim(options) => sim::run(&options, ros),
         Command::Teleop(options) => teleop::run(&options, ros),
+        Command::Localize(options) => localize::run(&options, ros),
         Command::Map(command) => map::run(&command, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
-                "`--ros-args` are for commands that run nodes: `periplus sim`, `teleop` and `map`",
+                "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop` and `map`",
             );
             return ExitCode::from(2);
         }

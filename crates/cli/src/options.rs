@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::DoctorCostmapOptions;
+use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
@@ -37,6 +38,7 @@ pub(crate) enum Command {
     Convert(ConvertOptions),
     Sim(Box<SimOptions>),
     Slam(SlamOptions),
+    Localize(LocalizeOptions),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),

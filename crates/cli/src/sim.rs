@@ -21,6 +21,7 @@ use periplus_sim::{
 
 use crate::arguments;
 use crate::costmap::{CostmapOptions, Costmaps};
+use crate::localize::{BesideOptions, Localization};
 use crate::options::{SearchOptions, split};
 use crate::terminal;
 
@@ -95,6 +96,8 @@ pub(crate) struct SimOptions {
     params_file: Vec<String>,
     #[command(flatten)]
     costmaps: CostmapOptions,
+    #[command(flatten)]
+    localization: BesideOptions,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -190,6 +193,13 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let Some(costmaps) = Costmaps::join(simulation.graph(), &options.costmaps)? else {
         return Ok(ExitCode::FAILURE);
     };
+    let localization = match Localization::join(simulation.graph(), &options.localization)? {
+        Ok(localization) => localization,
+        Err(why) => {
+            terminal::complain(&format!("localization cannot run: {why}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
     let factor = options.factor(&composition);
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
@@ -234,6 +244,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     if !options.quiet {
         costmaps.tell(&mut anstream::stderr().lock())?;
+        if let Some(localization) = &localization {
+            localization.tell(&mut anstream::stderr().lock())?;
+        }
     }
     // Without an end of its own, being stopped is how a run ends.
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();

@@ -1,9 +1,6 @@
 //! `periplus slam`.
 
-mod bag;
-mod log;
 mod options;
-mod picture;
 mod report;
 mod session;
 
@@ -16,15 +13,15 @@ use periplus_maps::{Distro, Saving, render};
 use periplus_resources::Store as _;
 use periplus_slam::{Settings, Slam};
 
-use crate::terminal;
-use log::Log;
+use crate::log::Log;
+use crate::{picture, terminal};
 use report::Report;
 
 pub(crate) use options::SlamOptions;
 
 pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
     let watch = Stopwatch::start();
-    let mut log = match Log::open(options)? {
+    let mut log = match Log::open(&options.log, &options.input)? {
         Ok(log) => log,
         Err(why) => {
             terminal::complain(&why);

@@ -5,23 +5,26 @@ use periplus_diagnostics::Diagnostic;
 use periplus_grid::OccupancyGrid;
 use periplus_matching::Peak;
 
-use crate::anywhere;
+mod finer;
+
+use self::finer::Seen;
+use crate::anywhere::Everywhere;
 use crate::bins::{Cluster, Taken, clusters};
+use crate::evidence::agreement;
 use crate::guess::{Guess, check_place, scatter};
 use crate::known_map::KnownMap;
-use crate::models::{Model, Terms, weigh};
+use crate::models::{Terms, weigh};
 use crate::motion::move_all;
 use crate::particles::{Covariance2, Moments, Particles};
+use crate::polish::Known;
 use crate::recovery::Recovery;
+use crate::rivals::Rivals;
 use crate::scan::{Beams, Scan};
 use crate::settings::{Compat, Settings};
 use crate::status::{State, Status, Watch};
 
 /// Particles nearer to their mean than this agree, so that beams may be skipped \[m\].
 const CONVERGED_M: f64 = 0.5;
-
-/// Standard deviations around a place that was found by its scan \[m\], \[rad\].
-const FOUND: (f64, f64) = (0.15, 0.06);
 
 const FITS_NOWHERE: &str = "fits-nowhere";
 
@@ -81,6 +84,12 @@ pub struct Amcl {
     sought: Option<(Pose2, Box<Diagnostic>)>,
     /// Whether somebody has said where the robot is, or it has found out.
     is_settled: bool,
+    /// The map, prepared for the search on all of it.
+    everywhere: Option<Everywhere>,
+    /// Places of which one is the right one.
+    rivals: Option<Rivals>,
+    /// The refined pose, and where odometry had the robot then.
+    fine: Option<(Known, Pose2)>,
 }
 
 impl Amcl {
@@ -105,6 +114,9 @@ impl Amcl {
             map_from_odom: None,
             sought: None,
             is_settled: false,
+            everywhere: None,
+            rivals: None,
+            fine: None,
         }
     }
 
@@ -155,6 +167,7 @@ impl Amcl {
     pub fn forget_odometry(&mut self) {
         self.odom_from_base = None;
         self.sought = None;
+        self.fine = None;
     }
 
     /// How well scans fit, as recovery sees it.
@@ -173,6 +186,7 @@ impl Amcl {
         {
             self.map = Some(KnownMap::new(grid, settings.map())?);
             self.terms = None;
+            self.everywhere = None;
         }
         self.settings = settings;
         Ok(())
@@ -202,6 +216,7 @@ impl Amcl {
         self.grid = Some(grid.clone());
         self.map = Some(map);
         self.terms = None;
+        self.everywhere = None;
         let known = self.estimate.as_ref().map(|it| (it.pose, it.covariance));
         match self.waiting.take().or(known) {
             Some((pose, covariance)) => {
@@ -262,35 +277,31 @@ impl Amcl {
         Ok(())
     }
 
-    /// Starts where the scan fits best in all of the map, and where it fits nearly as well: by a
+    /// Starts where the scan fits best in all of the map, and wherever it fits nearly as well: by a
     /// search that misses no place of its lattice. Returns these places, the best first; when there
-    /// are two, particles are at both.
+    /// are several, each is followed until one is left over.
     ///
     /// # Errors
     /// When there is no map, the scan is useless, or it fits nowhere.
     pub fn start_anywhere(&mut self, scan: &Scan) -> Result<Vec<Peak>, Box<Diagnostic>> {
-        let map = self.map.as_ref().ok_or_else(no_map)?;
-        let limits = crate::scan::BeamLimits { most: usize::MAX, ..self.settings.beams };
-        let ends = Beams::new(scan, &limits, Model::LikelihoodField.thinning())?.ends();
-        let places = anywhere::places(map, &ends);
-        if places.is_empty() {
-            let (hits, beams) = (ends.len(), scan.ranges_m.len());
+        if self.map.is_none() {
+            return Err(no_map());
+        }
+        let seen = Seen::new(scan, &self.settings)?;
+        let peaks = self.look_everywhere(&seen);
+        let Some(map) = &self.map else { return Err(no_map()) };
+        let poses = peaks.iter().map(|peak| peak.pose);
+        let Some(rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses) else {
+            let (hits, beams) = (seen.ends.len(), seen.beams.beams.len());
             return Err(Diagnostic::error(FITS_NOWHERE, "the scan fits nowhere on the map")
                 .note(format!("{hits} of its {beams} beams hit anything"))
                 .help("move the robot to where it sees walls, or check that this is the right map")
                 .into());
-        }
-        let mut stream = self.stream("anywhere");
-        let (place, turn) = FOUND;
-        let covariance =
-            Covariance2 { xx: place * place, xy: 0.0, yy: place * place, yaw: turn * turn };
-        let count = self.settings.size.most.div_ceil(places.len());
-        let mut particles = Particles::default();
-        for peak in &places {
-            scatter(&mut particles, count, peak.pose, covariance, &mut stream);
-        }
+        };
+        let particles = self.drawn_from(&rivals);
         self.begin(particles);
-        Ok(places)
+        self.rivals = Some(rivals);
+        Ok(peaks)
     }
 
     /// Uses the next scan whether or not the robot moved.
@@ -308,6 +319,8 @@ impl Amcl {
         self.waiting = None;
         self.sought = None;
         self.is_settled = false;
+        self.rivals = None;
+        self.fine = None;
         self.estimate = Some(self.sum_up());
         self.status =
             Status { reason: "no scan has been used since the start".into(), ..Status::default() };
@@ -342,6 +355,7 @@ impl Amcl {
             && !self.is_forced
             && !has_moved(old, odom_from_base, self.settings.update_min)
         {
+            self.refine(odom_from_base, scan);
             return Ok(None);
         }
         let Some(map) = &self.map else { return Err(no_map()) };
@@ -355,6 +369,7 @@ impl Amcl {
             None => Terms::new(map, settings.model, &settings.mixture, range_max_m),
         };
 
+        let old_from_new = self.odom_from_base.map(|old| old.inverse() * odom_from_base);
         if let Some(old) = self.odom_from_base {
             let mut stream = Stream::keyed(settings.seed, "amcl motion", self.draws);
             let particles = &mut self.particles;
@@ -382,11 +397,21 @@ impl Amcl {
         let is_resampled = is_due && (!self.settings.is_selective || few_count());
         let random_share = if is_resampled { self.resample() } else { 0.0 };
 
-        let estimate = self.sum_up();
-        let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
-        let fit = self.fit(estimate.pose, &beams.ends());
-        self.status = self.watch.judge(&estimate.clusters, fit);
+        let mut estimate = self.sum_up();
+        let seen = Seen::new(scan, &self.settings)?;
+        self.follow(&mut estimate, &seen, old_from_new);
+        self.polish(&mut estimate, &seen, odom_from_base);
+        let fit = self.fit(estimate.pose, &seen.beams);
+        self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
+        if self.seeks(random_share, odom_from_base)
+            && self.seek_again(&mut estimate, &seen, odom_from_base)
+        {
+            self.watch = Watch::default();
+            let fit = self.fit(estimate.pose, &seen.beams);
+            self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
+        }
         self.is_settled |= self.status.state == State::Tracking;
+        let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
         self.map_from_odom = Some(map_from_odom);
         self.estimate = Some(estimate.clone());
         let status = self.status.clone();
@@ -428,7 +453,7 @@ impl Amcl {
         let mut drawn = Particles::default();
         let mut taken = Taken::default();
         while drawn.len() < size.most {
-            let anywhere = if stream.unit() < share {
+            let anywhere = if !self.settings.seeks_when_lost && stream.unit() < share {
                 self.map.as_ref().and_then(|map| map.random_pose(&mut stream))
             } else {
                 None
@@ -463,19 +488,9 @@ impl Amcl {
         Estimate { pose, covariance: all.covariance(), clusters }
     }
 
-    /// Which part of the ends of beams is on walls when the robot is there.
-    fn fit(&self, map_from_base: Pose2, ends: &[[f32; 2]]) -> Option<f64> {
-        let map = self.map.as_ref().filter(|_| !ends.is_empty())?;
-        let sigma_m = self.settings.mixture.sigma_m;
-        let sum: f64 = ends
-            .iter()
-            .map(|&[x, y]| {
-                let (x_m, y_m) = map_from_base.transform_point(x.into(), y.into());
-                let distance = map.distance_m(x_m, y_m) / sigma_m;
-                libm::exp(-0.5 * distance * distance)
-            })
-            .sum();
-        Some(sum / ends.len() as f64)
+    /// Which part of the scan is on walls when the robot is there.
+    fn fit(&self, map_from_base: Pose2, beams: &Beams) -> Option<f64> {
+        agreement(self.map.as_ref()?, beams, map_from_base)
     }
 
     fn stream(&mut self, name: &str) -> Stream {

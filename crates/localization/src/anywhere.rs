@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use periplus_base::Pose2;
-use periplus_matching::{Field, FieldSettings, Peak, Window};
+use periplus_matching::{Field, FieldSettings, Peak, Wanted, Window};
 
 use crate::known_map::KnownMap;
 
@@ -15,57 +15,65 @@ const LEAST_CELL_M: f64 = 0.1;
 const MOST_POINTS: usize = 90;
 /// Places where a smaller part of the scan fits are none.
 const LEAST_SCORE: f64 = 0.35;
-/// A place that fits nearly as well as the best may be the one.
-const RIVAL: f64 = 0.9;
-/// Places nearer to the best are the same: \[m\], \[rad\].
-const SAME: (f64, f64) = (1.0, 0.5);
+/// Which places are looked for: those that fit nearly as well as the best may be the one.
+const WANTED: Wanted =
+    Wanted { least: LEAST_SCORE, share: 0.75, most: 200, apart: (0.4, 0.3), most_work: 50_000_000 };
 
-/// Where in all of the map points fit that a scanner saw, in the frame of the base \[m\]: the best
-/// place, and the best other one if it fits nearly as well.
-pub(crate) fn places(map: &KnownMap, ends: &[[f32; 2]]) -> Vec<Peak> {
-    let every = ends.len().div_ceil(MOST_POINTS).max(1);
-    let points: Vec<[f32; 2]> = ends.iter().step_by(every).copied().collect();
-    let lattice = map.lattice();
-    let corners =
-        [(0, 0), (lattice.width, 0), (0, lattice.height), (lattice.width, lattice.height)]
-            .map(|(column, row)| lattice.point_at(column as f64, row as f64));
-    let span = |values: [f64; 4]| {
-        let low = values.into_iter().fold(f64::INFINITY, f64::min);
-        let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        (0.5 * (low + high), 0.5 * (high - low))
-    };
-    let (x_m, half_x_m) = span(corners.map(|corner| corner.0));
-    let (y_m, half_y_m) = span(corners.map(|corner| corner.1));
-    let least = libm::sqrt(4.0 * half_x_m * half_y_m / MOST_CELLS);
-    let cell_m = lattice.resolution_m.max(LEAST_CELL_M).max(least);
-    // Distances are kept from the middle of the map, so that floats suffice.
-    let walls: Vec<[f32; 2]> =
-        map.walls().map(|(x, y)| [(x - x_m) as f32, (y - y_m) as f32]).collect();
-    let settings = FieldSettings {
-        resolution_m: cell_m as f32,
-        sigma_m: 1.2 * cell_m as f32,
-        most_half_m: (half_x_m.max(half_y_m) + cell_m) as f32,
-        levels: 6,
-    };
-    let field = Field::new(&walls, [0.0, 0.0], &settings);
-    let farthest = points.iter().map(|[x, y]| x * x + y * y).fold(0.0, f32::max).sqrt();
-    // The farthest of points moves by one cell from heading to heading.
-    let step_rad = (cell_m / f64::from(farthest).max(0.1)).clamp(0.01, 0.1);
-    let window = Window {
-        middle: Pose2::IDENTITY,
-        half_m: [half_x_m, half_y_m],
-        half_rad: PI - 0.5 * step_rad,
-        step_rad,
-    };
-    let mut places = Vec::new();
-    if let (Some(best), _) = field.search(&points, &window, LEAST_SCORE, None) {
-        places.push(best);
-        let avoid = Some((best.pose, SAME.0, SAME.1));
-        places.extend(field.search(&points, &window, RIVAL * best.score, avoid).0);
+/// A map, prepared for the search on all of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Everywhere {
+    field: Field,
+    cell_m: f64,
+    /// The middle of the map \[m\]: places are counted from it, so that floats suffice.
+    middle: [f64; 2],
+    half_m: [f64; 2],
+}
+
+impl Everywhere {
+    pub(crate) fn new(map: &KnownMap) -> Self {
+        let lattice = map.lattice();
+        let corners =
+            [(0, 0), (lattice.width, 0), (0, lattice.height), (lattice.width, lattice.height)]
+                .map(|(column, row)| lattice.point_at(column as f64, row as f64));
+        let span = |values: [f64; 4]| {
+            let low = values.into_iter().fold(f64::INFINITY, f64::min);
+            let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            (0.5 * (low + high), 0.5 * (high - low))
+        };
+        let (x_m, half_x_m) = span(corners.map(|corner| corner.0));
+        let (y_m, half_y_m) = span(corners.map(|corner| corner.1));
+        let least = libm::sqrt(4.0 * half_x_m * half_y_m / MOST_CELLS);
+        let cell_m = lattice.resolution_m.max(LEAST_CELL_M).max(least);
+        let walls: Vec<[f32; 2]> =
+            map.walls().map(|(x, y)| [(x - x_m) as f32, (y - y_m) as f32]).collect();
+        let settings = FieldSettings {
+            resolution_m: cell_m as f32,
+            sigma_m: 1.2 * cell_m as f32,
+            most_half_m: (half_x_m.max(half_y_m) + cell_m) as f32,
+            levels: 6,
+        };
+        let field = Field::new(&walls, [0.0, 0.0], &settings);
+        Self { field, cell_m, middle: [x_m, y_m], half_m: [half_x_m, half_y_m] }
     }
-    for place in &mut places {
-        place.pose.x_m += x_m;
-        place.pose.y_m += y_m;
+
+    /// Where points fit that a scanner saw, in the frame of the base \[m\], the best first.
+    pub(crate) fn peaks(&self, ends: &[[f32; 2]]) -> Vec<Peak> {
+        let every = ends.len().div_ceil(MOST_POINTS).max(1);
+        let points: Vec<[f32; 2]> = ends.iter().step_by(every).copied().collect();
+        let farthest = points.iter().map(|[x, y]| x * x + y * y).fold(0.0, f32::max).sqrt();
+        // The farthest of points moves by one cell from heading to heading.
+        let step_rad = (self.cell_m / f64::from(farthest).max(0.1)).clamp(0.01, 0.1);
+        let window = Window {
+            middle: Pose2::IDENTITY,
+            half_m: self.half_m,
+            half_rad: PI - 0.5 * step_rad,
+            step_rad,
+        };
+        let (mut peaks, _) = self.field.peaks(&points, &window, &WANTED);
+        for peak in &mut peaks {
+            peak.pose.x_m += self.middle[0];
+            peak.pose.y_m += self.middle[1];
+        }
+        peaks
     }
-    places
 }

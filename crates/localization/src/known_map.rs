@@ -188,6 +188,73 @@ impl KnownMap {
         index.map_or(self.most_m, |index| f64::from(self.distances_m[index]))
     }
 
+    /// How far a point of the map is from walls \[m\], smoothly between the middles of cells, and how
+    /// that changes along x and y of the map. Nothing where distances end, or outside.
+    pub(crate) fn slope(&self, finder: &Finder, x_m: f64, y_m: f64) -> Option<(f64, [f64; 2])> {
+        let (u, v) = finder.cells_to(x_m, y_m);
+        let (u, v) = (u - 0.5, v - 0.5);
+        let (width, height) = (self.lattice.width, self.lattice.height);
+        // What is no number fails, too.
+        let is_inside = u >= 0.0 && v >= 0.0 && u < (width - 1) as f64 && v < (height - 1) as f64;
+        if !is_inside {
+            return None;
+        }
+        let (column, row) = (u as usize, v as usize);
+        let (a, b) = (u - column as f64, v - row as f64);
+        let at = |index: usize| f64::from(self.distances_m[index]);
+        let low = row * width + column;
+        let (p, q, r, s) = (at(low), at(low + 1), at(low + width), at(low + width + 1));
+        let (bottom, top) = (p + a * (q - p), r + a * (s - r));
+        let distance = bottom + b * (top - bottom);
+        if distance >= self.most_m {
+            return None;
+        }
+        let (du, dv) = ((1.0 - b) * (q - p) + b * (s - r), top - bottom);
+        // From cells back to metres along the map's axes.
+        let gradient = [
+            finder.scale * (finder.cosine * du + finder.sine * dv),
+            finder.scale * (finder.cosine * dv - finder.sine * du),
+        ];
+        Some((distance, gradient))
+    }
+
+    /// How far it is from a point along a direction to the first wall \[m\], no more than `reach_m`.
+    /// What is unknown or outside stops nothing. Within `near_m` of the point nothing is seen.
+    ///
+    /// No wall is nearer than the distance that is kept, so that is how far each step goes.
+    pub(crate) fn wall_m(
+        &self,
+        finder: &Finder,
+        (x_m, y_m): (f64, f64),
+        bearing_rad: f64,
+        near_m: f64,
+        reach_m: f64,
+    ) -> f64 {
+        let (mut u, mut v) = finder.cells_to(x_m, y_m);
+        let (along, across) = finder.heading(bearing_rad);
+        let (width, height) = (self.lattice.width as f64, self.lattice.height as f64);
+        let cell_m = self.lattice.resolution_m;
+        (u, v) = (u + along * near_m, v + across * near_m);
+        let mut range_m = near_m;
+        while range_m < reach_m {
+            let is_inside = u >= 0.0 && v >= 0.0 && u < width && v < height;
+            let distance_m = if is_inside {
+                f64::from(self.distances_m[v as usize * self.lattice.width + u as usize])
+            } else {
+                // Back in it may only come along its border.
+                cell_m
+            };
+            if distance_m <= 0.0 {
+                return range_m;
+            }
+            // Both ends are known to within their cells.
+            let step_m = (distance_m - cell_m).max(0.5 * cell_m);
+            range_m += step_m;
+            (u, v) = (u + along * step_m, v + across * step_m);
+        }
+        reach_m
+    }
+
     fn index(&self, (column, row): (i64, i64)) -> Option<usize> {
         let cell = (usize::try_from(column).ok()?, usize::try_from(row).ok()?);
         self.lattice.contains(cell).then(|| self.lattice.index(cell))

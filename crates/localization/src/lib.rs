@@ -48,13 +48,16 @@
 mod amcl;
 mod anywhere;
 mod bins;
+mod evidence;
 mod guess;
 mod known_map;
 mod models;
 mod motion;
 mod particles;
+mod polish;
 mod pose_file;
 mod recovery;
+mod rivals;
 mod scan;
 mod settings;
 mod status;

@@ -59,6 +59,10 @@ pub struct Settings {
     pub thins_free: bool,
     /// Whether a robot of which nobody says where it is looks for itself on all of the map.
     pub starts_anywhere: bool,
+    /// Whether estimates are refined by drawing the scan to the walls.
+    pub polishes: bool,
+    /// Whether a robot that is lost looks for itself on all of the map.
+    pub seeks_when_lost: bool,
     /// Where to start, and how uncertain that is.
     pub start: Option<(Pose2, Covariance2)>,
     /// Seed of all randomness.
@@ -205,6 +209,8 @@ impl Settings {
             first_map_only: flag("first_map_only"),
             thins_free: flag("freespace_downsampling"),
             starts_anywhere: better("global_start"),
+            polishes: better("scan_match"),
+            seeks_when_lost: better("search_when_lost"),
             start: flag("set_initial_pose").then_some((start, covariance)),
             // -1 becomes the largest seed, as good as any.
             seed: values.integer("random_seed").unwrap_or(-1).cast_unsigned(),

@@ -46,12 +46,16 @@ impl Default for Status {
 
 /// Clusters that count less are no rivals.
 const LEAST_RIVAL: f64 = 0.1;
+/// More rivals are not told.
+const MOST_RIVALS: usize = 20;
 /// Clusters nearer to the best are the same place \[m\], \[rad\].
 const SAME_PLACE: (f64, f64) = (1.0, FRAC_PI_6);
 /// A spread that is no place any more: one standard deviation \[m\], \[rad\].
 const LARGE_SPREAD: (f64, f64) = (1.0, FRAC_PI_6);
-/// With a smaller part of scans on walls the robot is lost: a third may be people and furniture.
-const LEAST_FIT: f64 = 0.4;
+/// With a smaller part of scans on walls the robot is lost: half may be people and furniture.
+const LEAST_FIT: f64 = 0.35;
+/// So much less than it used to be, and it may be worth a look elsewhere.
+const SUSPECT: f64 = 0.85;
 /// So much less than it used to be is a sudden misfit.
 const SUDDEN: f64 = 0.6;
 /// Memories of how well scans fit, long and short.
@@ -64,14 +68,30 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    pub(crate) fn judge(&mut self, clusters: &[Cluster], fit: Option<f64>) -> Status {
+    /// Whether a scan fits so much worse than others did that the robot may be elsewhere.
+    pub(crate) fn suspects(&self, fit: Option<f64>) -> bool {
+        fit.is_some_and(|fit| fit.min(self.fits.fast) < SUSPECT * self.fits.slow)
+    }
+
+    /// How sure it is, by where particles are and which part of the scan is on walls; undecided when
+    /// there are several places and none is to be believed yet.
+    pub(crate) fn judge(
+        &mut self,
+        clusters: &[Cluster],
+        fit: Option<f64>,
+        is_undecided: bool,
+    ) -> Status {
         if let Some(fit) = fit {
             self.fits.take(fit, MEMORY);
         }
         let Recovery { slow, fast } = self.fits;
         let Some(best) = clusters.first() else { return Status::default() };
-        let rivals: Vec<Cluster> =
-            clusters[1..].iter().filter(|it| is_rival(it, best)).copied().collect();
+        let rivals: Vec<Cluster> = clusters[1..]
+            .iter()
+            .filter(|it| is_undecided || is_rival(it, best))
+            .take(MOST_RIVALS)
+            .copied()
+            .collect();
         let (state, reason) = if fit.is_some() && fast < LEAST_FIT {
             (
                 State::Lost,
@@ -96,6 +116,8 @@ impl Watch {
                 100.0 * rival.weight,
             );
             (State::Ambiguous, words)
+        } else if is_undecided {
+            (State::Ambiguous, "one place is likely, but too little has been seen yet".into())
         } else {
             let (radius_m, turn_rad) =
                 (best.covariance.radius_m(), libm::sqrt(best.covariance.yaw));
@@ -136,7 +158,7 @@ mod tests {
 
     #[test]
     fn states_are_told_apart() {
-        let state = |clusters: &[Cluster], fit| Watch::default().judge(clusters, fit).state;
+        let state = |clusters: &[Cluster], fit| Watch::default().judge(clusters, fit, false).state;
         assert_eq!(state(&[], Some(1.0)), State::Unset);
         assert_eq!(state(&[at(0.0, 1.0)], Some(0.8)), State::Tracking);
         assert_eq!(state(&[at(0.0, 1.0)], Some(0.2)), State::Lost);
@@ -144,16 +166,19 @@ mod tests {
         assert_eq!(state(&[at(0.0, 0.7), at(5.0, 0.3)], Some(0.8)), State::Ambiguous);
         assert_eq!(state(&[at(0.0, 0.95), at(5.0, 0.05)], Some(0.8)), State::Tracking);
         assert_eq!(state(&[at(0.0, 0.7), at(0.6, 0.3)], Some(0.8)), State::Tracking);
+        let undecided = |clusters: &[Cluster]| Watch::default().judge(clusters, Some(0.8), true);
+        assert_eq!(undecided(&[at(0.0, 1.0)]).state, State::Ambiguous);
+        assert_eq!(undecided(&[at(0.0, 0.95), at(5.0, 0.05)]).rivals.len(), 1);
     }
 
     #[test]
     fn a_robot_that_is_carried_away_is_lost() {
         let mut watch = Watch::default();
         for _ in 0..20 {
-            assert_eq!(watch.judge(&[at(0.0, 1.0)], Some(0.95)).state, State::Tracking);
+            assert_eq!(watch.judge(&[at(0.0, 1.0)], Some(0.95), false).state, State::Tracking);
         }
         let states: Vec<State> =
-            (0..5).map(|_| watch.judge(&[at(0.0, 1.0)], Some(0.45)).state).collect();
+            (0..5).map(|_| watch.judge(&[at(0.0, 1.0)], Some(0.45), false).state).collect();
         assert_eq!(states.last(), Some(&State::Lost));
     }
 }

@@ -141,6 +141,10 @@ pub static AMCL: Table = Table {
             .or("false"),
         flag("global_start", "Whether to look on all of the map when nobody says where to start.")
             .or("true"),
+        flag("scan_match", "Whether estimates are refined by drawing the scan to the walls.")
+            .or("true"),
+        flag("search_when_lost", "Whether a robot that is lost is looked for on all of the map.")
+            .or("true"),
         flag("use_map_topic", "Whether the map comes by its topic; else by service `static_map`.")
             .or("true"),
         flag("use_sim_time", "Whether time comes from `/clock`.").or("false"),

@@ -1,21 +1,30 @@
 //! Parameters from files: those of ROS 2 (`amcl: ros__parameters:`), and those of ROS 1.
 
 use periplus_diagnostics::{Diagnostics, Origin};
-use periplus_localization::Settings;
+use periplus_localization::{AMCL, Settings};
 use periplus_params::{Given, Values};
 use periplus_yaml::{Node, Value};
 
 /// Namespaces around a node nest no deeper.
 const DEEPEST: usize = 4;
 
-/// Reads the parameters of a node from a file: `amcl` finds `amcl: ros__parameters:`, `/**:` and, in
+/// Reads the parameters of a node from a file, and then from words `name`, `value`: `amcl` finds `amcl: ros__parameters:`, `/**:` and, in
 /// files of ROS 1, `amcl:`, or everything when there is no such section. What is wrong is told, and
 /// the default stands in for it.
 #[must_use]
-pub fn read(file: &Node, node: &str, diagnostics: &mut Diagnostics) -> Values {
+pub fn read(
+    file: Option<&Node>,
+    node: &str,
+    words: &[(String, String)],
+    diagnostics: &mut Diagnostics,
+) -> Values {
     let mut sections = Vec::new();
-    collect(file, node, 0, &mut sections);
-    if sections.is_empty() {
+    if let Some(file) = file {
+        collect(file, node, 0, &mut sections);
+    }
+    if let Some(file) = file
+        && sections.is_empty()
+    {
         let is_of_others = |(_, value): &(Node, Node)| value.entries().is_some();
         let is_plain = !file.entries().unwrap_or_default().iter().all(is_of_others);
         sections.extend(file.get(node).or(is_plain.then_some(file)));
@@ -24,6 +33,24 @@ pub fn read(file: &Node, node: &str, diagnostics: &mut Diagnostics) -> Values {
     for section in sections {
         flatten(section, "", &mut flat);
     }
+    flat.extend(words.iter().map(|(name, text)| Flat {
+        name: name.clone(),
+        text: text.clone(),
+        name_origin: Origin::default(),
+        origin: Origin::default(),
+    }));
+    // What comes last counts, and nothing is told of what does not.
+    let meant = |one: &Flat| AMCL.find(&one.name).map(|it| it.name);
+    let flat: Vec<&Flat> = flat
+        .iter()
+        .enumerate()
+        .filter(|(index, one)| {
+            flat[index + 1..]
+                .iter()
+                .all(|later| meant(later).is_none_or(|name| meant(one) != Some(name)))
+        })
+        .map(|(_, one)| one)
+        .collect();
     let given = flat.iter().map(|one| Given {
         name: &one.name,
         text: one.text.as_str().into(),
@@ -80,7 +107,7 @@ mod tests {
         let file = sources.add("params.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).ok().flatten();
         let mut diagnostics = Diagnostics::new();
-        let values = tree.map(|tree| read(&tree, "amcl", &mut diagnostics));
+        let values = tree.map(|tree| read(Some(&tree), "amcl", &[], &mut diagnostics));
         (values.unwrap_or_else(|| panic!("{text}")), diagnostics.iter().map(|it| it.code).collect())
     }
 

@@ -21,5 +21,5 @@ pub use agreement::{Agreement, agreement};
 pub use cloud::{Cloud, CloudSettings, Point};
 pub use field::{Field, FieldSettings};
 pub use register::{Comparison, Fit, Placed, Prior, RegisterSettings, compare, register};
-pub use search::{Peak, Window};
+pub use search::{Peak, Wanted, Window};
 pub use symmetric::Symmetric3;

@@ -26,6 +26,21 @@ pub struct Peak {
     pub score: f64,
 }
 
+/// Which peaks are looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted {
+    /// Lower scores are none.
+    pub least: f64,
+    /// Nor are those below this share of the best.
+    pub share: f64,
+    /// No more than so many.
+    pub most: usize,
+    /// Of places nearer to each other than this the better one counts: \[m\], \[rad\].
+    pub apart: (f64, f64),
+    /// So many lookups, and the share is raised, so that the end comes soon.
+    pub most_work: u64,
+}
+
 /// A square of shifts at one heading.
 #[derive(Clone, Copy)]
 struct Node {
@@ -64,6 +79,57 @@ impl Field {
     }
 }
 
+impl Field {
+    /// All peaks in a window, the best first, by the same search; the best is among them whatever
+    /// the work. The number beside is the work done, in lookups.
+    #[must_use]
+    pub fn peaks(&self, points: &[[f32; 2]], window: &Window, wanted: &Wanted) -> (Vec<Peak>, u64) {
+        if points.is_empty() || wanted.most == 0 {
+            return (Vec::new(), 0);
+        }
+        let mut search = Search::new(self, points, window, wanted.least, None);
+        search.several = Some(Several { wanted: *wanted, share: wanted.share, peaks: Vec::new() });
+        search.run();
+        let peaks = search.several.map_or_else(Vec::new, |several| several.peaks);
+        (peaks.into_iter().map(|(_, peak)| peak).collect(), search.work)
+    }
+}
+
+/// Peaks so far, the best first, with their bounds.
+struct Several {
+    wanted: Wanted,
+    share: f64,
+    peaks: Vec<(u32, Peak)>,
+}
+
+impl Several {
+    /// Takes a place; gives what others have to exceed from now on.
+    fn take(&mut self, bound: u32, peak: Peak, work: u64, least: u32) -> u32 {
+        let (metres, radians) = self.wanted.apart;
+        let is_near = |other: &Peak| {
+            (other.pose.x_m - peak.pose.x_m).abs() < metres
+                && (other.pose.y_m - peak.pose.y_m).abs() < metres
+                && normalize_angle(other.pose.yaw_rad - peak.pose.yaw_rad).abs() < radians
+        };
+        let is_new = self.peaks.iter().all(|(other, it)| *other < bound || !is_near(it));
+        if is_new {
+            self.peaks.retain(|(_, it)| !is_near(it));
+            let at = self.peaks.partition_point(|(other, _)| *other >= bound);
+            self.peaks.insert(at, (bound, peak));
+            self.peaks.truncate(self.wanted.most);
+        }
+        if work > self.wanted.most_work {
+            self.share += 0.5 * (1.0 - self.share);
+            self.wanted.most_work = self.wanted.most_work.saturating_mul(2);
+        }
+        let best = self.peaks.first().map_or(0, |(best, _)| *best);
+        let full = self.peaks.len() == self.wanted.most;
+        let worst = self.peaks.last().filter(|_| full).map_or(0, |(worst, _)| *worst);
+        // One less, since only what exceeds it is looked into.
+        least.max(worst).max(((f64::from(best) * self.share) as u32).saturating_sub(1))
+    }
+}
+
 /// More cells than any field has on a side, and few enough to leave a float its fractions.
 const FAR: f32 = 16384.0;
 
@@ -78,6 +144,8 @@ struct Search<'a> {
     /// For each heading, the points in cells.
     cells: Vec<(i32, i32)>,
     found: Option<Node>,
+    /// Where all peaks are wanted.
+    several: Option<Several>,
     threshold: u32,
     work: u64,
 }
@@ -119,6 +187,7 @@ impl<'a> Search<'a> {
             headings,
             cells,
             found: None,
+            several: None,
             threshold,
             work: 0,
         }
@@ -158,7 +227,9 @@ impl<'a> Search<'a> {
                 break;
             }
             if level == 0 {
-                if !self.is_avoided(node) {
+                if self.several.is_some() {
+                    self.take(node);
+                } else if !self.is_avoided(node) {
                     self.threshold = node.bound;
                     self.found = Some(node);
                 }
@@ -178,6 +249,14 @@ impl<'a> Search<'a> {
                 }
             }
             self.descend(children, level - 1);
+        }
+    }
+
+    /// Takes a place as one of several.
+    fn take(&mut self, node: Node) {
+        let (peak, work, least) = (self.peak(node), self.work, self.threshold);
+        if let Some(several) = &mut self.several {
+            self.threshold = several.take(node.bound, peak, work, least);
         }
     }
 
@@ -219,10 +298,13 @@ impl<'a> Search<'a> {
             && normalize_angle(pose.yaw_rad - avoid.yaw_rad).abs() < radians
     }
 
-    fn best(&self) -> Option<Peak> {
-        let node = self.found?;
+    fn peak(&self, node: Node) -> Peak {
         let score = f64::from(node.bound) / (255.0 * self.count as f64);
-        Some(Peak { pose: self.pose(node), score })
+        Peak { pose: self.pose(node), score }
+    }
+
+    fn best(&self) -> Option<Peak> {
+        self.found.map(|node| self.peak(node))
     }
 }
 
@@ -312,5 +394,13 @@ mod tests {
         let second = second.unwrap();
         assert!(((first.pose.x_m - second.pose.x_m).abs() - 3.0).abs() < 0.15);
         assert!(second.score > 0.8 * first.score);
+        let wanted =
+            Wanted { least: 0.5, share: 0.8, most: 9, apart: (0.6, 1.0), most_work: u64::MAX };
+        let (peaks, _) = field.peaks(&moving, &window, &wanted);
+        assert_eq!(peaks.len(), 2, "{peaks:?}");
+        assert_eq!(peaks[0].score, first.score);
+        assert!((peaks[0].pose.x_m - peaks[1].pose.x_m).abs() > 2.8, "{peaks:?}");
+        let (peaks, _) = field.peaks(&moving, &window, &Wanted { most: 1, ..wanted });
+        assert_eq!(peaks.len(), 1);
     }
 }

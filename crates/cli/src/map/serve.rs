@@ -7,16 +7,15 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
-use periplus_graph::{Graph, GraphError, Level, Mailbox, Node, NodeSettings, Qos};
+use periplus_graph::{Graph, NodeSettings};
 use periplus_host::{Machine, sleep, unix_ns};
 use periplus_map_nodes::{MapServer, MapServerSettings};
-use periplus_msgs::lifecycle_msgs::{State, TransitionEvent};
-use periplus_msgs::rcl_interfaces::Log;
 use periplus_wire_ros2::{Settings, Wire};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
 use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
+use crate::watched::Watched;
 
 /// How often it is looked whether it is over.
 const LOOK: Duration = Duration::from_millis(20);
@@ -69,7 +68,7 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
-    let watched = Watched::new(&server).map_err(|error| complain(&error.to_string()));
+    let watched = Watched::new(server.node()).map_err(|error| complain(&error.to_string()));
     let Ok(watched) = watched else { return Ok(ExitCode::FAILURE) };
     if !options.managed {
         server.start();
@@ -78,7 +77,8 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     while !stop.load(Ordering::Relaxed) {
         graph.advance_to(unix_ns());
         sleep(LOOK);
-        if watched.tell() && !options.managed {
+        watched.tell();
+        if watched.gave_up() && !options.managed {
             // It has been logged why.
             code = ExitCode::FAILURE;
             break;
@@ -87,36 +87,4 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     let _ = wire.flush(LAST_WORD);
     diagnostics(&mut anstream::stderr().lock(), &wire.take_findings(), &SourceMap::new())?;
     Ok(code)
-}
-
-/// What the server says and becomes.
-struct Watched {
-    logger: String,
-    logs: Mailbox<Log>,
-    events: Mailbox<TransitionEvent>,
-    _node: Node,
-}
-
-impl Watched {
-    fn new(server: &MapServer) -> Result<Self, GraphError> {
-        let node = server.node().graph().node(NodeSettings::new("_map_server_watch").bare())?;
-        let events = format!("{}/transition_event", server.node().full_name());
-        Ok(Self {
-            logger: server.node().logger(),
-            logs: node.mailbox("/rosout", Qos::latched(100))?,
-            events: node.mailbox(&events, Qos::reliable(100))?,
-            _node: node,
-        })
-    }
-
-    /// Writes what has been logged; whether the server gave up.
-    fn tell(&self) -> bool {
-        // Before the lines, which come first.
-        let events = self.events.drain();
-        for line in self.logs.drain().iter().filter(|line| line.name == self.logger) {
-            say(&format!("[{}] [{}]: {}", Level::of_number(line.level), line.name, line.msg));
-        }
-        let gave_up = [State::PRIMARY_STATE_UNCONFIGURED, State::PRIMARY_STATE_FINALIZED];
-        events.iter().any(|event| gave_up.contains(&event.goal_state.id))
-    }
 }

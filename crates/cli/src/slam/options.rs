@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::log::LogOptions;
+
 /// Make a map and a trajectory from a log of laser scans
 ///
 /// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
@@ -27,15 +29,8 @@ pub(crate) struct SlamOptions {
     /// Close no loops
     #[arg(long)]
     pub(crate) no_loops: bool,
-    /// The topic with the scans; without it the one with the most
-    #[arg(long, value_name = "TOPIC")]
-    pub(crate) scan_topic: Option<String>,
-    /// The frame in which odometry tells where the robot is
-    #[arg(long, default_value = "odom", value_name = "FRAME")]
-    pub(crate) odom_frame: String,
-    /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
-    #[arg(long, value_name = "FRAME")]
-    pub(crate) base_frame: Option<String>,
+    #[command(flatten)]
+    pub(crate) input: LogOptions,
     /// Go on with the map of a session, as if the logs were one
     #[arg(long, value_name = "FILE")]
     pub(crate) session: Option<PathBuf>,

@@ -1,15 +1,13 @@
 //! How a run went.
 
 use std::io::{self, Write};
-use std::path::Path;
 
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_slam::Slam;
 use serde_json::{Value, json};
 
-use super::log::Log;
 use super::options::SlamOptions;
+use crate::log::Log;
+use crate::spent::{cpu_s, peak_bytes, steps_ms};
 
 /// How a run went.
 pub(super) struct Report<'a> {
@@ -45,9 +43,6 @@ impl Report<'_> {
                 })
             })
             .collect();
-        let mut sorted = self.spent_s.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let at = |part: f64| sorted.get((part * (sorted.len() - 1) as f64) as usize).copied();
         json!({
             "log": self.options.log,
             "kind": self.log.kind,
@@ -56,17 +51,13 @@ impl Report<'_> {
             "peak_memory_bytes": peak_bytes(),
             "load_s": self.loaded_s,
             "finish_s": self.finish_s,
-            "scan_ms": {
-                "mean": 1e3 * self.spent_s.iter().sum::<f64>() / self.spent_s.len().max(1) as f64,
-                "p99": at(0.99).map(|it| 1e3 * it),
-                "worst": at(1.0).map(|it| 1e3 * it),
-            },
+            "scan_ms": steps_ms(self.spent_s),
             "scans": counts.scans,
             "kept_scans": counts.kept,
             "lost_scans": counts.lost,
             "ignored_scans": counts.ignored,
             "path_m": self.path_m(),
-            "log_s": self.log_s(),
+            "log_s": self.log.span_s(),
             "ties": counts.ties,
             "loop_closures": self.accepted(),
             "loop_searches": counts.searches,
@@ -88,9 +79,9 @@ impl Report<'_> {
             "{} scans over {:.0} m and {:.0} s in {:.2} s: {:.0} x real time; {} loops closed, {} ties",
             counts.scans,
             self.path_m(),
-            self.log_s(),
+            self.log.span_s(),
             self.wall_s,
-            self.log_s() / self.wall_s.max(1e-9),
+            self.log.span_s() / self.wall_s.max(1e-9),
             self.accepted(),
             counts.ties
         )?;
@@ -121,27 +112,4 @@ impl Report<'_> {
             .map(|pair| (pair[1].1.x_m - pair[0].1.x_m).hypot(pair[1].1.y_m - pair[0].1.y_m))
             .sum()
     }
-
-    fn log_s(&self) -> f64 {
-        let stamps = || self.log.scans.iter().map(|it| it.scan.time_ns);
-        let span_ns = stamps().max().unwrap_or(0).saturating_sub(stamps().min().unwrap_or(0));
-        span_ns as f64 * 1e-9
-    }
-}
-
-/// Seconds of this thread on a CPU, where Linux tells.
-fn cpu_s() -> Option<f64> {
-    let ns: f64 = words("/proc/thread-self/schedstat")?.split_whitespace().next()?.parse().ok()?;
-    Some(ns * 1e-9)
-}
-
-/// Most memory that was ever held, where Linux tells \[bytes\].
-fn peak_bytes() -> Option<u64> {
-    let status = words("/proc/self/status")?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
-}
-
-fn words(path: &str) -> Option<String> {
-    String::from_utf8(Machine.read(Path::new(path)).ok()?).ok()
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::path::Path;
 
 use periplus_bagfiles::{Bag, BagError};
 use periplus_bags::{BagTopic, Selection, Target, Translation};
@@ -15,30 +16,29 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_slam::Scan;
 use periplus_tf::{Buffer, Kind, Stamped};
 
-use super::log::{Log, Logged};
-use super::options::SlamOptions;
+use super::{Log, LogOptions, Logged};
 use crate::terminal;
 
 /// Names of the robot's own frame, the most telling first.
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
 
 /// Reads a recording; in words why it cannot be.
-pub(super) fn read(options: &SlamOptions) -> io::Result<Result<Log, String>> {
-    let bag = match Bag::open(&options.log) {
+pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
+    let bag = match Bag::open(path) {
         Ok(bag) => bag,
         Err(why) => return Ok(Err(why.to_string())),
     };
     let findings = bag.findings();
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())?;
-    Ok(scans(&bag, options))
+    Ok(scans(&bag, path, options))
 }
 
-fn scans(bag: &Bag, options: &SlamOptions) -> Result<Log, String> {
-    let topic = scan_topic(bag, options)?;
+fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
+    let topic = scan_topic(bag, path, options)?;
     let frames = Frames::read(bag).map_err(|why| why.to_string())?;
     let mut log = Log { kind: format!("recording, {topic}"), ..Log::default() };
     if !bag.is_whole() {
-        log.faults.push(format!("{} was not closed properly", options.log.display()));
+        log.faults.push(format!("{} was not closed properly", path.display()));
     }
     log.faults.extend(frames.faults.iter().cloned());
     let base = options.base_frame.clone().or_else(|| frames.base(&options.odom_frame));
@@ -102,7 +102,7 @@ fn scan(message: LaserScan, time_ns: i64, base_from_laser: Pose) -> Scan {
 }
 
 /// The topic with the most scans, or the one that is asked for.
-fn scan_topic(bag: &Bag, options: &SlamOptions) -> Result<String, String> {
+fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, String> {
     let with_scans = || {
         let topics = bag.topics().iter().zip(bag.counts());
         topics.filter(|(topic, _)| has_type(topic, "LaserScan"))
@@ -119,7 +119,7 @@ fn scan_topic(bag: &Bag, options: &SlamOptions) -> Result<String, String> {
         None => with_scans()
             .max_by_key(|(_, count)| **count)
             .map(|(topic, _)| topic.name.clone())
-            .ok_or_else(|| format!("{} holds no scans", options.log.display())),
+            .ok_or_else(|| format!("{} holds no scans", path.display())),
     }
 }
 

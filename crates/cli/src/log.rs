@@ -1,55 +1,76 @@
 //! A log of either kind as scans with odometry.
 
-use std::io;
+mod bag;
 
+use std::io;
+use std::path::Path;
+
+use clap::Args;
 use periplus_bags::{CarmenScan, is_carmen, read_carmen};
 use periplus_base::Pose2;
 use periplus_host::Machine;
 use periplus_resources::Host as _;
 use periplus_slam::Scan;
 
-use super::bag;
-use super::options::SlamOptions;
+/// What of a log is meant.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct LogOptions {
+    /// The topic with the scans; without it the one with the most
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) scan_topic: Option<String>,
+    /// The frame in which odometry tells where the robot is
+    #[arg(long, default_value = "odom", value_name = "FRAME")]
+    pub(crate) odom_frame: String,
+    /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
+    #[arg(long, value_name = "FRAME")]
+    pub(crate) base_frame: Option<String>,
+}
 
 /// A scan of a log.
-pub(super) struct Logged {
+pub(crate) struct Logged {
     /// As the log writes it, to the microsecond \[s\].
-    pub(super) stamp: String,
-    pub(super) scan: Scan,
-    pub(super) odom_from_base: Option<Pose2>,
+    pub(crate) stamp: String,
+    pub(crate) scan: Scan,
+    pub(crate) odom_from_base: Option<Pose2>,
 }
 
 /// What a log holds.
 #[derive(Default)]
-pub(super) struct Log {
+pub(crate) struct Log {
     /// What it is.
-    pub(super) kind: String,
-    pub(super) scans: Vec<Logged>,
+    pub(crate) kind: String,
+    pub(crate) scans: Vec<Logged>,
     /// What was damaged.
-    pub(super) faults: Vec<String>,
+    pub(crate) faults: Vec<String>,
     /// What is missing, and what that means.
-    pub(super) warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
 impl Log {
     /// Reads a log; in words why it cannot be.
-    pub(super) fn open(options: &SlamOptions) -> io::Result<Result<Self, String>> {
-        let path = &options.log;
+    pub(crate) fn open(path: &Path, options: &LogOptions) -> io::Result<Result<Self, String>> {
         let is_recording = path.is_dir()
             || path.extension().is_some_and(|it| {
                 ["bag", "mcap", "db3", "zstd"].iter().any(|other| it.eq_ignore_ascii_case(other))
             });
         if is_recording {
-            return bag::read(options);
+            return bag::read(path, options);
         }
         let text = match Machine.read(path) {
             Ok(text) => text,
             Err(why) => return Ok(Err(format!("cannot read {}: {why}", path.display()))),
         };
         if !is_carmen(&text) {
-            return bag::read(options);
+            return bag::read(path, options);
         }
         Ok(Ok(carmen(&text)))
+    }
+
+    /// From the first scan to the last \[s\].
+    pub(crate) fn span_s(&self) -> f64 {
+        let stamps = || self.scans.iter().map(|it| it.scan.time_ns);
+        let span_ns = stamps().max().unwrap_or(0).saturating_sub(stamps().min().unwrap_or(0));
+        span_ns as f64 * 1e-9
     }
 }
 

@@ -11,7 +11,7 @@ const BEGIN: [f64; 3] = [40.0, 90.0, 230.0];
 const END: [f64; 3] = [225.0, 50.0, 40.0];
 
 /// A PNG of a map, and the way from blue to red.
-pub(super) fn draw(map: &OccupancyGrid, way: &[Pose2]) -> Vec<u8> {
+pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2]) -> Vec<u8> {
     let lattice = map.lattice;
     let every = lattice.width.max(lattice.height).div_ceil(LONGEST).max(1);
     let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));

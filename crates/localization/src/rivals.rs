@@ -1,0 +1,152 @@
+//! Places where a robot may be, each followed on its own until one is left over.
+//!
+//! Particles lose places by chance, and with them the right one as easily as a wrong one. Here each
+//! place moves with odometry, is refined by every scan, and keeps account of what scans say for it.
+
+use periplus_base::{Pose2, normalize_angle};
+
+use crate::bins::Cluster;
+use crate::evidence::evidence;
+use crate::known_map::KnownMap;
+use crate::particles::Covariance2;
+use crate::polish::{Known, loosely, moved, polish};
+use crate::scan::Beams;
+
+/// Places nearer to each other are the same: \[m\], \[rad\].
+const SAME: (f64, f64) = (0.4, 0.3);
+/// A place so much less likely than the best (as a logarithm) is none any more.
+const HOPELESS: f64 = 9.0;
+/// The best is believed when all others together are less likely than this.
+const DOUBT: f64 = 0.01;
+/// After a single scan it has to be less: scans lie together.
+const DOUBT_AT_ONCE: f64 = 1e-3;
+/// Further on, what scans say is news \[m\].
+const NEWS_M: f64 = 0.5;
+
+/// A place where the robot may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) known: Known,
+    /// Natural logarithm of how likely all scans since the start are there.
+    pub(crate) evidence: f64,
+    /// Which part of the last scan is on walls.
+    pub(crate) fit: f64,
+}
+
+/// All of them, the likeliest first; never empty.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Rivals {
+    places: Vec<Place>,
+    way_m: f64,
+}
+
+impl Rivals {
+    /// From where a scan fits; none when there is nothing.
+    pub(crate) fn new(
+        map: &KnownMap,
+        beams: &Beams,
+        ends: &[[f32; 2]],
+        poses: impl IntoIterator<Item = Pose2>,
+    ) -> Option<Self> {
+        let information = loosely(0.3, 0.15);
+        let places: Vec<Place> = poses
+            .into_iter()
+            .map(|pose| refined(map, beams, ends, &Known { pose, information }, 0.0))
+            .collect();
+        let mut rivals = Self { places, way_m: 0.0 };
+        rivals.sort();
+        (!rivals.places.is_empty()).then_some(rivals)
+    }
+
+    /// The robot moved by odometry, and sees.
+    pub(crate) fn follow(
+        &mut self,
+        map: &KnownMap,
+        beams: &Beams,
+        ends: &[[f32; 2]],
+        old_from_new: Pose2,
+    ) {
+        let way_m = libm::hypot(old_from_new.x_m, old_from_new.y_m);
+        self.way_m += way_m;
+        // The same scan again says nothing new.
+        let news = (way_m / NEWS_M + normalize_angle(old_from_new.yaw_rad).abs()).min(1.0);
+        for place in &mut self.places {
+            let known = moved(&place.known, old_from_new);
+            let seen = refined(map, beams, ends, &known, 0.0);
+            *place = Place { evidence: place.evidence + news * seen.evidence, ..seen };
+        }
+        self.sort();
+    }
+
+    /// Adds a place that is more likely for other reasons.
+    pub(crate) fn add(&mut self, place: &Place, more: f64) {
+        self.places.push(Place { evidence: place.evidence + more, ..*place });
+        self.sort();
+    }
+
+    /// The likeliest first, each once, without those that are hopeless.
+    fn sort(&mut self) {
+        self.places.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        let best = self.places.first().map_or(0.0, |best| best.evidence);
+        let mut kept: Vec<Place> = Vec::new();
+        for place in &self.places {
+            let is_hopeless = place.evidence < best - HOPELESS;
+            if !is_hopeless && kept.iter().all(|it| !is_same(it.known.pose, place.known.pose)) {
+                kept.push(*place);
+            }
+        }
+        self.places = kept;
+    }
+
+    pub(crate) fn best(&self) -> &Place {
+        &self.places[0]
+    }
+
+    /// Whether one place is left over.
+    pub(crate) fn is_decided(&self) -> bool {
+        let doubt = 1.0 - self.weights()[0];
+        doubt < if self.way_m < NEWS_M { DOUBT_AT_ONCE } else { DOUBT }
+    }
+
+    /// How likely each is, all together one.
+    pub(crate) fn weights(&self) -> Vec<f64> {
+        let best = self.places[0].evidence;
+        let mut weights: Vec<f64> =
+            self.places.iter().map(|it| libm::exp(it.evidence - best)).collect();
+        let sum: f64 = weights.iter().sum();
+        weights.iter_mut().for_each(|weight| *weight /= sum);
+        weights
+    }
+
+    /// As clusters of so many particles.
+    pub(crate) fn clusters(&self, particles: usize) -> Vec<Cluster> {
+        let weights = self.weights();
+        let cluster = |(place, &weight): (&Place, &f64)| Cluster {
+            weight,
+            count: (weight * particles as f64) as usize,
+            mean: place.known.pose,
+            covariance: place.spread(),
+        };
+        self.places.iter().zip(&weights).map(cluster).collect()
+    }
+}
+
+impl Place {
+    /// How uncertain the pose is, apart from being a wrong one.
+    pub(crate) fn spread(&self) -> Covariance2 {
+        let inverse = self.known.information.inverse().unwrap_or_default();
+        Covariance2 { xx: inverse.xx, xy: inverse.xy, yy: inverse.yy, yaw: inverse.tt }
+    }
+}
+
+fn refined(map: &KnownMap, beams: &Beams, ends: &[[f32; 2]], known: &Known, before: f64) -> Place {
+    let polished = polish(map, ends, known);
+    let evidence = before + evidence(map, beams, polished.known.pose);
+    Place { known: polished.known, evidence, fit: polished.fit }
+}
+
+fn is_same(a: Pose2, b: Pose2) -> bool {
+    (a.x_m - b.x_m).abs() < SAME.0
+        && (a.y_m - b.y_m).abs() < SAME.0
+        && normalize_angle(a.yaw_rad - b.yaw_rad).abs() < SAME.1
+}
