@@ -1,10 +1,12 @@
 //! Any bytes as what other programs on the ROS 2 network say of themselves: their nodes, their
-//! types, the names of their topics, and questions and answers of services.
+//! types, the names of their topics, and questions and answers of services; over DDS and Zenoh.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use periplus_cyclone::{Guid, Identity, Sample, Vendor};
 use periplus_wire_ros2::{entities, names, request, user_data};
+use periplus_wire_zenoh::Token;
+use periplus_wire_zenoh::attachment::Attachment;
 
 fuzz_target!(|bytes: &[u8]| {
     if let Some((said, form)) = entities::decode(bytes) {
@@ -34,6 +36,12 @@ fuzz_target!(|bytes: &[u8]| {
             assert_eq!(names::message(&names::type_of(&name)).as_deref(), Some(&*name));
         }
         let _ = names::service_of(text);
+        if let Some(token) = Token::read(text) {
+            assert_eq!(Token::read(&token.write()), Some(token));
+        }
+    }
+    if let Some(beside) = Attachment::read(bytes) {
+        assert_eq!(beside.write(), bytes);
     }
     let (caller, reader) = (Guid([1; 16]), Guid([2; 16]));
     for vendor in [Vendor::CYCLONE, Vendor::FAST] {

@@ -24,6 +24,7 @@ mod step;
 #[cfg(test)]
 mod tidy;
 mod wire;
+mod zenoh;
 
 use std::process::ExitCode;
 
@@ -81,6 +82,9 @@ enum Task {
     Determinism,
     /// The pictures in the documentation, from the program itself
     Pictures,
+    /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
+    /// eclipse-zenoh, installed into `.venv`
+    Zenoh,
     /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
     Fuzz {
         /// For how long each target runs
@@ -148,6 +152,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Drive => drive::corpus(),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
+        Task::Zenoh => zenoh::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

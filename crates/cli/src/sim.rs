@@ -86,7 +86,7 @@ pub(crate) struct SimOptions {
     remaps: Vec<String>,
     /// Who can see the run: its topics, services and nodes; without it `loopback` where the run
     /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
-    #[arg(long, value_enum, value_name = "off|loopback|network")]
+    #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
     /// A parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
     #[arg(long = "param", short = 'p', value_name = "[NODE:]NAME:=VALUE")]

@@ -38,7 +38,6 @@
 //!
 //! A program that publishes once and ends calls [`Wire::flush`] before.
 
-mod clock;
 pub mod entities;
 mod error;
 mod link;
@@ -52,15 +51,8 @@ mod settings;
 pub mod user_data;
 mod wire;
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
 pub use error::WireError;
 pub use periplus_cyclone::{Guid, Vendor};
 pub use remote::{Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
 pub use settings::{Range, Settings};
 pub use wire::Wire;
-
-/// Locks; a panic elsewhere must not spread.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}

@@ -14,10 +14,11 @@ use periplus_cyclone::{
     Discovery, Durability, Error, Kind, Participant, Qos, Reader, Waker, Writer,
 };
 use periplus_graph::{Graph, Node};
+use periplus_wire::{Own, lock};
 
 use crate::entities::{self, Entities, NodeEntities};
+use crate::user_data;
 use crate::wire::Shared;
-use crate::{lock, user_data};
 
 use net::Net;
 use report::Told;
@@ -49,6 +50,8 @@ struct Attached {
     /// The node that stands for all others.
     node: Node,
     generation: Option<u64>,
+    /// Full names of its own.
+    nodes: Vec<String>,
     topics: Topics,
     services: Services,
     told: Told,
@@ -190,6 +193,7 @@ impl Attached {
             graph,
             node,
             generation: None,
+            nodes: Vec::new(),
             topics: Topics::default(),
             services: Services::default(),
             told: Told::default(),
@@ -198,31 +202,22 @@ impl Attached {
 
     /// Makes and drops endpoints as the graph has them.
     fn sync(&mut self, net: &Net) {
-        let own = self.node.full_name();
-        let mut topics = self.graph.topics();
-        for topic in &mut topics {
-            topic.publishers.retain(|end| end.node != own);
-            topic.subscriptions.retain(|end| end.node != own);
-        }
-        let mut services = self.graph.services();
-        for service in &mut services {
-            service.clients.retain(|node| node != own);
-            service.server = service.server.take().filter(|node| node != own);
-        }
-        self.topics.sync(net, &self.graph, &topics);
-        self.services.sync(net, &self.node, &services);
+        let own = Own::of(&self.graph, &self.node);
+        self.topics.sync(net, &self.graph, &own.topics);
+        self.services.sync(net, &self.node, &own.services);
+        self.nodes = own.nodes;
     }
 
     /// The nodes and which endpoints are whose.
     fn entities(&self) -> Vec<NodeEntities> {
-        let names = self.graph.nodes().into_iter().map(|node| node.name);
-        let mut nodes: BTreeMap<String, NodeEntities> = names
-            .filter(|name| name != self.node.full_name())
-            .map(|name| (name.clone(), NodeEntities { name, ..NodeEntities::default() }))
+        let mut nodes: BTreeMap<&String, NodeEntities> = self
+            .nodes
+            .iter()
+            .map(|name| (name, NodeEntities { name: name.clone(), ..NodeEntities::default() }))
             .collect();
         let ends = self.topics.ends().chain(self.services.ends());
         for (node, guid, is_writer) in ends {
-            let Some(node) = nodes.get_mut(node) else { continue };
+            let Some(node) = nodes.get_mut(&node.to_owned()) else { continue };
             let ends = if is_writer { &mut node.writers } else { &mut node.readers };
             ends.push(guid.0);
         }

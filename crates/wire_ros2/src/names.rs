@@ -2,6 +2,8 @@
 //!
 //! Source: ROS 2's design article "Topic and Service name mapping to DDS", and what `rmw` does.
 
+pub use periplus_wire::names::{message, type_of};
+
 /// What a DDS topic is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
@@ -38,33 +40,10 @@ pub fn of_ros(topic: &str) -> Option<(Use, &str)> {
     (name.len() > 1 && name.starts_with('/')).then_some((kind, name))
 }
 
-/// The DDS type of a message: `pkg::msg::dds_::T_` for `pkg/msg/T`.
-#[must_use]
-pub fn type_of(name: &str) -> String {
-    let (path, last) = name.rsplit_once('/').unwrap_or(("", name));
-    let path = path.replace('/', "::");
-    if path.is_empty() { format!("dds_::{last}_") } else { format!("{path}::dds_::{last}_") }
-}
-
 /// The DDS types of a service: question and answer.
 #[must_use]
 pub fn service_types(name: &str) -> (String, String) {
     (type_of(&format!("{name}_Request")), type_of(&format!("{name}_Response")))
-}
-
-/// The message of a DDS type; none for types that are not of ROS.
-#[must_use]
-pub fn message(type_name: &str) -> Option<String> {
-    let (path, last) = type_name.rsplit_once("::")?;
-    let path = path.strip_suffix("dds_")?.strip_suffix("::")?;
-    let last = last.strip_suffix('_')?;
-    (path.split("::").all(is_word) && is_word(last))
-        .then(|| format!("{}/{last}", path.replace("::", "/")))
-}
-
-/// What a part of a type's name may be: letters, digits and underscores, as IDL and ROS have it.
-fn is_word(part: &str) -> bool {
-    !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
 /// The service of the DDS type of its question or answer.
@@ -87,11 +66,6 @@ mod tests {
         assert_eq!((&*request, &*reply), ("rq/addRequest", "rr/addReply"));
         assert_eq!(of_ros(&request), Some((Use::Request, "/add")));
         assert_eq!(of_ros(&reply), Some((Use::Reply, "/add")));
-        assert_eq!(type_of("sensor_msgs/msg/LaserScan"), "sensor_msgs::msg::dds_::LaserScan_");
-        assert_eq!(
-            message("sensor_msgs::msg::dds_::LaserScan_").as_deref(),
-            Some("sensor_msgs/msg/LaserScan")
-        );
         let (request, reply) = service_types("std_srvs/srv/Trigger");
         assert_eq!(request, "std_srvs::srv::dds_::Trigger_Request_");
         assert_eq!(reply, "std_srvs::srv::dds_::Trigger_Response_");
@@ -106,16 +80,6 @@ mod tests {
         {
             assert_eq!(of_ros(name), None, "{name}");
         }
-        for name in ["", "ShapeType", "a::b", "::dds_::X_", "a::dds_::_", "dds_::X_"] {
-            assert_eq!(message(name), None, "{name}");
-        }
         assert_eq!(service_of("sensor_msgs::msg::dds_::LaserScan_"), None);
-    }
-
-    #[test]
-    fn parts_that_are_no_words_would_not_come_back_the_same() {
-        for name in ["a:::b::dds_::X_", "a::b/c::dds_::X_", "a:::dds_::X_", "a::dds_::X\0_"] {
-            assert_eq!(message(name), None, "{name:?}");
-        }
     }
 }

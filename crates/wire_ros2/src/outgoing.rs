@@ -9,8 +9,7 @@ use std::time::Duration;
 
 use periplus_cyclone::{Bytes, Identity, Writer};
 use periplus_graph::Sample;
-
-use crate::lock;
+use periplus_wire::{Way, lock};
 
 /// Samples above this go a way of their own, so that small ones need not wait for them \[bytes\].
 const LARGE: usize = 64 << 10;
@@ -81,18 +80,13 @@ impl Outgoing {
         readers
     }
 
-    /// Whether a sample would matter to anyone.
-    pub(crate) fn is_wanted(&self) -> bool {
-        self.keeps || self.readers.load(Ordering::Relaxed) > 0
-    }
-
     /// Size of the largest sample so far \[bytes\].
     pub(crate) fn largest(&self) -> usize {
         self.largest.load(Ordering::Relaxed)
     }
 
     /// Sends a sample, or puts it to be sent. When too many wait, the oldest goes.
-    pub(crate) fn push(self: &Arc<Self>, parcel: Parcel) {
+    pub(crate) fn put(self: &Arc<Self>, parcel: Parcel) {
         // Its size is known only when it is encoded; that of those before it has to do.
         let is_small = (1..=SMALL).contains(&self.largest());
         let pace = match &parcel {
@@ -191,6 +185,16 @@ impl Outgoing {
     pub(crate) fn losses(&self) -> (u64, u64) {
         let queue = lock(&self.queue);
         (queue.dropped, queue.refused)
+    }
+}
+
+impl Way for Outgoing {
+    fn is_wanted(&self) -> bool {
+        self.keeps || self.readers.load(Ordering::Relaxed) > 0
+    }
+
+    fn push(self: &Arc<Self>, sample: Sample) {
+        self.put(Parcel::Sample(sample));
     }
 }
 

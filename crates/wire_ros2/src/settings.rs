@@ -1,8 +1,9 @@
 //! Which network a wire is on, and what the environment says about that.
 
 use periplus_cyclone as dds;
-use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
+use periplus_diagnostics::{Diagnostics, closest};
 use periplus_resources::Host;
+use periplus_wire::environment::{self, not_used};
 
 /// How far discovery reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,24 +58,14 @@ impl Default for Settings {
     }
 }
 
-/// The highest domain whose ports exist: 7400 + 250 for each, below 65536.
-const HIGHEST_DOMAIN: u32 = 232;
-
 impl Settings {
     /// What the environment says; what it does not say is as in [`Settings::default`].
     #[must_use]
     pub fn from_environment(host: &dyn Host) -> (Self, Diagnostics) {
         let mut settings = Self::default();
         let mut findings = Diagnostics::default();
-        let variable = |name: &str| host.variable(name).filter(|value| !value.trim().is_empty());
-        if let Some(value) = variable("ROS_DOMAIN_ID") {
-            match value.trim().parse() {
-                Ok(id) if id <= HIGHEST_DOMAIN => settings.domain_id = id,
-                _ => findings.push(not_used("ROS_DOMAIN_ID", &value).help(format!(
-                    "it has to be a number from 0 to {HIGHEST_DOMAIN}; domain 0 is used"
-                ))),
-            }
-        }
+        let variable = |name| environment::variable(host, name);
+        settings.domain_id = environment::domain_id(host, &mut findings);
         if let Some(value) = variable("ROS_AUTOMATIC_DISCOVERY_RANGE") {
             let asked = value.trim().to_uppercase();
             match Range::NAMES.iter().find(|(name, _)| *name == asked) {
@@ -124,11 +115,6 @@ impl Settings {
         let more = self.cyclone.clone();
         dds::Config { domain_id: self.domain_id, network, multicast, peers, more }
     }
-}
-
-fn not_used(name: &str, value: &str) -> Diagnostic {
-    let message = format!("the environment variable {name} is `{value}` and is not used");
-    Diagnostic::warning("ros-environment", message)
 }
 
 #[cfg(test)]

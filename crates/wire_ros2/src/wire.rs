@@ -7,13 +7,14 @@ use std::time::Duration;
 
 use periplus_cyclone::{self as dds, Participant, Waker};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_graph::{Graph, Node, NodeSettings};
+use periplus_graph::{Graph, Node};
+use periplus_wire::{Since, lock, stand_in};
 
 use crate::link::Link;
 use crate::outgoing::{Lanes, Outgoing};
 use crate::peers::Peers;
 use crate::remote::Remote;
-use crate::{Guid, Settings, WireError, clock, lock, user_data};
+use crate::{Guid, Settings, WireError, user_data};
 
 /// How often a flush looks again.
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
@@ -90,9 +91,7 @@ impl Wire {
         if self.shared.is_attached.swap(true, Ordering::AcqRel) {
             return Err(WireError::Attached);
         }
-        let guid = self.participant.guid().0;
-        let name: String = guid[2..12].iter().map(|byte| format!("{byte:02x}")).collect();
-        let node = graph.node(NodeSettings::new(format!("_wire_{name}")).bare().keep_names())?;
+        let node = stand_in(graph, &self.participant.guid().0[2..12])?;
         *lock(&self.shared.joining) = Some((graph.clone(), node));
         self.waker.wake();
         Ok(())
@@ -122,7 +121,7 @@ impl Wire {
     /// so long; whether it has. Best effort is not waited for.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
-        let start = clock::Since::now();
+        let start = Since::now();
         loop {
             let writers = lock(&self.shared.writers).clone();
             let is_sent = self.shared.lanes.waiting() == 0;

@@ -4,12 +4,15 @@ use std::io;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use periplus_diagnostics::SourceMap;
+use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_host::Machine;
 use periplus_sim::Simulation;
 use periplus_wire_ros2::{Range, Settings, Wire};
 
 use crate::terminal;
+
+#[cfg(feature = "zenoh")]
+mod zenoh;
 
 /// Between two looks at what is wrong on the network.
 const LOOK: Duration = Duration::from_millis(500);
@@ -23,13 +26,32 @@ pub(crate) enum Reach {
     Loopback,
     /// Programs of ROS 2 wherever multicast, or `ROS_STATIC_PEERS`, reaches
     Network,
+    /// Programs of ROS 2 that use `rmw_zenoh`, by way of its router
+    Zenoh,
 }
 
 /// A run on the network, or one that is not.
 pub(crate) struct Ros2 {
-    wire: Option<Wire>,
+    wire: Option<Joined>,
     looked: Duration,
     quiet: bool,
+}
+
+/// The network that was joined.
+enum Joined {
+    Dds(Wire),
+    #[cfg(feature = "zenoh")]
+    Zenoh(periplus_wire_zenoh::Wire),
+}
+
+impl Joined {
+    fn take_findings(&self) -> Diagnostics {
+        match self {
+            Self::Dds(wire) => wire.take_findings(),
+            #[cfg(feature = "zenoh")]
+            Self::Zenoh(wire) => wire.take_findings(),
+        }
+    }
 }
 
 impl Ros2 {
@@ -41,11 +63,14 @@ impl Ros2 {
         is_paced: bool,
         quiet: bool,
     ) -> io::Result<Option<Self>> {
+        if asked == Some(Reach::Zenoh) {
+            return join_zenoh(simulation, quiet);
+        }
         let (mut settings, findings) = Settings::from_environment(&Machine);
         match asked {
             Some(Reach::Off) => settings.range = Range::Off,
             None if !is_paced => settings.range = Range::Off,
-            None => {}
+            None | Some(Reach::Zenoh) => {}
             Some(Reach::Loopback) => settings.range = Range::Localhost,
             Some(Reach::Network) if settings.range == Range::SystemDefault => {}
             Some(Reach::Network) => settings.range = Range::Subnet,
@@ -61,7 +86,7 @@ impl Ros2 {
             Ok(wire)
         });
         match opened {
-            Ok(wire) => joined.wire = Some(wire),
+            Ok(wire) => joined.wire = Some(Joined::Dds(wire)),
             Err(error) if asked.is_some() => {
                 terminal::complain(&error.to_string());
                 return Ok(None);
@@ -99,4 +124,18 @@ impl Ros2 {
         }
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
     }
+}
+
+#[cfg(feature = "zenoh")]
+use zenoh::join as join_zenoh;
+
+/// Without the feature nobody can.
+#[cfg(not(feature = "zenoh"))]
+#[expect(clippy::unnecessary_wraps, reason = "as the one with the feature")]
+fn join_zenoh(_: &Simulation, _: bool) -> io::Result<Option<Ros2>> {
+    terminal::complain(
+        "this periplus was built without Zenoh, which takes 200 crates more; build one with \
+         `cargo build --release --features zenoh`",
+    );
+    Ok(None)
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use periplus_cyclone::{Participant, Qos, Reader, Waitset, Writer};
 use periplus_diagnostics::Diagnostic;
+use periplus_wire::lock;
 
 use crate::outgoing::Outgoing;
+use crate::user_data;
 use crate::wire::Shared;
-use crate::{lock, user_data};
 
 /// The first token of endpoints.
 const FIRST: u32 = 16;

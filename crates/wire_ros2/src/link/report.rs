@@ -5,13 +5,14 @@ use std::time::Duration;
 
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{EndpointId, Policy, Qos, Reliability};
+use periplus_wire::report::{self, Party};
+use periplus_wire::{Since, lock};
 
 use super::net::Net;
 use super::topics::Topics;
-use crate::clock::Since;
+use crate::Guid;
 use crate::names;
 use crate::peers::{Endpoint, NAMELESS, Peers};
-use crate::{Guid, lock};
 
 /// Who comes is known before its node is; so long its name is waited for.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -42,6 +43,12 @@ struct Own<'a> {
     type_hash: Option<&'a str>,
     qos: &'a Qos,
     is_writer: bool,
+}
+
+impl<'a> Own<'a> {
+    fn party(&self) -> Party<'a> {
+        Party { node: self.node, type_name: self.type_name, type_hash: self.type_hash }
+    }
 }
 
 impl Told {
@@ -154,26 +161,13 @@ fn differ<'a>(own: &'a Own<'a>, end: &'a Endpoint) -> Option<Describe<'a>> {
 
 fn other_type(own: &Own<'_>, end: &Endpoint, node: &str) -> Diagnostic {
     let theirs = names::message(&end.type_name).unwrap_or_else(|| end.type_name.clone());
-    let Own { topic, node: ours, type_name, .. } = own;
-    Diagnostic::warning(
-        "type-mismatch",
-        format!("on the topic `{topic}` `{ours}` has the type {type_name}, and `{node}` {theirs}"),
-    )
-    .help("nothing flows between them; rename the topic of one, or give both one type")
+    let theirs = Party { node, type_name: &theirs, type_hash: None };
+    report::other_type(own.topic, own.party(), theirs)
 }
 
 fn other_hash(own: &Own<'_>, hash: Option<&str>, node: &str) -> Diagnostic {
-    let Own { topic, node: ours, type_name, type_hash, .. } = own;
-    Diagnostic::warning(
-        "type-hash-mismatch",
-        format!(
-            "on the topic `{topic}` `{ours}` and `{node}` both say {type_name}, and mean two \
-             definitions: {} and {}",
-            type_hash.unwrap_or("?"),
-            hash.unwrap_or("?")
-        ),
-    )
-    .help("compare both with `ros2 interface show`; see that both come from the same release")
+    let theirs = Party { node, type_name: own.type_name, type_hash: hash };
+    report::other_hash(own.topic, own.party(), theirs)
 }
 
 fn other_qos(own: &Own<'_>, end: &Endpoint, node: &str, lacks: &[Policy]) -> Diagnostic {

@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use periplus_cyclone::{Audience, Guid, Qos, Reader, Waker, Writer};
 use periplus_graph::{Node, RawCall, RawCalls, RawClient, ServiceInfo};
+use periplus_wire::{Since, lock};
 
 use super::net::{Net, Subject};
-use crate::clock::Since;
+use crate::names;
 use crate::outgoing::{Outgoing, Parcel};
 use crate::peers::Peers;
 use crate::request::{self, Mapping, Ticket};
-use crate::{lock, names};
 
 /// An answer waits so long for the reader that it is for to be found; then it is sent all the same.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -231,7 +231,7 @@ impl Services {
                 return true;
             }
             let (bytes, related) = request::write_answer(answer.ticket, &answer.body);
-            writer.push(Parcel::Bytes(bytes, related));
+            writer.put(Parcel::Bytes(bytes, related));
             false
         });
         drop(peers);

@@ -1,18 +1,19 @@
 //! Topics: what the graph publishes goes out, and what others publish comes in.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use periplus_cyclone::{Guid, Reader};
 use periplus_graph::{
     Durability, EndpointId, Graph, History, Liveliness, Node, Qos, RawPublisher, Reliability,
-    Sample, Sink, TapId, TopicInfo,
+    TopicInfo,
 };
+use periplus_wire::{Taps, lock};
 
 use super::net::{Net, Subject};
-use crate::outgoing::{Outgoing, Parcel};
+use crate::outgoing::Outgoing;
 use crate::peers::Peers;
-use crate::{lock, names, qos};
+use crate::{names, qos};
 
 /// Messages of publishers whose writer is not made yet; so many wait.
 const MOST_EARLY: usize = 64;
@@ -20,11 +21,9 @@ const MOST_EARLY: usize = 64;
 #[derive(Default)]
 pub(super) struct Topics {
     publishing: BTreeMap<EndpointId, Publishing>,
-    taps: BTreeMap<String, (TapId, Arc<TopicSink>)>,
+    taps: Taps<Outgoing>,
     subscribing: BTreeMap<(String, Asked), Subscribing>,
     feeds: BTreeMap<Guid, Feed>,
-    /// Publishers of the graph that stand for others: what they publish does not go out again.
-    foreign: Arc<Mutex<BTreeSet<EndpointId>>>,
 }
 
 /// A publisher of the graph, on the network.
@@ -78,61 +77,6 @@ struct Feed {
     publisher: RawPublisher,
     /// The reader that takes from it, of those that it matches: each message shall come once.
     by: (String, Asked),
-}
-
-/// Takes what is published on one topic of the graph.
-struct TopicSink {
-    topic: String,
-    writers: Mutex<Writers>,
-    foreign: Arc<Mutex<BTreeSet<EndpointId>>>,
-}
-
-#[derive(Default)]
-struct Writers {
-    of: BTreeMap<EndpointId, Arc<Outgoing>>,
-    early: VecDeque<Sample>,
-}
-
-struct SinkHandle(Arc<TopicSink>);
-
-impl Sink for SinkHandle {
-    fn wants(&self, topic: &TopicInfo) -> bool {
-        topic.name == self.0.topic
-    }
-
-    /// What cannot be sent at once waits in a queue of the wire.
-    fn is_quick(&self) -> bool {
-        true
-    }
-
-    fn take(&self, _: &TopicInfo, sample: &Sample) {
-        let mut writers = lock(&self.0.writers);
-        if let Some(outgoing) = writers.of.get(&sample.publisher).cloned() {
-            drop(writers);
-            if outgoing.is_wanted() {
-                outgoing.push(Parcel::Sample(sample.clone()));
-            }
-        } else if !lock(&self.0.foreign).contains(&sample.publisher) {
-            if writers.early.len() == MOST_EARLY {
-                writers.early.pop_front();
-            }
-            writers.early.push_back(sample.clone());
-        }
-    }
-}
-
-impl TopicSink {
-    fn set(&self, of: BTreeMap<EndpointId, Arc<Outgoing>>) {
-        let mut writers = lock(&self.writers);
-        writers.of = of;
-        for sample in std::mem::take(&mut writers.early) {
-            match writers.of.get(&sample.publisher) {
-                Some(outgoing) if outgoing.is_wanted() => outgoing.push(Parcel::Sample(sample)),
-                Some(_) => {}
-                None => writers.early.push_back(sample),
-            }
-        }
-    }
 }
 
 impl Topics {
@@ -224,38 +168,13 @@ impl Topics {
     }
 
     /// Listens to the topics of the graph that somebody elsewhere hears, and to those that keep
-    /// messages for latecomers. What nobody hears is not computed.
+    /// messages for latecomers.
     fn listen(&mut self, graph: &Graph) {
-        let mut wanted: BTreeMap<&str, BTreeMap<EndpointId, Arc<Outgoing>>> = BTreeMap::new();
-        let mut heard: BTreeSet<&str> = BTreeSet::new();
-        for (id, one) in &self.publishing {
+        let ways = self.publishing.iter().map(|(id, one)| {
             one.outgoing.count_readers();
-            if one.outgoing.is_wanted() {
-                heard.insert(&one.topic);
-            }
-            wanted.entry(&one.topic).or_default().insert(*id, one.outgoing.clone());
-        }
-        wanted.retain(|topic, _| heard.contains(topic));
-        self.taps.retain(|topic, (id, _)| {
-            let stays = wanted.contains_key(topic.as_str());
-            if !stays {
-                graph.untap(*id);
-            }
-            stays
+            (one.topic.as_str(), *id, &one.outgoing)
         });
-        for (topic, of) in wanted {
-            if let Some((_, sink)) = self.taps.get(topic) {
-                sink.set(of);
-                continue;
-            }
-            let sink = Arc::new(TopicSink {
-                topic: topic.to_owned(),
-                writers: Mutex::new(Writers { of, early: VecDeque::new() }),
-                foreign: self.foreign.clone(),
-            });
-            let id = graph.tap(Box::new(SinkHandle(sink.clone())));
-            self.taps.insert(topic.to_owned(), (id, sink));
-        }
+        self.taps.listen(graph, ways);
     }
 
     /// Lets a publisher of the graph stand for each writer elsewhere that a subscription asks for.
@@ -276,7 +195,7 @@ impl Topics {
                 offer.depth = offer.depth.max(subscribing.qos.depth).max(1);
             }
         }
-        let foreign = self.foreign.clone();
+        let foreign = self.taps.foreign().clone();
         self.feeds.retain(|guid, feed| {
             let stays = wanted.contains_key(guid);
             if !stays {
@@ -294,7 +213,7 @@ impl Topics {
             let offer = Qos { lifespan_ns: None, history: History::KeepLast, ..offer };
             match node.raw_publisher(&by.0, &type_name, None, offer) {
                 Ok(publisher) => {
-                    lock(&self.foreign).insert(publisher.id());
+                    lock(&foreign).insert(publisher.id());
                     self.feeds.insert(guid, Feed { publisher, by });
                 }
                 Err(error) => net.complain("wire", error.to_string()),

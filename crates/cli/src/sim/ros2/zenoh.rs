@@ -1,0 +1,39 @@
+//! A running world among programs that use `rmw_zenoh`.
+
+use std::io;
+use std::time::Duration;
+
+use periplus_diagnostics::SourceMap;
+use periplus_host::Machine;
+use periplus_sim::Simulation;
+use periplus_wire_zenoh::{Settings, Wire};
+
+use super::{Joined, Ros2};
+use crate::terminal;
+
+/// Joins as the environment says; none when that fails.
+pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ros2>> {
+    let (settings, findings) = Settings::from_environment(&Machine);
+    terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    let opened = Wire::open(&settings).and_then(|wire| {
+        wire.attach(simulation.graph())?;
+        Ok(wire)
+    });
+    match opened {
+        Ok(wire) => {
+            if !quiet {
+                let by = match &settings.file {
+                    Some(file) => format!("as {file} says"),
+                    None => format!("by way of the router at {}", settings.connect.join(", ")),
+                };
+                terminal::say(&format!("ROS 2 on Zenoh: domain {}, {by}", settings.domain_id));
+            }
+            let wire = Some(Joined::Zenoh(wire));
+            Ok(Some(Ros2 { wire, looked: Duration::ZERO, quiet }))
+        }
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(None)
+        }
+    }
+}
