@@ -111,6 +111,8 @@ enum Contest {
     Wire,
     /// Maps and trajectories from logs of real robots
     Slam,
+    /// Maps of our worlds, driven through by the simulator, against their truth
+    SlamWorlds,
 }
 
 fn main() -> ExitCode {
@@ -142,6 +144,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Sim) => runs::bench(),
             Some(Contest::Wire) => wire::bench(load.as_deref()),
             Some(Contest::Slam) => slam::bench(),
+            Some(Contest::SlamWorlds) => slam::worlds(),
             None => corpus::bench()
                 .and_then(|()| physics::bench())
                 .and_then(|()| rays::bench())

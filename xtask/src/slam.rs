@@ -17,3 +17,16 @@ pub(crate) fn bench() -> Result<(), Failed> {
     }
     run(&mut example("worlds"), "a world with known truth failed")
 }
+
+/// Drives through our worlds by the real simulator, ten seeds each, and holds maps and trajectories of
+/// `periplus slam` against the truth.
+pub(crate) fn worlds() -> Result<(), Failed> {
+    let mut command = cargo();
+    command.args(["build", "--release", "--package", "periplus-cli", "--package"]);
+    run(command.args(["periplus-benches", "--bins"]), "the programs cannot be built")?;
+    let target = root().join("target");
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(target, Into::into);
+    let mut race = std::process::Command::new(target.join("release/slam_worlds"));
+    race.current_dir(root()).arg(target.join("release/periplus")).arg(target.join("slam-worlds"));
+    run(&mut race, "a drive or a map failed")
+}

@@ -1,0 +1,170 @@
+//! Where a small robot can go, and how it comes there.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use periplus_base::{Pose2, Stream};
+use periplus_grid::{Cell, Grid, Lattice, Line, squared_distances};
+
+use crate::stage::Stage;
+
+/// Side of a cell \[m\].
+const CELL_M: f64 = 0.05;
+/// The middle of the robot stays so far from everything \[m\].
+const CLEARANCE_M: f64 = 0.3;
+/// Heights at which things stand in the way: wheels, deck and laser \[m\].
+const HEIGHTS_M: [f64; 3] = [0.015, 0.045, 0.075];
+/// Goals are so far from each other at least \[m\].
+const APART_M: f64 = 2.0;
+
+/// The floor as a robot sees it.
+pub(crate) struct Floor {
+    /// Distance to the nearest thing, squared, in cells.
+    room: Grid<u32>,
+}
+
+impl Floor {
+    /// Sweeps the world with rays along rows and columns.
+    pub(crate) fn of(stage: &Stage) -> Self {
+        let [x0, y0, x1, y1] = stage.bounds_m;
+        let cells = |length: f64| (length / CELL_M).ceil() as usize;
+        let origin = Pose2::new(x0, y0, 0.0);
+        let lattice = Lattice::new(CELL_M, cells(x1 - x0), cells(y1 - y0), origin)
+            .unwrap_or_else(|why| panic!("bounds of a world are sound: {why}"));
+        let mut things = Grid::new(lattice, false);
+        let mut sweep = |from: [f64; 2], angle_rad: f64, length_m: f64| {
+            for z in HEIGHTS_M {
+                let mut gone_m = 0.0;
+                while gone_m < length_m {
+                    let (x, y) =
+                        (from[0] + gone_m * angle_rad.cos(), from[1] + gone_m * angle_rad.sin());
+                    let Some(hit_m) = stage.cast([x, y, z], angle_rad, length_m - gone_m) else {
+                        break;
+                    };
+                    let (x, y) = (x + hit_m * angle_rad.cos(), y + hit_m * angle_rad.sin());
+                    if let Some(cell) = lattice.cell_of(x, y) {
+                        things.cells[lattice.index(cell)] = true;
+                    }
+                    gone_m += hit_m + 0.01;
+                }
+            }
+        };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        for row in 0..lattice.height {
+            let y = y0 + (row as f64 + 0.5) * CELL_M;
+            sweep([x0, y], 0.0, x1 - x0);
+            sweep([x1, y], 2.0 * quarter, x1 - x0);
+        }
+        for column in 0..lattice.width {
+            let x = x0 + (column as f64 + 0.5) * CELL_M;
+            sweep([x, y0], quarter, y1 - y0);
+            sweep([x, y1], -quarter, y1 - y0);
+        }
+        Self { room: squared_distances(&things, |it| *it) }
+    }
+
+    fn room_m(&self, cell: Cell) -> f64 {
+        f64::from(self.room.cells[self.room.lattice.index(cell)]).sqrt() * CELL_M
+    }
+
+    /// Goals that lead to places drawn at random, until the way is so long \[m\].
+    pub(crate) fn wander(
+        &self,
+        start: [f64; 2],
+        length_m: f64,
+        stream: &mut Stream,
+    ) -> Vec<[f64; 2]> {
+        let lattice = self.room.lattice;
+        let Some(mut here) = lattice.cell_of(start[0], start[1]) else { return Vec::new() };
+        let mut way: Vec<[f64; 2]> = Vec::new();
+        let mut gone_m = 0.0;
+        while gone_m < length_m {
+            let costs = self.costs(here);
+            let reached: Vec<usize> = (0..lattice.len())
+                .filter(|&index| {
+                    let (column, row) = lattice.cell(index);
+                    let (dx, dy) = (column.abs_diff(here.0) as f64, row.abs_diff(here.1) as f64);
+                    costs[index].is_some() && dx.hypot(dy) * CELL_M > APART_M
+                })
+                .collect();
+            if reached.is_empty() {
+                break;
+            }
+            let goal = reached[(stream.unit() * reached.len() as f64) as usize];
+            let mut cells = vec![lattice.cell(goal)];
+            while let Some(Some((_, before))) = costs.get(lattice.index(cells[cells.len() - 1])) {
+                if *before == cells[cells.len() - 1] {
+                    break;
+                }
+                cells.push(*before);
+            }
+            cells.reverse();
+            let mut last = here;
+            for cell in self.corners(&cells) {
+                let (dx, dy) = (cell.0.abs_diff(last.0) as f64, cell.1.abs_diff(last.1) as f64);
+                gone_m += dx.hypot(dy) * CELL_M;
+                last = cell;
+                let (x, y) = lattice.centre_of(cell);
+                way.push([x, y]);
+            }
+            here = last;
+        }
+        way
+    }
+
+    /// The cheapest way from a cell to all others: cost, and the cell before.
+    fn costs(&self, start: Cell) -> Vec<Option<(u32, Cell)>> {
+        let lattice = self.room.lattice;
+        let mut best: Vec<Option<(u32, Cell)>> = vec![None; lattice.len()];
+        let mut settled = vec![false; lattice.len()];
+        let mut heap = BinaryHeap::new();
+        best[lattice.index(start)] = Some((0, start));
+        heap.push(Reverse((0, start)));
+        while let Some(Reverse((cost, cell))) = heap.pop() {
+            if std::mem::replace(&mut settled[lattice.index(cell)], true) {
+                continue;
+            }
+            for (dx, dy, length) in [
+                (-1, 0, 10),
+                (1, 0, 10),
+                (0, -1, 10),
+                (0, 1, 10),
+                (-1, -1, 14),
+                (-1, 1, 14),
+                (1, -1, 14),
+                (1, 1, 14),
+            ] {
+                let Some(column) = cell.0.checked_add_signed(dx) else { continue };
+                let Some(row) = cell.1.checked_add_signed(dy) else { continue };
+                let next = (column, row);
+                if !lattice.contains(next) || self.room_m(next) < CLEARANCE_M {
+                    continue;
+                }
+                // Where there is room it is better to stay away from things.
+                let tightness = (0.8 - self.room_m(next)).max(0.0);
+                let cost = cost + (f64::from(length) * (1.0 + 4.0 * tightness)) as u32;
+                let known = &mut best[lattice.index(next)];
+                if known.is_none_or(|(known, _)| cost < known) {
+                    *known = Some((cost, cell));
+                    heap.push(Reverse((cost, next)));
+                }
+            }
+        }
+        best
+    }
+
+    /// Only the cells at which a straight way would come too near to something.
+    fn corners(&self, cells: &[Cell]) -> Vec<Cell> {
+        let mut corners = Vec::new();
+        let mut at = 0;
+        while at + 1 < cells.len() {
+            let is_free = |to: &usize| {
+                Line::between(cells[at], cells[*to]).all(|it| self.room_m(it) >= CLEARANCE_M)
+            };
+            let to = (at + 1..cells.len()).rev().find(is_free).unwrap_or(at + 1);
+            corners.push(cells[to]);
+            at = to;
+        }
+        corners
+    }
+}
