@@ -109,6 +109,20 @@ impl Cloud {
                 first.3 = false;
             }
         }
+        Self::gathered(all, origin)
+    }
+
+    /// From points in any order, each with whether everything between it and the next was seen.
+    pub(crate) fn sorted(points: impl Iterator<Item = (Point, bool)>, origin: [f32; 2]) -> Self {
+        let all = points.map(|(point, is_followed)| {
+            let (x, y) = (point.x - origin[0], point.y - origin[1]);
+            (turn_of(x, y), (x * x + y * y).sqrt(), point, is_followed)
+        });
+        Self::gathered(all.collect(), origin)
+    }
+
+    /// From turn, range, point and whether it is followed.
+    fn gathered(mut all: Vec<(f32, f32, Point, bool)>, origin: [f32; 2]) -> Self {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let turns: Vec<f32> = all.iter().map(|it| it.0).collect();
         Self {

@@ -5,13 +5,14 @@
 //! tells how sure it is, in which directions. A [`Field`] is the likelihood of points over a window,
 //! and [`Field::search`] finds the best place in all of a window, with certainty: no start is needed.
 //! [`agreement`] tells whether two scans can be of the same place at all: points must not lie where
-//! the other saw through.
+//! the other saw through. A [`PackedCloud`] waits in few bytes.
 //!
 //! All is plain computation on one thread: the same input gives the same bits.
 
 mod agreement;
 mod cloud;
 mod field;
+mod packed;
 mod register;
 mod search;
 mod surface;
@@ -20,6 +21,7 @@ mod symmetric;
 pub use agreement::{Agreement, agreement};
 pub use cloud::{Cloud, CloudSettings, Point};
 pub use field::{Field, FieldSettings};
+pub use packed::{PackedCloud, PackedPlaces};
 pub use register::{Comparison, Fit, Placed, Prior, RegisterSettings, compare, register};
 pub use search::{Peak, Wanted, Window};
 pub use symmetric::Symmetric3;

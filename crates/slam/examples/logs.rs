@@ -1,5 +1,5 @@
 //! All logs of a folder, as they are and perturbed, in one table: `logs FOLDER [--out DIR] [--only
-//! NAME] [--runs plain,rotate,..]`.
+//! NAME] [--runs plain,rotate,..] [--why]`. With `--why` it tells which relations carry the error.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 
 use periplus_bags::{CarmenLog, CarmenScan, read_carmen};
 use periplus_base::{Pose2, Stream};
-use periplus_slam::{Relation, Scan, Score, Settings, Slam, Stamped, read_relations, score};
+use periplus_slam::{
+    Miss, Relation, Scan, Score, Settings, Slam, Stamped, misses, read_relations, score,
+};
 
 const RUNS: [&str; 7] = ["plain", "rotate", "drop", "thin", "jitter", "scale", "awful"];
 
@@ -206,6 +208,7 @@ fn race(
     let between: Vec<Stamped> =
         log.odometry.iter().map(|it| (it.time_s, it.odom_from_base)).collect();
     let score = score(&trajectory, &scans, &between, relations);
+    let missed = misses(&trajectory, &scans, &between, relations);
     let total: u64 = spent.iter().sum::<u64>() + finish;
     spent.sort_unstable();
     let ms = |ns: u64| ns as f64 * 1e-6;
@@ -230,6 +233,9 @@ fn race(
         slam.size() / 1000,
         ms(finish)
     );
+    if std::env::args().any(|it| it == "--why") {
+        why(&missed, &scans);
+    }
     if let Some((rms_m, most_m)) = ate {
         println!("    against the truth: {rms_m:.4} m rms, {most_m:.4} m at most");
     }
@@ -242,6 +248,83 @@ fn race(
         write(out, &name.replace(' ', "_"), &slam, copy);
     }
     score
+}
+
+/// Which relations carry the error.
+fn why(missed: &[Miss], scans: &[Stamped]) {
+    let whole: f64 = missed.iter().map(|it| it.shift_m).sum();
+    let count = missed.len().max(1) as f64;
+    println!("    the mean is {:.4} m; of it come, from relations", whole / count);
+    let part = |name: &str, takes: &dyn Fn(&Miss) -> bool| {
+        let taken: Vec<&Miss> = missed.iter().filter(|it| takes(it)).collect();
+        let sum: f64 = taken.iter().map(|it| it.shift_m).sum();
+        println!(
+            "      {name:<34} {:.4} m: {:>5} of mean {:.4} m, {:.2} deg",
+            sum / count,
+            taken.len(),
+            sum / taken.len().max(1) as f64,
+            taken.iter().map(|it| it.turn_rad.to_degrees()).sum::<f64>()
+                / taken.len().max(1) as f64
+        );
+    };
+    let turn = |it: &Miss| it.relation.from_from_to.yaw_rad.abs();
+    part("off by less than 0.05 m", &|it| it.shift_m < 0.05);
+    part("off by 0.05 to 0.15 m", &|it| (0.05..0.15).contains(&it.shift_m));
+    part("off by more than 0.15 m", &|it| it.shift_m >= 0.15);
+    part("local, turning less than 10 deg", &|it| it.is_local && turn(it) < 0.1745);
+    part("local, turning more", &|it| it.is_local && turn(it) >= 0.1745);
+    part("loops", &|it| !it.is_local);
+    part("both ends at scans", &|it| it.beside_s <= 0.005);
+    part("an end up to 0.5 s beside a scan", &|it| (0.005..0.5).contains(&it.beside_s));
+    part("an end farther from any scan", &|it| it.beside_s >= 0.5);
+    // What odometry alone makes of the local ones: it is nearly exact over a step, so the rest is
+    // the relations' own.
+    let at = |time_s: f64| {
+        let after = scans.partition_point(|it| it.0 < time_s - 0.005);
+        scans.get(after).filter(|it| (it.0 - time_s).abs() <= 0.005).map(|it| it.1)
+    };
+    let mut alone: Vec<f64> = Vec::new();
+    let mut ours: Vec<f64> = Vec::new();
+    for it in missed.iter().filter(|it| it.is_local) {
+        let way = it.relation.from_from_to;
+        let (Some(a), Some(b)) = (at(it.relation.from_s), at(it.relation.to_s)) else { continue };
+        if libm::hypot(way.x_m, way.y_m) < 0.6 && way.yaw_rad.abs() < 0.1 {
+            let off = way.inverse() * (a.inverse() * b);
+            alone.push(libm::hypot(off.x_m, off.y_m));
+            ours.push(it.shift_m);
+        }
+    }
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
+    println!(
+        "      {} straight steps up to 0.6 m: raw odometry misses them by {:.4} m, this by {:.4} m",
+        alone.len(),
+        mean(&alone),
+        mean(&ours)
+    );
+    // One bad stamp spoils all relations at it.
+    let mut stamps: BTreeMap<i64, (f64, usize)> = BTreeMap::new();
+    for it in missed {
+        for stamp in [it.relation.from_s, it.relation.to_s] {
+            let sum = stamps.entry((stamp * 1e3) as i64).or_default();
+            *sum = (sum.0 + it.shift_m, sum.1 + 1);
+        }
+    }
+    let mut worst: Vec<(i64, f64, usize)> = stamps
+        .into_iter()
+        .map(|(stamp, (sum, count))| (stamp, sum / count as f64, count))
+        .collect();
+    worst.retain(|it| it.2 >= 3);
+    worst.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let bad: Vec<i64> = worst.iter().take(20).map(|it| it.0).collect();
+    for (stamp, mean_m, count) in worst.iter().take(5) {
+        println!(
+            "      at {:.3} s {count} relations are off by {mean_m:.3} m",
+            *stamp as f64 * 1e-3
+        );
+    }
+    part("at the 20 worst stamps", &|it| {
+        [it.relation.from_s, it.relation.to_s].iter().any(|it| bad.contains(&((it * 1e3) as i64)))
+    });
 }
 
 /// Poses of lines `stamp x y yaw`.

@@ -5,21 +5,19 @@ mod state;
 mod thin;
 mod work;
 
-use std::sync::Arc;
-
 use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_matching::{Cloud, Symmetric3};
+use periplus_matching::{Cloud, PackedPlaces, Symmetric3};
 
 use crate::doubts::{Doubts, Remark, Step};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::{Key, Track};
-use crate::local::{apart, floored, locate, neighbours, placed};
+use crate::local::{apart, floored, grouped, locate, neighbours};
 use crate::loops::{Closure, Loops};
 use crate::map::Sketch;
 use crate::odometry::Trust;
 use crate::refine::refine;
-use crate::scan::Scan;
+use crate::scan::{Ends, Scan};
 use crate::settings::Settings;
 
 use work::Work;
@@ -124,6 +122,8 @@ const FASTEST_M_S: f64 = 5.0;
 /// Without odometry the robot is thought to go on as it did, when it was not faster than this.
 const STEADY_M_S: f64 = 2.0;
 const STEADY_RAD_S: f64 = 2.5;
+/// Ends of beams this part of a cell apart are drawn.
+const DRAWN: f32 = 0.6;
 /// How fast it is learnt what is usual.
 const USUAL: f64 = 0.05;
 /// A turn of a radian counts as so much way \[m\].
@@ -229,7 +229,8 @@ impl Slam {
             // The prior is about a motion that began at the last scan.
             let turned = covariance.turned(before.yaw_rad);
             let searches = told.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
-            let group = placed(&self.keys, &self.graph, &group, key);
+            let group = grouped(&self.keys, &self.graph, &group, key);
+            let group = group.placed();
             let located =
                 locate(&cloud, &group, expected, &turned, &self.settings, searches, self.usual);
             if located.is_matched {
@@ -281,7 +282,8 @@ impl Slam {
             });
             let pose = (self.graph.poses[key] * key_from_base).normalized();
             let new = self.graph.add_pose(pose);
-            self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m });
+            let ends = drawn(&ends, &self.settings);
+            self.keys.push(Key::new(&cloud, ends, travel_m));
             let information = floored(&information);
             let edge = Edge::new((key, new), key_from_base, information, Kind::Chain);
             self.graph.add_edge(edge.doubting(&floored(&doubted)));
@@ -311,7 +313,7 @@ impl Slam {
         let cloud = ends.cloud(&self.settings.cloud);
         self.graph.add_pose(start.normalized());
         self.doubts.begin(odom_from_base);
-        self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m: 0.0 });
+        self.keys.push(Key::new(&cloud, drawn(&ends, &self.settings), 0.0));
         let track = Track { time_ns: scan.time_ns, key: 0, key_from_base: Pose2::IDENTITY };
         self.tracks.push(track);
         self.last = Some(Last {
@@ -413,8 +415,8 @@ impl Slam {
         &self.settings
     }
 
-    pub(crate) fn cloud(&self, key: usize) -> &Cloud {
-        &self.keys[key].cloud
+    pub(crate) fn cloud(&self, key: usize) -> Cloud {
+        self.keys[key].cloud()
     }
 
     pub(crate) fn graph(&self) -> &Graph {
@@ -441,19 +443,28 @@ impl Slam {
     /// Bytes held, about.
     #[must_use]
     pub fn size(&self) -> usize {
-        let keys: usize = self
-            .keys
-            .iter()
-            .map(|key| key.cloud.size() + key.ends.len() * 8 + size_of::<Key>())
-            .sum();
+        let keys: usize = self.keys.iter().map(Key::size).sum();
         keys + self.graph.edges.len() * (size_of::<Edge>() + 8)
             + self.tracks.len() * size_of::<Track>()
             + self.loops.size()
     }
 }
 
-/// Ends of beams that are kept for drawing.
-fn drawn(ends: &[Option<[f32; 2]>], settings: &Settings) -> Arc<[[f32; 2]]> {
-    let every = ends.len().div_ceil(settings.drawn_beams.max(1)).max(1);
-    ends.iter().step_by(every).filter_map(|end| *end).collect()
+/// Ends of beams that are kept for drawing: one for a good part of a cell. None where the cloud, whose
+/// points are as near to each other, has all of them.
+fn drawn(ends: &Ends, settings: &Settings) -> Option<PackedPlaces> {
+    let spacing_m = DRAWN * settings.resolution_m as f32;
+    let count = ends.ends.iter().flatten().count();
+    if count <= settings.cloud.most_points && settings.cloud.spacing_m <= spacing_m {
+        return None;
+    }
+    let every = count.div_ceil(settings.drawn_beams.max(1)).max(1);
+    let mut drawn: Vec<[f32; 2]> = Vec::new();
+    for end in ends.ends.iter().flatten().step_by(every) {
+        let is_near = |last: &[f32; 2]| (end[0] - last[0]).hypot(end[1] - last[1]) < spacing_m;
+        if !drawn.last().is_some_and(is_near) {
+            drawn.push(*end);
+        }
+    }
+    Some(PackedPlaces::new(&drawn, ends.origin))
 }

@@ -3,15 +3,33 @@
 use std::sync::Arc;
 
 use periplus_base::Pose2;
-use periplus_matching::Cloud;
+use periplus_matching::{Cloud, PackedCloud, PackedPlaces};
 
 /// A scan that is kept.
+#[derive(Clone, Debug)]
 pub(crate) struct Key {
-    pub(crate) cloud: Cloud,
-    /// Ends of beams for drawing, in the base's frame \[m\].
-    pub(crate) ends: Arc<[[f32; 2]]>,
+    pub(crate) cloud: Arc<PackedCloud>,
+    /// Ends of beams for drawing, in the base's frame; none where the cloud holds enough of them.
+    pub(crate) ends: Option<Arc<PackedPlaces>>,
     /// Length of the way from the first one \[m\], a turn counted as a little way.
     pub(crate) travel_m: f64,
+}
+
+impl Key {
+    pub(crate) fn new(cloud: &Cloud, ends: Option<PackedPlaces>, travel_m: f64) -> Self {
+        Self { cloud: Arc::new(PackedCloud::new(cloud)), ends: ends.map(Arc::new), travel_m }
+    }
+
+    /// Its points.
+    pub(crate) fn cloud(&self) -> Cloud {
+        self.cloud.cloud()
+    }
+
+    /// Bytes held, about.
+    pub(crate) fn size(&self) -> usize {
+        let ends = self.ends.as_ref().map_or(0, |it| it.size());
+        self.cloud.size() + ends + size_of::<Self>() + size_of::<(PackedCloud, PackedPlaces)>()
+    }
 }
 
 /// Where a scan that came in was, relative to one that is kept.

@@ -41,7 +41,7 @@ pub use localizer::Localizer;
 pub use loops::Closure;
 pub use map::Sketch;
 pub use method::{Mapper, Method};
-pub use relations::{Errors, Relation, Score, Stamped, read_relations, score};
+pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
 pub use scan::Scan;
 pub use session::{SESSION_MAGIC, SESSION_VERSION, SessionError};
 pub use settings::Settings;

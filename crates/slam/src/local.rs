@@ -58,15 +58,22 @@ pub(crate) fn neighbours(keys: &[Key], graph: &Graph, most: usize) -> Vec<usize>
 }
 
 /// Clouds of some keys in the frame of one.
-pub(crate) fn placed<'a>(
-    keys: &'a [Key],
-    graph: &Graph,
-    of: &[usize],
-    frame: usize,
-) -> Vec<Placed<'a>> {
-    of.iter()
-        .map(|&key| Placed { cloud: &keys[key].cloud, group_from_cloud: graph.between(frame, key) })
-        .collect()
+pub(crate) struct Group(Vec<(Cloud, Pose2)>);
+
+impl Group {
+    pub(crate) fn new(clouds: impl Iterator<Item = (Cloud, Pose2)>) -> Self {
+        Self(clouds.collect())
+    }
+
+    pub(crate) fn placed(&self) -> Vec<Placed<'_>> {
+        let placed = self.0.iter().map(|(cloud, pose)| Placed { cloud, group_from_cloud: *pose });
+        placed.collect()
+    }
+}
+
+/// Clouds of some keys in the frame of one.
+pub(crate) fn grouped(keys: &[Key], graph: &Graph, of: &[usize], frame: usize) -> Group {
+    Group::new(of.iter().map(|&key| (keys[key].cloud(), graph.between(frame, key))))
 }
 
 /// Points of clouds in the frame of their group.

@@ -7,7 +7,7 @@ use periplus_grid::OccupancyGrid;
 use periplus_matching::{Cloud, Placed, Symmetric3};
 
 use crate::engine::{Counts, Slam, Taken, Update};
-use crate::local::{apart, locate};
+use crate::local::{Group, apart, locate};
 use crate::map::Sketch;
 use crate::method::{Mapper, Method};
 use crate::odometry::Trust;
@@ -179,13 +179,11 @@ impl Localizer {
         let mut taken = Taken::Lost;
         if let Some(map_from_frame) = frame.filter(|_| cloud.points().len() >= LEAST_POINTS) {
             let frame_from = |pose: Pose2| (map_from_frame.inverse() * pose).normalized();
-            let mut group: Vec<Placed<'_>> = near
+            let stored = near
                 .iter()
-                .map(|&key| Placed {
-                    cloud: self.stored.cloud(key),
-                    group_from_cloud: frame_from(self.stored.poses()[key]),
-                })
-                .collect();
+                .map(|&key| (self.stored.cloud(key), frame_from(self.stored.poses()[key])));
+            let stored = Group::new(stored);
+            let mut group = stored.placed();
             group.extend(own().map(|own| Placed {
                 cloud: &own.cloud,
                 group_from_cloud: frame_from(own.map_from_key),

@@ -22,7 +22,7 @@ use periplus_matching::{
 use crate::drift::{Sighting, from_here, reversed};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
-use crate::local::{apart, close_by, floored, heading_step, placed, points_of};
+use crate::local::{Group, apart, close_by, floored, grouped, heading_step, points_of};
 use crate::settings::Settings;
 
 /// Length of a stretch that is searched for, and from one search to the next \[m\].
@@ -245,9 +245,11 @@ impl Loops {
         let middle = self.places[task.place].middle;
         let around = self.around(task.place, keys);
         let around: Vec<usize> = around.filter(|&key| key < task.stretch.start).collect();
-        let old = placed(keys, graph, &around, middle);
+        let old = grouped(keys, graph, &around, middle);
+        let old = old.placed();
         let stretch: Vec<usize> = task.stretch.clone().collect();
-        let new = placed(keys, graph, &stretch, task.anchor);
+        let new = grouped(keys, graph, &stretch, task.anchor);
+        let new = new.placed();
         let expected = graph.between(middle, task.anchor);
         let region = [3.0 * task.covariance.xx.sqrt() + 0.4, 3.0 * task.covariance.yy.sqrt() + 0.4];
         let half_rad = (3.0 * task.covariance.tt.sqrt() + 0.03).min(std::f64::consts::PI);
@@ -340,11 +342,8 @@ impl Loops {
         self.fields.push_front(kept);
         let Kept { of, field, .. } = &mut self.fields[0];
         field.get_or_insert_with(|| {
-            let placed: Vec<Placed<'_>> = of
-                .iter()
-                .map(|&(key, pose)| Placed { cloud: &keys[key].cloud, group_from_cloud: pose })
-                .collect();
-            Field::new(&points_of(&placed), [0.0, 0.0], &settings.loop_field)
+            let group = Group::new(of.iter().map(|&(key, pose)| (keys[key].cloud(), pose)));
+            Field::new(&points_of(&group.placed()), [0.0, 0.0], &settings.loop_field)
         })
     }
 

@@ -1,9 +1,8 @@
 //! Maps from scans at known places.
 
-use std::sync::Arc;
-
 use periplus_base::Pose2;
 use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
+use periplus_matching::PackedPlaces;
 
 use crate::key::Key;
 
@@ -27,19 +26,20 @@ pub struct Sketch {
 
 #[derive(Clone, Debug)]
 struct Drawn {
-    ends: Arc<[[f32; 2]]>,
-    /// The scanner in the frame of the key \[m\].
-    origin: [f32; 2],
+    key: Key,
     map_from_key: Pose2,
+}
+
+impl Drawn {
+    /// Ends of beams, in the frame of the key.
+    fn ends(&self) -> &PackedPlaces {
+        self.key.ends.as_deref().unwrap_or(self.key.cloud.places())
+    }
 }
 
 impl Sketch {
     pub(crate) fn new(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Self {
-        let drawn = |(key, &map_from_key): (&Key, &Pose2)| Drawn {
-            ends: key.ends.clone(),
-            origin: key.cloud.origin(),
-            map_from_key,
-        };
+        let drawn = |(key, &map_from_key): (&Key, &Pose2)| Drawn { key: key.clone(), map_from_key };
         Self { scans: keys.iter().zip(poses).map(drawn).collect(), resolution_m }
     }
 
@@ -59,9 +59,10 @@ fn draw(scans: &[Drawn], resolution_m: f64) -> Option<OccupancyGrid> {
         low = [low[0].min(x), low[1].min(y)];
         high = [high[0].max(x), high[1].max(y)];
     };
-    for Drawn { ends, map_from_key: pose, .. } in scans {
+    for scan in scans {
+        let pose = scan.map_from_key;
         include(pose.x_m, pose.y_m);
-        for end in ends.iter() {
+        for end in scan.ends().iter() {
             let (x, y) = pose.transform_point(end[0].into(), end[1].into());
             include(x, y);
         }
@@ -79,11 +80,13 @@ fn draw(scans: &[Drawn], resolution_m: f64) -> Option<OccupancyGrid> {
     let finder = lattice.finder();
     let mut odds: Grid<i16> = Grid::new(lattice, UNSEEN);
     let mut stamp: Grid<u32> = Grid::new(lattice, 0);
-    for (number, Drawn { ends, origin: [x, y], map_from_key: pose }) in scans.iter().enumerate() {
-        let (x, y) = pose.transform_point((*x).into(), (*y).into());
+    for (number, scan) in scans.iter().enumerate() {
+        let (pose, [x, y]) = (scan.map_from_key, scan.key.cloud.places().middle());
+        let (x, y) = pose.transform_point(x.into(), y.into());
         let Some(start) = finder.cell_of(x, y) else { continue };
         let (s, c) = libm::sincos(pose.yaw_rad);
-        let ends: Vec<_> = ends
+        let ends: Vec<_> = scan
+            .ends()
             .iter()
             .filter_map(|end| {
                 let (x, y) = (f64::from(end[0]), f64::from(end[1]));

@@ -6,7 +6,7 @@ use periplus_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, agr
 use crate::drift::{Sighting, from_here};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
-use crate::local::{apart, close_by, floored, heading_step, placed, points_of, sampled};
+use crate::local::{apart, close_by, floored, grouped, heading_step, points_of, sampled};
 use crate::settings::Settings;
 
 /// A place is known well enough when its uncertainty is below this \[m\] (a turn counted with it).
@@ -83,11 +83,12 @@ pub(crate) fn tie(
 ) -> Option<Edge> {
     let (from, to) = (old.key.saturating_sub(BESIDE), (old.key + BESIDE).min(keys.len() - 1));
     let group: Vec<usize> = (from..=to).collect();
-    let group = placed(keys, graph, &group, old.key);
+    let group = grouped(keys, graph, &group, old.key);
+    let group = group.placed();
     let expected = graph.between(old.key, key);
     // The sighting is as seen from the key; its size is what matters here.
     let (shift_m, turn_rad) = (old.shift_m(), old.turn_rad());
-    let cloud = &keys[key].cloud;
+    let cloud = &keys[key].cloud();
     let moving = [Placed::alone(cloud)];
     let prior = Prior {
         target_from_moving: expected,

@@ -1,8 +1,9 @@
 //! All scans against their neighbours at once.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
-use periplus_matching::{agreement, compare};
+use periplus_matching::{Cloud, agreement, compare};
 
 use crate::graph::{Edge, Graph, Kind, Solver};
 use crate::key::Key;
@@ -38,10 +39,11 @@ pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
         for edge in graph.edges.iter().filter(|edge| edge.kind == Kind::Chain) {
             refined.add_edge(Edge { weight: CHAIN, ..*edge });
         }
+        let mut clouds = Clouds::new(keys);
         for &(from, to) in &pairs {
             let held = compare(
-                &keys[to].cloud,
-                &keys[from].cloud,
+                &clouds.get(to),
+                &clouds.get(from),
                 graph.between(from, to),
                 width(PARTNERS_M),
                 width(WEIGHTS_M),
@@ -62,8 +64,36 @@ pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
     }
 }
 
+/// Clouds that were looked at last, unpacked.
+struct Clouds<'a> {
+    keys: &'a [Key],
+    kept: Vec<Option<(usize, Rc<Cloud>)>>,
+}
+
+/// So many are kept.
+const KEPT_CLOUDS: usize = 128;
+
+impl<'a> Clouds<'a> {
+    fn new(keys: &'a [Key]) -> Self {
+        Self { keys, kept: vec![None; KEPT_CLOUDS] }
+    }
+
+    fn get(&mut self, key: usize) -> Rc<Cloud> {
+        let kept = &mut self.kept[key % KEPT_CLOUDS];
+        match kept {
+            Some((of, cloud)) if *of == key => Rc::clone(cloud),
+            _ => {
+                let cloud = Rc::new(self.keys[key].cloud());
+                *kept = Some((key, Rc::clone(&cloud)));
+                cloud
+            }
+        }
+    }
+}
+
 /// Pairs of scans that see the same, the earlier first.
 fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize)> {
+    let mut clouds = Clouds::new(keys);
     let cell = |key: usize| {
         let pose = graph.poses[key];
         ((pose.x_m / REACH_M).floor() as i32, (pose.y_m / REACH_M).floor() as i32)
@@ -89,7 +119,7 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
             if count >= settings.refine_neighbours {
                 break;
             }
-            if other + 1 == key || is_alike(keys, graph, other, key) {
+            if other + 1 == key || is_alike(&mut clouds, graph, other, key) {
                 pairs.push((other, key));
                 is_chained |= other + 1 == key;
                 count += 1;
@@ -104,13 +134,15 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
 }
 
 /// Whether two scans see the same.
-fn is_alike(keys: &[Key], graph: &Graph, a: usize, b: usize) -> bool {
+fn is_alike(clouds: &mut Clouds<'_>, graph: &Graph, a: usize, b: usize) -> bool {
     let a_from_b = graph.between(a, b);
-    let mut sum = agreement(&keys[b].cloud, &keys[a].cloud, a_from_b, 0.25);
+    let keys = clouds.keys;
+    let (at_a, at_b) = (clouds.get(a), clouds.get(b));
+    let mut sum = agreement(&at_b, &at_a, a_from_b, 0.25);
     let least = if (keys[b].travel_m - keys[a].travel_m).abs() < SAME_VISIT_M { 0.5 } else { 0.75 };
     if sum.agreeing < 20 || sum.share() < least {
         return false;
     }
-    sum += agreement(&keys[a].cloud, &keys[b].cloud, a_from_b.inverse(), 0.25);
+    sum += agreement(&at_a, &at_b, a_from_b.inverse(), 0.25);
     sum.share() >= least
 }

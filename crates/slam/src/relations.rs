@@ -88,21 +88,10 @@ pub fn score(
     between: &[Stamped],
     relations: &[Relation],
 ) -> Score {
-    let mut poses = densified(trajectory, scans, between);
-    poses.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut rows = Vec::new();
-    let mut missed = 0;
-    for relation in relations {
-        match (pose_at(&poses, relation.from_s), pose_at(&poses, relation.to_s)) {
-            (Some(a), Some(b)) => {
-                let error = relation.from_from_to.inverse() * (a.inverse() * b);
-                let turn = normalize_angle(error.yaw_rad).abs().to_degrees();
-                let is_local = (relation.to_s - relation.from_s).abs() <= LOCAL_S;
-                rows.push((libm::hypot(error.x_m, error.y_m), turn, is_local));
-            }
-            _ => missed += 1,
-        }
-    }
+    let rows = misses(trajectory, scans, between, relations);
+    let missed = relations.len() - rows.len();
+    let rows = rows.iter().map(|it| (it.shift_m, it.turn_rad.to_degrees(), it.is_local));
+    let rows: Vec<(f64, f64, bool)> = rows.collect();
     let errors = |wanted: Option<bool>| {
         let mut shifts: Vec<f64> = Vec::new();
         let mut turns = 0.0;
@@ -130,6 +119,53 @@ pub fn score(
         }
     };
     Score { all: errors(None), local: errors(Some(true)), loops: errors(Some(false)), missed }
+}
+
+/// By how much a trajectory misses one relation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Miss {
+    /// The relation.
+    pub relation: Relation,
+    /// Shift \[m\].
+    pub shift_m: f64,
+    /// Turn, without its sign \[rad\].
+    pub turn_rad: f64,
+    /// Whether its ends are within a minute.
+    pub is_local: bool,
+    /// Time from its ends to the nearest poses of the trajectory, the longer one \[s\].
+    pub beside_s: f64,
+}
+
+/// How a trajectory misses each relation at whose times something is known of it; see [`score`].
+#[must_use]
+pub fn misses(
+    trajectory: &[Stamped],
+    scans: &[Stamped],
+    between: &[Stamped],
+    relations: &[Relation],
+) -> Vec<Miss> {
+    let mut poses = densified(trajectory, scans, between);
+    poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut stamps: Vec<f64> = trajectory.iter().map(|it| it.0).collect();
+    stamps.sort_by(f64::total_cmp);
+    let beside_s = |time_s: f64| {
+        let after = stamps.partition_point(|it| *it < time_s);
+        let near = [after.checked_sub(1), Some(after)].into_iter().flatten();
+        let near = near.filter_map(|index| stamps.get(index)).map(|it| (it - time_s).abs());
+        near.fold(f64::INFINITY, f64::min)
+    };
+    let miss = |relation: &Relation| {
+        let (a, b) = (pose_at(&poses, relation.from_s)?, pose_at(&poses, relation.to_s)?);
+        let error = relation.from_from_to.inverse() * (a.inverse() * b);
+        Some(Miss {
+            relation: *relation,
+            shift_m: libm::hypot(error.x_m, error.y_m),
+            turn_rad: normalize_angle(error.yaw_rad).abs(),
+            is_local: (relation.to_s - relation.from_s).abs() <= LOCAL_S,
+            beside_s: beside_s(relation.from_s).max(beside_s(relation.to_s)),
+        })
+    };
+    relations.iter().filter_map(miss).collect()
 }
 
 /// The trajectory with what odometry says of the time between its poses; what it misses by is spread

@@ -10,7 +10,7 @@ mod bytes;
 use std::fmt;
 
 use periplus_base::Pose2;
-use periplus_matching::{Cloud, Point, Symmetric3};
+use periplus_matching::{Cloud, PackedPlaces, Point, Symmetric3};
 
 use crate::engine::Slam;
 use crate::graph::{Edge, Kind};
@@ -183,11 +183,12 @@ impl Pack for Symmetric3 {
 impl Pack for Key {
     fn pack(&self, out: &mut Bytes) {
         let Self { cloud, ends, travel_m } = self;
+        let (cloud, ends) = (cloud.cloud(), ends.as_ref().map(|it| it.iter().collect::<Vec<_>>()));
         let points: Vec<[f32; 4]> = cloud.points().iter().map(|p| [p.x, p.y, p.nx, p.ny]).collect();
         points.pack(out);
         cloud.followed().to_vec().pack(out);
         cloud.origin().pack(out);
-        ends.to_vec().pack(out);
+        ends.pack(out);
         travel_m.pack(out);
     }
 
@@ -198,12 +199,13 @@ impl Pack for Key {
         let cloud = Cloud::restored(points, is_followed, Pack::unpack(from)?).ok_or_else(|| {
             Fault("the points of a scan are not in order of their bearing".into())
         })?;
-        let (ends, travel_m): (Vec<[f32; 2]>, f64) = Pack::unpack(from)?;
+        let (ends, travel_m): (Option<Vec<[f32; 2]>>, f64) = Pack::unpack(from)?;
         let is_near = |it: &f32| f64::from(it.abs()) <= FARTHEST_M;
-        if !ends.iter().flatten().all(is_near) || !(0.0..=1e12).contains(&travel_m) {
+        if !ends.iter().flatten().flatten().all(is_near) || !(0.0..=1e12).contains(&travel_m) {
             return Err(Fault("beams end nowhere, or the way is endless".into()));
         }
-        Ok(Self { cloud, ends: ends.into(), travel_m })
+        let ends = ends.map(|ends| PackedPlaces::new(&ends, cloud.origin()));
+        Ok(Self::new(&cloud, ends, travel_m))
     }
 }
 

@@ -8,7 +8,7 @@ use periplus_matching::{Placed, Prior, Symmetric3, register};
 use super::{LEAST_POINTS, Last, Slam, Taken, drawn};
 use crate::graph::{Edge, Kind};
 use crate::key::{Key, Track};
-use crate::local::{apart, close_by, floored, locate, placed};
+use crate::local::{apart, close_by, floored, grouped, locate};
 use crate::loops::Closure;
 use crate::scan::Scan;
 
@@ -66,7 +66,8 @@ impl Slam {
         let (key_from_base, information, doubted, is_matched) = if near.is_empty() {
             (expected, claim, claim, false)
         } else {
-            let group = placed(&self.keys, &self.graph, &near, key);
+            let group = grouped(&self.keys, &self.graph, &near, key);
+            let group = group.placed();
             let found = locate(&cloud, &group, expected, &turned, &self.settings, true, self.usual);
             (found.fit.target_from_moving, found.information, found.doubted, found.is_matched)
         };
@@ -74,7 +75,7 @@ impl Slam {
         let pose = (map_from_key * key_from_base).normalized();
         let new = self.graph.add_pose(pose);
         let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;
-        self.keys.push(Key { cloud, ends: drawn(&ends.ends, &self.settings), travel_m });
+        self.keys.push(Key::new(&cloud, drawn(&ends, &self.settings), travel_m));
         let edge = Edge::new((key, new), key_from_base, floored(&information), Kind::Chain);
         self.graph.add_edge(edge.doubting(&floored(&doubted)));
         self.loops.restart(new, travel_m);
@@ -123,9 +124,11 @@ impl Slam {
             return false;
         }
         let expected = (self.graph.poses[other].inverse() * map_from_key).normalized();
-        let group = placed(&self.keys, &self.graph, &near, other);
+        let group = grouped(&self.keys, &self.graph, &near, other);
+        let group = group.placed();
         let prior = Prior { target_from_moving: expected, information: diagonal(HAND) };
-        let moving = [Placed::alone(&self.keys[key].cloud)];
+        let cloud = self.keys[key].cloud();
+        let moving = [Placed::alone(&cloud)];
         let how = close_by(&self.settings.register);
         let fit = (!near.is_empty())
             .then(|| register(&moving, &group, expected, Some(&prior), &how))

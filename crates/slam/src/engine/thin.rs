@@ -45,8 +45,8 @@ impl Slam {
 
     /// Whether one scan sees all that another one saw, or that it is there no more.
     fn is_covered(&self, old: usize, new: usize) -> bool {
-        let (cloud, by) = (&self.keys[old].cloud, &self.keys[new].cloud);
-        let sum = agreement(cloud, by, self.graph.between(new, old), TOLERANCE_M);
+        let (cloud, by) = (self.keys[old].cloud(), self.keys[new].cloud());
+        let sum = agreement(&cloud, &by, self.graph.between(new, old), TOLERANCE_M);
         f64::from(sum.judged()) >= COVERED * cloud.points().len() as f64
     }
 

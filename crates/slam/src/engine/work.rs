@@ -233,9 +233,9 @@ impl Slam {
             near.sort_by(|a, b| a.0.total_cmp(&b.0));
             for &(_, old) in near.iter().take(2) {
                 let old_from_key = self.graph.between(old, key);
-                let (a, b) = (&self.keys[key].cloud, &self.keys[old].cloud);
-                sum += agreement(a, b, old_from_key, 0.25);
-                sum += agreement(b, a, old_from_key.inverse(), 0.25);
+                let (a, b) = (self.keys[key].cloud(), self.keys[old].cloud());
+                sum += agreement(&a, &b, old_from_key, 0.25);
+                sum += agreement(&b, &a, old_from_key.inverse(), 0.25);
             }
         }
         sum

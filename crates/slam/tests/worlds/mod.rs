@@ -4,6 +4,9 @@
 use periplus_base::{Pose2, Stream, normalize_angle};
 use periplus_slam::Scan;
 
+/// From the middle of an aisle to the next \[m\].
+const AISLE_M: f64 = 4.0;
+
 /// Walls from (x, y) to (x, y) \[m\].
 pub(crate) struct World {
     pub(crate) walls: Vec<[f64; 4]>,
@@ -92,6 +95,62 @@ impl World {
         world
     }
 
+    /// Rows of racks with pallets at random in a closed hall; aisles lead along `x` beside each row
+    /// and along `y` at both ends.
+    pub(crate) fn warehouse(rows: usize, long_m: f64, seed: u64) -> Self {
+        let mut world = Self { walls: Vec::new() };
+        let mut stream = Stream::keyed(seed, "pallets", 0);
+        world.rectangle([-2.0, -2.0, long_m + 6.0, rows as f64 * AISLE_M + 2.0]);
+        for row in 0..rows {
+            let y = (row as f64 + 0.5) * AISLE_M;
+            let bays = (long_m / 2.7) as usize;
+            for bay in 0..=bays {
+                let x = 2.0 + 2.7 * bay as f64;
+                world.rectangle([x - 0.05, y - 0.55, x + 0.05, y - 0.45]);
+                world.rectangle([x - 0.05, y + 0.45, x + 0.05, y + 0.55]);
+                for place in 0..2 {
+                    if bay < bays && stream.unit() < 0.6 {
+                        let x = x + 0.3 + 1.2 * f64::from(place) + 0.1 * stream.unit();
+                        let back = 0.1 * stream.unit();
+                        world.rectangle([x, y - 0.5 + back, x + 0.8, y + 0.5 - back]);
+                    }
+                }
+            }
+        }
+        world
+    }
+
+    /// Corners of a drive through such a warehouse that is at least so long \[m\], and how long it
+    /// is.
+    pub(crate) fn rounds(rows: usize, long_m: f64, way_m: f64, seed: u64) -> Vec<(f64, f64)> {
+        let mut stream = Stream::keyed(seed, "rounds", 0);
+        let mut corners = vec![(0.0, 0.0)];
+        let (mut row, mut end, mut gone_m) = (0_usize, 0_usize, 0.0);
+        while gone_m < way_m {
+            let other = (stream.unit() * (rows + 1) as f64) as usize;
+            let x = if end == 0 { 0.0 } else { long_m + 4.0 };
+            if other != row {
+                corners.push((x, other as f64 * AISLE_M));
+                gone_m += row.abs_diff(other) as f64 * AISLE_M;
+                row = other;
+            }
+            end = 1 - end;
+            corners.push((if end == 0 { 0.0 } else { long_m + 4.0 }, row as f64 * AISLE_M));
+            gone_m += long_m + 4.0;
+        }
+        corners
+    }
+
+    /// The walls that a scanner may see from there.
+    fn around(&self, pose: Pose2, reach_m: f64) -> Self {
+        let is_near = |[x0, y0, x1, y1]: &&[f64; 4]| {
+            let (x, y) = (pose.x_m.clamp(x0.min(*x1), x0.max(*x1)), pose.y_m);
+            let y = y.clamp(y0.min(*y1), y0.max(*y1));
+            libm::hypot(x - pose.x_m, y - pose.y_m) < reach_m
+        };
+        Self { walls: self.walls.iter().filter(is_near).copied().collect() }
+    }
+
     fn range(&self, x: f64, y: f64, angle: f64) -> f64 {
         let (s, c) = libm::sincos(angle);
         let mut nearest = f64::INFINITY;
@@ -120,8 +179,9 @@ impl World {
     ) -> Scan {
         let step = robot.field_rad / (robot.beams - 1).max(1) as f64;
         let start = -0.5 * robot.field_rad;
+        let near = self.around(pose, robot.range_max_m);
         let ranges = (0..robot.beams).map(|beam| {
-            let range = self.range(pose.x_m, pose.y_m, pose.yaw_rad + start + beam as f64 * step);
+            let range = near.range(pose.x_m, pose.y_m, pose.yaw_rad + start + beam as f64 * step);
             let noisy = range + robot.range_sigma_m * stream.normal();
             if range < robot.range_max_m { noisy as f32 } else { f32::INFINITY }
         });
@@ -146,6 +206,20 @@ impl World {
         robot: &Robot,
         seed: u64,
     ) -> Vec<Moment> {
+        let mut moments = Vec::new();
+        self.follow(corners, step_m, robot, seed, &mut |moment| moments.push(moment));
+        moments
+    }
+
+    /// The same, moment by moment: long drives do not fit into memory.
+    pub(crate) fn follow(
+        &self,
+        corners: &[(f64, f64)],
+        step_m: f64,
+        robot: &Robot,
+        seed: u64,
+        take: &mut dyn FnMut(Moment),
+    ) {
         let mut stream = Stream::keyed(seed, "drive", 0);
         let mut poses: Vec<Pose2> = Vec::new();
         let mut yaw = 0.0;
@@ -177,7 +251,6 @@ impl World {
         }
         let mut odometry = poses[0];
         let mut last = poses[0];
-        let mut moments = Vec::new();
         for (index, &truth) in poses.iter().enumerate() {
             let step = last.inverse() * truth;
             let way = libm::hypot(step.x_m, step.y_m);
@@ -192,8 +265,7 @@ impl World {
             odometry = (odometry * noisy).normalized();
             last = truth;
             let scan = self.scan(truth, robot, index as i64 * 500_000_000, &mut stream);
-            moments.push(Moment { truth, odometry, scan });
+            take(Moment { truth, odometry, scan });
         }
-        moments
     }
 }
