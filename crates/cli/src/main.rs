@@ -9,6 +9,7 @@ mod costmap;
 mod localize;
 mod log;
 mod map;
+mod mapping;
 mod options;
 mod picture;
 mod sim;
@@ -63,9 +64,11 @@ fn main() -> ExitCode {
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),
         Command::Map(command) => map::run(&command, ros),
+        Command::Slam(options) => slam::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
-                "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop` and `map`",
+                "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop`, \
+                 `map` and `slam --live`",
             );
             return ExitCode::from(2);
         }
@@ -79,7 +82,6 @@ fn main() -> ExitCode {
         Command::Lifecycle(options) => options.run(),
         Command::Node(options) => options.run(),
         Command::Param(options) => options.run(),
-        Command::Slam(options) => slam::run(&options),
         Command::Service(options) => options.run(),
         Command::Tf(options) => options.run(),
         Command::Topic(options) => options.run(),

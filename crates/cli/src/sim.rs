@@ -22,6 +22,7 @@ use periplus_sim::{
 use crate::arguments;
 use crate::costmap::{CostmapOptions, Costmaps};
 use crate::localize::{BesideOptions, Localization};
+use crate::mapping::{Mapping, MappingOptions};
 use crate::options::{SearchOptions, split};
 use crate::terminal;
 
@@ -98,6 +99,8 @@ pub(crate) struct SimOptions {
     costmaps: CostmapOptions,
     #[command(flatten)]
     localization: BesideOptions,
+    #[command(flatten)]
+    mapping: MappingOptions,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -201,6 +204,8 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         }
     };
     let factor = options.factor(&composition);
+    let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some())?;
+    let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
     let stop = terminal::stop_on_ctrl_c();
@@ -246,6 +251,19 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         costmaps.tell(&mut anstream::stderr().lock())?;
         if let Some(localization) = &localization {
             localization.tell(&mut anstream::stderr().lock())?;
+        }
+        if let Some(mapping) = &mapping {
+            mapping.tell(&mut anstream::stderr().lock())?;
+        }
+    }
+    match mapping.as_ref().map_or(Ok(None), Mapping::write) {
+        Ok(Some(folder)) if !options.quiet => {
+            terminal::say(&format!("the map is in {}", folder.display()));
+        }
+        Ok(_) => {}
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
         }
     }
     // Without an end of its own, being stopped is how a run ends.

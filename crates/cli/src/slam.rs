@@ -1,5 +1,6 @@
 //! `periplus slam`.
 
+mod live;
 mod options;
 mod report;
 mod session;
@@ -19,7 +20,18 @@ use report::Report;
 
 pub(crate) use options::SlamOptions;
 
-pub(crate) fn run(options: &SlamOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    if options.live.live {
+        return live::run(options, ros);
+    }
+    if !ros.is_empty() {
+        terminal::complain("`--ros-args` are for `periplus slam --live`");
+        return Ok(ExitCode::from(2));
+    }
+    from_log(options)
+}
+
+fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     let watch = Stopwatch::start();
     let mut log = match Log::open(&options.log, &options.input)? {
         Ok(log) => log,

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{OsStringValueParser, TypedValueParser as _};
+use periplus_slam_nodes::Program;
 
 use crate::log::LogOptions;
 
@@ -15,11 +17,27 @@ use crate::log::LogOptions;
 #[derive(Debug, Args)]
 pub(crate) struct SlamOptions {
     /// The log
-    #[arg(value_name = "LOG")]
+    #[arg(
+        value_name = "LOG",
+        required_unless_present = "live",
+        default_value = "",
+        hide_default_value = true,
+        value_parser = OsStringValueParser::new().map(PathBuf::from)
+    )]
     pub(crate) log: PathBuf,
     /// Where the results go
-    #[arg(long, short, value_name = "DIR")]
+    #[arg(
+        long,
+        short,
+        value_name = "DIR",
+        required_unless_present = "live",
+        default_value = "",
+        hide_default_value = true,
+        value_parser = OsStringValueParser::new().map(PathBuf::from)
+    )]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) live: LiveOptions,
     /// Side of a cell of the map [m]
     #[arg(long, default_value_t = 0.05, value_name = "M", value_parser = side)]
     pub(crate) resolution: f64,
@@ -43,6 +61,21 @@ pub(crate) struct SlamOptions {
     /// Print nothing but errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+/// Mapping of what is heard on ROS 2.
+#[derive(Debug, Args)]
+pub(crate) struct LiveOptions {
+    /// Map what is heard on ROS 2: scans, `/tf` and `/tf_static`; publish `/map` and `map -> odom`
+    #[arg(long, conflicts_with = "log")]
+    pub(crate) live: bool,
+    /// Parameters of the node, as `slam_toolbox` or `slam_gmapping` have them
+    #[arg(long, value_name = "FILE", requires = "live")]
+    pub(crate) params_file: Option<PathBuf>,
+    /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
+    /// one that the file is for
+    #[arg(long, value_name = "PROGRAM", requires = "live")]
+    pub(crate) node: Option<Program>,
 }
 
 fn side(text: &str) -> Result<f64, String> {

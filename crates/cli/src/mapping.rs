@@ -1,0 +1,229 @@
+//! Mapping in runs: `periplus sim --slam`, and what `periplus slam --live` shares with it.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Graph, TopicInfo};
+use periplus_host::Machine;
+use periplus_maps::{Distro, Saving, render};
+use periplus_msgs::Message as _;
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_params::{Value, Values};
+use periplus_resources::{Host as _, Store as _};
+use periplus_slam_nodes::{Pace, Program, SlamNode};
+
+use crate::{picture, terminal};
+
+/// So many of the closures are told one by one.
+const MOST_TOLD: usize = 10;
+
+/// What `periplus sim` takes for mapping.
+#[derive(Debug, Args)]
+pub(crate) struct MappingOptions {
+    /// Map while the robot drives, with the parameters of a file as `slam_toolbox` or `slam_gmapping`
+    /// have it; without a file with the defaults. In a run at full speed every scan counts
+    #[arg(long, value_name = "FILE.yaml", num_args = 0..=1)]
+    slam: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    more: MoreMapping,
+}
+
+/// What goes with it.
+#[derive(Debug, Args)]
+pub(crate) struct MoreMapping {
+    /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
+    /// one that the file is for
+    #[arg(long, value_name = "PROGRAM")]
+    slam_node: Option<Program>,
+    /// At the end write map.yaml, map.pgm, map.png with the graph's poses, and map.session to a folder
+    #[arg(long, value_name = "DIR")]
+    slam_out: Option<PathBuf>,
+}
+
+impl MoreMapping {
+    pub(crate) fn out(&self) -> Option<&Path> {
+        self.slam_out.as_deref()
+    }
+}
+
+/// A mapper in a run.
+pub(crate) struct Mapping {
+    pub(crate) node: SlamNode,
+    out: Option<PathBuf>,
+}
+
+/// Reads the parameters of a file, and for which program it is; none when it cannot be read, which has
+/// been told.
+pub(crate) fn parameters(
+    path: Option<&Path>,
+    wanted: Option<Program>,
+) -> io::Result<Option<(Program, Values)>> {
+    let mut diagnostics = Diagnostics::new();
+    let Some(path) = path else {
+        let program = wanted.unwrap_or(Program::Async);
+        return Ok(Some((program, program.table().check([], None, &mut diagnostics))));
+    };
+    let text = Machine
+        .read(path)
+        .map_err(|why| format!("cannot read {}: {why}", path.display()))
+        .and_then(|bytes| {
+            String::from_utf8(bytes).map_err(|_| {
+                format!("{} is no text; `--slam` takes a file of parameters", path.display())
+            })
+        });
+    let text = match text {
+        Ok(text) => text,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(None);
+        }
+    };
+    let mut sources = SourceMap::new();
+    let file = sources.add(path.display().to_string(), text);
+    let read = match periplus_yaml::parse(file, &sources) {
+        Ok(Some(tree)) => Some(periplus_slam_nodes::read(&tree, wanted, &mut diagnostics)),
+        Ok(None) => {
+            let program = wanted.unwrap_or(Program::Async);
+            Some((program, program.table().check([], None, &mut diagnostics)))
+        }
+        Err(error) => {
+            diagnostics.push(*error);
+            None
+        }
+    };
+    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    Ok(read)
+}
+
+/// Where nobody says, and the usual topic has no scans: the only one that has.
+fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
+    const NAME: &str = "scan_topic";
+    if values.table().find(NAME).is_none() || values.is_given(NAME) {
+        return None;
+    }
+    let of_scans =
+        |it: &TopicInfo| it.type_name == LaserScan::TYPE_NAME && !it.publishers.is_empty();
+    let topics: Vec<TopicInfo> = graph.topics().into_iter().filter(of_scans).collect();
+    match topics.as_slice() {
+        [one] if one.name != "/scan" => Some(one.name.clone()),
+        _ => None,
+    }
+}
+
+impl Mapping {
+    /// As a node of a run's graph, if it is wanted. `Err` when it cannot be, which has been told.
+    pub(crate) fn join(
+        graph: &Graph,
+        options: &MappingOptions,
+        is_paced: bool,
+    ) -> io::Result<Result<Option<Self>, ()>> {
+        let Some(path) = &options.slam else {
+            if options.more.slam_node.is_some() || options.more.slam_out.is_some() {
+                terminal::complain("`--slam-node` and `--slam-out` go with `--slam`");
+                return Ok(Err(()));
+            }
+            return Ok(Ok(None));
+        };
+        let Some((program, mut values)) = parameters(path.as_deref(), options.more.slam_node)?
+        else {
+            return Ok(Err(()));
+        };
+        if let Some(topic) = scan_topic(graph, &values) {
+            terminal::say(&format!("mapping: scans come on {topic}; set `scan_topic` to others"));
+            values.set("scan_topic", Value::Text(topic));
+        }
+        let pace = if is_paced { Pace::Sliced } else { Pace::Whole };
+        Ok(Self::new(graph, program, values, pace, options.more.out()).map(Some))
+    }
+
+    /// A running node. `Err` when it cannot be, which has been told.
+    pub(crate) fn new(
+        graph: &Graph,
+        program: Program,
+        values: Values,
+        pace: Pace,
+        out: Option<&Path>,
+    ) -> Result<Self, ()> {
+        match SlamNode::new(graph, program, values, Arc::new(Machine), pace) {
+            Ok(node) => {
+                node.start();
+                Ok(Self { node, out: out.map(Path::to_owned) })
+            }
+            Err(error) => {
+                terminal::complain(&format!("{} cannot run: {error}", program.executable()));
+                Err(())
+            }
+        }
+    }
+
+    /// What there is to say at the end of a run.
+    pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+        let status = self.node.status();
+        let counts = status.counts;
+        writeln!(
+            out,
+            "{}, as {}: {} scans, {} kept; {} links, {} ties",
+            status.node,
+            status.program.executable(),
+            counts.scans,
+            status.graph.0,
+            status.graph.1,
+            counts.ties
+        )?;
+        let lost = [
+            (counts.lost, "did not fit"),
+            (counts.ignored, "said nothing"),
+            (status.left_out as usize, "were left out for newer ones"),
+            (status.dropped as usize, "had no transforms"),
+        ];
+        for (count, what) in lost.into_iter().filter(|it| it.0 > 0) {
+            writeln!(out, "  {count} scans {what}")?;
+        }
+        if let Some(trouble) = &status.trouble {
+            writeln!(out, "  {trouble}")?;
+        }
+        let accepted = status.closures.iter().filter(|it| it.is_accepted).count();
+        if !status.closures.is_empty() {
+            let refused = status.closures.len() - accepted;
+            writeln!(out, "  {accepted} loops closed, {refused} refused")?;
+        }
+        for closure in status.closures.iter().rev().take(MOST_TOLD) {
+            let verdict = if closure.is_accepted { "closed" } else { "refused" };
+            writeln!(
+                out,
+                "    {} - {} {verdict}: {}",
+                closure.keys.0, closure.keys.1, closure.reason
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Writes what was asked for; in words why it cannot be.
+    pub(crate) fn write(&self) -> Result<Option<PathBuf>, String> {
+        let Some(folder) = &self.out else { return Ok(None) };
+        std::fs::create_dir_all(folder)
+            .map_err(|why| format!("cannot make {}: {why}", folder.display()))?;
+        let put = |name: &str, bytes: &[u8]| {
+            let path = folder.join(name);
+            Machine
+                .replace(&path, bytes)
+                .map_err(|why| format!("cannot write {}: {why}", path.display()))
+        };
+        let is_empty = self.node.status().counts.kept == 0 && self.node.status().graph.0 == 0;
+        let Some(map) = self.node.map().filter(|_| !is_empty) else {
+            return Err("there is no map to write: no scan became part of one".into());
+        };
+        let files = render(&map, &Saving::new("map", Distro::Jazzy));
+        put(&files.image_path, &files.image)?;
+        put(&files.yaml_path, files.yaml.as_bytes())?;
+        let poses = self.node.look(|slam| slam.poses().to_vec()).unwrap_or_default();
+        put("map.png", &picture::draw(&map, &poses))?;
+        if let Some(session) = self.node.look(periplus_slam::Slam::save) {
+            put("map.session", &session)?;
+        }
+        Ok(Some(folder.clone()))
+    }
+}

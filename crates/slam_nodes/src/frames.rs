@@ -1,0 +1,103 @@
+//! Where frames are, as heard on `/tf` and `/tf_static`, and which edge is missing between two.
+
+use periplus_base::{DQuat, DVec3, Pose};
+use periplus_msgs::{geometry_msgs, tf2_msgs};
+use periplus_tf::{Buffer, Kind, LookupError, Stamped};
+
+use crate::messages::nanoseconds;
+
+/// Trees of frames are no deeper.
+const DEEPEST: usize = 1000;
+
+/// Frames.
+#[derive(Default)]
+pub(crate) struct Frames {
+    buffer: Buffer,
+}
+
+impl Frames {
+    /// Takes in what was broadcast.
+    pub(crate) fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
+        for transform in &message.transforms {
+            // What is malformed is dropped, as tf2 drops it.
+            let _refused = self.buffer.set(&stamped(transform), "tf", kind);
+        }
+    }
+
+    /// Time has jumped.
+    pub(crate) fn forget(&mut self) {
+        self.buffer.clear();
+    }
+
+    /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
+    pub(crate) fn at(
+        &self,
+        target: &str,
+        source: &str,
+        time_ns: i64,
+    ) -> Result<(Pose, i64), LookupError> {
+        let found = self.buffer.lookup(plain(target), plain(source), time_ns)?;
+        Ok((found.target_from_source, found.time_ns))
+    }
+
+    /// What is missing between two frames, and who would say it.
+    pub(crate) fn missing(&self, target: &str, source: &str) -> String {
+        let (target, source) = (plain(target), plain(source));
+        let unheard = |frame: &str| format!("nobody has published the frame `{frame}` on /tf");
+        match (self.buffer.has_frame(target), self.buffer.has_frame(source)) {
+            (false, false) => {
+                return format!("nobody has published the frames `{target}` and `{source}` on /tf");
+            }
+            (false, true) => return unheard(target),
+            (true, false) => return unheard(source),
+            (true, true) => {}
+        }
+        let (top_of_target, top_of_source) = (self.top(target), self.top(source));
+        if top_of_target == top_of_source {
+            return "both are there, but not at the same time: check that all nodes use the same \
+                    clock (`use_sim_time`)"
+                .to_owned();
+        }
+        let hangs = |frame: &str, top: &str| {
+            if frame == top {
+                format!("`{frame}` hangs on nothing")
+            } else {
+                format!("`{frame}` hangs on `{top}`")
+            }
+        };
+        format!(
+            "{}, {}: a transform between these two trees is missing",
+            hangs(target, &top_of_target),
+            hangs(source, &top_of_source)
+        )
+    }
+
+    /// The frame on which another hangs in the end.
+    fn top(&self, frame: &str) -> String {
+        let mut top = frame;
+        // A circle has no top.
+        for _ in 0..DEEPEST {
+            match self.buffer.parent_of(top) {
+                Some(parent) => top = parent,
+                None => break,
+            }
+        }
+        top.to_owned()
+    }
+}
+
+/// Without the slash that ROS 1 once wanted.
+pub(crate) fn plain(frame: &str) -> &str {
+    frame.trim_start_matches('/')
+}
+
+fn stamped(transform: &geometry_msgs::TransformStamped) -> Stamped {
+    let geometry_msgs::Transform { translation, rotation } = &transform.transform;
+    Stamped {
+        parent: transform.header.frame_id.clone(),
+        child: transform.child_frame_id.clone(),
+        stamp_ns: nanoseconds(&transform.header.stamp),
+        translation: DVec3::new(translation.x, translation.y, translation.z),
+        rotation: DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
+    }
+}

@@ -1,0 +1,640 @@
+//! The node.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use periplus_base::Pose2;
+use periplus_diagnostics::Diagnostic;
+use periplus_graph::{
+    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Qos, Step, StepOutcome,
+    Transition,
+};
+use periplus_grid::OccupancyGrid;
+use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
+use periplus_params::Values;
+use periplus_slam::{Closure, Counts, Slam, Taken, tables};
+use periplus_tf::Kind;
+
+use crate::drawing::Drawer;
+use crate::engine::{Engine, Start};
+use crate::frames::{Frames, plain};
+use crate::inputs::{Inputs, Names, Placed};
+use crate::markers;
+use crate::messages::{covariance, nanoseconds, pose2, scan};
+use crate::outputs::Outputs;
+use crate::services;
+use crate::told::Told;
+use crate::values::{flag, integer, is_given, number, numbers, text};
+use crate::{Files, Program};
+
+/// How often it is looked for what waits \[ns\]; transforms that come are a reason, too.
+const LOOK_NS: i64 = 20_000_000;
+/// How often a slice of work in the background is done in live \[ns\]. A slice takes some
+/// milliseconds, and a scan waits for one at most.
+const SLICE_NS: i64 = 4_000_000;
+/// Names of the robot's own frame, the most telling first.
+const BASES: [&str; 2] = ["base_footprint", "base_link"];
+/// Slices of work after each scan where a run is to keep a pace.
+const FEW_SLICES: usize = 4;
+
+/// How the work that follows a scan is divided in lockstep. In live it is done between the scans, on
+/// the node's own thread, whatever this says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pace {
+    /// All of it before the next scan: what comes of it is what `periplus slam` makes of a log.
+    #[default]
+    Whole,
+    /// A few milliseconds of it after each scan, so that no scan is late; the same every time, too.
+    Sliced,
+}
+
+/// A mapper as a managed node.
+pub struct SlamNode {
+    actor: Actor<State>,
+    life: Lifecycle,
+}
+
+/// What a mapper has come to, for those who look.
+#[derive(Clone, Debug)]
+pub struct SlamStatus {
+    /// The node.
+    pub node: String,
+    /// Whose part it plays.
+    pub program: Program,
+    /// Counts of what happened to scans.
+    pub counts: Counts,
+    /// Scans that were left out for newer ones.
+    pub left_out: u64,
+    /// Scans that were dropped because a transform was missing.
+    pub dropped: u64,
+    /// Scans of the graph, and what is known between them.
+    pub graph: (usize, usize),
+    /// What became of closures of loops.
+    pub closures: Vec<Closure>,
+    /// Where the robot is.
+    pub map_from_base: Pose2,
+    /// Bytes that the map holds, about.
+    pub size: usize,
+    /// What keeps it from its work.
+    pub trouble: Option<String>,
+}
+
+pub(crate) struct State {
+    pub(crate) program: Program,
+    pub(crate) values: Values,
+    pub(crate) files: Arc<dyn Files>,
+    pub(crate) slices: usize,
+    is_live: bool,
+    pub(crate) engine: Option<Engine>,
+    frames: Frames,
+    pub(crate) inputs: Option<Inputs>,
+    outputs: Option<Outputs>,
+    pub(crate) told: Told,
+    is_active: bool,
+    pub(crate) is_paused: bool,
+    pub(crate) is_interactive: bool,
+    /// Kept scans that were moved by hand.
+    pub(crate) moved: BTreeMap<usize, Pose2>,
+    /// Number of the last news of handles.
+    pub(crate) handled: u64,
+    scans: u64,
+    /// Remarks of the engine that have been told.
+    remarked: usize,
+    last: Option<Last>,
+    drawer: Drawer,
+    /// The map as it was drawn last.
+    pub(crate) map: Option<OccupancyGrid>,
+    drawn: Option<(usize, usize)>,
+    published_ns: Option<i64>,
+}
+
+/// The last scan that was used.
+struct Last {
+    time_ns: i64,
+    odom_from_base: Pose2,
+}
+
+impl SlamNode {
+    /// A node by the name that its launch files give it, `slam_toolbox` or `slam_gmapping`, with
+    /// parameters of [`Program::table`], see [`crate::read`]. Arguments of the graph go before them.
+    ///
+    /// # Errors
+    /// When a topic or service of that name has another type.
+    pub fn new(
+        graph: &Graph,
+        program: Program,
+        values: Values,
+        files: Arc<dyn Files>,
+        pace: Pace,
+    ) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new(program.node_name()))?;
+        Self::at(node, program, values, files, pace)
+    }
+
+    /// As this node.
+    ///
+    /// # Errors
+    /// When a topic or service of that name has another type.
+    pub fn at(
+        node: Node,
+        program: Program,
+        values: Values,
+        files: Arc<dyn Files>,
+        pace: Pace,
+    ) -> Result<Self, GraphError> {
+        let is_live = node.graph().is_live();
+        let state = State {
+            program,
+            values: values.clone(),
+            files,
+            slices: match (is_live, pace) {
+                (true, _) => 0,
+                (false, Pace::Whole) => usize::MAX,
+                (false, Pace::Sliced) => FEW_SLICES,
+            },
+            is_live,
+            engine: None,
+            frames: Frames::default(),
+            inputs: None,
+            outputs: None,
+            told: Told::default(),
+            is_active: false,
+            is_paused: false,
+            is_interactive: false,
+            moved: BTreeMap::new(),
+            handled: 0,
+            scans: 0,
+            remarked: 0,
+            last: None,
+            drawer: Drawer::new(is_live),
+            map: None,
+            drawn: None,
+            published_ns: None,
+        };
+        let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        let values = parameters.values();
+        actor.with(|state| state.values = values.clone());
+        actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
+            state.frames.take(&message, Kind::Fixed);
+        })?;
+        // Scans wait for transforms.
+        actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, io| {
+            state.frames.take(&message, Kind::Moving);
+            state.work(io.node());
+        })?;
+        actor.timer(LOOK_NS, |state, io| state.work(io.node()))?;
+        if is_live {
+            actor.timer(SLICE_NS, |state, _| {
+                if let Some(slam) = state.engine.as_mut().and_then(Engine::graph_mut) {
+                    slam.work_slices(1);
+                }
+            })?;
+        }
+        let period_ns = seconds_ns(number(&values, "transform_publish_period").unwrap_or(0.0));
+        if period_ns > 0 {
+            actor.timer(period_ns, |state, io| state.publish_transform(io.now_ns()))?;
+        }
+        actor.on_jump(|state, io| {
+            state.frames.forget();
+            let now_ns = io.now_ns();
+            if let Some(inputs) = &mut state.inputs {
+                inputs.forget(now_ns);
+            }
+            state.published_ns = None;
+        });
+        if program.is_toolbox() {
+            actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
+                state.set_pose(&message, io.node());
+            })?;
+            actor.subscribe("slam_toolbox/feedback", Qos::reliable(10), |state, message, io| {
+                state.drag(&message, io.node());
+            })?;
+        }
+        services::serve(&mut actor, program, &values)?;
+        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
+        Ok(Self { actor, life })
+    }
+
+    /// Configures and activates it, where no lifecycle manager does.
+    pub fn start(&self) {
+        self.life.change(Transition::Configure);
+        self.life.change(Transition::Activate);
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+
+    /// Its life.
+    #[must_use]
+    pub fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+
+    /// Looks at the graph, if there is one.
+    pub fn look<R>(&self, look: impl FnOnce(&Slam) -> R) -> Option<R> {
+        self.actor.with(|state| state.engine.as_ref().and_then(Engine::graph).map(look))
+    }
+
+    /// The map as it is now, drawn for this.
+    #[must_use]
+    pub fn map(&self) -> Option<OccupancyGrid> {
+        self.actor.with(|state| state.engine.as_ref().and_then(|engine| engine.mapper().map()))
+    }
+
+    /// What it has come to.
+    #[must_use]
+    pub fn status(&self) -> SlamStatus {
+        let node = self.node().full_name().to_owned();
+        self.actor.with(|state| state.status(node))
+    }
+}
+
+impl State {
+    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
+        match step {
+            Step::Configure => self.configure(node),
+            Step::Activate => {
+                self.is_active = true;
+                let now_ns = node.now_ns();
+                if let Some(inputs) = &mut self.inputs {
+                    inputs.forget(now_ns);
+                }
+                StepOutcome::Success
+            }
+            Step::Deactivate => {
+                self.is_active = false;
+                StepOutcome::Success
+            }
+            Step::Cleanup | Step::Shutdown | Step::Error => {
+                self.is_active = false;
+                self.inputs = None;
+                self.outputs = None;
+                self.begin(None);
+                self.told = Told::default();
+                StepOutcome::Success
+            }
+        }
+    }
+
+    fn configure(&mut self, node: &Node) -> StepOutcome {
+        let values = &self.values;
+        for finding in tables::conflicts(values) {
+            node.log_finding(&finding);
+        }
+        self.is_paused = flag(values, "paused_new_measurements").unwrap_or(false);
+        let topic = text(values, "scan_topic").unwrap_or_else(|| "scan".to_owned());
+        let is_newest_first = self.is_live && self.program != Program::Sync;
+        let ports = Inputs::new(node, &topic, values, is_newest_first)
+            .and_then(|it| Ok((it, Outputs::new(node, self.program, values)?)));
+        match ports {
+            Ok((inputs, outputs)) => {
+                self.inputs = Some(inputs);
+                self.outputs = Some(outputs);
+            }
+            Err(error) => {
+                node.log(Level::Error, error);
+                return StepOutcome::Failure;
+            }
+        }
+        self.begin(Engine::empty(self.program, &self.values, self.slices));
+        let file = text(&self.values, "map_file_name").unwrap_or_default();
+        if !file.is_empty() {
+            let dock = flag(&self.values, "map_start_at_dock").unwrap_or(false);
+            let start = match numbers(&self.values, "map_start_pose").as_slice() {
+                [x_m, y_m, yaw_rad] if !dock => Start::At(Pose2::new(*x_m, *y_m, *yaw_rad)),
+                _ => Start::First,
+            };
+            if !self.load(&file, self.program == Program::Localization, start, node) {
+                return StepOutcome::Failure;
+            }
+        }
+        StepOutcome::Success
+    }
+
+    /// Begins with another map, or none.
+    pub(crate) fn begin(&mut self, engine: Option<Engine>) {
+        self.engine = engine;
+        self.moved.clear();
+        self.remarked = 0;
+        self.last = None;
+        self.drawer.forget();
+        self.map = None;
+        self.drawn = None;
+        self.published_ns = None;
+    }
+
+    /// Names of the frames.
+    fn names(&self) -> Names {
+        let text = |name: &str| plain(&text(&self.values, name).unwrap_or_default()).to_owned();
+        let (odom, told) = (text("odom_frame"), text("base_frame"));
+        // Where nobody says, it is the one of the usual frames to which odometry leads.
+        let leads = |base: &str| self.frames.at(&odom, base, 0).is_ok();
+        let base = if is_given(&self.values, "base_frame") || leads(&told) {
+            told
+        } else {
+            BASES.into_iter().find(|base| leads(base)).map_or(told, str::to_owned)
+        };
+        Names { map: text("map_frame"), odom, base }
+    }
+
+    fn work(&mut self, node: &Node) {
+        let now_ns = node.now_ns();
+        let Some(inputs) = &mut self.inputs else { return };
+        if !self.is_active || self.is_paused {
+            inputs.forget(now_ns);
+        }
+        inputs.listen(now_ns);
+        if let Some(silence) = inputs.silence(node).filter(|_| self.is_active && !self.is_paused) {
+            self.told.tell(&silence, node);
+        }
+        let names = self.names();
+        let mut complaints = Vec::new();
+        while let Some(placed) = self
+            .inputs
+            .as_mut()
+            .and_then(|inputs| inputs.next(&self.frames, &names, now_ns, &mut complaints))
+        {
+            self.take(&placed, &names, node);
+            if self.is_live {
+                // Others may have something to say in between.
+                break;
+            }
+        }
+        for complaint in complaints {
+            self.told.tell(&complaint, node);
+        }
+        if self.is_active {
+            self.publish_map(now_ns, &names, node);
+        }
+    }
+
+    fn take(&mut self, placed: &Placed, names: &Names, node: &Node) {
+        self.scans += 1;
+        let every = integer(&self.values, "throttle_scans").unwrap_or(1).max(1);
+        if !(self.scans - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
+            return;
+        }
+        let time_ns = nanoseconds(&placed.message.header.stamp);
+        // Only what somebody asked for: by itself the engine is the better for every scan.
+        let interval_ns = number(&self.values, "minimum_time_interval")
+            .filter(|_| is_given(&self.values, "minimum_time_interval"))
+            .map_or(0, seconds_ns);
+        let is_early = |last: &Last| (0..interval_ns).contains(&(time_ns - last.time_ns));
+        if self.last.as_ref().is_some_and(is_early) {
+            return;
+        }
+        let Some(engine) = &mut self.engine else {
+            let words = "there is no stored graph to find the robot on";
+            let help = "set `map_file_name` to a session, or call `slam_toolbox/deserialize_map`";
+            self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
+            return;
+        };
+        let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
+        let scan = scan(&placed.message, placed.base_from_laser, is_inverted);
+        let update = engine.add_scan(&scan, placed.odom_from_base);
+        let covariance = engine.covariance();
+        match update.taken {
+            Taken::Ignored(reason) => {
+                let words = format!("scans are left out: {reason}");
+                self.told.tell(&Diagnostic::error("bad-scan", words), node);
+                return;
+            }
+            Taken::Lost => {
+                let words = "a scan does not fit what was seen before; odometry alone tells where \
+                             the robot is";
+                let help = "when this goes on, the robot was carried or the wheels slip: say where \
+                            it is with `initialpose`";
+                self.told.tell(&Diagnostic::warning("lost-scan", words).help(help), node);
+            }
+            Taken::Kept | Taken::Passed => self.told.fine(),
+        }
+        let remarks = self.engine.as_ref().and_then(Engine::graph).map_or(&[][..], Slam::remarks);
+        for remark in remarks.iter().skip(self.remarked) {
+            node.log(Level::Warn, remark);
+        }
+        self.remarked = remarks.len();
+        self.last = Some(Last { time_ns, odom_from_base: placed.odom_from_base });
+        let Some(outputs) = &self.outputs else { return };
+        outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
+        if update.taken == Taken::Kept {
+            outputs.publish_scan(&placed.message);
+        }
+    }
+
+    /// As `position_covariance_scale` and `yaw_covariance_scale` want it.
+    fn scaled(&self, covariance: &periplus_matching::Symmetric3) -> periplus_matching::Symmetric3 {
+        let scale = |name: &str| number(&self.values, name).unwrap_or(1.0);
+        let (place, heading) = (scale("position_covariance_scale"), scale("yaw_covariance_scale"));
+        let both = (place * heading).sqrt();
+        let periplus_matching::Symmetric3 { xx, xy, xt, yy, yt, tt } = *covariance;
+        periplus_matching::Symmetric3 {
+            xx: place * xx,
+            xy: place * xy,
+            xt: both * xt,
+            yy: place * yy,
+            yt: both * yt,
+            tt: heading * tt,
+        }
+    }
+
+    fn publish_transform(&mut self, now_ns: i64) {
+        let (Some(outputs), Some(engine), Some(last)) = (&self.outputs, &self.engine, &self.last)
+        else {
+            return;
+        };
+        if !self.is_active {
+            return;
+        }
+        let number = |name: &str| number(&self.values, name);
+        let time_ns = if self.program.is_toolbox() {
+            let timeout_ns = seconds_ns(number("transform_timeout").unwrap_or(0.2));
+            let from_ns =
+                if flag(&self.values, "restamp_tf") == Some(true) { now_ns } else { last.time_ns };
+            from_ns.saturating_add(timeout_ns)
+        } else {
+            let delay_s = number("tf_delay").or_else(|| number("transform_publish_period"));
+            now_ns.saturating_add(seconds_ns(delay_s.unwrap_or(0.05)))
+        };
+        // The map may have been bent since the scan came.
+        let map_from_odom =
+            (engine.mapper().map_from_base() * last.odom_from_base.inverse()).normalized();
+        let names = self.names();
+        outputs.publish_transform(&names.map, &names.odom, map_from_odom, time_ns);
+    }
+
+    /// Draws the map when it has changed, and publishes it when it is time: first as soon as there is
+    /// one.
+    fn publish_map(&mut self, now_ns: i64, names: &Names, node: &Node) {
+        let (Some(outputs), Some(engine)) = (&self.outputs, &self.engine) else { return };
+        if let Some(map) = self.drawer.take() {
+            match map {
+                Some(map) => {
+                    outputs.publish_map(&map, now_ns, &names.map);
+                    self.map = Some(map);
+                }
+                None => {
+                    let words = "the map is too large to draw";
+                    let help = "set a coarser `resolution` or a smaller `max_laser_range`";
+                    self.told.tell(&Diagnostic::error("large-map", words).help(help), node);
+                }
+            }
+        }
+        let interval_ns = seconds_ns(number(&self.values, "map_update_interval").unwrap_or(5.0));
+        let is_stored = matches!(engine, Engine::Localizer(_));
+        let is_due =
+            self.published_ns.is_none_or(|last_ns| !(0..interval_ns).contains(&(now_ns - last_ns)));
+        if !is_due || self.drawer.is_busy() || (engine.mapper().counts().kept == 0 && !is_stored) {
+            return;
+        }
+        self.published_ns = Some(now_ns);
+        let version = engine.version();
+        outputs.publish_graph(|| {
+            engine.graph().map_or_else(Default::default, |slam| {
+                markers::graph(slam, &self.moved, &names.map, now_ns)
+            })
+        });
+        if self.is_interactive {
+            self.handled += 1;
+            outputs.publish_handles(self.handled, || self.handles(now_ns));
+        }
+        match &self.map {
+            // Latecomers without memory get it again.
+            Some(map) if self.drawn == Some(version) => {
+                outputs.publish_map(map, now_ns, &names.map);
+            }
+            _ => {
+                self.drawn = Some(version);
+                self.drawer.begin(engine.drawing());
+                if !self.is_live {
+                    self.publish_map(now_ns, names, node);
+                }
+            }
+        }
+    }
+
+    /// Kept scans as handles, while they can be moved.
+    pub(crate) fn handles(&self, now_ns: i64) -> Vec<InteractiveMarker> {
+        let graph = self.engine.as_ref().and_then(Engine::graph).filter(|_| self.is_interactive);
+        graph.map_or_else(Vec::new, |slam| {
+            markers::handles(slam, &self.moved, &self.names().map, now_ns)
+        })
+    }
+
+    /// Somebody says where the robot is.
+    fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
+        let names = self.names();
+        let frame = plain(&message.header.frame_id);
+        if !frame.is_empty() && frame != names.map {
+            node.log(
+                Level::Warn,
+                format!(
+                    "the initial pose is in `{frame}`, and it has to be in `{}`: it is not taken; \
+                     choose that frame where you set it",
+                    names.map
+                ),
+            );
+            return;
+        }
+        match pose2(&message.pose.pose) {
+            Ok(pose) => {
+                let is_placed = self
+                    .engine
+                    .as_mut()
+                    .is_some_and(|it| it.place(pose, covariance(&message.pose.covariance)));
+                let said = format!("({:.2}, {:.2}, {:.2})", pose.x_m, pose.y_m, pose.yaw_rad);
+                if is_placed {
+                    let words = format!("the robot is said to be at {said}; the next scan tells");
+                    node.log(Level::Info, words);
+                } else {
+                    let words = format!("there is no map yet on which the robot can be at {said}");
+                    node.log(Level::Warn, words);
+                }
+            }
+            Err(why) => node.log(Level::Warn, format!("the initial pose is refused: {why}")),
+        }
+    }
+
+    /// Somebody drags a kept scan.
+    fn drag(&mut self, message: &InteractiveMarkerFeedback, node: &Node) {
+        let is_move = [InteractiveMarkerFeedback::POSE_UPDATE, InteractiveMarkerFeedback::MOUSE_UP]
+            .contains(&message.event_type);
+        if !is_move {
+            return;
+        }
+        let kept =
+            self.engine.as_ref().and_then(Engine::graph).map_or(0, |slam| slam.poses().len());
+        let key = message.marker_name.parse::<usize>().ok().filter(|&key| key < kept);
+        let refusal = match (self.is_interactive, key, pose2(&message.pose)) {
+            (false, _, _) => {
+                "interactive mode is off: call `slam_toolbox/toggle_interactive_mode` \
+                              first"
+                    .to_owned()
+            }
+            (true, None, _) => format!(
+                "`{}` is no kept scan; they are numbered from 0, and there are {kept}",
+                message.marker_name
+            ),
+            (true, Some(_), Err(why)) => why,
+            (true, Some(key), Ok(pose)) => {
+                self.moved.insert(key, pose);
+                return;
+            }
+        };
+        node.log(Level::Warn, format!("a scan is not moved: {refusal}"));
+    }
+
+    /// Takes other parameters while it runs.
+    fn change(&mut self, values: &Values) -> Result<(), String> {
+        const AT_ANY_TIME: [&str; 10] = [
+            "map_update_interval",
+            "minimum_time_interval",
+            "throttle_scans",
+            "transform_timeout",
+            "restamp_tf",
+            "tf_delay",
+            "position_covariance_scale",
+            "yaw_covariance_scale",
+            "use_sim_time",
+            "debug_logging",
+        ];
+        let changed =
+            values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
+                !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
+            });
+        if let Some(name) = changed.filter(|_| self.inputs.is_some()) {
+            return Err(format!(
+                "`{name}` is read when the node is configured; set it before, or clean the node up \
+                 and configure it again"
+            ));
+        }
+        self.values = values.clone();
+        Ok(())
+    }
+
+    fn status(&self, node: String) -> SlamStatus {
+        let mapper = self.engine.as_ref().map(Engine::mapper);
+        let graph = self.engine.as_ref().and_then(Engine::graph);
+        SlamStatus {
+            node,
+            program: self.program,
+            counts: mapper.map(periplus_slam::Mapper::counts).unwrap_or_default(),
+            left_out: self.inputs.as_ref().map_or(0, |inputs| inputs.left_out),
+            dropped: self.inputs.as_ref().map_or(0, |inputs| inputs.dropped),
+            graph: graph.map_or((0, 0), |slam| (slam.poses().len(), slam.links().count())),
+            closures: mapper.map(|it| it.closures().to_vec()).unwrap_or_default(),
+            map_from_base: mapper.map_or(Pose2::IDENTITY, periplus_slam::Mapper::map_from_base),
+            size: mapper.map_or(0, periplus_slam::Mapper::size),
+            trouble: self.told.trouble.clone(),
+        }
+    }
+}
+
+fn seconds_ns(seconds: f64) -> i64 {
+    (seconds * 1e9) as i64
+}
