@@ -16,7 +16,7 @@ use crate::step::{Failed, root};
 /// When a text is wrong, a file cannot be read or written, or the check finds a difference.
 pub(crate) fn run(check: bool) -> Result<(), Failed> {
     let source = root().join("crates/msgs/src");
-    let wanted = generate(&root().join("crates/msgs/interfaces"))?;
+    let wanted = generate()?;
     let mut stale = Vec::new();
     for (path, code) in &wanted {
         if fs::read_to_string(source.join(path)).ok().as_ref() != Some(code) {
@@ -50,9 +50,16 @@ pub(crate) fn run(check: bool) -> Result<(), Failed> {
     Ok(())
 }
 
-/// The files of the crate's `src` that the texts of a folder ask for.
-fn generate(folder: &Path) -> Result<BTreeMap<PathBuf, String>, Failed> {
-    let (registry, paths) = read(folder)?;
+/// The texts of all types, as ROS 2 Jazzy has them.
+const ALL: &str = "interfaces";
+
+/// Texts of types that have another form in Nav2's main branch, and the module of these.
+const NAV2_MAIN: (&str, &str) = ("interfaces_nav2_main", "nav2_msgs_main");
+
+/// The files of the crate's `src` that the texts ask for.
+fn generate() -> Result<BTreeMap<PathBuf, String>, Failed> {
+    let mut registry = Registry::new();
+    let paths = read(ALL, &mut registry)?;
     let packages: BTreeSet<&str> =
         registry.interfaces().map(|interface| interface.name.package.as_str()).collect();
     let mut wanted = BTreeMap::new();
@@ -60,15 +67,23 @@ fn generate(folder: &Path) -> Result<BTreeMap<PathBuf, String>, Failed> {
         let code = rust::package(&registry, package).map_err(Failed)?;
         wanted.insert(PathBuf::from(format!("generated/{package}.rs")), code);
     }
-    wanted.insert("generated.rs".into(), index(&registry, &packages, &paths));
+    let modules: BTreeSet<&str> = packages.iter().copied().chain([NAV2_MAIN.1]).collect();
+    wanted.insert("generated.rs".into(), index(&registry, &modules, &paths));
+    let (folder, module) = NAV2_MAIN;
+    let mut registry = registry.clone();
+    let others = read(folder, &mut registry)?;
+    let is_other =
+        |name: &TypeName| others.iter().any(|path| path.starts_with(&format!("{name}.")));
+    let code = rust::some(&registry, &format!("{folder}/nav2_msgs"), is_other).map_err(Failed)?;
+    wanted.insert(PathBuf::from(format!("generated/{module}.rs")), code);
     Ok(wanted)
 }
 
-fn index(registry: &Registry, packages: &BTreeSet<&str>, paths: &[String]) -> String {
+fn index(registry: &Registry, modules: &BTreeSet<&str>, paths: &[String]) -> String {
     let mut code =
         String::from("//! All packages and their texts. Made by `cargo xtask codegen`.\n\n");
-    for package in packages {
-        let _ = writeln!(code, "pub mod {package};");
+    for module in modules {
+        let _ = writeln!(code, "pub mod {module};");
     }
     code.push_str("\ncrate::sources! {\n");
     for path in paths {
@@ -90,8 +105,10 @@ fn index(registry: &Registry, packages: &BTreeSet<&str>, paths: &[String]) -> St
     code
 }
 
-fn read(folder: &Path) -> Result<(Registry, Vec<String>), Failed> {
-    let mut registry = Registry::new();
+/// Adds the texts of a folder of the crate; their paths in it.
+fn read(folder: &str, registry: &mut Registry) -> Result<Vec<String>, Failed> {
+    let place = format!("crates/msgs/{folder}");
+    let folder = &root().join(&place);
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();
     let mut paths = Vec::new();
@@ -107,7 +124,7 @@ fn read(folder: &Path) -> Result<(Registry, Vec<String>), Failed> {
             return Err(Failed(format!("{name} is not package/kind/Name.kind")));
         };
         let text = fs::read_to_string(&path).map_err(|error| failed(&path, &error))?;
-        let file = sources.add(format!("crates/msgs/interfaces/{name}"), text);
+        let file = sources.add(format!("{place}/{name}"), text);
         if let Some(one) = parse(&r#type, file, &sources, Dialect::Ros2, &mut diagnostics) {
             registry.add(one);
         }
@@ -115,7 +132,7 @@ fn read(folder: &Path) -> Result<(Registry, Vec<String>), Failed> {
     }
     registry.check(&mut diagnostics);
     if diagnostics.is_empty() {
-        return Ok((registry, names));
+        return Ok(names);
     }
     let findings = diagnostics.iter().map(|one| render(one, &sources, Style::Plain));
     Err(Failed(findings.collect::<Vec<_>>().join("\n")))

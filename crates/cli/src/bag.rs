@@ -3,7 +3,6 @@
 mod check;
 mod convert;
 mod info;
-mod live;
 mod options;
 mod outputs;
 mod play;

@@ -1,22 +1,22 @@
-//! Costmaps in runs: `periplus sim --costmap` and `periplus doctor costmap`.
+//! Costmaps in runs and beside others: `periplus sim --costmap`, `periplus costmap` and
+//! `periplus doctor costmap`.
+
+pub(crate) mod doctor;
+mod file;
+pub(crate) mod serve;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::Args;
-use periplus_costmap::{Compat, Config, cost};
+use periplus_costmap::{Compat, cost};
 use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
-use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::Graph;
 use periplus_maps::palette::Scheme;
 use periplus_pictures::{Layout, write_png};
-use periplus_resources::Host as _;
 
 use crate::terminal;
-
-/// The costmaps of Nav2, by the names of their nodes.
-const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
+use file::read;
 
 /// What `periplus sim` takes for costmaps.
 #[derive(Debug, Args)]
@@ -54,6 +54,7 @@ fn place(word: &str) -> Result<Place, String> {
 }
 
 /// Costmaps of a run.
+#[derive(Default)]
 pub(crate) struct Costmaps {
     nodes: Vec<CostmapNode>,
     _markers: Vec<VoxelMarkers>,
@@ -61,57 +62,21 @@ pub(crate) struct Costmaps {
     pictures: Option<PathBuf>,
 }
 
-/// A file with parameters, and what is wrong with it.
-struct File {
-    configs: Vec<(&'static str, Config)>,
-    diagnostics: Diagnostics,
-    sources: SourceMap,
-}
-
-/// Reads the costmaps of a file; those that it does not name are left out.
-///
-/// # Errors
-/// Why there is none.
-fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> {
-    let bytes = periplus_host::Machine
-        .read(path)
-        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
-    let mut sources = SourceMap::new();
-    let file = sources.add(path.display().to_string(), text);
-    let mut diagnostics = Diagnostics::new();
-    let tree = match periplus_yaml::parse(file, &sources) {
-        Ok(Some(tree)) => tree,
-        Ok(None) => return Err(format!("{} is empty", path.display())),
-        Err(error) => {
-            diagnostics.push(*error);
-            return Ok(File { configs: Vec::new(), diagnostics, sources });
-        }
-    };
-    let named = |node: &&&str| Config::is_in(&tree, node);
-    let mut nodes: Vec<&&str> = NODES.iter().filter(named).collect();
-    if nodes.is_empty() {
-        // A file for one costmap, such as those of ROS 1.
-        nodes = NODES.iter().take(1).collect();
-    }
-    let configs = nodes
-        .into_iter()
-        .map(|node| (*node, Config::read_yaml(&tree, node, compat, &mut diagnostics)))
-        .collect();
-    Ok(File { configs, diagnostics, sources })
-}
-
 impl Costmaps {
     /// As nodes of a graph, if they are wanted; none when they cannot be, which has been told.
     pub(crate) fn join(graph: &Graph, options: &CostmapOptions) -> io::Result<Option<Self>> {
-        let mut costmaps = Self {
-            nodes: Vec::new(),
-            _markers: Vec::new(),
-            cells: options.costmap_cell.clone(),
-            pictures: options.costmap_picture.clone(),
+        let Some(path) = &options.costmap else { return Ok(Some(Self::default())) };
+        let Some(costmaps) = Self::of_file(graph, path, options.costmap_compat)? else {
+            return Ok(None);
         };
-        let Some(path) = &options.costmap else { return Ok(Some(costmaps)) };
-        let file = match read(path, options.costmap_compat) {
+        costmaps.start();
+        let (cells, pictures) = (options.costmap_cell.clone(), options.costmap_picture.clone());
+        Ok(Some(Self { cells, pictures, ..costmaps }))
+    }
+
+    /// Those of a file, not yet configured.
+    fn of_file(graph: &Graph, path: &Path, compat: Option<Compat>) -> io::Result<Option<Self>> {
+        let file = match read(path, compat) {
             Ok(file) => file,
             Err(why) => {
                 terminal::complain(&why);
@@ -119,12 +84,12 @@ impl Costmaps {
             }
         };
         terminal::diagnostics(&mut anstream::stderr().lock(), &file.diagnostics, &file.sources)?;
+        let mut costmaps = Self::default();
         for (name, config) in file.configs {
             let made = CostmapNode::new(graph, name, config)
                 .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
             match made {
                 Ok((node, markers)) => {
-                    node.start();
                     costmaps.nodes.push(node);
                     costmaps._markers.push(markers);
                 }
@@ -135,6 +100,16 @@ impl Costmaps {
             }
         }
         Ok(Some(costmaps))
+    }
+
+    /// Whether one of them lives by `/clock`.
+    fn wants_simulated_time(&self) -> bool {
+        self.nodes.iter().any(CostmapNode::uses_simulated_time)
+    }
+
+    /// Configures and activates them.
+    fn start(&self) {
+        self.nodes.iter().for_each(CostmapNode::start);
     }
 
     /// What there is to say at the end of a run.
@@ -210,64 +185,4 @@ fn status(node: &CostmapNode, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "  {advice}")?;
     }
     Ok(())
-}
-
-/// Tell what is wrong with a file of Nav2's parameters for its costmaps
-///
-/// Parameters nobody reads, layers that are not known, sources that can never mark or clear; each with
-/// its place and what to write. With `periplus sim WORLD --costmap FILE` the costmaps run and tell
-/// where points get lost. Exit code 1 when something is an error.
-#[derive(Debug, Args)]
-pub(crate) struct DoctorCostmapOptions {
-    /// The file
-    #[arg(value_name = "nav2_params.yaml")]
-    file: PathBuf,
-    /// Whose habits the costmaps have where distributions differ
-    #[arg(long, value_name = "humble|jazzy|main")]
-    compat: Option<Compat>,
-}
-
-pub(crate) fn doctor(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
-    let file = match read(&options.file, options.compat) {
-        Ok(file) => file,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::from(2));
-        }
-    };
-    let mut out = anstream::stdout().lock();
-    terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
-    for (name, config) in &file.configs {
-        let lattice = config.lattice();
-        let frame = config.frame();
-        writeln!(
-            out,
-            "{name}: {} x {} cells of {} m in `{}`{}, as {}",
-            lattice.width,
-            lattice.height,
-            lattice.resolution_m,
-            frame.global_frame,
-            if frame.is_rolling { ", moving with the robot" } else { "" },
-            config.compat,
-        )?;
-        for layer in config.layers.iter().chain(&config.filters) {
-            writeln!(out, "  {} ({:?})", layer.name, layer.kind)?;
-            for source in &layer.sources {
-                let settings = source.settings();
-                writeln!(
-                    out,
-                    "    {}: {:?} on {}, {}{} from {} m to {} m of height",
-                    source.name,
-                    settings.data_type,
-                    settings.topic,
-                    if settings.is_marking { "marks" } else { "marks nothing" },
-                    if settings.is_clearing { " and clears" } else { " and clears nothing" },
-                    settings.heights.min_m,
-                    settings.heights.max_m,
-                )?;
-            }
-        }
-    }
-    let is_sick = file.diagnostics.has_errors();
-    Ok(if is_sick { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }

@@ -6,6 +6,7 @@ mod check;
 mod conformance;
 mod convert;
 mod costmap;
+mod live;
 mod localize;
 mod log;
 mod map;
@@ -18,7 +19,6 @@ mod spent;
 mod teleop;
 mod terminal;
 mod verbs;
-mod watched;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -65,10 +65,11 @@ fn main() -> ExitCode {
         Command::Localize(options) => localize::run(&options, ros),
         Command::Map(command) => map::run(&command, ros),
         Command::Slam(options) => slam::run(&options, ros),
+        Command::Costmap(options) => costmap::serve::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
                 "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop`, \
-                 `map` and `slam --live`",
+                 `map`, `costmap` and `slam --live`",
             );
             return ExitCode::from(2);
         }
@@ -76,7 +77,7 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Convert(options) => convert::run(&options),
-        Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor(&options),
+        Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

@@ -7,7 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
-use crate::costmap::DoctorCostmapOptions;
+use crate::costmap::doctor::DoctorCostmapOptions;
+use crate::costmap::serve::CostmapServeOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
 use crate::sim::SimOptions;
@@ -60,6 +61,7 @@ pub(crate) enum Command {
     Teleop(TeleopOptions),
     #[command(subcommand)]
     Map(MapCommand),
+    Costmap(CostmapServeOptions),
     Conformance(ConformanceOptions),
     #[command(subcommand)]
     Doctor(DoctorCommand),

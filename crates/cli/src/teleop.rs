@@ -9,16 +9,16 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Publisher, Qos};
-use periplus_host::{Machine, Stopwatch, unix_ns};
+use periplus_host::{Stopwatch, unix_ns};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_msgs::std_msgs::Header;
 use periplus_params::Given;
 use periplus_teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
-use periplus_wire_ros2::Wire;
 
 use crate::arguments;
+use crate::live::Live;
 use crate::terminal::{complain, diagnostics};
 use terminal::RawTerminal;
 
@@ -78,31 +78,23 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitC
         );
         return Ok(ExitCode::from(2));
     }
-    let graph = Graph::live();
-    graph.set_simulated_time(false);
-    graph.advance_to(unix_ns());
-    graph.set_arguments(arguments);
-    let (settings, said) = periplus_wire_ros2::Settings::from_environment(&Machine);
-    diagnostics(&mut anstream::stderr().lock(), &said, &SourceMap::new())?;
-    let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
-    let wire = match attached {
-        Ok(wire) => wire,
-        Err(error) => {
-            complain(&format!("cannot join ROS 2: {error}"));
+    let live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
             return Ok(ExitCode::FAILURE);
         }
     };
-    let Some(mut driving) = Driving::new(&graph, options)? else {
+    let Some(mut driving) = Driving::new(&live.graph, options)? else {
         return Ok(ExitCode::FAILURE);
     };
     let terminal = RawTerminal::open()?;
-    let outcome = driving.go(&graph, &terminal);
+    let outcome = driving.go(&live.graph, &terminal);
     drop(terminal);
     // Whatever happened, the robot stands still now.
     driving.keyboard.stop();
     driving.publish();
-    let _ = wire.flush(LAST_WORD);
-    diagnostics(&mut anstream::stderr().lock(), &wire.take_findings(), &SourceMap::new())?;
+    live.end(LAST_WORD);
     outcome.map(|()| ExitCode::SUCCESS)
 }
 

@@ -2,8 +2,6 @@
 //! the south. Run it with `cargo run -p periplus-costmap --example slope_layer`.
 #![allow(clippy::print_stdout, reason = "an example")]
 
-use std::any::Any;
-
 use periplus_base::Pose2;
 use periplus_costmap::{Bounds, Costmap, Frame, Layer, LayeredCostmap, Moment, NoFrames, Window};
 use periplus_grid::Lattice;
@@ -32,14 +30,6 @@ impl Layer for SlopeLayer {
                 *cell = cost.max(*cell);
             }
         }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
     }
 }
 

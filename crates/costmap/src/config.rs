@@ -21,6 +21,9 @@ pub struct Config {
     pub node: Values,
     /// Whose habits to keep.
     pub compat: Compat,
+    /// Whose messages the services have, where distributions differ: those of `compat` if it was told,
+    /// else Jazzy's, as all messages here are.
+    pub forms: Compat,
     /// Layers, lowest first.
     pub layers: Vec<LayerConfig>,
     /// Filters, lowest first.
@@ -85,9 +88,9 @@ impl Config {
             reading.add(one);
         }
         let node = reading.values(&tables::COSTMAP, "");
-        let compat = compat
-            .or_else(|| node.text("compat").and_then(|text| text.parse().ok()))
-            .unwrap_or_default();
+        let given = || node.text("compat").filter(|_| node.is_given("compat"));
+        let told = compat.or_else(|| given().and_then(|text| text.parse().ok()));
+        let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Compat::Jazzy));
         let names = reading.names(&node, "plugins");
         let is_usual = names.iter().map(String::as_str).eq(USUAL.map(|(name, _)| name));
         let usual = if is_usual { &USUAL[..] } else { &[] };
@@ -96,7 +99,7 @@ impl Config {
         let filters = reading.layers(&names, "", &[], compat, 0);
         let footprint = reading.footprint(&node);
         reading.warn_of_rest();
-        Self { node, compat, layers, filters, footprint }
+        Self { node, compat, forms, layers, filters, footprint }
     }
 
     /// What holds for all layers.

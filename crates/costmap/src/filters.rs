@@ -7,5 +7,5 @@ mod speed;
 
 pub use binary::BinaryFilter;
 pub use keepout::KeepoutFilter;
-pub use mask::{FilterInfo, FilterKind, Mask};
+pub use mask::{FilterInfo, FilterKind, Mask, Masked};
 pub use speed::{SpeedFilter, SpeedLimit};

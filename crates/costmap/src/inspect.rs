@@ -1,5 +1,7 @@
 //! Why a cell is marked, or is not.
 
+use std::any::Any;
+
 use std::fmt;
 
 use periplus_grid::Cell;
@@ -72,7 +74,7 @@ impl LayeredCostmap {
         self.all()
             .flat_map(|layer| {
                 layer.sources().iter().flat_map(|source| {
-                    let is_voxel = layer.as_any().is::<crate::layers::VoxelLayer>();
+                    let is_voxel = (layer as &dyn Any).is::<crate::layers::VoxelLayer>();
                     advice(layer.name(), source, is_voxel)
                 })
             })

@@ -3,10 +3,11 @@
 use std::any::Any;
 
 use periplus_base::{Pose, Pose2};
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
 use periplus_params::Values;
 
+use crate::filters::Masked;
 use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Source, Window};
 
 /// Where frames are.
@@ -57,7 +58,7 @@ pub struct Moment<'a> {
 /// In an update every layer is asked for [`Layer::bounds`], in order, and then every one for
 /// [`Layer::costs`] in the window that came of it. The cells of `master` are one flat list of bytes
 /// ([`Costmap::costs_mut`]), row by row.
-pub trait Layer: Send {
+pub trait Layer: Any + Send {
     /// Its name, which also begins the names of its parameters.
     fn name(&self) -> &str;
 
@@ -130,6 +131,11 @@ pub trait Layer: Send {
         &mut []
     }
 
+    /// Itself, if it follows a mask.
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        None
+    }
+
     /// Layers within it.
     fn children(&self) -> &[Box<dyn Layer>] {
         &[]
@@ -149,13 +155,9 @@ pub trait Layer: Send {
     }
 
     /// Hands over what it has to complain about since the last time.
-    fn complaints(&mut self, _into: &mut Diagnostics) {}
-
-    /// Itself, to be recognised.
-    fn as_any(&self) -> &dyn Any;
-
-    /// Itself, to be recognised and changed.
-    fn as_any_mut(&mut self) -> &mut dyn Any;
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
 }
 
 /// Whether a layer that is not enabled counts as current too.

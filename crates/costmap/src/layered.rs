@@ -2,6 +2,8 @@
 //!
 //! Source of the cycle: `nav2_costmap_2d/src/layered_costmap.cpp`.
 
+use std::any::Any;
+
 use periplus_base::Pose2;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_grid::{Cell, Lattice};
@@ -185,8 +187,8 @@ impl LayeredCostmap {
     }
 
     /// Layers and filters, to be changed; not those within others.
-    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn Layer>> {
-        self.layers.iter_mut().chain(&mut self.filters)
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut dyn Layer> {
+        self.layers.iter_mut().chain(&mut self.filters).map(|layer| &mut **layer)
     }
 
     /// A layer or filter by its name; those within others have names such as `container.child`.
@@ -198,7 +200,7 @@ impl LayeredCostmap {
     /// A layer or filter of a type, by its name.
     #[must_use]
     pub fn find_as<L: Layer + 'static>(&mut self, name: &str) -> Option<&mut L> {
-        self.find_mut(name)?.as_any_mut().downcast_mut()
+        (self.find_mut(name)? as &mut dyn Any).downcast_mut()
     }
 
     /// Makes the costs anew where something has changed, and says where that is.
@@ -302,11 +304,9 @@ impl LayeredCostmap {
     /// Hands over what there was to complain about since the last time.
     pub fn complaints(&mut self) -> Diagnostics {
         let mut diagnostics = Diagnostics::new();
-        for complaint in self.complaints.drain(..) {
-            diagnostics.push(complaint);
-        }
+        diagnostics.extend(self.complaints.drain(..));
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
-            layer.complaints(&mut diagnostics);
+            diagnostics.extend(layer.complaints());
         }
         diagnostics
     }

@@ -3,7 +3,31 @@
 //!
 //! Sources: `nav2_costmap_2d/src/costmap_2d_ros.cpp` and `plugins/*.cpp` (main, 2026-08).
 
-use periplus_params::{Names, Table, choice, flag, integer, number, text, texts};
+use periplus_params::{Names, Parameter, Table, choice, flag, integer, number, text, texts};
+
+// What several layers or filters have.
+const LAYER_ENABLED: Parameter = flag("enabled", "Whether the layer takes part.").or("true");
+const FILTER_ENABLED: Parameter = flag("enabled", "Whether the filter takes part.").or("true");
+const FILTER_INFO_TOPIC: Parameter =
+    text("filter_info_topic", "Topic that tells where the mask is.")
+        .required()
+        .naming(Names::Topic);
+const MASK_TOLERANCE: Parameter =
+    number("transform_tolerance", "s", "How old the transform of the mask may be.")
+        .or("0.1")
+        .min(0.0);
+const COMBINATION_METHOD: Parameter =
+    integer("combination_method", "0 overwrite, 1 maximum, 2 maximum of what is known.").or("1");
+const FOOTPRINT_CLEARING: Parameter =
+    flag("footprint_clearing_enabled", "Whether cells under the robot are free.").or("true");
+const MIN_HEIGHT: Parameter =
+    number("min_obstacle_height", "m", "Lower points do not mark.").or("0");
+const MAX_HEIGHT: Parameter =
+    number("max_obstacle_height", "m", "Higher points do not mark.").or("2");
+const OBSERVATION_SOURCES: Parameter =
+    text("observation_sources", "Names of the sources, separated by blanks.").or("");
+const TF_FILTER_TOLERANCE: Parameter =
+    number("tf_filter_tolerance", "s", "How far transforms may lag behind.").or("0.05");
 
 /// Of the node.
 pub static COSTMAP: Table = Table {
@@ -71,7 +95,7 @@ pub static STATIC: Table = Table {
     name: "a static layer",
     doc: "A map.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
+        LAYER_ENABLED,
         flag("subscribe_to_updates", "Whether to listen to `<map_topic>_updates`.").or("false"),
         flag("map_subscribe_transient_local", "Whether to get a map published earlier.").or("true"),
         text("map_topic", "Topic of the map.").or("").naming(Names::Topic),
@@ -89,14 +113,13 @@ pub static OBSTACLE: Table = Table {
     name: "an obstacle layer",
     doc: "What sensors see, on the ground.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
-        flag("footprint_clearing_enabled", "Whether cells under the robot are free.").or("true"),
-        number("min_obstacle_height", "m", "Lower points do not mark.").or("0"),
-        number("max_obstacle_height", "m", "Higher points do not mark.").or("2"),
-        integer("combination_method", "0 overwrite, 1 maximum, 2 maximum of what is known.")
-            .or("1"),
-        text("observation_sources", "Names of the sources, separated by blanks.").or(""),
-        number("tf_filter_tolerance", "s", "How far transforms may lag behind.").or("0.05"),
+        LAYER_ENABLED,
+        FOOTPRINT_CLEARING,
+        MIN_HEIGHT,
+        MAX_HEIGHT,
+        COMBINATION_METHOD,
+        OBSERVATION_SOURCES,
+        TF_FILTER_TOLERANCE,
     ],
 };
 
@@ -105,14 +128,13 @@ pub static VOXEL: Table = Table {
     name: "a voxel layer",
     doc: "What sensors see, in columns of voxels.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
-        flag("footprint_clearing_enabled", "Whether cells under the robot are free.").or("true"),
-        number("min_obstacle_height", "m", "Lower points do not mark.").or("0"),
-        number("max_obstacle_height", "m", "Higher points do not mark.").or("2"),
-        integer("combination_method", "0 overwrite, 1 maximum, 2 maximum of what is known.")
-            .or("1"),
-        text("observation_sources", "Names of the sources, separated by blanks.").or(""),
-        number("tf_filter_tolerance", "s", "How far transforms may lag behind.").or("0.05"),
+        LAYER_ENABLED,
+        FOOTPRINT_CLEARING,
+        MIN_HEIGHT,
+        MAX_HEIGHT,
+        COMBINATION_METHOD,
+        OBSERVATION_SOURCES,
+        TF_FILTER_TOLERANCE,
         number("origin_z", "m", "Height of the lowest voxels.").or("0"),
         number("z_resolution", "m", "Height of a voxel.").or("0.2").above(0.0),
         integer("z_voxels", "Voxels in a column; 16 at most.").or("10").within(0.0, 1000.0),
@@ -164,7 +186,7 @@ pub static RANGE: Table = Table {
     name: "a range layer",
     doc: "Sonars and other sensors with one wide beam.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
+        LAYER_ENABLED,
         number("phi", "m", "Distance at which a reading counts half.").or("1.2"),
         number("inflate_cone", "", "How far beyond the cone cells are touched, in parts of it.")
             .or("1")
@@ -185,7 +207,7 @@ pub static INFLATION: Table = Table {
     name: "an inflation layer",
     doc: "Costs that fall with the distance from obstacles.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
+        LAYER_ENABLED,
         number("inflation_radius", "m", "How far costs reach; 0 for not at all.")
             .or("0.55")
             .min(0.0),
@@ -203,7 +225,7 @@ pub static DENOISE: Table = Table {
     name: "a denoise layer",
     doc: "Takes out obstacles that are too small.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
+        LAYER_ENABLED,
         integer("minimal_group_size", "Smaller groups go; 1 keeps all.").or("2"),
         integer("group_connectivity_type", "Whether 4 or 8 neighbours make a group.").or("8"),
     ],
@@ -214,10 +236,9 @@ pub static CONTAINER: Table = Table {
     name: "a container of layers",
     doc: "Layers with a grid of their own.",
     parameters: &[
-        flag("enabled", "Whether the layer takes part.").or("true"),
+        LAYER_ENABLED,
         texts("plugins", "Names of the layers within, lowest first.").or(""),
-        integer("combination_method", "0 overwrite, 1 maximum, 2 maximum of what is known.")
-            .or("1"),
+        COMBINATION_METHOD,
     ],
 };
 
@@ -226,13 +247,9 @@ pub static KEEPOUT: Table = Table {
     name: "a keepout filter",
     doc: "Where a robot must not go.",
     parameters: &[
-        flag("enabled", "Whether the filter takes part.").or("true"),
-        text("filter_info_topic", "Topic that tells where the mask is.")
-            .required()
-            .naming(Names::Topic),
-        number("transform_tolerance", "s", "How old the transform of the mask may be.")
-            .or("0.1")
-            .min(0.0),
+        FILTER_ENABLED,
+        FILTER_INFO_TOPIC,
+        MASK_TOLERANCE,
         flag("override_lethal_cost", "Whether a robot in a zone may leave it.").or("false"),
         integer("lethal_override_cost", "The cost of zones then.").or("252").within(0.0, 252.0),
     ],
@@ -243,13 +260,9 @@ pub static SPEED: Table = Table {
     name: "a speed filter",
     doc: "Where a robot must go slowly.",
     parameters: &[
-        flag("enabled", "Whether the filter takes part.").or("true"),
-        text("filter_info_topic", "Topic that tells where the mask is.")
-            .required()
-            .naming(Names::Topic),
-        number("transform_tolerance", "s", "How old the transform of the mask may be.")
-            .or("0.1")
-            .min(0.0),
+        FILTER_ENABLED,
+        FILTER_INFO_TOPIC,
+        MASK_TOLERANCE,
         text("speed_limit_topic", "Where limits are published.").or("speed_limit"),
         flag("enable_path_lookahead", "Whether limits ahead on the path count.").or("false"),
         number("max_decel", "m/s2", "How hard the robot brakes; negative.").or("-0.5"),
@@ -265,13 +278,9 @@ pub static BINARY: Table = Table {
     name: "a binary filter",
     doc: "Where something is to be switched.",
     parameters: &[
-        flag("enabled", "Whether the filter takes part.").or("true"),
-        text("filter_info_topic", "Topic that tells where the mask is.")
-            .required()
-            .naming(Names::Topic),
-        number("transform_tolerance", "s", "How old the transform of the mask may be.")
-            .or("0.1")
-            .min(0.0),
+        FILTER_ENABLED,
+        FILTER_INFO_TOPIC,
+        MASK_TOLERANCE,
         flag("default_state", "The state outside of all zones.").or("false"),
         text("binary_state_topic", "Where the state is published.").or("binary_state"),
         number("flip_threshold", "", "Above this the state is the other one.").or("50"),

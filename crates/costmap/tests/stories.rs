@@ -3,7 +3,7 @@
 use expect_test::{Expect, expect};
 use periplus_base::{DVec3, Pose, Pose2};
 use periplus_costmap::clear::{Region, clear};
-use periplus_costmap::filters::{KeepoutFilter, Mask};
+use periplus_costmap::filters::{KeepoutFilter, Mask, Masked};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{Compat, Config, LayeredCostmap, NoFrames};
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};

@@ -1,12 +1,11 @@
 //! What layers and filters hear.
 
+mod filters;
+
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use periplus_base::{DVec3, Pose};
-use periplus_costmap::filters::{
-    BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, SpeedFilter,
-};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{
     Beams, Compat, Config, DataType, LayerConfig, LayerKind, LayeredCostmap, Projector, Source,
@@ -15,12 +14,14 @@ use periplus_costmap::{
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::std_msgs::Header;
-use periplus_msgs::{map_msgs, nav_msgs, nav2_msgs, sensor_msgs};
+use periplus_msgs::{map_msgs, nav_msgs, sensor_msgs};
 
 use crate::clouds;
 use crate::frames::Listener;
 use crate::messages::{map, nanoseconds};
 use crate::topics::resolve;
+
+use filters::{FilterPort, SpeedPort};
 
 /// A message whose frame nobody knows is dropped after so long \[ns\].
 const PATIENCE_NS: i64 = 1_000_000_000;
@@ -38,6 +39,7 @@ pub(crate) struct Inputs {
     maps: Vec<MapPort>,
     ranges: Vec<RangePort>,
     filters: Vec<FilterPort>,
+    speeds: Vec<SpeedPort>,
 }
 
 /// Where an update takes place.
@@ -126,12 +128,11 @@ impl Inputs {
                 if topic.is_empty() {
                     return Ok(());
                 }
-                self.filters.push(FilterPort {
-                    filter: layer.name.clone(),
-                    kind,
-                    info: place.node.mailbox(&place.resolve(&topic), Qos::latched(1))?,
-                    mask: None,
-                });
+                self.filters.push(FilterPort::new(place, &layer.name, &topic)?);
+                if kind == LayerKind::Speed && flag("enable_path_lookahead") {
+                    let (path, odom) = (text("path_topic"), text("odom_topic"));
+                    self.speeds.push(SpeedPort::new(place, &layer.name, &path, &odom)?);
+                }
             }
             _ => {}
         }
@@ -160,6 +161,9 @@ impl Inputs {
         let place = Place { node, namespace: &namespace, compat };
         for port in &mut self.filters {
             port.take(costmap, &place, &mut complaints);
+        }
+        for port in &self.speeds {
+            port.take(costmap, scene);
         }
         complaints
     }
@@ -450,92 +454,6 @@ impl RangePort {
                 });
                 Tried::Taken
             });
-        }
-    }
-}
-
-struct FilterPort {
-    filter: String,
-    kind: LayerKind,
-    info: Mailbox<nav2_msgs::CostmapFilterInfo>,
-    mask: Option<Mailbox<nav_msgs::OccupancyGrid>>,
-}
-
-impl FilterPort {
-    fn take(
-        &mut self,
-        costmap: &mut LayeredCostmap,
-        place: &Place<'_>,
-        complaints: &mut Vec<Diagnostic>,
-    ) {
-        let mut complain = |what: String| {
-            let what = format!("filter `{}`: {what}", self.filter);
-            complaints.push(Diagnostic::error("filter-info", what));
-        };
-        if let Some(info) = self.info.latest() {
-            match FilterKind::from_number(info.r#type) {
-                Some(kind) => {
-                    let told = FilterInfo {
-                        kind,
-                        base: info.base.into(),
-                        multiplier: info.multiplier.into(),
-                    };
-                    self.tell(costmap, told);
-                    let topic = place.resolve(&info.filter_mask_topic);
-                    match place.node.mailbox(&topic, Qos::latched(3)) {
-                        Ok(mask) => self.mask = Some(mask),
-                        Err(error) => complain(error.to_string()),
-                    }
-                }
-                None => complain(format!("type {} is not known", info.r#type)),
-            }
-        }
-        let Some(message) = self.mask.as_ref().and_then(Mailbox::latest) else { return };
-        match map(&message) {
-            Ok(grid) => self.draw(costmap, Mask { grid, frame: message.header.frame_id.clone() }),
-            Err(why) => complain(format!("the mask is refused: {why}")),
-        }
-    }
-
-    fn tell(&self, costmap: &mut LayeredCostmap, info: FilterInfo) {
-        let name = &self.filter;
-        match self.kind {
-            LayerKind::Keepout => {
-                if let Some(filter) = costmap.find_as::<KeepoutFilter>(name) {
-                    filter.set_info(info);
-                }
-            }
-            LayerKind::Speed => {
-                if let Some(filter) = costmap.find_as::<SpeedFilter>(name) {
-                    filter.set_info(info);
-                }
-            }
-            _ => {
-                if let Some(filter) = costmap.find_as::<BinaryFilter>(name) {
-                    filter.set_info(info);
-                }
-            }
-        }
-    }
-
-    fn draw(&self, costmap: &mut LayeredCostmap, mask: Mask) {
-        let name = &self.filter;
-        match self.kind {
-            LayerKind::Keepout => {
-                if let Some(filter) = costmap.find_as::<KeepoutFilter>(name) {
-                    filter.set_mask(mask);
-                }
-            }
-            LayerKind::Speed => {
-                if let Some(filter) = costmap.find_as::<SpeedFilter>(name) {
-                    filter.set_mask(mask);
-                }
-            }
-            _ => {
-                if let Some(filter) = costmap.find_as::<BinaryFilter>(name) {
-                    filter.set_mask(mask);
-                }
-            }
         }
     }
 }

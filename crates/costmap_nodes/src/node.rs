@@ -4,8 +4,7 @@ use periplus_base::Pose2;
 use periplus_costmap::{Advice, CellReport, Config, Footprint, LayerConfig, LayeredCostmap};
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step,
-    StepOutcome, Transition,
+    Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
 };
 use periplus_msgs::geometry_msgs;
 use periplus_params::Values;
@@ -104,10 +103,12 @@ impl CostmapNode {
     pub fn at(node: Node, config: Config) -> Result<Self, GraphError> {
         let name = node.names().name().to_owned();
         let hertz = config.node.number("update_frequency").unwrap_or_default();
-        let compat = config.compat;
+        let forms = config.forms;
         let is_stamped = config.node.flag("subscribe_to_stamped_footprint").unwrap_or_default();
         let values = node_values(&config);
-        let layers: Vec<String> = config.layers.iter().map(|layer| layer.name.clone()).collect();
+        let names =
+            |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
+        let (layers, filters): (Vec<_>, Vec<_>) = (names(&config.layers), names(&config.filters));
         let state = State {
             config,
             costmap: None,
@@ -128,7 +129,7 @@ impl CostmapNode {
         let given = parameters.values();
         actor.with(|state| state.adopt(&given));
         let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
-        services::serve(&mut actor, &name, &layers, compat)?;
+        services::serve(&mut actor, &name, &layers, &filters, forms)?;
         if hertz > 0.0 {
             let period_ns = ((1e9 / hertz) as i64).max(1);
             actor.timer(period_ns, |state, io| state.update(io.now_ns(), io.node()))?;
@@ -138,8 +139,7 @@ impl CostmapNode {
 
     /// Configures and activates it, as a lifecycle manager would.
     pub fn start(&self) {
-        self.life.change(Transition::Configure);
-        self.life.change(Transition::Activate);
+        self.life.start();
     }
 
     /// Its node.
@@ -152,6 +152,12 @@ impl CostmapNode {
     #[must_use]
     pub fn life(&self) -> &Lifecycle {
         &self.life
+    }
+
+    /// Whether its parameters say that time is that of `/clock`.
+    #[must_use]
+    pub fn uses_simulated_time(&self) -> bool {
+        self.actor.with(|state| state.config.node.flag("use_sim_time").unwrap_or_default())
     }
 
     /// Looks at the costmap, once it is configured.

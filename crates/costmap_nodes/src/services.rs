@@ -1,25 +1,27 @@
 //! The services of a costmap.
 
+mod clearing;
+
 use periplus_base::Pose2;
-use periplus_costmap::clear::{Region, clear};
 use periplus_costmap::{Compat, Costmap};
-use periplus_graph::{Actor, GraphError, Level, Node};
+use periplus_graph::{Actor, GraphError};
+use periplus_msgs::geometry_msgs::PoseStamped;
 use periplus_msgs::nav2_msgs::{
-    ClearCostmapAroundRobot, ClearCostmapAroundRobotResponse, ClearCostmapExceptRegion,
-    ClearCostmapExceptRegionResponse, ClearEntireCostmap, ClearEntireCostmapResponse, GetCost,
-    GetCostResponse, GetCostmap, GetCostmapResponse, GetCosts, GetCostsResponse,
+    GetCost, GetCostResponse, GetCostmap, GetCostmapResponse, GetCosts, GetCostsResponse,
 };
+use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
+use periplus_params::Value;
 
 use crate::messages::{nanoseconds, pose2, raw};
 use crate::node::State;
 
-/// Answers for a costmap of a name and its layers. Clear services have the forms of humble and jazzy,
-/// which answer nothing; what could not be cleared is logged.
+/// Answers for a costmap of a name, its layers and its filters, with the messages of a distribution.
 pub(crate) fn serve(
     actor: &mut Actor<State>,
     name: &str,
     layers: &[String],
-    compat: Compat,
+    filters: &[String],
+    forms: Compat,
 ) -> Result<(), GraphError> {
     actor.serve::<GetCostmap>("get_costmap", |state, _, io| {
         let shown = state.costmap.as_ref().map(|it| (it.costmap(), "master"));
@@ -34,31 +36,14 @@ pub(crate) fn serve(
             answer_grid(shown, state, io.now_ns())
         })?;
     }
-    actor.serve::<ClearEntireCostmap>(&format!("clear_entirely_{name}"), |state, _, io| {
-        state.clear(Some(Region::Everything), io.node());
-        ClearEntireCostmapResponse::default()
-    })?;
-    actor.serve::<ClearCostmapAroundRobot>(
-        &format!("clear_around_{name}"),
-        |state, request, io| {
-            let side_m = f64::from(request.reset_distance);
-            let region =
-                state.robot.map(|Pose2 { x_m, y_m, .. }| Region::Around { x_m, y_m, side_m });
-            state.clear(region, io.node());
-            ClearCostmapAroundRobotResponse::default()
-        },
-    )?;
-    actor.serve::<ClearCostmapExceptRegion>(
-        &format!("clear_except_{name}"),
-        |state, request, io| {
-            let side_m = f64::from(request.reset_distance);
-            let region =
-                state.robot.map(|Pose2 { x_m, y_m, .. }| Region::Except { x_m, y_m, side_m });
-            state.clear(region, io.node());
-            ClearCostmapExceptRegionResponse::default()
-        },
-    )?;
-    if compat == Compat::Main {
+    clearing::serve(actor, name, forms)?;
+    for filter in filters {
+        let name = filter.clone();
+        actor.serve::<SetBool>(&format!("{filter}/toggle_filter"), move |state, request, _| {
+            state.toggle(&name, request.data)
+        })?;
+    }
+    if forms == Compat::Main {
         actor.serve::<GetCosts>(&format!("get_cost_{name}"), |state, request, _| {
             state.costs(&request.poses, request.use_footprint)
         })
@@ -84,40 +69,47 @@ fn answer_grid(shown: Option<(&Costmap, &str)>, state: &State, now_ns: i64) -> G
 }
 
 impl State {
-    fn clear(&mut self, region: Option<Region>, node: &Node) {
-        let done = match (&mut self.costmap, region) {
-            (None, _) => Err("the costmap is not configured".to_owned()),
-            (_, None) => Err("nobody knows where the robot is".to_owned()),
-            (Some(costmap), Some(region)) => clear(costmap, region, &[]),
+    /// Switches a filter on or off.
+    fn toggle(&mut self, filter: &str, is_on: bool) -> SetBoolResponse {
+        let layer = self.costmap.as_mut().and_then(|costmap| costmap.find_mut(filter));
+        let Some((layer, mut values)) = layer.and_then(|layer| {
+            let values = layer.values()?.clone();
+            Some((layer, values))
+        }) else {
+            let message = "the costmap is not configured".to_owned();
+            return SetBoolResponse { success: false, message };
         };
-        match done {
-            Ok(()) => node.log(Level::Info, "cleared"),
-            Err(why) => node.log(Level::Error, format_args!("cannot clear: {why}")),
+        values.set("enabled", Value::Bool(is_on));
+        match layer.configure(values) {
+            Ok(()) => {
+                let message = if is_on { "Enabled" } else { "Disabled" };
+                SetBoolResponse { success: true, message: message.to_owned() }
+            }
+            Err(message) => SetBoolResponse { success: false, message },
         }
     }
 
+    /// A pose of any frame in the global one, if somebody knows the way.
+    fn placed(&self, pose: &PoseStamped) -> Option<Pose2> {
+        let global_frame = &self.costmap.as_ref()?.frame().global_frame;
+        let own = pose2(&pose.pose);
+        let frame = pose.header.frame_id.as_str();
+        if frame == global_frame {
+            return Some(own);
+        }
+        let stamp_ns = nanoseconds(&pose.header.stamp);
+        let (global_from_frame, _) = self.tf.at(global_frame, frame, stamp_ns).ok()?;
+        Some(Pose2::from(global_from_frame) * own)
+    }
+
     /// Costs of poses in any frame. Outside they are lethal, and unknown where nobody knows the frame.
-    fn costs(
-        &self,
-        poses: &[periplus_msgs::geometry_msgs::PoseStamped],
-        uses_footprint: bool,
-    ) -> GetCostsResponse {
+    fn costs(&self, poses: &[PoseStamped], uses_footprint: bool) -> GetCostsResponse {
         let mut response = GetCostsResponse { costs: Vec::new(), success: true };
         let Some(costmap) = &self.costmap else {
             return GetCostsResponse { success: false, ..response };
         };
-        let global_frame = &costmap.frame().global_frame;
         for pose in poses {
-            let own = pose2(&pose.pose);
-            let frame = pose.header.frame_id.as_str();
-            let placed = if frame == global_frame {
-                Some(own)
-            } else {
-                let stamp_ns = nanoseconds(&pose.header.stamp);
-                let found = self.tf.at(global_frame, frame, stamp_ns).ok();
-                found.map(|(global_from_frame, _)| Pose2::from(global_from_frame) * own)
-            };
-            let Some(placed) = placed else {
+            let Some(placed) = self.placed(pose) else {
                 response.costs.push(255.0);
                 response.success = false;
                 continue;

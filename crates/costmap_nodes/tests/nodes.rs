@@ -3,22 +3,25 @@
 
 use std::sync::Arc;
 
-use periplus_costmap::{Compat, Config};
+use periplus_costmap::{Compat, Config, LayeredCostmap};
 use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
-use periplus_msgs::geometry_msgs::{Polygon, Quaternion, Transform, TransformStamped, Vector3};
-use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid};
+use periplus_msgs::geometry_msgs::{
+    Polygon, PoseStamped, Quaternion, Transform, TransformStamped, Vector3,
+};
+use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid, Odometry, Path};
 use periplus_msgs::nav2_msgs::*;
 use periplus_msgs::rcl_interfaces::{
     Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
 };
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
+use periplus_msgs::std_srvs::{SetBool, SetBoolRequest};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::Marker;
-use periplus_msgs::{Service, map_msgs};
+use periplus_msgs::{Service, map_msgs, nav2_msgs_main as main};
 
 const LOCAL: &str = "
 local_costmap:
@@ -269,8 +272,14 @@ fn services_answer() {
     }
     let costs = stage.ask::<GetCosts>("/local_costmap/get_cost_local_costmap", request);
     assert_eq!((costs.costs.as_slice(), costs.success), (&[254.0, 254.0, 254.0, 255.0][..], false));
-    let request = ClearCostmapAroundRobotRequest { reset_distance: 5.0 };
-    stage.ask::<ClearCostmapAroundRobot>("/local_costmap/clear_around_local_costmap", request);
+    let around = "/local_costmap/clear_around_local_costmap";
+    let clear = |stage: &Stage, plugins: &[&str]| {
+        let plugins = plugins.iter().map(|&name| name.to_owned()).collect();
+        let request = main::ClearCostmapAroundRobotRequest { reset_distance: 5.0, plugins };
+        stage.ask::<main::ClearCostmapAroundRobot>(around, request).success
+    };
+    assert!(!clear(&stage, &["voxel_layer", "inflation_layer"]), "inflation keeps what it has");
+    assert!(clear(&stage, &["voxel_layer"]));
     stage.place("odom", 0.05);
     stage.see([9.0; 4]);
     stage.advance(100);
@@ -287,7 +296,100 @@ fn older_distributions_have_other_forms() {
     let request = GetCostRequest { x: 0.0, y: 0.0, ..GetCostRequest::default() };
     let answer = stage.ask::<GetCost>("/local_costmap/get_cost_local_costmap", request);
     assert_eq!(answer.cost, 0.0);
+    let services = stage.graph.services();
+    assert!(services.iter().all(|one| !one.name.contains("clear_around_pose")));
     assert!(stage.graph.topics().iter().all(|topic| topic.name != "/local_costmap/voxel_layer"));
+}
+
+#[test]
+fn without_a_word_services_have_the_messages_of_jazzy() {
+    let mut diagnostics = Diagnostics::new();
+    let untold = Config::read([], None, &mut diagnostics);
+    assert_eq!((untold.compat, untold.forms), (Compat::Main, Compat::Jazzy));
+    let graph = Graph::new();
+    let _costmap = CostmapNode::new(&graph, "global_costmap", untold).unwrap();
+    let hash = |name: &str| {
+        let services = graph.services();
+        let found = services.into_iter().find(|one| one.name == format!("/global_costmap/{name}"));
+        found.and_then(|one| one.type_hash).unwrap()
+    };
+    assert_eq!(hash("clear_entirely_global_costmap"), ClearEntireCostmap::TYPE_HASH);
+    assert_eq!(hash("clear_around_pose_global_costmap"), ClearCostmapAroundPose::TYPE_HASH);
+    assert_eq!(hash("get_cost_global_costmap"), GetCost::TYPE_HASH);
+    assert_ne!(ClearEntireCostmap::TYPE_HASH, main::ClearEntireCostmap::TYPE_HASH);
+}
+
+const SLOW: &str = "
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      global_frame: odom
+      rolling_window: true
+      update_frequency: 10.0
+      plugins: [obstacle_layer]
+      filters: [slow]
+      obstacle_layer: {plugin: 'nav2_costmap_2d::ObstacleLayer', observation_sources: scan, scan: {clearing: true, max_obstacle_height: 1.0}}
+      slow:
+        plugin: nav2_costmap_2d::SpeedFilter
+        filter_info_topic: slow_info
+        enable_path_lookahead: true
+";
+
+#[test]
+fn a_limit_on_the_way_ahead_counts_when_braking_takes_as_far_and_filters_are_switched() {
+    let mut stage = Stage::new(SLOW, "local_costmap", Compat::Main);
+    stage.costmap.start();
+    let limits = stage.user.mailbox::<SpeedLimit>("/speed_limit", Qos::reliable(10)).unwrap();
+    let info = stage.user.publisher::<CostmapFilterInfo>("/slow_info", Qos::latched(1)).unwrap();
+    let masks = stage.user.publisher::<OccupancyGrid>("/slow_mask", Qos::latched(1)).unwrap();
+    let paths = stage.user.publisher::<Path>("/plan", Qos::reliable(1)).unwrap();
+    let odometry = stage.user.publisher::<Odometry>("/odom", Qos::reliable(1)).unwrap();
+    let header = Header { stamp: Time::default(), frame_id: "odom".into() };
+    info.publish(CostmapFilterInfo {
+        r#type: 1,
+        filter_mask_topic: "slow_mask".into(),
+        base: 100.0,
+        multiplier: -1.0,
+        ..CostmapFilterInfo::default()
+    });
+    // Full speed for a metre, then 30 %.
+    masks.publish(OccupancyGrid {
+        header: header.clone(),
+        info: MapMetaData { resolution: 1.0, width: 3, height: 1, ..MapMetaData::default() },
+        data: vec![0, 70, 70],
+    });
+    let drive = |stage: &mut Stage, speed: f64| {
+        let mut moving = Odometry::default();
+        moving.twist.twist.linear.x = speed;
+        odometry.publish(moving);
+        let point = |x: f64| {
+            let mut pose = PoseStamped { header: header.clone(), ..PoseStamped::default() };
+            (pose.pose.position.x, pose.pose.position.y) = (x, 0.05);
+            pose
+        };
+        let poses = (5..25).map(|step| point(f64::from(step) / 10.0)).collect();
+        paths.publish(Path { header: header.clone(), poses });
+        for _ in 0..3 {
+            stage.place("odom", 0.5);
+            stage.advance(100);
+        }
+        limits.latest().map(|limit| limit.speed_limit)
+    };
+    // At 0.5 m/s 0.25 m are enough to stand, at 1 m/s it takes a metre.
+    assert_eq!(drive(&mut stage, 0.5), None);
+    assert_eq!(drive(&mut stage, 1.0), Some(30.0));
+    let toggle = "/local_costmap/slow/toggle_filter";
+    let answer = stage.ask::<SetBool>(toggle, SetBoolRequest { data: false });
+    assert_eq!((answer.success, answer.message.as_str()), (true, "Disabled"));
+    let off = |stage: &Stage| {
+        let is_off = |costmap: &LayeredCostmap| {
+            costmap.all().any(|layer| layer.name() == "slow" && !layer.is_enabled())
+        };
+        stage.costmap.look(is_off).unwrap()
+    };
+    assert!(off(&stage));
+    stage.ask::<SetBool>(toggle, SetBoolRequest { data: true });
+    assert!(!off(&stage));
 }
 
 #[test]

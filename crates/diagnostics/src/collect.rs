@@ -89,6 +89,12 @@ impl Diagnostics {
     }
 }
 
+impl Extend<Diagnostic> for Diagnostics {
+    fn extend<I: IntoIterator<Item = Diagnostic>>(&mut self, more: I) {
+        more.into_iter().for_each(|diagnostic| self.push(diagnostic));
+    }
+}
+
 /// A name in a hostile file may be as long as the file; a message that quotes it need not be.
 const LONGEST: usize = 2_000;
 

@@ -64,6 +64,12 @@ impl Lifecycle {
         });
         node.agenda().add(key, Arc::new(act));
     }
+
+    /// Configures and activates the node, as a lifecycle manager would.
+    pub fn start(&self) {
+        self.change(Transition::Configure);
+        self.change(Transition::Activate);
+    }
 }
 
 impl<S: Send + 'static> Actor<S> {

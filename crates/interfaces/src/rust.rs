@@ -14,12 +14,25 @@ use crate::{
 /// # Errors
 /// What cannot be said in this form, in words.
 pub fn package(registry: &Registry, package: &str) -> Result<String, String> {
+    some(registry, &format!("interfaces/{package}"), |name| name.package == package)
+}
+
+/// The code of some types of one package, whose texts are in `folder`.
+///
+/// # Errors
+/// As [`package`].
+pub fn some(
+    registry: &Registry,
+    folder: &str,
+    is_wanted: impl Fn(&TypeName) -> bool,
+) -> Result<String, String> {
+    let package = folder.rsplit('/').next().unwrap_or_default();
     let mut code = format!(
-        "//! `{package}`. Made by `cargo xtask codegen`; edit the texts in `interfaces/{package}`\n\
+        "//! `{package}`. Made by `cargo xtask codegen`; edit the texts in `{folder}`\n\
          //! instead.\n"
     );
     let mut taken = BTreeMap::new();
-    for interface in registry.interfaces().filter(|one| one.name.package == package) {
+    for interface in registry.interfaces().filter(|one| is_wanted(&one.name)) {
         for definition in structs(registry, interface) {
             claim(&mut taken, &definition.name)?;
             message(&mut code, registry, definition)?;

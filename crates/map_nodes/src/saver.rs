@@ -6,7 +6,6 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
     Actor, Call, Calls, GraphError, Io, Level, Lifecycle, Mailbox, Node, Qos, Step, StepOutcome,
-    Transition,
 };
 use periplus_maps::{Distro, Wish, from_message, render};
 use periplus_msgs::nav_msgs::OccupancyGrid;
@@ -104,8 +103,7 @@ impl MapSaver {
 
     /// Configures and activates it, where no lifecycle manager does.
     pub fn start(&self) {
-        self.life.change(Transition::Configure);
-        self.life.change(Transition::Activate);
+        self.life.start();
     }
 }
 

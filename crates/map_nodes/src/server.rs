@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Severity};
 use periplus_graph::{
-    Actor, GraphError, Io, Level, Lifecycle, Node, Publisher, Qos, Step, StepOutcome, Transition,
+    Actor, GraphError, Io, Level, Lifecycle, Node, Publisher, Qos, Step, StepOutcome,
 };
 use periplus_maps::{Distro, Loaded, load, to_message};
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse, MapMetaData, OccupancyGrid};
@@ -144,8 +144,7 @@ impl MapServer {
 
     /// Configures and activates it, where no lifecycle manager does.
     pub fn start(&self) {
-        self.life.change(Transition::Configure);
-        self.life.change(Transition::Activate);
+        self.life.start();
     }
 }
 

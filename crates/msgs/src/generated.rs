@@ -9,6 +9,7 @@ pub mod geometry_msgs;
 pub mod lifecycle_msgs;
 pub mod map_msgs;
 pub mod nav2_msgs;
+pub mod nav2_msgs_main;
 pub mod nav_msgs;
 pub mod radar_msgs;
 pub mod rcl_interfaces;
@@ -146,6 +147,7 @@ crate::sources! {
     "nav2_msgs/msg/ParticleCloud.msg"
     "nav2_msgs/msg/SpeedLimit.msg"
     "nav2_msgs/msg/VoxelGrid.msg"
+    "nav2_msgs/srv/ClearCostmapAroundPose.srv"
     "nav2_msgs/srv/ClearCostmapAroundRobot.srv"
     "nav2_msgs/srv/ClearCostmapExceptRegion.srv"
     "nav2_msgs/srv/ClearEntireCostmap.srv"
@@ -517,6 +519,8 @@ crate::list_messages! {
     nav2_msgs::ParticleCloud
     nav2_msgs::SpeedLimit
     nav2_msgs::VoxelGrid
+    nav2_msgs::ClearCostmapAroundPoseRequest
+    nav2_msgs::ClearCostmapAroundPoseResponse
     nav2_msgs::ClearCostmapAroundRobotRequest
     nav2_msgs::ClearCostmapAroundRobotResponse
     nav2_msgs::ClearCostmapExceptRegionRequest
@@ -817,6 +821,7 @@ crate::list_services! {
     map_msgs::ProjectedMapsInfo
     map_msgs::SaveMap
     map_msgs::SetMapProjections
+    nav2_msgs::ClearCostmapAroundPose
     nav2_msgs::ClearCostmapAroundRobot
     nav2_msgs::ClearCostmapExceptRegion
     nav2_msgs::ClearEntireCostmap

@@ -2,11 +2,10 @@
 
 mod goal;
 
-use periplus_diagnostics::closest;
 use periplus_interfaces::Kind;
 use serde_json::json;
 
-use crate::session::full_name;
+use crate::session::{advice, full_name, titled};
 use crate::types::full_type;
 use crate::{Failure, Outcome, SeenService, Session};
 
@@ -19,31 +18,11 @@ pub use goal::send_goal;
 pub fn list(session: &mut Session<'_>, show_types: bool, count: bool) -> Outcome {
     let actions = session.look().actions();
     if session.json {
-        let all = actions.iter().map(to_json).collect::<Vec<_>>();
+        let all = actions.iter().map(SeenService::to_json).collect::<Vec<_>>();
         return session.put(&json!({ "actions": all }));
     }
-    if count {
-        writeln!(session.out, "{}", actions.len())?;
-    } else {
-        for action in actions {
-            if show_types {
-                writeln!(session.out, "{} [{}]", action.name, action.types.join(", "))?;
-            } else {
-                writeln!(session.out, "{}", action.name)?;
-            }
-        }
-    }
-    session.out.flush()?;
-    Ok(())
-}
-
-fn to_json(action: &SeenService) -> serde_json::Value {
-    json!({
-        "name": action.name,
-        "types": action.types,
-        "servers": action.servers,
-        "clients": action.clients,
-    })
+    let titles = actions.iter().map(|one| titled(&one.name, &one.types, show_types));
+    session.put_names(&titles.collect::<Vec<_>>(), count)
 }
 
 /// The action of this name, when it is there.
@@ -54,8 +33,7 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
     session.go_on()?;
     let seen = if is_there { session.look() } else { seen };
     let actions = seen.actions();
-    let near = closest(&name, actions.iter().map(|action| action.name.as_str()));
-    let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    let near = advice(&name, actions.iter().map(|action| action.name.as_str()));
     let found = actions.iter().find(|action| action.name == name).cloned();
     found.ok_or_else(|| Failure::failed(format!("Unknown action '{name}'{near}")))
 }
@@ -66,14 +44,7 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
 /// When there is no such action, or the output cannot be written.
 pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
     let action = look_up(session, name)?;
-    if session.json {
-        return session.put(&json!({ "name": action.name, "types": action.types }));
-    }
-    for type_name in &action.types {
-        writeln!(session.out, "{type_name}")?;
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_types(&action.name, &action.types)
 }
 
 /// The actions of a type.
@@ -85,18 +56,7 @@ pub fn find(session: &mut Session<'_>, type_name: &str, count: bool) -> Outcome 
     let actions = session.look().actions();
     let names = actions.iter().filter(|action| action.types.contains(&type_name));
     let names: Vec<&str> = names.map(|action| action.name.as_str()).collect();
-    if session.json {
-        return session.put(&json!({ "type": type_name, "actions": names }));
-    }
-    if count {
-        writeln!(session.out, "{}", names.len())?;
-    } else {
-        for name in names {
-            writeln!(session.out, "{name}")?;
-        }
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_found(&type_name, "actions", &names, count)
 }
 
 /// Who works on an action, and who asks for it.
@@ -106,7 +66,7 @@ pub fn find(session: &mut Session<'_>, type_name: &str, count: bool) -> Outcome 
 pub fn info(session: &mut Session<'_>, name: &str, show_types: bool, count: bool) -> Outcome {
     let action = look_up(session, name)?;
     if session.json {
-        return session.put(&to_json(&action));
+        return session.put(&action.to_json());
     }
     writeln!(session.out, "Action: {}", action.name)?;
     for (what, nodes) in [("clients", &action.clients), ("servers", &action.servers)] {

@@ -30,15 +30,7 @@ pub fn nodes(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     if session.json {
         return session.put(&json!({ "nodes": names }));
     }
-    if count {
-        writeln!(session.out, "{}", names.len())?;
-    } else {
-        for name in names {
-            writeln!(session.out, "{name}")?;
-        }
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_names(&names, count)
 }
 
 /// A managed node by its name.

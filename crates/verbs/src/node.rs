@@ -15,20 +15,13 @@ pub fn list(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     if session.json {
         return session.put(&json!({ "nodes": names }));
     }
-    if count {
-        writeln!(session.out, "{}", names.len())?;
-    } else {
-        for name in &names {
-            writeln!(session.out, "{name}")?;
-        }
-        if names.windows(2).any(|pair| pair[0] == pair[1]) {
-            session.say(
-                "WARNING: there are nodes of exactly the same name; services and parameters of \
-                 such nodes answer as they like",
-            );
-        }
+    session.put_names(&names, count)?;
+    if !count && names.windows(2).any(|pair| pair[0] == pair[1]) {
+        session.say(
+            "WARNING: there are nodes of exactly the same name; services and parameters of such \
+             nodes answer as they like",
+        );
     }
-    session.out.flush()?;
     Ok(())
 }
 

@@ -64,6 +64,18 @@ pub struct SeenService {
     pub clients: Vec<String>,
 }
 
+impl SeenService {
+    /// As one JSON object.
+    pub(crate) fn to_json(&self) -> serde_json::Value {
+        serde_json::json!({
+            "name": self.name,
+            "types": self.types,
+            "servers": self.servers,
+            "clients": self.clients,
+        })
+    }
+}
+
 /// Whether ROS hides a name unless it is asked for: a part of it begins with `_`.
 #[must_use]
 pub fn is_hidden(name: &str) -> bool {

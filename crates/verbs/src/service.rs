@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::ask::Asker;
 use crate::failure::endless;
-use crate::session::{BREATH, advice, full_name};
+use crate::session::{BREATH, advice, full_name, titled};
 use crate::types::full_type;
 use crate::{Failure, Outcome, SeenService, Session, Values, clock, is_hidden, show};
 
@@ -31,29 +31,11 @@ pub fn list(
     let services = seen.services.iter().filter(|one| include_hidden || !is_hidden(&one.name));
     let services: Vec<&SeenService> = services.collect();
     if session.json {
-        let one = |one: &&SeenService| {
-            json!({
-                "name": one.name,
-                "types": one.types,
-                "servers": one.servers,
-                "clients": one.clients,
-            })
-        };
-        return session.put(&json!({ "services": services.iter().map(one).collect::<Vec<_>>() }));
+        let all = services.iter().map(|one| one.to_json()).collect::<Vec<_>>();
+        return session.put(&json!({ "services": all }));
     }
-    if count {
-        writeln!(session.out, "{}", services.len())?;
-    } else {
-        for one in services {
-            if show_types {
-                writeln!(session.out, "{} [{}]", one.name, one.types.join(", "))?;
-            } else {
-                writeln!(session.out, "{}", one.name)?;
-            }
-        }
-    }
-    session.out.flush()?;
-    Ok(())
+    let titles = services.iter().map(|one| titled(&one.name, &one.types, show_types));
+    session.put_names(&titles.collect::<Vec<_>>(), count)
 }
 
 /// The service of this name, when it is there.
@@ -74,14 +56,7 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
 /// When there is no such service, or the output cannot be written.
 pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
     let service = look_up(session, name)?;
-    if session.json {
-        return session.put(&json!({ "name": service.name, "types": service.types }));
-    }
-    for type_name in &service.types {
-        writeln!(session.out, "{type_name}")?;
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_types(&service.name, &service.types)
 }
 
 /// How many answer a service, and how many call it.
@@ -91,12 +66,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
 pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
     let service = look_up(session, name)?;
     if session.json {
-        return session.put(&json!({
-            "name": service.name,
-            "types": service.types,
-            "servers": service.servers,
-            "clients": service.clients,
-        }));
+        return session.put(&service.to_json());
     }
     writeln!(session.out, "Type: {}", service.types.join(", "))?;
     for (what, nodes) in [("Clients", &service.clients), ("Services", &service.servers)] {
@@ -126,18 +96,7 @@ pub fn find(
     let services = seen.services.iter().filter(|one| one.types.contains(&type_name));
     let names = services.map(|one| one.name.as_str());
     let names: Vec<&str> = names.filter(|name| include_hidden || !is_hidden(name)).collect();
-    if session.json {
-        return session.put(&json!({ "type": type_name, "services": names }));
-    }
-    if count {
-        writeln!(session.out, "{}", names.len())?;
-    } else {
-        for name in names {
-            writeln!(session.out, "{name}")?;
-        }
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_found(&type_name, "services", &names, count)
 }
 
 /// Calls a service, once or again and again. Without a type it is that of the service.

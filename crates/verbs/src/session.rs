@@ -7,6 +7,7 @@ use std::time::Duration;
 use periplus_diagnostics::closest;
 use periplus_graph::{Node, NodeSettings};
 use periplus_host::Stopwatch;
+use serde_json::json;
 
 use crate::network::OWN_NODE;
 use crate::{Failure, Network, Outcome, Seen, Types};
@@ -124,6 +125,50 @@ impl Session<'_> {
         let _ = writeln!(self.talk, "{words}");
     }
 
+    /// Writes names, one on a line, or how many there are.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_names<N: std::fmt::Display>(&mut self, names: &[N], count: bool) -> Outcome {
+        if count {
+            writeln!(self.out, "{}", names.len())?;
+        } else {
+            for name in names {
+                writeln!(self.out, "{name}")?;
+            }
+        }
+        self.out.flush()?;
+        Ok(())
+    }
+
+    /// Writes the types of what has this name.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_types(&mut self, name: &str, types: &[String]) -> Outcome {
+        if self.json {
+            return self.put(&json!({ "name": name, "types": types }));
+        }
+        self.put_names(types, false)
+    }
+
+    /// Writes the names of what has this type, or how many have it.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_found(
+        &mut self,
+        type_name: &str,
+        what: &str,
+        names: &[&str],
+        count: bool,
+    ) -> Outcome {
+        if self.json {
+            return self.put(&json!({ "type": type_name, what: names }));
+        }
+        self.put_names(names, count)
+    }
+
     /// Writes one JSON object on a line.
     ///
     /// # Errors
@@ -133,6 +178,11 @@ impl Session<'_> {
         self.out.flush()?;
         Ok(())
     }
+}
+
+/// A name, with its types if they are to be shown.
+pub(crate) fn titled(name: &str, types: &[String], show_types: bool) -> String {
+    if show_types { format!("{name} [{}]", types.join(", ")) } else { name.to_owned() }
 }
 
 /// A name as nodes in the root namespace understand it.

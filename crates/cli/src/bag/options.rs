@@ -96,18 +96,8 @@ pub(crate) struct PlayOptions {
     /// Begin again at the end
     #[arg(long = "loop", short)]
     pub(crate) is_looped: bool,
-    /// Only these topics
-    #[arg(long, num_args = 1.., value_name = "TOPIC")]
-    pub(crate) topics: Vec<String>,
-    /// Only topics that match this regular expression
-    #[arg(long, short = 'e', value_name = "REGEX")]
-    pub(crate) regex: Option<regex::Regex>,
-    /// Not these topics
-    #[arg(long, num_args = 1.., value_name = "TOPIC")]
-    pub(crate) exclude_topics: Vec<String>,
-    /// No topics that match this regular expression
-    #[arg(long, short = 'x', value_name = "REGEX")]
-    pub(crate) exclude_regex: Option<regex::Regex>,
+    #[command(flatten)]
+    pub(crate) names: NameOptions,
     /// From so many seconds after the beginning
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) start_offset: Option<i64>,
@@ -178,9 +168,9 @@ pub(crate) struct ReindexOptions {
     pub(crate) style: Readers,
 }
 
-/// Which messages.
-#[derive(Debug, Default, Args)]
-pub(crate) struct SelectOptions {
+/// Which topics.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct NameOptions {
     /// Only these topics
     #[arg(long, num_args = 1.., value_name = "TOPIC")]
     pub(crate) topics: Vec<String>,
@@ -193,6 +183,13 @@ pub(crate) struct SelectOptions {
     /// No topics that match this regular expression
     #[arg(long, short = 'x', value_name = "REGEX")]
     pub(crate) exclude_regex: Option<regex::Regex>,
+}
+
+/// Which messages.
+#[derive(Debug, Default, Args)]
+pub(crate) struct SelectOptions {
+    #[command(flatten)]
+    pub(crate) names: NameOptions,
     /// From so many seconds after the beginning
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) start_offset: Option<i64>,

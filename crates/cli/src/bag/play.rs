@@ -7,14 +7,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use periplus_bagfiles::{Bag, BagError, PlaySettings, Player};
-use periplus_host::{Stopwatch, sleep, unix_ns};
+use periplus_graph::Arguments;
+use periplus_host::{Stopwatch, sleep};
 
-use super::live::Live;
 use super::options::{PlayOptions, SelectOptions};
+use crate::live::Live;
 use crate::terminal;
 
 /// How long the loop sleeps at most: Ctrl-C and ENTER are seen by then.
 const LOOK: Duration = Duration::from_millis(10);
+
+/// Until this long after all was said others may still be fetching it.
+const LAST_WORDS: Duration = Duration::from_secs(2);
 
 /// Others need this long to find a new publisher; what is said before, nobody hears.
 const GREETING: Duration = Duration::from_millis(500);
@@ -26,7 +30,7 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
         terminal::complain(&format!("the recording has no topic `{name}`"));
         return Ok(ExitCode::from(2));
     }
-    let live = match Live::open() {
+    let live = match Live::open(Arguments::default()) {
         Ok(live) => live,
         Err(words) => {
             terminal::complain(&words);
@@ -37,7 +41,9 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
     let stop = terminal::stop_on_ctrl_c();
     let player = Player::new(bag, &live.graph, settings);
     let played = player.and_then(|mut player| play(&mut player, &live, options.delay, &stop));
-    live.end();
+    if !live.end(LAST_WORDS) {
+        terminal::complain("somebody did not take all that was said");
+    }
     match played {
         Ok(()) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) => Ok(ExitCode::SUCCESS),
@@ -58,7 +64,7 @@ fn play(
     let delay = Duration::from_nanos(delay_ns.unsigned_abs()).max(GREETING);
     let watch = Stopwatch::start();
     while !stop.load(Ordering::Relaxed) {
-        live.graph.advance_to(unix_ns());
+        live.go_on();
         if keys.swap(false, Ordering::Relaxed) {
             player.set_paused(!player.is_paused());
             terminal::say(if player.is_paused() { "stands still" } else { "goes on" });
@@ -98,10 +104,7 @@ fn enter_keys() -> Arc<AtomicBool> {
 impl PlayOptions {
     fn select(&self) -> SelectOptions {
         SelectOptions {
-            topics: self.topics.clone(),
-            regex: self.regex.clone(),
-            exclude_topics: self.exclude_topics.clone(),
-            exclude_regex: self.exclude_regex.clone(),
+            names: self.names.clone(),
             start_offset: self.start_offset,
             duration: self.playback_duration,
             start: None,

@@ -8,13 +8,14 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage};
-use periplus_graph::{Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability};
+use periplus_graph::{
+    Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
+};
 use periplus_host::{sleep, unix_ns};
-use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_wire_ros2::{Remote, RemoteTopic};
 
-use super::live::Live;
 use super::options::RecordOptions;
+use crate::live::Live;
 use crate::terminal;
 
 /// How often it looks for new topics, and puts old messages on the disk.
@@ -30,14 +31,14 @@ pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
         );
         return Ok(ExitCode::from(2));
     }
-    let live = match Live::open() {
+    let mut live = match Live::open(Arguments::default()) {
         Ok(live) => live,
         Err(words) => {
             terminal::complain(&words);
             return Ok(ExitCode::FAILURE);
         }
     };
-    match record(options, &live) {
+    match record(options, &mut live) {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(error) => {
             terminal::complain(&error.to_string());
@@ -46,7 +47,7 @@ pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
     }
 }
 
-fn record(options: &RecordOptions, live: &Live) -> Result<(), BagError> {
+fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let output = options.output.clone().unwrap_or_else(named_by_time);
     let settings = RecordSettings {
         // Nobody here says anything: all that is heard was asked for.
@@ -55,29 +56,16 @@ fn record(options: &RecordOptions, live: &Live) -> Result<(), BagError> {
         ..RecordSettings::all(options.write.settings(&output, Storage::Mcap))
     };
     let node = live.graph.node(NodeSettings::new("rosbag2_recorder"))?;
-    live.graph.set_simulated_time(options.use_sim_time);
-    let clock = if options.use_sim_time {
-        live.graph.jump_to(0);
-        Some(node.mailbox::<Clock>("/clock", Qos::clock())?)
-    } else {
-        None
-    };
+    if options.use_sim_time {
+        live.follow_clock(&node)?;
+    }
     let stop = terminal::stop_on_ctrl_c();
     let recorder = Recorder::start(&live.graph, &output, settings)?;
     let mut heard = Heard { node, mailboxes: BTreeMap::new() };
     terminal::say(&format!("{}: records until Ctrl-C", output.display()));
     let mut ticks = 0;
     while !stop.load(Ordering::Relaxed) {
-        match &clock {
-            Some(clock) => {
-                if let Some(told) = clock.latest() {
-                    let (sec, nanosec) = (told.clock.sec, told.clock.nanosec);
-                    let time_ns = i64::from(sec) * 1_000_000_000 + i64::from(nanosec);
-                    live.graph.advance_to(time_ns);
-                }
-            }
-            None => live.graph.advance_to(unix_ns()),
-        }
+        live.go_on();
         if ticks % (LOOK.as_millis() / TICK.as_millis()) == 0 {
             heard.follow(options, &live.wire.remote())?;
             recorder.keep()?;

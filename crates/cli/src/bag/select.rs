@@ -6,31 +6,41 @@ use std::path::Path;
 use periplus_bagfiles::{Bag, Storage, WriteSettings};
 use periplus_bags::Selection;
 
-use super::options::{SelectOptions, WriteOptions};
+use super::options::{NameOptions, SelectOptions, WriteOptions};
 
-impl SelectOptions {
-    /// Whether everything is wanted.
-    pub(super) fn is_all(&self) -> bool {
+impl NameOptions {
+    /// Whether all are wanted.
+    fn is_all(&self) -> bool {
         self.topics.is_empty()
             && self.regex.is_none()
             && self.exclude_topics.is_empty()
             && self.exclude_regex.is_none()
+    }
+
+    /// Whether one of this name is.
+    fn wants(&self, name: &str) -> bool {
+        let has_no_choice = self.topics.is_empty() && self.regex.is_none();
+        let chosen = has_no_choice
+            || self.topics.iter().any(|one| same(one, name))
+            || self.regex.as_ref().is_some_and(|regex| regex.is_match(name));
+        let excluded = self.exclude_topics.iter().any(|one| same(one, name))
+            || self.exclude_regex.as_ref().is_some_and(|regex| regex.is_match(name));
+        chosen && !excluded
+    }
+}
+
+impl SelectOptions {
+    /// Whether everything is wanted.
+    pub(super) fn is_all(&self) -> bool {
+        self.names.is_all()
             && [self.start_offset, self.duration, self.start, self.end].iter().all(Option::is_none)
     }
 
     /// The topics and times in recordings that have these.
     pub(super) fn of(&self, bags: &[Bag]) -> Selection {
-        let has_no_choice = self.topics.is_empty() && self.regex.is_none();
-        let is_wanted = |name: &String| {
-            let chosen = has_no_choice
-                || self.topics.iter().any(|one| same(one, name))
-                || self.regex.as_ref().is_some_and(|regex| regex.is_match(name));
-            let excluded = self.exclude_topics.iter().any(|one| same(one, name))
-                || self.exclude_regex.as_ref().is_some_and(|regex| regex.is_match(name));
-            chosen && !excluded
-        };
         let names = bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
-        let topics: BTreeSet<String> = names.filter(|name| is_wanted(name)).cloned().collect();
+        let topics: BTreeSet<String> =
+            names.filter(|name| self.names.wants(name)).cloned().collect();
         let begin = bags.iter().filter_map(Bag::span_ns).map(|(start, _)| start).min();
         let begin_ns = begin.unwrap_or(0);
         let from_ns = match (self.start, self.start_offset) {
@@ -49,7 +59,7 @@ impl SelectOptions {
     /// Names that no recording has.
     pub(super) fn unknown<'a>(&'a self, bags: &'a [Bag]) -> impl Iterator<Item = &'a String> {
         let names = || bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
-        self.topics.iter().filter(move |one| !names().any(|name| same(one, name)))
+        self.names.topics.iter().filter(move |one| !names().any(|name| same(one, name)))
     }
 }
 

@@ -7,15 +7,14 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
-use periplus_graph::{Graph, NodeSettings};
-use periplus_host::{Machine, sleep, unix_ns};
+use periplus_graph::NodeSettings;
+use periplus_host::{Machine, sleep};
 use periplus_map_nodes::{MapServer, MapServerSettings};
-use periplus_wire_ros2::{Settings, Wire};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
+use crate::live::{Live, Watched};
 use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
-use crate::watched::Watched;
 
 /// How often it is looked whether it is over.
 const LOOK: Duration = Duration::from_millis(20);
@@ -34,20 +33,14 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
         return Ok(ExitCode::from(2));
     };
     let stop = stop_on_ctrl_c();
-    let graph = Graph::live();
-    graph.set_simulated_time(false);
-    graph.advance_to(unix_ns());
-    graph.set_arguments(arguments);
-    let (settings, said) = Settings::from_environment(&Machine);
-    diagnostics(&mut anstream::stderr().lock(), &said, &SourceMap::new())?;
-    let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
-    let wire = match attached {
-        Ok(wire) => wire,
-        Err(error) => {
-            complain(&format!("cannot join ROS 2: {error}"));
+    let live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
             return Ok(ExitCode::FAILURE);
         }
     };
+    let graph = &live.graph;
     let usual = MapServerSettings::default();
     let settings = MapServerSettings {
         yaml_filename: options.path.clone().unwrap_or_default(),
@@ -75,16 +68,14 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     }
     let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
-        graph.advance_to(unix_ns());
+        live.go_on();
         sleep(LOOK);
-        watched.tell();
-        if watched.gave_up() && !options.managed {
+        if watched.tell() && !options.managed {
             // It has been logged why.
             code = ExitCode::FAILURE;
             break;
         }
     }
-    let _ = wire.flush(LAST_WORD);
-    diagnostics(&mut anstream::stderr().lock(), &wire.take_findings(), &SourceMap::new())?;
+    live.end(LAST_WORD);
     Ok(code)
 }

@@ -2,12 +2,10 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/binary_filter.cpp`.
 
-use std::any::Any;
-
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_params::Values;
 
-use super::{FilterInfo, FilterKind, Mask};
+use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::{Bounds, Costmap, Layer, Moment, Window};
 
 /// Switches a state where the mask says so.
@@ -41,27 +39,6 @@ impl BinaryFilter {
         }
     }
 
-    /// Takes in what the numbers of the mask mean.
-    pub fn set_info(&mut self, info: FilterInfo) {
-        if info.kind == FilterKind::Binary {
-            self.info = Some(info);
-        } else {
-            self.complaints.push(
-                Diagnostic::error(
-                    "filter-info",
-                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
-                )
-                .at(self.values.origin("filter_info_topic"))
-                .help("publish type 3 (binary)"),
-            );
-        }
-    }
-
-    /// Takes in a mask.
-    pub fn set_mask(&mut self, mask: Mask) {
-        self.mask = Some(mask);
-    }
-
     /// The state.
     #[must_use]
     pub fn state(&self) -> bool {
@@ -76,6 +53,27 @@ impl BinaryFilter {
     fn change(&mut self, state: bool) {
         self.state = state;
         self.outgoing = Some(state);
+    }
+}
+
+impl Masked for BinaryFilter {
+    fn set_info(&mut self, info: FilterInfo) {
+        if info.kind == FilterKind::Binary {
+            self.info = Some(info);
+        } else {
+            self.complaints.push(
+                Diagnostic::error(
+                    "filter-info",
+                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
+                )
+                .at(self.values.origin("filter_info_topic"))
+                .help("publish type 3 (binary)"),
+            );
+        }
+    }
+
+    fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
     }
 }
 
@@ -128,17 +126,11 @@ impl Layer for BinaryFilter {
         Ok(())
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        Some(self)
     }
 
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

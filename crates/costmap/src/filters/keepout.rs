@@ -2,14 +2,12 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/keepout_filter.cpp`.
 
-use std::any::Any;
-
 use periplus_base::{DVec3, Pose};
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
 use periplus_params::Values;
 
-use super::{FilterInfo, FilterKind, Mask};
+use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
 use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
 
@@ -56,30 +54,10 @@ impl KeepoutFilter {
         self.has_changed = true;
     }
 
-    /// Takes in what the numbers of the mask mean. They must be plain.
-    pub fn set_info(&mut self, info: FilterInfo) {
-        let plain = FilterInfo::default();
-        if info.kind != FilterKind::Keepout {
-            self.complaints.push(self.wrong(format!("the mask is for {:?}", info.kind)));
-        }
-        if (info.base, info.multiplier) != (plain.base, plain.multiplier) {
-            self.complaints.push(self.wrong(format!(
-                "base is {} and multiplier {}, and must be 0 and 1; the mask is used as it is",
-                info.base, info.multiplier
-            )));
-        }
-    }
-
     fn wrong(&self, what: String) -> Diagnostic {
         Diagnostic::error("filter-info", format!("filter `{}`: {what}", self.name))
             .at(self.values.origin("filter_info_topic"))
             .help("check the node that publishes the filter info")
-    }
-
-    /// Takes in a mask.
-    pub fn set_mask(&mut self, mask: Mask) {
-        self.mask = Some(mask);
-        self.has_changed = true;
     }
 
     /// Whether a mask is there.
@@ -108,6 +86,26 @@ fn bounds_of(mask: &Mask, mask_from_global: Pose) -> Bounds {
         bounds.touch(at.x, at.y);
     }
     bounds
+}
+
+impl Masked for KeepoutFilter {
+    fn set_info(&mut self, info: FilterInfo) {
+        let plain = FilterInfo::default();
+        if info.kind != FilterKind::Keepout {
+            self.complaints.push(self.wrong(format!("the mask is for {:?}", info.kind)));
+        }
+        if (info.base, info.multiplier) != (plain.base, plain.multiplier) {
+            self.complaints.push(self.wrong(format!(
+                "base is {} and multiplier {}, and must be 0 and 1; the mask is used as it is",
+                info.base, info.multiplier
+            )));
+        }
+    }
+
+    fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
+        self.has_changed = true;
+    }
 }
 
 impl Layer for KeepoutFilter {
@@ -211,17 +209,11 @@ impl Layer for KeepoutFilter {
         }
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        Some(self)
     }
 
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

@@ -82,3 +82,12 @@ impl FilterInfo {
         self.base + f64::from(number) * self.multiplier
     }
 }
+
+/// What follows a mask.
+pub trait Masked {
+    /// Takes in what the numbers of the mask mean.
+    fn set_info(&mut self, info: FilterInfo);
+
+    /// Takes in a mask.
+    fn set_mask(&mut self, mask: Mask);
+}

@@ -2,13 +2,11 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/speed_filter.cpp`.
 
-use std::any::Any;
-
 use periplus_base::Pose2;
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_params::Values;
 
-use super::{FilterInfo, FilterKind, Mask};
+use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::{Bounds, Costmap, Layer, Moment, Window};
 
 /// A limit of speed.
@@ -59,27 +57,6 @@ impl SpeedFilter {
             complained_of: None,
             complaints: Vec::new(),
         }
-    }
-
-    /// Takes in what the numbers of the mask mean.
-    pub fn set_info(&mut self, info: FilterInfo) {
-        if matches!(info.kind, FilterKind::SpeedPercent | FilterKind::SpeedAbsolute) {
-            self.info = Some(info);
-        } else {
-            self.complaints.push(
-                Diagnostic::error(
-                    "filter-info",
-                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
-                )
-                .at(self.values.origin("filter_info_topic"))
-                .help("publish type 1 (percent) or 2 (metres per second)"),
-            );
-        }
-    }
-
-    /// Takes in a mask.
-    pub fn set_mask(&mut self, mask: Mask) {
-        self.mask = Some(mask);
     }
 
     /// Takes in the path that the robot follows, in the global frame \[m\].
@@ -178,6 +155,27 @@ impl SpeedFilter {
     }
 }
 
+impl Masked for SpeedFilter {
+    fn set_info(&mut self, info: FilterInfo) {
+        if matches!(info.kind, FilterKind::SpeedPercent | FilterKind::SpeedAbsolute) {
+            self.info = Some(info);
+        } else {
+            self.complaints.push(
+                Diagnostic::error(
+                    "filter-info",
+                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
+                )
+                .at(self.values.origin("filter_info_topic"))
+                .help("publish type 1 (percent) or 2 (metres per second)"),
+            );
+        }
+    }
+
+    fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
+    }
+}
+
 impl Layer for SpeedFilter {
     fn name(&self) -> &str {
         &self.name
@@ -220,17 +218,11 @@ impl Layer for SpeedFilter {
         Ok(())
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        Some(self)
     }
 
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

@@ -4,9 +4,7 @@
 //! not reset in an update: what a layer within put there by maximum stays until it puts less there by
 //! another combination, or somebody clears it.
 
-use std::any::Any;
-
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
 use periplus_params::Values;
 
@@ -159,17 +157,7 @@ impl Layer for ContainerLayer {
         }
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for child in &mut self.children {
-            child.complaints(into);
-        }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        self.children.iter_mut().flat_map(|child| child.complaints()).collect()
     }
 }

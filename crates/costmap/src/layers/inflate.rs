@@ -2,9 +2,7 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/inflation_layer.cpp`.
 
-use std::any::Any;
-
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
 use periplus_params::Values;
 
@@ -196,17 +194,7 @@ impl Layer for InflationLayer {
         }
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

@@ -2,9 +2,7 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/obstacle_layer.cpp`.
 
-use std::any::Any;
-
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice, Line};
 use periplus_params::Values;
 

@@ -3,10 +3,8 @@
 //! Cells hold the probability of an obstacle, times 254. Source of the rules:
 //! `nav2_costmap_2d/plugins/range_sensor_layer.cpp`.
 
-use std::any::Any;
-
 use periplus_base::{DVec3, Pose};
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
 use periplus_params::Values;
 
@@ -428,17 +426,7 @@ impl Layer for RangeLayer {
         Explanation { value, reason: Some(reason), parameter, ..Explanation::default() }
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

@@ -257,16 +257,8 @@ macro_rules! delegate_to_sight {
         fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
             self.sight.clear_area(start, end, invert, compat);
         }
-        fn complaints(&mut self, into: &mut Diagnostics) {
-            for complaint in self.sight.complaints.drain(..) {
-                into.push(complaint);
-            }
-        }
-        fn as_any(&self) -> &dyn Any {
-            self
-        }
-        fn as_any_mut(&mut self) -> &mut dyn Any {
-            self
+        fn complaints(&mut self) -> Vec<Diagnostic> {
+            std::mem::take(&mut self.sight.complaints)
         }
     };
 }

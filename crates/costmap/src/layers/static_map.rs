@@ -3,10 +3,8 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/static_layer.cpp`. Unlike there, a map whose origin
 //! is turned lies as it says.
 
-use std::any::Any;
-
 use periplus_base::{DVec3, Pose, Pose2};
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice, OccupancyGrid};
 use periplus_params::Values;
 
@@ -424,17 +422,7 @@ impl Layer for StaticLayer {
         Explanation { value, reason, parameter, ..Explanation::default() }
     }
 
-    fn complaints(&mut self, into: &mut Diagnostics) {
-        for complaint in self.complaints.drain(..) {
-            into.push(complaint);
-        }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
     }
 }

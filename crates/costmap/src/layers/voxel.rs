@@ -2,9 +2,7 @@
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/voxel_layer.cpp`.
 
-use std::any::Any;
-
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, CellFinder, Lattice};
 use periplus_params::Values;
 

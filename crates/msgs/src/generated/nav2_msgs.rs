@@ -201,6 +201,32 @@ crate::message! {
 }
 
 crate::message! {
+    /// Clears a square about a pose.
+    "nav2_msgs/srv/ClearCostmapAroundPose_Request" "RIHS01_9bea29e25c85350413bc5109e26117ff2b76596d73dfedf37290e2d5c7f4ec00"
+    ClearCostmapAroundPoseRequest {
+        /// Its middle.
+        pose: crate::geometry_msgs::PoseStamped,
+        /// Side of the square; m.
+        reset_distance: f64,
+    }
+}
+
+crate::message! {
+    /// `nav2_msgs/srv/ClearCostmapAroundPose_Response`.
+    "nav2_msgs/srv/ClearCostmapAroundPose_Response" "RIHS01_48fb9182164724f0585e5d7a362e0cb9e41834d37b785dea1cee9b0a9b7003de"
+    ClearCostmapAroundPoseResponse {
+        /// response
+        response: crate::std_msgs::Empty,
+    }
+}
+
+crate::service! {
+    /// Clears a square about a pose.
+    "nav2_msgs/srv/ClearCostmapAroundPose" "RIHS01_cd006590d0a7b5a357138518c1ac6f733782a0317f5d8fc92f46158e5438138c"
+    ClearCostmapAroundPose, ClearCostmapAroundPoseRequest, ClearCostmapAroundPoseResponse
+}
+
+crate::message! {
     /// Clears a square about the robot.
     "nav2_msgs/srv/ClearCostmapAroundRobot_Request" "RIHS01_2734faf8fd07b3dc5ece2dc426177d51039a11b2ebbfb03a8696579aa02c9ee8"
     ClearCostmapAroundRobotRequest {

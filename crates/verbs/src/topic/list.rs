@@ -3,7 +3,7 @@
 use periplus_interfaces::Kind;
 use serde_json::json;
 
-use crate::session::{advice, full_name};
+use crate::session::{advice, full_name, titled};
 use crate::types::full_type;
 use crate::{Failure, Outcome, SeenEnd, SeenTopic, Session, is_hidden, qos};
 
@@ -40,9 +40,7 @@ pub fn list(session: &mut Session<'_>, options: List) -> Outcome {
         };
         return session.put(&json!({ "topics": topics.iter().map(one).collect::<Vec<_>>() }));
     }
-    if options.count {
-        writeln!(session.out, "{}", topics.len())?;
-    } else if options.verbose && !topics.is_empty() {
+    if options.verbose && !options.count && !topics.is_empty() {
         let ends = |kind: &str, one: &str, count: &dyn Fn(&SeenTopic) -> usize| {
             let lines = topics.iter().map(|topic| (topic, count(topic)));
             let lines = lines.filter(|(_, count)| *count > 0).map(|(topic, count)| {
@@ -55,17 +53,11 @@ pub fn list(session: &mut Session<'_>, options: List) -> Outcome {
         let published = ends("Published", "publisher", &|topic| topic.publishers.len());
         let subscribed = ends("Subscribed", "subscriber", &|topic| topic.subscriptions.len());
         write!(session.out, "{published}{subscribed}")?;
-    } else {
-        for topic in topics {
-            if options.show_types {
-                writeln!(session.out, "{} [{}]", topic.name, topic.types.join(", "))?;
-            } else {
-                writeln!(session.out, "{}", topic.name)?;
-            }
-        }
+        session.out.flush()?;
+        return Ok(());
     }
-    session.out.flush()?;
-    Ok(())
+    let titles = topics.iter().map(|one| titled(&one.name, &one.types, options.show_types));
+    session.put_names(&titles.collect::<Vec<_>>(), options.count)
 }
 
 /// The topic of this name, when it is there.
@@ -166,14 +158,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
         let near = advice(&name, seen.topics.iter().map(|topic| topic.name.as_str()));
         return Err(Failure::failed(format!("Unknown topic '{name}'{near}")));
     };
-    if session.json {
-        return session.put(&json!({ "name": name, "types": topic.types }));
-    }
-    for type_name in &topic.types {
-        writeln!(session.out, "{type_name}")?;
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_types(&name, &topic.types)
 }
 
 /// The topics of a type.
@@ -191,16 +176,5 @@ pub fn find(
     let topics = seen.topics.iter().filter(|topic| topic.types.contains(&type_name));
     let topics = topics.map(|topic| topic.name.as_str());
     let topics: Vec<&str> = topics.filter(|name| include_hidden || !is_hidden(name)).collect();
-    if session.json {
-        return session.put(&json!({ "type": type_name, "topics": topics }));
-    }
-    if count {
-        writeln!(session.out, "{}", topics.len())?;
-    } else {
-        for name in topics {
-            writeln!(session.out, "{name}")?;
-        }
-    }
-    session.out.flush()?;
-    Ok(())
+    session.put_found(&type_name, "topics", &topics, count)
 }

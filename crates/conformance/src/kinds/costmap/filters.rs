@@ -2,7 +2,7 @@
 
 use periplus_base::{Pose, Pose2};
 use periplus_costmap::filters::{
-    BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, SpeedFilter,
+    BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, Masked, SpeedFilter,
 };
 use periplus_costmap::{
     Bounds, Costmap, Footprint, Frames, Layer, Moment, NoFrames, Window, tables,

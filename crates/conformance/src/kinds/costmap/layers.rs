@@ -1,5 +1,7 @@
 //! Small obstacles, cleared areas, and parameters.
 
+use std::any::Any;
+
 use periplus_base::Pose2;
 use periplus_costmap::clear::{Region, clear, clear_cells};
 use periplus_costmap::layers::{
@@ -126,7 +128,7 @@ fn named_layers(given: &Reader<'_>, compat: Compat) -> Result<LayeredCostmap, Un
     }
     // Cells come when a layer is added.
     for layer in costmap.all_mut() {
-        if let Some(layer) = layer.as_any_mut().downcast_mut::<ObstacleLayer>() {
+        if let Some(layer) = (layer as &mut dyn Any).downcast_mut::<ObstacleLayer>() {
             layer.grid_mut().fill(254);
         }
     }
@@ -157,7 +159,7 @@ pub(in super::super) fn check_clear_service(
             let what = format!("{}{names:?}", service.text()?);
             differences.same(&what, &answer.is_ok(), expected);
             let is_touched = costmap.all().any(|layer| {
-                let is_obstacle = layer.as_any().is::<ObstacleLayer>();
+                let is_obstacle = (layer as &dyn Any).is::<ObstacleLayer>();
                 layer
                     .grid()
                     .is_some_and(|grid| is_obstacle && grid.costs().iter().any(|c| *c != 254))

@@ -1,4 +1,4 @@
-//! What a managed node of this program says and becomes.
+//! What a managed node says and becomes.
 
 use periplus_graph::{GraphError, Level, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::lifecycle_msgs::{State, TransitionEvent};
@@ -15,9 +15,13 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
+    /// Watches a node, from a hidden one beside it.
+    ///
+    /// # Errors
+    /// When the graph refuses the names.
     pub(crate) fn new(watched: &Node) -> Result<Self, GraphError> {
-        let name = format!("_{}_watch", watched.names().name());
-        let node = watched.graph().node(NodeSettings::new(name).bare())?;
+        let name = watched.full_name().replace('/', "_");
+        let node = watched.graph().node(NodeSettings::new(format!("{name}_watch")).bare())?;
         let events = format!("{}/transition_event", watched.full_name());
         Ok(Self {
             logger: watched.logger(),
@@ -27,16 +31,14 @@ impl Watched {
         })
     }
 
-    /// Writes what has been logged.
-    pub(crate) fn tell(&self) {
+    /// Writes what has been logged; whether the node gave up.
+    pub(crate) fn tell(&self) -> bool {
+        // Before the lines, which come first.
+        let events = self.events.drain();
         for line in self.logs.drain().iter().filter(|line| line.name == self.logger) {
             say(&format!("[{}] [{}]: {}", Level::of_number(line.level), line.name, line.msg));
         }
-    }
-
-    /// Whether it could not be configured, or ended; why has been logged.
-    pub(crate) fn gave_up(&self) -> bool {
         let gave_up = [State::PRIMARY_STATE_UNCONFIGURED, State::PRIMARY_STATE_FINALIZED];
-        self.events.drain().iter().any(|event| gave_up.contains(&event.goal_state.id))
+        events.iter().any(|event| gave_up.contains(&event.goal_state.id))
     }
 }

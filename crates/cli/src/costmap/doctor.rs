@@ -1,0 +1,71 @@
+//! `periplus doctor costmap`.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use periplus_costmap::Compat;
+
+use super::file::read;
+use crate::terminal;
+
+/// Tell what is wrong with a file of Nav2's parameters for its costmaps
+///
+/// Parameters nobody reads, layers that are not known, sources that can never mark or clear; each with
+/// its place and what to write. With `periplus sim WORLD --costmap FILE` the costmaps run and tell
+/// where points get lost. Exit code 1 when something is an error.
+#[derive(Debug, Args)]
+pub(crate) struct DoctorCostmapOptions {
+    /// The file
+    #[arg(value_name = "nav2_params.yaml")]
+    file: PathBuf,
+    /// Whose habits the costmaps have where distributions differ
+    #[arg(long, value_name = "humble|jazzy|main")]
+    compat: Option<Compat>,
+}
+
+pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
+    let file = match read(&options.file, options.compat) {
+        Ok(file) => file,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::from(2));
+        }
+    };
+    let mut out = anstream::stdout().lock();
+    terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
+    for (name, config) in &file.configs {
+        let lattice = config.lattice();
+        let frame = config.frame();
+        writeln!(
+            out,
+            "{name}: {} x {} cells of {} m in `{}`{}, as {}",
+            lattice.width,
+            lattice.height,
+            lattice.resolution_m,
+            frame.global_frame,
+            if frame.is_rolling { ", moving with the robot" } else { "" },
+            config.compat,
+        )?;
+        for layer in config.layers.iter().chain(&config.filters) {
+            writeln!(out, "  {} ({:?})", layer.name, layer.kind)?;
+            for source in &layer.sources {
+                let settings = source.settings();
+                writeln!(
+                    out,
+                    "    {}: {:?} on {}, {}{} from {} m to {} m of height",
+                    source.name,
+                    settings.data_type,
+                    settings.topic,
+                    if settings.is_marking { "marks" } else { "marks nothing" },
+                    if settings.is_clearing { " and clears" } else { " and clears nothing" },
+                    settings.heights.min_m,
+                    settings.heights.max_m,
+                )?;
+            }
+        }
+    }
+    let is_sick = file.diagnostics.has_errors();
+    Ok(if is_sick { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}

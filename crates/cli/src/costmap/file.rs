@@ -1,0 +1,50 @@
+//! Files with Nav2's parameters.
+
+use std::path::Path;
+
+use periplus_costmap::{Compat, Config};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_host::Machine;
+use periplus_resources::Host as _;
+
+/// The costmaps of Nav2, by the names of their nodes.
+const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
+
+/// A file with parameters, and what is wrong with it.
+pub(super) struct File {
+    pub(super) configs: Vec<(&'static str, Config)>,
+    pub(super) diagnostics: Diagnostics,
+    pub(super) sources: SourceMap,
+}
+
+/// Reads the costmaps of a file; those that it does not name are left out.
+///
+/// # Errors
+/// Why there is none.
+pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> {
+    let bytes =
+        Machine.read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    let mut sources = SourceMap::new();
+    let file = sources.add(path.display().to_string(), text);
+    let mut diagnostics = Diagnostics::new();
+    let tree = match periplus_yaml::parse(file, &sources) {
+        Ok(Some(tree)) => tree,
+        Ok(None) => return Err(format!("{} is empty", path.display())),
+        Err(error) => {
+            diagnostics.push(*error);
+            return Ok(File { configs: Vec::new(), diagnostics, sources });
+        }
+    };
+    let named = |node: &&&str| Config::is_in(&tree, node);
+    let mut nodes: Vec<&&str> = NODES.iter().filter(named).collect();
+    if nodes.is_empty() {
+        // A file for one costmap, such as those of ROS 1.
+        nodes = NODES.iter().take(1).collect();
+    }
+    let configs = nodes
+        .into_iter()
+        .map(|node| (*node, Config::read_yaml(&tree, node, compat, &mut diagnostics)))
+        .collect();
+    Ok(File { configs, diagnostics, sources })
+}

@@ -1,0 +1,88 @@
+//! A graph on the wire, for verbs whose nodes others see.
+
+mod watched;
+
+use std::time::Duration;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Arguments, Graph, GraphError, Mailbox, Node, Qos};
+use periplus_host::{Machine, unix_ns};
+use periplus_msgs::rosgraph_msgs::Clock;
+use periplus_wire_ros2::{Settings, Wire};
+
+use crate::terminal;
+
+pub(crate) use watched::Watched;
+
+/// A live graph and the wire that carries it.
+pub(crate) struct Live {
+    // First, so that it is left before the graph goes.
+    pub(crate) wire: Wire,
+    pub(crate) graph: Graph,
+    clock: Option<Mailbox<Clock>>,
+}
+
+impl Live {
+    /// Joins the network that the environment names; nodes are told the arguments.
+    ///
+    /// # Errors
+    /// When there is none: what to say of it.
+    pub(crate) fn open(arguments: Arguments) -> Result<Self, String> {
+        let (settings, findings) = Settings::from_environment(&Machine);
+        tell(&findings);
+        let graph = Graph::live();
+        graph.set_simulated_time(false);
+        graph.advance_to(unix_ns());
+        graph.set_arguments(arguments);
+        let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
+        let wire = attached.map_err(|error| format!("cannot join ROS 2: {error}"))?;
+        Ok(Self { wire, graph, clock: None })
+    }
+
+    /// Lives by `/clock` from now on, as this node hears it; time stands still until somebody tells it.
+    ///
+    /// # Errors
+    /// When `/clock` is of another type.
+    pub(crate) fn follow_clock(&mut self, node: &Node) -> Result<(), GraphError> {
+        self.graph.set_simulated_time(true);
+        self.graph.jump_to(0);
+        self.clock = Some(node.mailbox("/clock", Qos::clock())?);
+        Ok(())
+    }
+
+    /// Does what is due by now.
+    pub(crate) fn go_on(&self) {
+        match &self.clock {
+            None => self.graph.advance_to(unix_ns()),
+            Some(clock) => {
+                if let Some(told) = clock.latest() {
+                    let (sec, nanosec) = (told.clock.sec, told.clock.nanosec);
+                    let time_ns = i64::from(sec) * 1_000_000_000 + i64::from(nanosec);
+                    // A run that begins again.
+                    if time_ns < self.graph.now_ns() {
+                        self.graph.jump_to(time_ns);
+                    }
+                    self.graph.advance_to(time_ns);
+                }
+            }
+        }
+    }
+
+    /// Tells what was wrong since the last time.
+    pub(crate) fn tell(&self) {
+        tell(&self.wire.take_findings());
+        tell(&self.graph.take_findings());
+    }
+
+    /// Lets others take what was said, for so long at most; whether they did.
+    pub(crate) fn end(&self, last_words: Duration) -> bool {
+        let is_taken = self.wire.flush(last_words);
+        self.tell();
+        is_taken
+    }
+}
+
+fn tell(findings: &Diagnostics) {
+    // Who cannot be told cannot be told that either.
+    let _ = terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new());
+}
