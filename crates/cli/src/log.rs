@@ -24,6 +24,11 @@ pub(crate) struct LogOptions {
     /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
     #[arg(long, value_name = "FRAME")]
     pub(crate) base_frame: Option<String>,
+    /// Topic and frame that a file of parameters tells: they count where the log has them.
+    #[arg(skip)]
+    pub(crate) told_topic: Option<String>,
+    #[arg(skip)]
+    pub(crate) told_base: Option<String>,
 }
 
 /// A scan of a log.

@@ -2,6 +2,7 @@
 
 mod live;
 mod options;
+mod parameters;
 mod report;
 mod session;
 
@@ -12,11 +13,13 @@ use std::process::ExitCode;
 use periplus_host::{Machine, Stopwatch};
 use periplus_maps::{Distro, Saving, render};
 use periplus_resources::Store as _;
-use periplus_slam::{Settings, Slam};
+use periplus_slam::Mapper;
 
 use crate::log::Log;
 use crate::{picture, terminal};
+use parameters::Parameters;
 use report::Report;
+use session::Made;
 
 pub(crate) use options::SlamOptions;
 
@@ -33,7 +36,20 @@ pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
 
 fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     let watch = Stopwatch::start();
-    let mut log = match Log::open(&options.log, &options.input)? {
+    let parameters = match Parameters::read(options) {
+        Ok(parameters) => parameters,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let findings = &parameters.diagnostics;
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &parameters.sources)?;
+    if findings.has_errors() {
+        return Ok(ExitCode::FAILURE);
+    }
+    let input = parameters.input(&options.input);
+    let mut log = match Log::open(&options.log, &input)? {
         Ok(log) => log,
         Err(why) => {
             terminal::complain(&why);
@@ -44,26 +60,21 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         terminal::complain(&format!("{} holds no scans", options.log.display()));
         return Ok(ExitCode::FAILURE);
     }
-    let settings = Settings {
-        resolution_m: options.resolution,
-        range_max_m: options.max_range,
-        closes_loops: !options.no_loops,
-        ..Settings::default()
-    };
-    let mut slam = match session::begin(options, settings) {
-        Ok(slam) => slam,
+    let mut made = match Made::new(options, &parameters) {
+        Ok(made) => made,
         Err(why) => {
             terminal::complain(&why);
             return Ok(ExitCode::FAILURE);
         }
     };
+    let slam = made.mapper_mut();
     // Poses of the session have their places in the trajectory before those of the log.
     let before = slam.trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let mut spent_s = Vec::with_capacity(log.scans.len());
     // Which scans have a line in the trajectory.
     let mut stamps = Vec::with_capacity(log.scans.len());
-    for logged in &log.scans {
+    for logged in log.scans.iter().step_by(parameters.every()) {
         let one = Stopwatch::start();
         let before = slam.counts().ignored;
         let _ = slam.add_scan(&logged.scan, logged.odom_from_base);
@@ -72,12 +83,17 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             stamps.push(logged.stamp.as_str());
         }
     }
-    let saved = options.save_session.as_ref().map_or(Ok(()), |path| put(path, &slam.save()));
+    let saved = match (&options.save_session, made.graph()) {
+        (Some(path), Some(graph)) => put(path, &graph.save()),
+        _ => Ok(()),
+    };
     let last = Stopwatch::start();
-    slam.finish();
+    made.mapper_mut().finish();
+    let slam = made.mapper();
     let report = Report {
         options,
-        slam: &slam,
+        slam,
+        parameters: &parameters,
         log: &log,
         loaded_s,
         finish_s: last.elapsed().as_secs_f64(),
@@ -85,10 +101,10 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         spent_s: &spent_s,
     };
     let written = saved
-        .and_then(|()| write(&options.out, &slam, (&stamps, before), &report))
-        .and_then(|()| match &options.g2o {
-            Some(path) => put(path, slam.to_g2o().as_bytes()),
-            None => Ok(()),
+        .and_then(|()| write(&options.out, slam, (&stamps, before), &report))
+        .and_then(|()| match (&options.g2o, made.graph()) {
+            (Some(path), Some(graph)) => put(path, graph.to_g2o().as_bytes()),
+            _ => Ok(()),
         });
     if !options.quiet {
         report.tell(&mut anstream::stdout().lock())?;
@@ -116,7 +132,7 @@ fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
 /// The trajectory has the scans of this log; `before` poses of a session come before theirs.
 fn write(
     out: &Path,
-    slam: &Slam,
+    slam: &dyn Mapper,
     (stamps, before): (&[&str], usize),
     report: &Report<'_>,
 ) -> Result<(), String> {

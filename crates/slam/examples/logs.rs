@@ -1,5 +1,6 @@
 //! All logs of a folder, as they are and perturbed, in one table: `logs FOLDER [--out DIR] [--only
-//! NAME] [--runs plain,rotate,..] [--why]`. With `--why` it tells which relations carry the error.
+//! NAME] [--runs plain,rotate,..] [--why] [--method graph|gmapping] [--set
+//! particles=30,random_seed=2]`. With `--why` it tells which relations carry the error.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -13,8 +14,11 @@ use std::path::{Path, PathBuf};
 
 use periplus_bags::{CarmenLog, CarmenScan, read_carmen};
 use periplus_base::{Pose2, Stream};
+use periplus_diagnostics::Diagnostics;
+use periplus_params::{Given, Values};
 use periplus_slam::{
-    Miss, Relation, Scan, Score, Settings, Slam, Stamped, misses, read_relations, score,
+    Gmapping, GmappingSettings, Mapper, Method, Miss, Relation, Scan, Score, Settings, Slam,
+    Stamped, misses, read_relations, score,
 };
 
 const RUNS: [&str; 7] = ["plain", "rotate", "drop", "thin", "jitter", "scale", "awful"];
@@ -28,6 +32,8 @@ fn main() {
     let out = after("--out").map(PathBuf::from);
     let only = after("--only");
     let runs = after("--runs");
+    let method: Method = after("--method").map_or(Method::Graph, |it| it.parse().unwrap());
+    let values = values(method, &after("--set").unwrap_or_default());
     println!(
         "{:<22} {:>6} {:>7} {:>7} {:>7} {:>7} {:>6} | {:>6} {:>6} {:>6} | {:>5} {:>5} {:>4} {:>6} {:>6}",
         "log",
@@ -66,6 +72,7 @@ fn main() {
                 continue;
             }
             let score = race(
+                mapper(&values),
                 &format!("{name} {run}"),
                 &perturbed(&log, run),
                 &log,
@@ -163,7 +170,26 @@ fn cpu_ns() -> u64 {
     text.split_whitespace().next().and_then(|it| it.parse().ok()).unwrap_or(0)
 }
 
+/// What `name=value,name=value` says.
+fn values(method: Method, words: &str) -> Values {
+    let mut diagnostics = Diagnostics::new();
+    let given = words.split(',').filter_map(|word| word.split_once('='));
+    let given = given.map(|(name, value)| Given::new(name, value));
+    let values = method.table().check(given, None, &mut diagnostics);
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    values
+}
+
+fn mapper(values: &Values) -> Box<dyn Mapper> {
+    if values.table() == Method::Gmapping.table() {
+        Box::new(Gmapping::new(GmappingSettings::of(values)))
+    } else {
+        Box::new(Slam::new(Settings::of(values)))
+    }
+}
+
 fn race(
+    mut slam: Box<dyn Mapper>,
     name: &str,
     copy: &Copy,
     log: &CarmenLog,
@@ -171,10 +197,6 @@ fn race(
     truth: Option<&[Pose2]>,
     out: Option<&Path>,
 ) -> Score {
-    let mut slam = Slam::new(Settings {
-        refine_sweeps: std::env::var("SWEEPS").map_or(4, |it| it.parse().unwrap()),
-        ..Settings::default()
-    });
     let mut spent: Vec<u64> = Vec::with_capacity(copy.scans.len());
     for scan in &copy.scans {
         let begin = cpu_ns();
@@ -229,7 +251,10 @@ fn race(
         counts.kept,
         counts.ties,
         counts.lost,
-        format!("{accepted}/{}", slam.closures().len()),
+        match slam.method() {
+            Method::Graph => format!("{accepted}/{}", slam.closures().len()),
+            Method::Gmapping => slam.resamplings().to_string(),
+        },
         slam.size() / 1000,
         ms(finish)
     );
@@ -245,7 +270,7 @@ fn race(
         }
     }
     if let Some(out) = out {
-        write(out, &name.replace(' ', "_"), &slam, copy);
+        write(out, &name.replace(' ', "_"), &*slam, copy);
     }
     score
 }
@@ -359,7 +384,7 @@ fn ate(truth: &[Pose2], trajectory: &[(i64, Pose2)]) -> (f64, f64) {
     ((squares.iter().sum::<f64>() / count).sqrt(), most)
 }
 
-fn write(out: &Path, name: &str, slam: &Slam, copy: &Copy) {
+fn write(out: &Path, name: &str, slam: &dyn Mapper, copy: &Copy) {
     fs::create_dir_all(out).unwrap();
     if let Some(map) = slam.map() {
         let mut bytes =

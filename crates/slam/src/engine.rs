@@ -440,6 +440,19 @@ impl Slam {
         }
     }
 
+    /// Forgets what was seen before the last few kept scans, and where: for those who only ask how the
+    /// robot moves.
+    pub(crate) fn forget(&mut self, kept: usize) {
+        let old = self.keys.len().saturating_sub(kept);
+        let nothing = Cloud::new([], [0.0; 2], 0.0, &self.settings.cloud);
+        let is_known = |key: &&mut Key| !key.cloud.places().is_empty();
+        for key in self.keys[..old].iter_mut().rev().take_while(is_known) {
+            *key = Key::new(&nothing, None, key.travel_m);
+        }
+        self.work.ties.clear();
+        self.tracks.clear();
+    }
+
     /// Bytes held, about.
     #[must_use]
     pub fn size(&self) -> usize {

@@ -36,7 +36,7 @@ pub mod tables;
 
 pub use doubts::{Doubt, Remark};
 pub use engine::{Counts, Link, Slam, Taken, Update};
-pub use gmapping::{GmappingSettings, Noise};
+pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;
 pub use map::Sketch;

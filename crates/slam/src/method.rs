@@ -6,6 +6,7 @@ use std::str::FromStr;
 use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 
+use crate::doubts::Remark;
 use crate::engine::{Counts, Slam, Update};
 use crate::loops::Closure;
 use crate::scan::Scan;
@@ -43,6 +44,16 @@ pub trait Mapper: Send {
     /// loops one by one.
     fn closures(&self) -> &[Closure] {
         &[]
+    }
+
+    /// What a person should know of the drive, in the order in which it was noticed; grows only.
+    fn remarks(&self) -> &[Remark] {
+        &[]
+    }
+
+    /// How often particles were drawn anew, of methods that have some.
+    fn resamplings(&self) -> usize {
+        0
     }
 }
 
@@ -120,5 +131,9 @@ impl Mapper for Slam {
 
     fn closures(&self) -> &[Closure] {
         Self::closures(self)
+    }
+
+    fn remarks(&self) -> &[Remark] {
+        Self::remarks(self)
     }
 }

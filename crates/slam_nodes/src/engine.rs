@@ -4,7 +4,9 @@ use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_matching::Symmetric3;
 use periplus_params::Values;
-use periplus_slam::{Localizer, Mapper, SessionError, Settings, Sketch, Slam, Update};
+use periplus_slam::{
+    Gmapping, GmappingSettings, Localizer, Mapper, SessionError, Settings, Sketch, Slam, Update,
+};
 
 use crate::Program;
 use crate::values::{integer, is_given};
@@ -51,7 +53,7 @@ impl Engine {
         match program {
             Program::Localization => None,
             Program::Gmapping => {
-                Some(Self::Other(Box::new(Slam::new(settings(program, values, slices)))))
+                Some(Self::Other(Box::new(Gmapping::new(GmappingSettings::of(values)))))
             }
             Program::Async | Program::Sync | Program::Lifelong => {
                 Some(Self::Graph(Box::new(Slam::new(settings(program, values, slices)))))

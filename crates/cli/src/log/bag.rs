@@ -41,7 +41,10 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
         log.faults.push(format!("{} was not closed properly", path.display()));
     }
     log.faults.extend(frames.faults.iter().cloned());
-    let base = options.base_frame.clone().or_else(|| frames.base(&options.odom_frame));
+    let base = options
+        .base_frame
+        .clone()
+        .or_else(|| frames.base(&options.odom_frame, options.told_base.as_deref()));
     if base.is_none() {
         log.warnings.push(format!(
             "no transform leads from `{}` to `base_footprint` or `base_link`: the scans have to do \
@@ -108,14 +111,18 @@ fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, St
         topics.filter(|(topic, _)| has_type(topic, "LaserScan"))
     };
     let names: Vec<&str> = with_scans().map(|(topic, _)| topic.name.as_str()).collect();
+    let named = |wanted: &str| {
+        let same = |name: &&&str| name.trim_start_matches('/') == wanted.trim_start_matches('/');
+        names.iter().find(same).map(|name| (*name).to_owned())
+    };
+    let told = options.told_topic.as_deref().filter(|_| options.scan_topic.is_none());
+    if let Some(told) = told.and_then(named) {
+        return Ok(told);
+    }
     match &options.scan_topic {
-        Some(wanted) => {
-            let same =
-                |name: &&&str| name.trim_start_matches('/') == wanted.trim_start_matches('/');
-            names.iter().find(same).map(|name| (*name).to_owned()).ok_or_else(|| {
-                format!("there are no scans on `{wanted}`; there are on: {}", names.join(", "))
-            })
-        }
+        Some(wanted) => named(wanted).ok_or_else(|| {
+            format!("there are no scans on `{wanted}`; there are on: {}", names.join(", "))
+        }),
         None => with_scans()
             .max_by_key(|(_, count)| **count)
             .map(|(topic, _)| topic.name.clone())
@@ -180,10 +187,10 @@ impl Frames {
         Ok(Self { buffer, faults })
     }
 
-    /// The robot's frame to which a chain leads.
-    fn base(&self, odom: &str) -> Option<String> {
-        let leads = |base: &&&str| self.buffer.chain(odom, base).is_some();
-        BASES.iter().find(leads).map(|base| (*base).to_owned())
+    /// The robot's frame to which a chain leads: the one that is told, or one of the usual ones.
+    fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
+        let leads = |base: &&str| self.buffer.chain(odom, base).is_some();
+        told.into_iter().chain(BASES).find(leads).map(str::to_owned)
     }
 }
 

@@ -4,11 +4,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
+use periplus_slam::Method;
 use periplus_slam_nodes::Program;
 
 use crate::log::LogOptions;
 
 /// Make a map and a trajectory from a log of laser scans
+///
+/// By default with a graph of poses, which takes the parameters of slam_toolbox; with `--method
+/// gmapping` by particles with a map each, and the parameters of slam_gmapping.
 ///
 /// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
 /// bag`). DIR receives map.yaml and map.pgm, trajectory.txt (a line for each scan: `stamp x y
@@ -38,13 +42,25 @@ pub(crate) struct SlamOptions {
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) live: LiveOptions,
-    /// Side of a cell of the map [m]
-    #[arg(long, default_value_t = 0.05, value_name = "M", value_parser = side)]
-    pub(crate) resolution: f64,
+    /// How the map is made; without it as the parameters say, or `graph`
+    #[arg(long, value_name = "graph|gmapping")]
+    pub(crate) method: Option<Method>,
+    /// One parameter; it wins over files
+    #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE")]
+    pub(crate) parameters: Vec<String>,
+    /// Seed of all randomness; `graph` has none
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
+    /// Threads for `gmapping`; the result is the same
+    #[arg(long)]
+    pub(crate) threads: Option<usize>,
+    /// Side of a cell of the map, 0.05 by default [m]
+    #[arg(long, value_name = "M", value_parser = side)]
+    pub(crate) resolution: Option<f64>,
     /// Readings from farther away are not used [m]
-    #[arg(long, default_value_t = 60.0, value_name = "M")]
-    pub(crate) max_range: f32,
-    /// Close no loops
+    #[arg(long, value_name = "M")]
+    pub(crate) max_range: Option<f32>,
+    /// Close no loops (`graph`)
     #[arg(long)]
     pub(crate) no_loops: bool,
     #[command(flatten)]
@@ -69,8 +85,8 @@ pub(crate) struct LiveOptions {
     /// Map what is heard on ROS 2: scans, `/tf` and `/tf_static`; publish `/map` and `map -> odom`
     #[arg(long, conflicts_with = "log")]
     pub(crate) live: bool,
-    /// Parameters of the node, as `slam_toolbox` or `slam_gmapping` have them
-    #[arg(long, value_name = "FILE", requires = "live")]
+    /// Parameters as `slam_toolbox` or `slam_gmapping` have them in files
+    #[arg(long, value_name = "FILE")]
     pub(crate) params_file: Option<PathBuf>,
     /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
     /// one that the file is for

@@ -2,17 +2,19 @@
 
 use std::io::{self, Write};
 
-use periplus_slam::Slam;
+use periplus_slam::{Mapper, Method};
 use serde_json::{Value, json};
 
 use super::options::SlamOptions;
+use super::parameters::Parameters;
 use crate::log::Log;
 use crate::spent::{cpu_s, peak_bytes, steps_ms};
 
 /// How a run went.
 pub(super) struct Report<'a> {
     pub(super) options: &'a SlamOptions,
-    pub(super) slam: &'a Slam,
+    pub(super) slam: &'a dyn Mapper,
+    pub(super) parameters: &'a Parameters,
     pub(super) log: &'a Log,
     /// Reading the log.
     pub(super) loaded_s: f64,
@@ -45,6 +47,8 @@ impl Report<'_> {
             .collect();
         json!({
             "log": self.options.log,
+            "method": self.slam.method().word(),
+            "parameters": self.given(),
             "kind": self.log.kind,
             "wall_s": self.wall_s,
             "cpu_s": cpu_s(),
@@ -61,6 +65,7 @@ impl Report<'_> {
             "ties": counts.ties,
             "loop_closures": self.accepted(),
             "loop_searches": counts.searches,
+            "resamplings": self.slam.resamplings(),
             "map_memory_bytes": self.slam.size(),
             "closures": closures,
             "warnings": self.warnings(),
@@ -74,16 +79,22 @@ impl Report<'_> {
         for warning in self.warnings() {
             writeln!(out, "warning: {warning}")?;
         }
+        let how = match self.slam.method() {
+            Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.ties),
+            Method::Gmapping => format!(
+                "{} particles, drawn anew {} times",
+                self.parameters.values.integer("particles").unwrap_or_default(),
+                self.slam.resamplings()
+            ),
+        };
         writeln!(
             out,
-            "{} scans over {:.0} m and {:.0} s in {:.2} s: {:.0} x real time; {} loops closed, {} ties",
+            "{} scans over {:.0} m and {:.0} s in {:.2} s: {:.0} x real time; {how}",
             counts.scans,
             self.path_m(),
             self.log.span_s(),
             self.wall_s,
             self.log.span_s() / self.wall_s.max(1e-9),
-            self.accepted(),
-            counts.ties
         )?;
         if counts.lost + counts.ignored > 0 {
             writeln!(out, "  {} scans did not fit, {} said nothing", counts.lost, counts.ignored)?;
@@ -99,6 +110,15 @@ impl Report<'_> {
             format!("{remark} (noticed after {after_s:.0} s)")
         });
         self.log.warnings.iter().cloned().chain(remarks).collect()
+    }
+
+    /// Parameters that somebody set.
+    fn given(&self) -> serde_json::Map<String, Value> {
+        let values = &self.parameters.values;
+        let given = values.table().names().filter(|name| values.is_given(name));
+        given
+            .filter_map(|name| Some((name.to_owned(), json!(values.get(name)?.to_string()))))
+            .collect()
     }
 
     fn accepted(&self) -> usize {

@@ -1,18 +1,58 @@
-//! Sessions as files.
+//! The map to be made, and sessions as files.
 
 use std::path::Path;
 
 use periplus_host::Machine;
 use periplus_resources::Host as _;
-use periplus_slam::{Settings, Slam};
+use periplus_slam::{Gmapping, GmappingSettings, Mapper, Method, Settings, Slam};
 
 use super::options::SlamOptions;
+use super::parameters::Parameters;
 
-/// The map to go on with: an empty one, or that of the session that is named.
-pub(super) fn begin(options: &SlamOptions, settings: Settings) -> Result<Slam, String> {
-    match &options.session {
-        None => Ok(Slam::new(settings)),
-        Some(path) => read(path, settings),
+/// A map, by the method that is asked for.
+pub(super) enum Made {
+    Graph(Box<Slam>),
+    Gmapping(Box<Gmapping>),
+}
+
+impl Made {
+    /// The map to go on with: an empty one, or that of the session that is named.
+    pub(super) fn new(options: &SlamOptions, parameters: &Parameters) -> Result<Self, String> {
+        let values = &parameters.values;
+        match (parameters.method, &options.session) {
+            (Method::Graph, None) => Ok(Self::Graph(Box::new(Slam::new(Settings::of(values))))),
+            (Method::Graph, Some(path)) => {
+                Ok(Self::Graph(Box::new(read(path, Settings::of(values))?)))
+            }
+            (Method::Gmapping, None) if options.save_session.is_none() && options.g2o.is_none() => {
+                Ok(Self::Gmapping(Box::new(Gmapping::new(GmappingSettings::of(values)))))
+            }
+            (Method::Gmapping, _) => Err("gmapping has no graph: sessions and g2o (`--session`, \
+                                          `--save-session`, `--g2o`) need `--method graph`"
+                .into()),
+        }
+    }
+
+    pub(super) fn mapper(&self) -> &dyn Mapper {
+        match self {
+            Self::Graph(slam) => &**slam,
+            Self::Gmapping(slam) => &**slam,
+        }
+    }
+
+    pub(super) fn mapper_mut(&mut self) -> &mut dyn Mapper {
+        match self {
+            Self::Graph(slam) => &mut **slam,
+            Self::Gmapping(slam) => &mut **slam,
+        }
+    }
+
+    /// The graph, of the method that has one.
+    pub(super) fn graph(&self) -> Option<&Slam> {
+        match self {
+            Self::Graph(slam) => Some(slam),
+            Self::Gmapping(_) => None,
+        }
     }
 }
 
