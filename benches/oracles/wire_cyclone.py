@@ -10,88 +10,22 @@ import struct
 import sys
 import threading
 import time
-from dataclasses import dataclass
+from pathlib import Path
 
 from cyclonedds._clayer import ddspy_take, ddspy_write
 from cyclonedds.core import InstanceState, Policy, Qos, ReadCondition, SampleState, ViewState, WaitSet
 from cyclonedds.domain import DomainParticipant
-from cyclonedds.idl import IdlStruct
-from cyclonedds.idl.annotations import final
-from cyclonedds.idl.types import float32, float64, sequence, int32, uint8, uint32
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "crates/wire_ros2/tests/peers"))
+
+from ros_types import LaserScan, PointCloud2, PointStamped
+
 DOMAIN, VERB, TOPIC, TYPE, DEPTH = sys.argv[1:6]
 ANY = SampleState.Any | ViewState.Any | InstanceState.Any
-
-
-@dataclass
-@final
-class Time(IdlStruct, typename="builtin_interfaces::msg::dds_::Time_"):
-    sec: int32
-    nanosec: uint32
-
-
-@dataclass
-@final
-class Header(IdlStruct, typename="std_msgs::msg::dds_::Header_"):
-    stamp: Time
-    frame_id: str
-
-
-@dataclass
-@final
-class Point(IdlStruct, typename="geometry_msgs::msg::dds_::Point_"):
-    x: float64
-    y: float64
-    z: float64
-
-
-@dataclass
-@final
-class PointStamped(IdlStruct, typename="geometry_msgs::msg::dds_::PointStamped_"):
-    header: Header
-    point: Point
-
-
-@dataclass
-@final
-class LaserScan(IdlStruct, typename="sensor_msgs::msg::dds_::LaserScan_"):
-    header: Header
-    angle_min: float32
-    angle_max: float32
-    angle_increment: float32
-    time_increment: float32
-    scan_time: float32
-    range_min: float32
-    range_max: float32
-    ranges: sequence[float32]
-    intensities: sequence[float32]
-
-
-@dataclass
-@final
-class PointField(IdlStruct, typename="sensor_msgs::msg::dds_::PointField_"):
-    name: str
-    offset: uint32
-    datatype: uint8
-    count: uint32
-
-
-@dataclass
-@final
-class PointCloud2(IdlStruct, typename="sensor_msgs::msg::dds_::PointCloud2_"):
-    header: Header
-    height: uint32
-    width: uint32
-    fields: sequence[PointField]
-    is_bigendian: bool
-    point_step: uint32
-    row_step: uint32
-    data: sequence[uint8]
-    is_dense: bool
 
 
 KIND = {"PointStamped_": PointStamped, "LaserScan_": LaserScan, "PointCloud2_": PointCloud2}[TYPE.split("::")[-1]]
