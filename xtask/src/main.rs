@@ -15,6 +15,7 @@ mod docs;
 mod drive;
 mod fuzz;
 mod layers;
+mod localization;
 mod physics;
 mod pictures;
 mod rays;
@@ -113,6 +114,8 @@ enum Contest {
     Slam,
     /// Maps of our worlds, driven through by the simulator, against their truth
     SlamWorlds,
+    /// Finding a robot on a map: worlds with known truth, speed, logs of real robots
+    Localization,
 }
 
 fn main() -> ExitCode {
@@ -145,6 +148,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Wire) => wire::bench(load.as_deref()),
             Some(Contest::Slam) => slam::bench(),
             Some(Contest::SlamWorlds) => slam::worlds(),
+            Some(Contest::Localization) => localization::bench(),
             None => corpus::bench()
                 .and_then(|()| physics::bench())
                 .and_then(|()| rays::bench())

@@ -8,6 +8,7 @@
 )]
 
 #[path = "worlds/mod.rs"]
+#[allow(dead_code, reason = "each tool uses its part")]
 mod worlds;
 
 use periplus_base::{Pose2, Stream};

@@ -13,7 +13,6 @@ use crate::bins::{Cluster, Taken, clusters};
 use crate::evidence::agreement;
 use crate::guess::{Guess, check_place, scatter};
 use crate::known_map::KnownMap;
-use crate::models::{Terms, weigh};
 use crate::motion::move_all;
 use crate::particles::{Covariance2, Moments, Particles};
 use crate::polish::Known;
@@ -22,6 +21,7 @@ use crate::rivals::Rivals;
 use crate::scan::{Beams, Scan};
 use crate::settings::{Compat, Settings};
 use crate::status::{State, Status, Watch};
+use crate::weigh::{Said, Terms};
 
 /// Particles nearer to their mean than this agree, so that beams may be skipped \[m\].
 const CONVERGED_M: f64 = 0.5;
@@ -326,6 +326,20 @@ impl Amcl {
             Status { reason: "no scan has been used since the start".into(), ..Status::default() };
     }
 
+    /// How likely a scan is at each particle, up to a common factor; nothing changes.
+    ///
+    /// # Errors
+    /// When there is no map, or the scan is useless.
+    pub fn likelihoods(&mut self, scan: &Scan) -> Result<Vec<f64>, Box<Diagnostic>> {
+        let map = self.map.as_ref().ok_or_else(no_map)?;
+        let settings = &self.settings;
+        let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
+        let terms = terms_for(self.terms.take(), map, settings, beams.range_max_m);
+        let said = terms.weigh(map, settings.skip, &beams, &self.particles);
+        self.terms = Some(terms);
+        Ok(said.factors)
+    }
+
     /// Takes a scan and where odometry has the robot at its time. Nothing when the robot has hardly
     /// moved since the last scan that was used.
     ///
@@ -362,12 +376,8 @@ impl Amcl {
         let settings = &self.settings;
         let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
         let range_max_m = beams.range_max_m;
-        let has_terms =
-            |terms: &&Terms| terms.is_for(settings.model, &settings.mixture, range_max_m);
-        let terms = match self.terms.take().filter(|terms| has_terms(&terms)) {
-            Some(terms) => terms,
-            None => Terms::new(map, settings.model, &settings.mixture, range_max_m),
-        };
+        let terms = self.terms.take();
+        let terms = terms_for(terms, map, settings, range_max_m);
 
         let old_from_new = self.odom_from_base.map(|old| old.inverse() * odom_from_base);
         if let Some(old) = self.odom_from_base {
@@ -378,8 +388,8 @@ impl Amcl {
         }
         // While particles are apart, most of them contradict any beam.
         let skip = settings.skip.filter(|_| self.particles.is_within(CONVERGED_M));
-        let logs = weigh(map, &terms, skip, &beams, &self.particles);
-        let likelihood = apply(&mut self.particles, &logs);
+        let said = terms.weigh(map, skip, &beams, &self.particles);
+        let likelihood = apply(&mut self.particles, &said);
         if likelihood > 0.0 {
             let count = self.particles.len() as f64;
             let mean =
@@ -508,28 +518,31 @@ pub fn has_moved(old: Pose2, new: Pose2, (least_m, least_rad): (f64, f64)) -> bo
         || turn.abs() > least_rad
 }
 
-/// Multiplies weights by what the scan says, given as logarithms, and brings their sum back to one.
-/// Returns the mean of what the scan says, 0 when it is impossible everywhere: then all count alike.
-fn apply(particles: &mut Particles, logs: &[f64]) -> f64 {
-    let most = logs.iter().copied().filter(|log| !log.is_nan()).fold(f64::NEG_INFINITY, f64::max);
-    if most == f64::NEG_INFINITY {
-        particles.level();
-        return 0.0;
-    }
+/// What is known of the map for a model, made anew only when it has to be.
+fn terms_for(terms: Option<Terms>, map: &KnownMap, settings: &Settings, range_max_m: f64) -> Terms {
+    let Settings { model, mixture, compat, .. } = settings;
+    terms
+        .filter(|terms| terms.is_for(*model, mixture, range_max_m, *compat))
+        .unwrap_or_else(|| Terms::new(map, *model, mixture, range_max_m, *compat))
+}
+
+/// Multiplies weights by what the scan says, and brings their sum back to one. Returns the mean of
+/// what the scan says, 0 when it is impossible everywhere: then all count alike.
+fn apply(particles: &mut Particles, said: &Said) -> f64 {
     let mut total = 0.0;
-    for (weight, log) in particles.weight.iter_mut().zip(logs) {
-        let factor = if log.is_nan() { 0.0 } else { libm::exp(log - most) };
-        *weight *= factor;
+    for (weight, factor) in particles.weight.iter_mut().zip(&said.factors) {
+        *weight *= if factor.is_nan() { 0.0 } else { *factor };
         total += *weight;
     }
     if !(total > 0.0 && total.is_finite()) {
         particles.level();
         return 0.0;
     }
+    let share = 1.0 / total;
     for weight in &mut particles.weight {
-        *weight /= total;
+        *weight *= share;
     }
-    total * libm::exp(most)
+    total * libm::exp(said.scale)
 }
 
 fn no_map() -> Box<Diagnostic> {

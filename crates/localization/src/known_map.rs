@@ -2,7 +2,7 @@
 
 use periplus_base::{Pose2, Stream};
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Lattice, OccupancyGrid, occupancy, squared_distances};
+use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy, squared_distances};
 
 /// What a cell says to localization.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,6 +145,11 @@ impl KnownMap {
     #[must_use]
     pub fn most_m(&self) -> f64 {
         self.most_m
+    }
+
+    /// What cells say, as a grid.
+    pub(crate) fn states(&self) -> Grid<CellState> {
+        Grid { lattice: self.lattice, cells: self.states.clone() }
     }
 
     /// Distances of all cells \[m\].
@@ -312,6 +317,13 @@ impl Finder {
         let along = (self.cosine * x_m - self.sine * y_m) * self.scale;
         let across = (self.sine * x_m + self.cosine * y_m) * self.scale;
         (along + self.shift, across + self.shift)
+    }
+
+    /// The same to six digits, and faster.
+    pub(crate) fn heading_f32(&self, yaw_rad: f64) -> (f32, f32) {
+        let (sine, cosine) = libm::sincosf((yaw_rad - self.origin.yaw_rad) as f32);
+        let scale = self.scale as f32;
+        (cosine * scale, sine * scale)
     }
 
     /// A direction of the map along columns and rows, in cells for every metre.

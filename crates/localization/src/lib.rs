@@ -56,12 +56,14 @@ mod motion;
 mod particles;
 mod polish;
 mod pose_file;
+mod ranges;
 mod recovery;
 mod rivals;
 mod scan;
 mod settings;
 mod status;
 mod tables;
+mod weigh;
 
 pub use amcl::{Amcl, Estimate, Update, has_moved};
 pub use bins::{BIN_M, BIN_RAD, BINS_AROUND, Cluster, SampleSize};
