@@ -19,6 +19,8 @@ pub(crate) struct Live {
     // First, so that it is left before the graph goes.
     pub(crate) wire: Wire,
     pub(crate) graph: Graph,
+    /// Which of the networks of ROS 2 it is.
+    pub(crate) domain_id: u32,
     clock: Option<Mailbox<Clock>>,
 }
 
@@ -36,7 +38,7 @@ impl Live {
         graph.set_arguments(arguments);
         let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
         let wire = attached.map_err(|error| format!("cannot join ROS 2: {error}"))?;
-        Ok(Self { wire, graph, clock: None })
+        Ok(Self { wire, graph, domain_id: settings.domain_id, clock: None })
     }
 
     /// Lives by `/clock` from now on, as this node hears it; time stands still until somebody tells it.

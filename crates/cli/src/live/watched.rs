@@ -1,4 +1,4 @@
-//! What a managed node says and becomes.
+//! What a node says, and a managed one becomes.
 
 use periplus_graph::{GraphError, Level, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::lifecycle_msgs::{State, TransitionEvent};
@@ -6,7 +6,7 @@ use periplus_msgs::rcl_interfaces::Log;
 
 use crate::terminal::say;
 
-/// What a managed node says and becomes.
+/// What a node says, and a managed one becomes.
 pub(crate) struct Watched {
     logger: String,
     logs: Mailbox<Log>,
