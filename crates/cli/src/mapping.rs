@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Graph, TopicInfo};
+use periplus_graph::{Graph, GraphError, Node, NodeSettings, TopicInfo};
 use periplus_host::Machine;
 use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::Message as _;
@@ -101,7 +101,7 @@ pub(crate) fn parameters(
 /// Where nobody says, and the usual topic has no scans: the only one that has.
 fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
     const NAME: &str = "scan_topic";
-    if values.table().find(NAME).is_none() || values.is_given(NAME) {
+    if values.table().find(NAME).is_some() && values.is_given(NAME) {
         return None;
     }
     let of_scans =
@@ -131,23 +131,36 @@ impl Mapping {
         else {
             return Ok(Err(()));
         };
+        let mut settings = NodeSettings::new(program.node_name());
         if let Some(topic) = scan_topic(graph, &values) {
-            terminal::say(&format!("mapping: scans come on {topic}; set `scan_topic` to others"));
-            values.set("scan_topic", Value::Text(topic));
+            if program.is_toolbox() {
+                terminal::say(&format!(
+                    "mapping: scans come on {topic}; `scan_topic` tells another"
+                ));
+                values.set("scan_topic", Value::Text(topic));
+            } else {
+                terminal::say(&format!(
+                    "mapping: scans come on {topic}; `-r scan:=` tells another"
+                ));
+                settings = settings.remap("scan", &topic);
+            }
         }
         let pace = if is_paced { Pace::Sliced } else { Pace::Whole };
-        Ok(Self::new(graph, program, values, pace, options.more.out()).map(Some))
+        let node = graph.node(settings);
+        Ok(Self::new(node, program, values, pace, options.more.out()).map(Some))
     }
 
-    /// A running node. `Err` when it cannot be, which has been told.
+    /// As this node, which runs then. `Err` when it cannot be, which has been told.
     pub(crate) fn new(
-        graph: &Graph,
+        node: Result<Node, GraphError>,
         program: Program,
         values: Values,
         pace: Pace,
         out: Option<&Path>,
     ) -> Result<Self, ()> {
-        match SlamNode::new(graph, program, values, Arc::new(Machine), pace) {
+        let made =
+            node.and_then(|node| SlamNode::at(node, program, values, Arc::new(Machine), pace));
+        match made {
             Ok(node) => {
                 node.start();
                 Ok(Self { node, out: out.map(Path::to_owned) })

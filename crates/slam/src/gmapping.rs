@@ -17,6 +17,7 @@ mod fit;
 mod proposal;
 mod resample;
 mod settings;
+mod spread;
 mod trace;
 mod ways;
 

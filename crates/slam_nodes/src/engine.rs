@@ -18,7 +18,7 @@ const OWN_SCANS: usize = 3;
 pub(crate) enum Engine {
     Graph(Box<Slam>),
     Localizer(Box<Localizer>),
-    Other(Box<dyn Mapper>),
+    Particles(Box<Gmapping>),
 }
 
 /// Where a robot begins on a stored graph.
@@ -41,10 +41,9 @@ pub(crate) enum Drawing {
 /// How sure people are of where they start: variances \[m², rad²\].
 pub(crate) const SURE: Symmetric3 = Symmetric3::diagonal(0.25, 0.25, 0.07);
 
-/// The settings of the graph for a program.
+/// The settings of the graph for a program of `slam_toolbox`.
 pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize) -> Settings {
-    let of = if program.is_toolbox() { Settings::of(values) } else { Settings::default() };
-    Settings { is_lifelong: program == Program::Lifelong, slices_per_scan, ..of }
+    Settings { is_lifelong: program == Program::Lifelong, slices_per_scan, ..Settings::of(values) }
 }
 
 impl Engine {
@@ -53,7 +52,7 @@ impl Engine {
         match program {
             Program::Localization => None,
             Program::Gmapping => {
-                Some(Self::Other(Box::new(Gmapping::new(GmappingSettings::of(values)))))
+                Some(Self::Particles(Box::new(Gmapping::new(GmappingSettings::of(values)))))
             }
             Program::Async | Program::Sync | Program::Lifelong => {
                 Some(Self::Graph(Box::new(Slam::new(settings(program, values, slices)))))
@@ -92,7 +91,7 @@ impl Engine {
         match self {
             Self::Graph(slam) => &**slam,
             Self::Localizer(localizer) => &**localizer,
-            Self::Other(mapper) => &**mapper,
+            Self::Particles(particles) => &**particles,
         }
     }
 
@@ -101,7 +100,7 @@ impl Engine {
         match self {
             Self::Graph(slam) => slam.add_scan(scan, odom_from_base),
             Self::Localizer(localizer) => localizer.add_scan(scan, odom_from_base),
-            Self::Other(mapper) => mapper.add_scan(scan, odom_from_base),
+            Self::Particles(particles) => particles.add_scan(scan, odom_from_base),
         }
     }
 
@@ -110,7 +109,7 @@ impl Engine {
         match self {
             Self::Graph(slam) => Some(slam),
             Self::Localizer(localizer) => Some(localizer.stored()),
-            Self::Other(_) => None,
+            Self::Particles(_) => None,
         }
     }
 
@@ -118,7 +117,7 @@ impl Engine {
     pub(crate) fn graph_mut(&mut self) -> Option<&mut Slam> {
         match self {
             Self::Graph(slam) => Some(slam),
-            Self::Localizer(_) | Self::Other(_) => None,
+            Self::Localizer(_) | Self::Particles(_) => None,
         }
     }
 
@@ -127,7 +126,7 @@ impl Engine {
         match self {
             Self::Graph(slam) => slam.place(map_from_base, covariance),
             Self::Localizer(localizer) => localizer.place(map_from_base, covariance),
-            Self::Other(_) => return false,
+            Self::Particles(_) => return false,
         }
         true
     }
@@ -137,7 +136,15 @@ impl Engine {
         match self {
             Self::Graph(slam) => slam.covariance(),
             Self::Localizer(localizer) => localizer.covariance(),
-            Self::Other(_) => Symmetric3::ZERO,
+            Self::Particles(particles) => particles.covariance(),
+        }
+    }
+
+    /// How spread belief is over particles, if there are some.
+    pub(crate) fn entropy(&self) -> Option<f64> {
+        match self {
+            Self::Particles(particles) => Some(particles.entropy()),
+            Self::Graph(_) | Self::Localizer(_) => None,
         }
     }
 
@@ -147,7 +154,7 @@ impl Engine {
             Self::Graph(slam) => (slam.counts().kept, slam.bends()),
             // What is stored stays.
             Self::Localizer(_) => (0, 0),
-            Self::Other(mapper) => (mapper.counts().kept, 0),
+            Self::Particles(particles) => (particles.counts().kept, 0),
         }
     }
 
@@ -155,7 +162,7 @@ impl Engine {
         match self {
             Self::Graph(slam) => Drawing::Sketch(slam.sketch()),
             Self::Localizer(localizer) => Drawing::Sketch(localizer.sketch()),
-            Self::Other(mapper) => Drawing::Map(mapper.map()),
+            Self::Particles(particles) => Drawing::Map(particles.map()),
         }
     }
 }

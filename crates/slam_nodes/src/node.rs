@@ -494,6 +494,9 @@ impl State {
         }
         self.published_ns = Some(now_ns);
         let version = engine.version();
+        if let Some(entropy) = engine.entropy() {
+            outputs.publish_entropy(entropy);
+        }
         outputs.publish_graph(|| {
             engine.graph().map_or_else(Default::default, |slam| {
                 markers::graph(slam, &self.moved, &names.map, now_ns)

@@ -10,6 +10,7 @@ use periplus_matching::Symmetric3;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::{self, MapMetaData};
 use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::std_msgs::Float64;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpdate, MarkerArray};
 use periplus_params::Values;
@@ -24,6 +25,8 @@ pub(crate) struct Outputs {
     metadata: Publisher<MapMetaData>,
     tf: Publisher<TFMessage>,
     toolbox: Option<Toolbox>,
+    /// What only `slam_gmapping` publishes: how far its particles are from agreeing.
+    entropy: Option<Publisher<Float64>>,
 }
 
 /// What only `slam_toolbox` publishes.
@@ -50,6 +53,9 @@ impl Outputs {
             metadata: node.publisher(&format!("{map}_metadata"), Qos::latched(1))?,
             tf: node.publisher("/tf", Qos::reliable(100))?,
             toolbox: program.is_toolbox().then(toolbox).transpose()?,
+            entropy: (!program.is_toolbox())
+                .then(|| node.publisher("~/entropy", Qos::reliable(1)))
+                .transpose()?,
         })
     }
 
@@ -79,6 +85,12 @@ impl Outputs {
         if let Some(toolbox) = &self.toolbox {
             let pose = pose_with_covariance(map_from_base, covariance, time_ns, frame);
             toolbox.pose.publish(pose);
+        }
+    }
+
+    pub(crate) fn publish_entropy(&self, data: f64) {
+        if let Some(entropy) = &self.entropy {
+            entropy.publish(Float64 { data });
         }
     }
 

@@ -22,7 +22,7 @@ use periplus_msgs::slam_toolbox::{
     ResetRequest, SaveMap, SaveMapRequest, SerializePoseGraph, SerializePoseGraphRequest,
     ToggleInteractive, ToggleInteractiveRequest,
 };
-use periplus_msgs::std_msgs::{Header, String as Text};
+use periplus_msgs::std_msgs::{Float64, Header, String as Text};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{
     GetInteractiveMarkers, GetInteractiveMarkersRequest, InteractiveMarkerFeedback, Marker,
@@ -536,7 +536,13 @@ fn a_life_is_lived_and_ros_1_is_heard() {
 
     let mut stage = Stage::new(Program::Gmapping, &[("transform_publish_period", "0.05")]);
     assert_eq!(stage.slam.node().full_name(), "/slam_gmapping");
-    stage.drive(&round[..5]);
+    let entropy = stage.hear::<Float64>("/slam_gmapping/entropy", Qos::reliable(10));
+    stage.drive(&round[..30]);
+    let entropy = entropy.drain().pop().unwrap().data;
+    // Thirty particles, none of which knows better yet.
+    assert!(entropy > 0.0 && entropy <= 30_f64.ln() + 1e-9, "{entropy}");
+    let found = stage.slam.status().map_from_base;
+    assert!(off(found, in_map(round[29])) < 0.1, "{found:?} {:?}", in_map(round[29]));
     assert!(stage.maps.latest().is_some());
     assert!(stage.transform().unwrap().0 > stage.now_ns, "`tf_delay` is in the future");
     let map = stage.ask::<GetMap>("/dynamic_map", GetMapRequest::default());

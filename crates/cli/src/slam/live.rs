@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
+use periplus_graph::NodeSettings;
 use periplus_host::sleep;
 use periplus_slam_nodes::Pace;
 
@@ -43,7 +44,8 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
     };
     let graph = &live.graph;
     let out = Some(options.out.as_path()).filter(|out| !out.as_os_str().is_empty());
-    let Ok(mapping) = Mapping::new(graph, program, values, Pace::Whole, out) else {
+    let node = graph.node(NodeSettings::new(program.node_name()));
+    let Ok(mapping) = Mapping::new(node, program, values, Pace::Whole, out) else {
         return Ok(ExitCode::FAILURE);
     };
     for findings in [graph.take_findings(), graph.unused_arguments()] {
