@@ -90,6 +90,10 @@ pub struct Amcl {
     rivals: Option<Rivals>,
     /// The refined pose, and where odometry had the robot then.
     fine: Option<(Known, Pose2)>,
+    /// The same from before other places came into question.
+    home: Option<(Known, Pose2)>,
+    /// How often a lost robot was looked for in vain.
+    vain: u32,
 }
 
 impl Amcl {
@@ -117,6 +121,8 @@ impl Amcl {
             everywhere: None,
             rivals: None,
             fine: None,
+            vain: 0,
+            home: None,
         }
     }
 
@@ -168,6 +174,7 @@ impl Amcl {
         self.odom_from_base = None;
         self.sought = None;
         self.fine = None;
+        self.home = None;
     }
 
     /// How well scans fit, as recovery sees it.
@@ -321,6 +328,7 @@ impl Amcl {
         self.is_settled = false;
         self.rivals = None;
         self.fine = None;
+        self.home = None;
         self.estimate = Some(self.sum_up());
         self.status =
             Status { reason: "no scan has been used since the start".into(), ..Status::default() };
@@ -409,18 +417,21 @@ impl Amcl {
 
         let mut estimate = self.sum_up();
         let seen = Seen::new(scan, &self.settings)?;
-        self.follow(&mut estimate, &seen, old_from_new);
+        self.follow(&mut estimate, &seen, old_from_new, odom_from_base);
         self.polish(&mut estimate, &seen, odom_from_base);
         let fit = self.fit(estimate.pose, &seen.beams);
         self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
         if self.seeks(random_share, odom_from_base)
             && self.seek_again(&mut estimate, &seen, odom_from_base)
         {
-            self.watch = Watch::default();
+            self.watch.forgive();
             let fit = self.fit(estimate.pose, &seen.beams);
             self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
         }
-        self.is_settled |= self.status.state == State::Tracking;
+        if self.status.state == State::Tracking {
+            self.is_settled = true;
+            self.vain = 0;
+        }
         let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
         self.map_from_odom = Some(map_from_odom);
         self.estimate = Some(estimate.clone());

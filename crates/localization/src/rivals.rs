@@ -22,6 +22,9 @@ const DOUBT: f64 = 0.01;
 const DOUBT_AT_ONCE: f64 = 1e-3;
 /// Further on, what scans say is news \[m\].
 const NEWS_M: f64 = 0.5;
+/// What a scan says, as a logarithm, for a robot that is nowhere on the map: less than for any place
+/// where three quarters of it are on walls.
+const NOWHERE: f64 = -9.0;
 
 /// A place where the robot may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +41,8 @@ pub(crate) struct Place {
 pub(crate) struct Rivals {
     places: Vec<Place>,
     way_m: f64,
+    /// The account of all of them being wrong, where that may be.
+    nowhere: Option<f64>,
 }
 
 impl Rivals {
@@ -53,7 +58,7 @@ impl Rivals {
             .into_iter()
             .map(|pose| refined(map, beams, ends, &Known { pose, information }, 0.0))
             .collect();
-        let mut rivals = Self { places, way_m: 0.0 };
+        let mut rivals = Self { places, way_m: 0.0, nowhere: None };
         rivals.sort();
         (!rivals.places.is_empty()).then_some(rivals)
     }
@@ -70,6 +75,9 @@ impl Rivals {
         self.way_m += way_m;
         // The same scan again says nothing new.
         let news = (way_m / NEWS_M + normalize_angle(old_from_new.yaw_rad).abs()).min(1.0);
+        if let Some(nowhere) = &mut self.nowhere {
+            *nowhere += news * NOWHERE;
+        }
         for place in &mut self.places {
             let known = moved(&place.known, old_from_new);
             let seen = refined(map, beams, ends, &known, 0.0);
@@ -78,10 +86,27 @@ impl Rivals {
         self.sort();
     }
 
-    /// Adds a place that is more likely for other reasons.
+    /// Adds a place that is more likely for other reasons, where the robot came to by odometry; that
+    /// may have been off the map.
     pub(crate) fn add(&mut self, place: &Place, more: f64) {
         self.places.push(Place { evidence: place.evidence + more, ..*place });
+        self.nowhere = Some(NOWHERE + more);
         self.sort();
+    }
+
+    /// Keeps some; whether there are any. If there are none, all stay.
+    pub(crate) fn keep(&mut self, is_kept: impl Fn(&Place) -> bool) -> bool {
+        let kept: Vec<Place> = self.places.iter().filter(|place| is_kept(place)).copied().collect();
+        let are_some = !kept.is_empty();
+        if are_some {
+            self.places = kept;
+        }
+        are_some
+    }
+
+    /// Whether it is more likely that all places are wrong than that the best is right.
+    pub(crate) fn is_nowhere(&self) -> bool {
+        self.nowhere.is_some_and(|nowhere| nowhere > self.places[0].evidence)
     }
 
     /// The likeliest first, each once, without those that are hopeless.
@@ -108,12 +133,13 @@ impl Rivals {
         doubt < if self.way_m < NEWS_M { DOUBT_AT_ONCE } else { DOUBT }
     }
 
-    /// How likely each is, all together one.
+    /// How likely each is, all together one, or less where all may be wrong.
     pub(crate) fn weights(&self) -> Vec<f64> {
         let best = self.places[0].evidence;
         let mut weights: Vec<f64> =
             self.places.iter().map(|it| libm::exp(it.evidence - best)).collect();
-        let sum: f64 = weights.iter().sum();
+        let nowhere = self.nowhere.map_or(0.0, |nowhere| libm::exp(nowhere - best));
+        let sum = weights.iter().sum::<f64>() + nowhere;
         weights.iter_mut().for_each(|weight| *weight /= sum);
         weights
     }

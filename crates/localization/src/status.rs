@@ -65,6 +65,10 @@ const MEMORY: [f64; 2] = [0.02, 0.4];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watch {
     fits: Recovery,
+    /// Whether the robot was not sure after the last scan: then nothing is learned of what is usual.
+    is_unsure: bool,
+    /// Whether it ever was.
+    was_sure: bool,
 }
 
 impl Watch {
@@ -82,7 +86,8 @@ impl Watch {
         is_undecided: bool,
     ) -> Status {
         if let Some(fit) = fit {
-            self.fits.take(fit, MEMORY);
+            let [slow, fast] = MEMORY;
+            self.fits.take(fit, [if self.is_unsure { 0.0 } else { slow }, fast]);
         }
         let Recovery { slow, fast } = self.fits;
         let Some(best) = clusters.first() else { return Status::default() };
@@ -133,7 +138,24 @@ impl Watch {
                 (State::Tracking, words)
             }
         };
+        self.is_unsure = state != State::Tracking;
+        self.was_sure |= !self.is_unsure;
         Status { state, reason, rivals, fit }
+    }
+
+    /// Whether the robot ever knew where it was.
+    pub(crate) fn was_sure(&self) -> bool {
+        self.was_sure
+    }
+
+    /// Which part of scans is usually on walls; 0 before the first.
+    pub(crate) fn usual(&self) -> f64 {
+        self.fits.slow
+    }
+
+    /// The robot is elsewhere; what was bad a moment ago counts no longer.
+    pub(crate) fn forgive(&mut self) {
+        self.fits.fast = self.fits.slow;
     }
 }
 

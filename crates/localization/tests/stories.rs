@@ -230,16 +230,59 @@ fn a_robot_that_was_carried_away_is_looked_for() {
     let mut stream = Stream::keyed(6, "scan", 0);
     let elsewhere = Pose2::new(9.5, 4.5, 2.0);
     let mut last = None;
-    for step in 0..8 {
-        // After the fourth scan it stands elsewhere, and odometry does not know.
-        let scan = look(&map, if step < 4 { truth(0) } else { elsewhere }, &mut stream);
+    let mut truth = truth(0);
+    let ahead = Pose2::new(0.2, 0.0, 0.0);
+    let mut odom_from_base = Pose2::IDENTITY;
+    for step in 0..12 {
+        (truth, odom_from_base) = (truth * ahead, odom_from_base * ahead);
+        if step == 4 {
+            // Odometry does not know of this.
+            truth = elsewhere;
+        }
+        let scan = look(&map, truth, &mut stream);
         amcl.request_update();
-        last = amcl.update(Pose2::IDENTITY, &scan).unwrap();
+        last = amcl.update(odom_from_base, &scan).unwrap();
     }
     let last = last.unwrap();
-    let error = elsewhere.inverse() * last.estimate.pose;
+    let error = truth.inverse() * last.estimate.pose;
     assert_eq!(last.status.state, State::Tracking, "{:?}", last.status);
     assert!(libm::hypot(error.x_m, error.y_m) < 0.1 && error.yaw_rad.abs() < 0.05, "{error:?}");
+}
+
+#[test]
+fn a_robot_that_leaves_the_map_goes_on_by_odometry_and_says_so() {
+    let whole = room(Pose2::IDENTITY);
+    // The map ends behind the wall into the room.
+    let mut known = whole.clone();
+    for row in 0..160 {
+        for column in 150..240 {
+            known[(column, row)] = occupancy::UNKNOWN;
+        }
+    }
+    let mut amcl = Amcl::new(Settings::default());
+    amcl.set_map("map", &known).unwrap();
+    let mut place = Pose2::new(2.0, 5.8, 0.0);
+    let mut sure = guess(place);
+    sure.covariance.iter_mut().for_each(|it| *it *= 0.05);
+    amcl.set_pose(&sure).unwrap();
+    let mut stream = Stream::keyed(11, "scan", 0);
+    let mut states = Vec::new();
+    for step in 0..60 {
+        // There and back: half a turn on the spot in between.
+        let moved = match step {
+            0..28 => Pose2::new(0.25, 0.0, 0.0),
+            28..36 => Pose2::new(0.0, 0.0, PI / 8.0),
+            _ => Pose2::new(0.25, 0.0, 0.0),
+        };
+        place = place * moved;
+        let update = amcl.update(place, &look(&whole, place, &mut stream)).unwrap();
+        let found = amcl.map_from_odom().unwrap() * place;
+        let off = libm::hypot(found.x_m - place.x_m, found.y_m - place.y_m);
+        assert!(off < if step < 59 { 1.0 } else { 0.05 }, "step {step}: {off} m, {update:?}");
+        states.push(amcl.status().state);
+    }
+    assert_eq!((states[2], states[59]), (State::Tracking, State::Tracking), "{states:?}");
+    assert_ne!(states[30], State::Tracking, "{states:?}");
 }
 
 #[test]

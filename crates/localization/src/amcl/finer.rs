@@ -6,8 +6,10 @@ use periplus_matching::{Peak, Symmetric3};
 
 use super::{Amcl, Estimate, has_moved};
 use crate::anywhere::Everywhere;
-use crate::evidence::agreement;
+use crate::bins::Cluster;
+use crate::evidence::{agreement, evidence};
 use crate::guess::scatter;
+use crate::known_map::KnownMap;
 use crate::models::Model;
 use crate::particles::{Covariance2, Particles};
 use crate::polish::{Known, loosely, moved, polish};
@@ -28,12 +30,27 @@ const EVERY: usize = 20;
 const STILL: (f64, f64) = (0.02, 0.01);
 /// Without so much motion the lost are not looked for again \[m\], \[rad\].
 const AGAIN: (f64, f64) = (0.5, 0.5);
+/// Who was looked for in vain is looked for less often: after so many times the way at most.
+const SELDOM: u32 = 3;
 /// With a larger share of particles that should be anywhere, the robot is looked for.
 const CARRIED: f64 = 0.1;
 /// How much more likely (as a logarithm) it is that a robot was not carried away.
 const STAYS: f64 = 5.0;
 /// What follows from a better start has to fit better by this.
 const BETTER: f64 = 0.03;
+/// With a smaller part of what is usual on walls the robot has left the map, or the map is of old:
+/// odometry alone goes on.
+const STRAY: f64 = 0.5;
+/// Another place is believed when such a part of what is usual is on walls there, and at least half of
+/// the scan.
+const CONVINCING: (f64, f64) = (0.8, 0.5);
+/// Clusters so much less likely than the best (as a logarithm) are left over from before.
+const REFUTED: f64 = 4.6;
+
+/// Lighter clusters are no rivals.
+const LEAST_WEIGHT: f64 = 0.05;
+/// Clusters that end up nearer to the best are the same place \[m\], \[rad\].
+const SAME: (f64, f64) = (0.3, 0.2);
 
 /// A scan with more beams than the filter takes.
 pub(super) struct Seen {
@@ -75,25 +92,62 @@ impl Amcl {
         estimate: &mut Estimate,
         seen: &Seen,
         old_from_new: Option<Pose2>,
+        odom_from_base: Pose2,
     ) {
         let (Some(mut rivals), Some(map)) = (self.rivals.take(), &self.map) else { return };
         if let Some(old_from_new) = old_from_new {
             rivals.follow(map, &seen.beams, &seen.ends, old_from_new);
         }
-        self.believe(estimate, rivals);
+        let fit = agreement(map, &seen.beams, rivals.best().known.pose).unwrap_or(1.0);
+        if let Some((known, old)) = self.home {
+            let known = moved(&known, old.inverse() * odom_from_base);
+            if fit < STRAY * self.watch.usual() {
+                // None of them was it.
+                self.stray(estimate, known, odom_from_base);
+                return;
+            }
+            self.home = Some((known, odom_from_base));
+        }
+        self.believe(estimate, rivals, fit);
     }
 
-    /// Makes places what is estimated.
-    fn believe(&mut self, estimate: &mut Estimate, rivals: Rivals) {
+    /// Makes places what is estimated; `fit` is that of the best.
+    fn believe(&mut self, estimate: &mut Estimate, rivals: Rivals, fit: f64) {
         self.particles = self.drawn_from(&rivals);
         let best = rivals.best().known;
         *estimate = self.sum_up();
         estimate.pose = best.pose;
         estimate.clusters = rivals.clusters(self.particles.len());
         self.fine = None;
-        if !rivals.is_decided() {
-            self.rivals = Some(rivals);
+        if rivals.is_decided() && fit >= self.convincing() {
+            self.home = None;
+            return;
         }
+        if let Some((known, _)) = self.home
+            && rivals.is_nowhere()
+        {
+            estimate.pose = known.pose;
+        }
+        self.rivals = Some(rivals);
+    }
+
+    /// Which part of a scan has to be on walls at another place.
+    fn convincing(&self) -> f64 {
+        (CONVINCING.0 * self.watch.usual()).max(CONVINCING.1)
+    }
+
+    /// By odometry alone, since the scan has little to do with the map.
+    fn stray(&mut self, estimate: &mut Estimate, known: Known, odom_from_base: Pose2) {
+        let mut stream = self.stream("stray");
+        let mut particles = Particles::default();
+        let spread = widened(spread_of(&known));
+        scatter(&mut particles, self.settings.size.least, known.pose, spread, &mut stream);
+        particles.level();
+        self.particles = particles;
+        *estimate = self.sum_up();
+        estimate.pose = known.pose;
+        self.fine = Some((known, odom_from_base));
+        self.home = None;
     }
 
     /// Refines the estimate, and puts some of the particles there.
@@ -121,26 +175,32 @@ impl Amcl {
             libm::hypot(pose.x_m - mean.x_m, pose.y_m - mean.y_m) < near_m
                 && normalize_angle(pose.yaw_rad - mean.yaw_rad).abs() < near_rad
         };
-        let followed = self.fine.take().map(|(known, old)| {
-            let known = moved(&known, old.inverse() * odom_from_base);
-            polish(map, &seen.ends, &known)
-        });
+        let carried =
+            self.fine.take().map(|(known, old)| moved(&known, old.inverse() * odom_from_base));
+        let followed = carried.map(|known| polish(map, &seen.ends, &known));
         let fresh = polish(map, &seen.ends, &Known { pose: mean, information });
         let best = followed
             .filter(|it| is_near(it.known.pose) && it.fit >= fresh.fit - BETTER)
             .unwrap_or(fresh);
-        if !is_near(best.known.pose) {
+        let pose = best.known.pose;
+        let fit = agreement(map, &seen.beams, pose).unwrap_or(1.0);
+        if let Some(known) = carried
+            && fit < STRAY * self.watch.usual()
+        {
+            self.stray(estimate, known, odom_from_base);
             return;
         }
-        estimate.pose = best.known.pose;
+        if !is_near(pose) {
+            return;
+        }
+        let spread = spread_of(&best.known);
+        estimate.pose = pose;
+        estimate.clusters = still_possible(map, seen, &estimate.clusters, pose, spread);
         self.fine = Some((best.known, odom_from_base));
         let mut stream = self.stream("polish");
         let mut drawn = Particles::default();
         let count = self.particles.len() / EVERY;
-        let inverse = best.known.information.inverse().unwrap_or_default();
-        let spread =
-            Covariance2 { xx: inverse.xx, xy: inverse.xy, yy: inverse.yy, yaw: inverse.tt };
-        scatter(&mut drawn, count, best.known.pose, spread, &mut stream);
+        scatter(&mut drawn, count, pose, spread, &mut stream);
         for index in 0..count {
             self.particles.x_m[index] = drawn.x_m[index];
             self.particles.y_m[index] = drawn.y_m[index];
@@ -159,11 +219,15 @@ impl Amcl {
             return;
         }
         let known = moved(known, old.inverse() * odom_from_base);
-        let polished = polish(map, &seen.ends, &known);
-        self.fine = Some((polished.known, odom_from_base));
-        let pose = polished.known.pose;
-        // What may be the sign of a robot that was carried away is worth the work at once.
-        self.is_forced |= self.watch.suspects(agreement(map, &seen.beams, pose));
+        let polished = polish(map, &seen.ends, &known).known;
+        let fit = agreement(map, &seen.beams, polished.pose);
+        let is_stray = fit.is_some_and(|fit| fit < STRAY * self.watch.usual());
+        let known = if is_stray { known } else { polished };
+        let pose = known.pose;
+        self.fine = Some((known, odom_from_base));
+        // What may be the sign of a robot that was carried away is worth the work at once; not so
+        // where it has been lost for some time.
+        self.is_forced |= self.status.state == State::Tracking && self.watch.suspects(fit);
         self.map_from_odom = Some((pose * odom_from_base.inverse()).normalized());
     }
 
@@ -172,8 +236,10 @@ impl Amcl {
         let is_lost = self.status.state == State::Lost
             || random_share > CARRIED
             || self.watch.suspects(self.status.fit);
+        let times = f64::from(1 + self.vain.min(SELDOM - 1));
+        let again = (times * AGAIN.0, times * AGAIN.1);
         let is_new =
-            self.sought.as_ref().is_none_or(|(place, _)| has_moved(*place, odom_from_base, AGAIN));
+            self.sought.as_ref().is_none_or(|(place, _)| has_moved(*place, odom_from_base, again));
         self.settings.seeks_when_lost && is_lost && is_new
     }
 
@@ -185,24 +251,66 @@ impl Amcl {
         odom_from_base: Pose2,
     ) -> bool {
         self.sought = Some((odom_from_base, super::no_pose()));
+        self.vain += 1;
         let peaks = self.look_everywhere(seen);
         let Some(map) = &self.map else { return false };
         let poses = peaks.iter().map(|peak| peak.pose);
         let Some(mut rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses) else {
             return false;
         };
+        let least = STRAY * self.watch.usual();
+        let fits = |place: Pose2| agreement(map, &seen.beams, place).is_some_and(|it| it >= least);
+        if !rivals.keep(|place| fits(place.known.pose)) {
+            return false;
+        }
         let stays = Rivals::new(map, &seen.beams, &seen.ends, [estimate.pose]);
-        if let Some(stays) = stays {
+        // Who never knew cannot have gone off the map from there.
+        let knew = self.watch.was_sure();
+        if let Some(stays) = stays.filter(|_| knew) {
             rivals.add(stays.best(), STAYS);
         }
         let best = rivals.best().known.pose;
+        let fit = agreement(map, &seen.beams, best).unwrap_or(0.0);
+        if fit < self.convincing() {
+            return false;
+        }
         let is_here = libm::hypot(best.x_m - estimate.pose.x_m, best.y_m - estimate.pose.y_m) < 0.5;
         if is_here && rivals.is_decided() {
             return false;
         }
-        self.believe(estimate, rivals);
+        let here = Known { pose: estimate.pose, information: loosely(0.2, 0.1) };
+        self.home = knew.then(|| self.fine.unwrap_or((here, odom_from_base)));
+        self.believe(estimate, rivals, fit);
         true
     }
+}
+
+fn spread_of(known: &Known) -> Covariance2 {
+    let inverse = known.information.inverse().unwrap_or_default();
+    Covariance2 { xx: inverse.xx, xy: inverse.xy, yy: inverse.yy, yaw: inverse.tt }
+}
+
+/// The best cluster, where the scan has put it, and those others that the scan does not refute.
+fn still_possible(
+    map: &KnownMap,
+    seen: &Seen,
+    clusters: &[Cluster],
+    pose: Pose2,
+    spread: Covariance2,
+) -> Vec<Cluster> {
+    let Some((first, others)) = clusters.split_first() else { return Vec::new() };
+    let mut kept = vec![Cluster { mean: pose, covariance: spread, ..*first }];
+    let least = evidence(map, &seen.beams, pose) - REFUTED;
+    for other in others.iter().filter(|it| it.weight >= LEAST_WEIGHT) {
+        let known = Known { pose: other.mean, information: loosely(0.3, 0.2) };
+        let there = polish(map, &seen.ends, &known).known.pose;
+        let is_same = libm::hypot(there.x_m - pose.x_m, there.y_m - pose.y_m) < SAME.0
+            && normalize_angle(there.yaw_rad - pose.yaw_rad).abs() < SAME.1;
+        if !is_same && evidence(map, &seen.beams, there) >= least {
+            kept.push(*other);
+        }
+    }
+    kept
 }
 
 /// Spread at least as far as particles should be.
