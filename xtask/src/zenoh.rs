@@ -19,6 +19,10 @@ pub(crate) fn check() -> Result<(), Failed> {
     timed("test", || {
         let arguments = ["test", "-p", "periplus-wire_zenoh", "--features", "zenoh"];
         run(cargo().args(arguments), "see the failures above")
+    })?;
+    timed("test of the command", || {
+        let arguments = ["test", "-p", "periplus-cli", "--features", "zenoh", "--test", "zenoh"];
+        run(cargo().args(arguments), "see the failures above")
     })
 }
 

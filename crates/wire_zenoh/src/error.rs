@@ -17,8 +17,8 @@ pub enum WireError {
     },
     /// The network cannot be joined.
     Network {
-        /// Where it was tried.
-        connect: Vec<String>,
+        /// By which way it was tried.
+        way: String,
         /// What Zenoh says.
         why: String,
     },
@@ -32,12 +32,11 @@ impl fmt::Display for WireError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Setting { what, why } => write!(f, "{what} cannot be used for Zenoh: {why}"),
-            Self::Network { connect, why } => write!(
+            Self::Network { way, why } => write!(
                 f,
-                "cannot join Zenoh by way of {}: {why}; see whether a router runs there (`ros2 run \
+                "cannot join Zenoh by way of {way}: {why}; see whether a router runs (`ros2 run \
                  rmw_zenoh_cpp rmw_zenohd`) and whether ZENOH_SESSION_CONFIG_URI and \
-                 ZENOH_CONFIG_OVERRIDE are as meant",
-                connect.join(", ")
+                 ZENOH_CONFIG_OVERRIDE are as meant"
             ),
             Self::Attached => write!(f, "the wire has a graph already; open another wire"),
             Self::Graph(error) => error.fmt(f),

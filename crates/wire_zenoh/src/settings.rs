@@ -65,6 +65,18 @@ impl Settings {
             .collect()
     }
 
+    /// By which way others are found, in words.
+    #[must_use]
+    pub fn way(&self) -> String {
+        let overrides = self.overrides().unwrap_or_default();
+        let given = overrides.iter().rfind(|(path, _)| *path == "connect/endpoints");
+        match (given, &self.file) {
+            (Some((_, ends)), _) => format!("the router at {ends}"),
+            (None, Some(file)) => format!("what {file} says"),
+            (None, None) => format!("the router at {}", self.connect.join(", ")),
+        }
+    }
+
     /// The defaults that `rmw_zenoh` gives to a session, as Zenoh reads them: found by gossip of the
     /// router and not by multicast; messages have times, or nothing is kept for latecomers.
     #[must_use]
@@ -111,6 +123,11 @@ mod tests {
         assert_eq!((settings.domain_id, settings.file.as_deref()), (7, Some("/etc/session.json5")));
         let expected = vec![("mode", "\"client\""), ("scouting/delay", "1")];
         assert_eq!(settings.overrides(), Ok(expected));
+        assert_eq!(settings.way(), "what /etc/session.json5 says");
+        assert_eq!(Settings::default().way(), "the router at tcp/localhost:7447");
+        let more = "connect/endpoints=[\"tcp/robot:7447\"]".to_owned();
+        let given = Settings { more, ..settings.clone() };
+        assert_eq!(given.way(), "the router at [\"tcp/robot:7447\"]");
         let bad = Settings { more: "a=1;b".to_owned(), ..settings };
         assert_eq!(bad.overrides(), Err("b"));
         assert_eq!(Settings::from_environment(&MemoryHost::default()).0, Settings::default());

@@ -117,13 +117,13 @@ impl Wire {
     /// When a setting is none, or Zenoh cannot listen where it should.
     pub fn open(settings: &Settings) -> Result<Self, WireError> {
         let network = |error: zenoh::Error| WireError::Network {
-            connect: settings.connect.clone(),
+            way: settings.way(),
             why: error.to_string(),
         };
         let session = zenoh::open(configuration(settings)?).wait().map_err(network)?;
         let shared = Arc::new(Shared::default());
         if session.info().routers_zid().wait().next().is_none() {
-            let message = format!("no router of Zenoh answers at {}", settings.connect.join(", "));
+            let message = format!("no router of Zenoh answers, looked for by {}", settings.way());
             shared.report(Diagnostic::warning("zenoh-router", message).help(
                 "programs find each other by way of it: `ros2 run rmw_zenoh_cpp rmw_zenohd`; it is \
                  looked for again and again",

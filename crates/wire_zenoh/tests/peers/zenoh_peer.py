@@ -4,6 +4,7 @@ document says, with CDR of its own. It says on its output what it saw, a line ea
   zenoh_peer PORT router
   zenoh_peer PORT tokens COUNT             who is there, when there are so many
   zenoh_peer PORT sub    TOPIC COUNT [latched]
+  zenoh_peer PORT hear   TOPIC COUNT       of whatever type
   zenoh_peer PORT pub    TOPIC COUNT [latched]
   zenoh_peer PORT serve  SERVICE COUNT     std_srvs/srv/Trigger
   zenoh_peer PORT call   SERVICE COUNT
@@ -124,6 +125,17 @@ def main(words):
             number, gid = read_beside(bytes(sample.attachment))
             whose = "its" if gid == publisher else "NOT ITS"
             print(f"{text_of(bytes(sample.payload))} number {number}, {whose} name", flush=True)
+        hearing.undeclare()
+    elif verb == "hear":
+        samples = queue.Queue()
+        publisher = peer.wait("MP", words[2])[0]
+        of, sums = publisher.split("/")[10:12]
+        hearing = session.declare_subscriber(f"0{words[2]}/{of}/{sums}", samples.put)
+        for _ in range(int(words[3])):
+            sample = samples.get()
+            _, gid = read_beside(bytes(sample.attachment))
+            whose = "its" if gid == gid_of(publisher) else "NOT ITS"
+            print(f"{of} of {len(bytes(sample.payload))} bytes, {whose} name", flush=True)
         hearing.undeclare()
     elif verb == "pub":
         key = f"0{words[2]}/{STRING}"

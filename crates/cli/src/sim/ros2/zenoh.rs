@@ -22,11 +22,8 @@ pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ro
     match opened {
         Ok(wire) => {
             if !quiet {
-                let by = match &settings.file {
-                    Some(file) => format!("as {file} says"),
-                    None => format!("by way of the router at {}", settings.connect.join(", ")),
-                };
-                terminal::say(&format!("ROS 2 on Zenoh: domain {}, {by}", settings.domain_id));
+                let (domain, way) = (settings.domain_id, settings.way());
+                terminal::say(&format!("ROS 2 on Zenoh: domain {domain}, by way of {way}"));
             }
             let wire = Some(Joined::Zenoh(wire));
             Ok(Some(Ros2 { wire, looked: Duration::ZERO, quiet }))
