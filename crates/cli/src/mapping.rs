@@ -178,14 +178,20 @@ impl Mapping {
         let counts = status.counts;
         writeln!(
             out,
-            "{}, as {}: {} scans, {} kept; {} links, {} ties",
+            "{}, as {}: {} scans, {} kept",
             status.node,
             status.program.executable(),
             counts.scans,
-            status.graph.0,
-            status.graph.1,
-            counts.ties
+            counts.kept
         )?;
+        let (scans, links) = status.graph;
+        if scans > 0 {
+            writeln!(
+                out,
+                "  a graph of {scans} scans and {links} links, {} of them ties",
+                counts.ties
+            )?;
+        }
         let lost = [
             (counts.lost, "did not fit"),
             (counts.ignored, "said nothing"),

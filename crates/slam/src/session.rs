@@ -31,6 +31,8 @@ const TAIL: usize = 4;
 /// Coordinates beyond are not of a building \[m\], and turns beyond not of a robot \[rad\].
 const FARTHEST_M: f64 = 1e6;
 const MOST_RAD: f64 = 1e3;
+/// What is farther from the robot no scanner has seen \[m\].
+const FARTHEST_SEEN_M: f32 = 1e4;
 
 /// Why bytes are no session.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -200,7 +202,11 @@ impl Pack for Key {
             Fault("the points of a scan are not in order of their bearing".into())
         })?;
         let (ends, travel_m): (Option<Vec<[f32; 2]>>, f64) = Pack::unpack(from)?;
-        let is_near = |it: &f32| f64::from(it.abs()) <= FARTHEST_M;
+        let is_near = |it: &f32| it.abs() <= FARTHEST_SEEN_M;
+        let seen = cloud.points().iter().all(|point| is_near(&point.x) && is_near(&point.y));
+        if !seen || !cloud.origin().iter().all(is_near) {
+            return Err(Fault("a scan saw farther than any scanner".into()));
+        }
         if !ends.iter().flatten().flatten().all(is_near) || !(0.0..=1e12).contains(&travel_m) {
             return Err(Fault("beams end nowhere, or the way is endless".into()));
         }

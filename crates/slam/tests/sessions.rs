@@ -98,6 +98,9 @@ fn hostile_bytes_never_panic() {
             if let Ok(mut slam) = Slam::resume(&hostile, Settings::default()) {
                 taken += 1;
                 if taken % 40 == 0 {
+                    let again = slam.save();
+                    let read = Slam::resume(&again, Settings::default()).expect("a session");
+                    assert!(read.save() == again, "byte {at} as {value}");
                     add(&mut slam, &moments[4..6]);
                 }
             }

@@ -298,7 +298,7 @@ impl State {
                 self.outputs = Some(outputs);
             }
             Err(error) => {
-                node.log(Level::Error, error);
+                self.told.tell(&Diagnostic::error("no-topics", error.to_string()), node);
                 return StepOutcome::Failure;
             }
         }

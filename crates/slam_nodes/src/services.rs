@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use periplus_base::Pose2;
+use periplus_diagnostics::Diagnostic;
 use periplus_graph::{Actor, GraphError, Level, Node};
 use periplus_maps::{Distro, Saving, render, to_message};
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse};
@@ -205,7 +206,8 @@ impl State {
                 true
             }
             Err(why) => {
-                node.log(Level::Error, format!("{why}. The map stays as it is"));
+                let words = format!("{why}. The map stays as it is");
+                self.told.tell(&Diagnostic::error("no-session", words), node);
                 false
             }
         }
