@@ -259,7 +259,7 @@ fn race(
         ms(finish)
     );
     if std::env::args().any(|it| it == "--why") {
-        why(&missed, &scans);
+        why(&missed, &scans, &between);
     }
     if let Some((rms_m, most_m)) = ate {
         println!("    against the truth: {rms_m:.4} m rms, {most_m:.4} m at most");
@@ -276,7 +276,7 @@ fn race(
 }
 
 /// Which relations carry the error.
-fn why(missed: &[Miss], scans: &[Stamped]) {
+fn why(missed: &[Miss], scans: &[Stamped], between: &[Stamped]) {
     let whole: f64 = missed.iter().map(|it| it.shift_m).sum();
     let count = missed.len().max(1) as f64;
     println!("    the mean is {:.4} m; of it come, from relations", whole / count);
@@ -302,30 +302,31 @@ fn why(missed: &[Miss], scans: &[Stamped]) {
     part("both ends at scans", &|it| it.beside_s <= 0.005);
     part("an end up to 0.5 s beside a scan", &|it| (0.005..0.5).contains(&it.beside_s));
     part("an end farther from any scan", &|it| it.beside_s >= 0.5);
-    // What odometry alone makes of the local ones: it is nearly exact over a step, so the rest is
-    // the relations' own.
-    let at = |time_s: f64| {
-        let after = scans.partition_point(|it| it.0 < time_s - 0.005);
-        scans.get(after).filter(|it| (it.0 - time_s).abs() <= 0.005).map(|it| it.1)
+    // Lines that were held up are stamped when they were written, many at once: which of them a
+    // stamp means, nobody knows.
+    let mut lines: Vec<f64> = between.iter().chain(scans).map(|it| it.0).collect();
+    lines.sort_by(f64::total_cmp);
+    let is_held_up = |time_s: f64| {
+        let (first, last) = (
+            lines.partition_point(|it| *it < time_s - 0.02),
+            lines.partition_point(|it| *it <= time_s + 0.02),
+        );
+        let gap_s = |a: usize, b: usize| match (lines.get(a), lines.get(b)) {
+            (Some(a), Some(b)) => b - a,
+            _ => 0.0,
+        };
+        last - first >= 4
+            || gap_s(first.wrapping_sub(1), first) > 1.5
+            || gap_s(last.wrapping_sub(1), last) > 1.5
     };
-    let mut alone: Vec<f64> = Vec::new();
-    let mut ours: Vec<f64> = Vec::new();
-    for it in missed.iter().filter(|it| it.is_local) {
+    let ends = |it: &Miss| [it.relation.from_s, it.relation.to_s];
+    part("an end where the logger was held up", &|it| ends(it).into_iter().any(is_held_up));
+    part("none there", &|it| !ends(it).into_iter().any(is_held_up));
+    part("asking for more than 2 m/s", &|it| {
         let way = it.relation.from_from_to;
-        let (Some(a), Some(b)) = (at(it.relation.from_s), at(it.relation.to_s)) else { continue };
-        if libm::hypot(way.x_m, way.y_m) < 0.6 && way.yaw_rad.abs() < 0.1 {
-            let off = way.inverse() * (a.inverse() * b);
-            alone.push(libm::hypot(off.x_m, off.y_m));
-            ours.push(it.shift_m);
-        }
-    }
-    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
-    println!(
-        "      {} straight steps up to 0.6 m: raw odometry misses them by {:.4} m, this by {:.4} m",
-        alone.len(),
-        mean(&alone),
-        mean(&ours)
-    );
+        let seconds = (it.relation.to_s - it.relation.from_s).abs();
+        libm::hypot(way.x_m, way.y_m) > 0.1 + 2.0 * seconds
+    });
     // One bad stamp spoils all relations at it.
     let mut stamps: BTreeMap<i64, (f64, usize)> = BTreeMap::new();
     for it in missed {

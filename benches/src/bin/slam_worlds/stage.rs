@@ -126,10 +126,13 @@ impl Stage {
             arguments: Vec::new(),
             open_meshes: false,
         };
-        let composition = compose(Path::new(venue.file), &[robot], &setting);
+        let mut composition = compose(Path::new(venue.file), &[robot], &setting);
         if composition.has_errors() {
             return Err(format!("{} or {ROBOT} has errors", venue.file));
         }
+        // What stands around loose stays where it is: a wall that moves has no true place.
+        let standing = composition.members.iter_mut().filter(|it| it.description.is_none());
+        standing.for_each(|it| it.model.is_static = true);
         let files = Arc::new(ShapeFiles::default());
         let mut world = composition.world.clone();
         for member in composition.members.iter().filter(|it| it.description.is_none()) {
