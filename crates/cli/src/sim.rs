@@ -161,10 +161,6 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         options.simulation(to_nodes),
     );
     let whole = tell_findings(&composition, options.quiet)?;
-    if !options.quiet {
-        let unused = simulation.graph().unused_arguments();
-        terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
-    }
     if let Some(missing) = composition.missing() {
         terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
         return Ok(ExitCode::FAILURE);
@@ -206,6 +202,11 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let factor = options.factor(&composition);
     let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some())?;
     let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
+    // Only now all nodes are there.
+    if !options.quiet {
+        let unused = simulation.graph().unused_arguments();
+        terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
+    }
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
     let stop = terminal::stop_on_ctrl_c();
