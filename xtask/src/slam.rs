@@ -3,7 +3,7 @@
 use crate::step::{Failed, cargo, root, run};
 
 /// Runs over all logs of `../shared/datasets`, as they are and perturbed, and prints errors, times and
-/// memory in one table; then over worlds whose truth is known.
+/// memory in one table, by both methods; then over worlds whose truth is known.
 pub(crate) fn bench() -> Result<(), Failed> {
     let example = |name: &str| {
         let mut command = cargo();
@@ -12,7 +12,13 @@ pub(crate) fn bench() -> Result<(), Failed> {
         command
     };
     match root().join("../shared/datasets").canonicalize() {
-        Ok(logs) => run(example("logs").arg(logs), "a log of the folder cannot be read")?,
+        Ok(logs) => {
+            let why = "a log of the folder cannot be read";
+            run(example("logs").arg(&logs), why)?;
+            // Thirty maps each: as they are only.
+            let gmapping = ["--method", "gmapping", "--runs", "plain"];
+            run(example("logs").arg(&logs).args(gmapping), why)?;
+        }
         Err(_) => println!("SKIPPED: there is no ../shared/datasets to make maps of"),
     }
     run(&mut example("worlds"), "a world with known truth failed")

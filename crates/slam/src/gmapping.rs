@@ -47,8 +47,6 @@ const SOLID_SHARE: f64 = 0.1;
 const LEAST_POINTS: usize = 12;
 /// Part of the points that the map must have something near for a scan to fit.
 const LEAST_MATCHED: f64 = 0.3;
-/// What each solid cell that a scan sees through takes from the logarithm of a weight.
-const SEEN_THROUGH: f64 = 0.3;
 /// How far odometry is off at least \[m, rad\].
 const LEAST_SIGMA: [f64; 2] = [0.01, 0.005];
 /// Kept scans that the front end remembers; it lays new ones onto no more.
@@ -173,7 +171,7 @@ impl Gmapping {
         let mut cells = Cells::new(self.settings.resolution_m, SOLID_SHARE);
         let trace = &mut self.traces[0];
         trace.fill(beams, map_from_base, cells.per_m());
-        let _ = cells.draw(trace);
+        cells.draw(trace);
         let tip = self.ways.begin(map_from_base);
         let first =
             Particle { map_from_base, cells, tip, log: 0.0, log_of_way: 0.0, is_matched: true };
@@ -282,11 +280,10 @@ impl Particle {
             proposal::blind(&fit, guess, settings, stream)
         };
         self.map_from_base = drawn.map_from_base;
+        self.log += drawn.likelihood;
+        self.log_of_way += drawn.likelihood;
         trace.fill(beams, self.map_from_base, self.cells.per_m());
-        let through = self.cells.draw(trace);
-        let log = drawn.likelihood - SEEN_THROUGH * f64::from(through);
-        self.log += log;
-        self.log_of_way += log;
+        self.cells.draw(trace);
     }
 }
 

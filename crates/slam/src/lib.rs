@@ -1,7 +1,7 @@
 //! Simultaneous localization and mapping from flat laser scans.
 //!
 //! [`Slam::add_scan`] takes a scan and where odometry has the robot, and tells where the robot is.
-//! Values in, values out: no clock, no threads, no files, and the same input gives the same bits.
+//! Values in, values out: no clock, no files, and the same input gives the same bits.
 //!
 //! The way of a scan:
 //! 1. it becomes a cloud of points with the surfaces they lie on (`scan`);
@@ -12,6 +12,9 @@
 //! 5. where the uncertainty has grown, loops are searched, doubted and believed (`loops`, `drift`);
 //! 6. what odometry and scans say of each other is weighed, and told when it is odd (`doubts`);
 //! 7. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
+//!
+//! [`Gmapping`] is another method behind the same interface, [`Mapper`]: particles with a map each.
+//! Both take the parameters that programs of ROS have for them ([`tables`]).
 
 mod doubts;
 mod drift;

@@ -37,15 +37,23 @@ impl Method {
     }
 }
 
+/// Parameters of a method that change nothing here, and why: for each reason the names.
+pub fn reasons(method: Method) -> impl Iterator<Item = (&'static [&'static str], &'static str)> {
+    lists(method).iter().map(|list| (list.names, list.because))
+}
+
+fn lists(method: Method) -> &'static [Idle] {
+    match method {
+        Method::Graph => toolbox::IDLE,
+        Method::Gmapping => gmapping::IDLE,
+    }
+}
+
 /// A warning for each parameter that was set to something else than its default and changes nothing.
 #[must_use]
 pub fn idle(values: &Values) -> Vec<Diagnostic> {
-    let table = values.table();
-    let lists: &[Idle] = match table.name {
-        name if name == SLAM_TOOLBOX.name => toolbox::IDLE,
-        name if name == GMAPPING.name => gmapping::IDLE,
-        _ => &[],
-    };
+    let of_table = Method::ALL.into_iter().find(|it| it.table().name == values.table().name);
+    let lists = of_table.map(lists).unwrap_or_default();
     let mut findings = Vec::new();
     for list in lists {
         for name in list.names {
@@ -132,10 +140,9 @@ mod tests {
 
     #[test]
     fn what_changes_nothing_is_a_parameter_and_is_named_once() {
-        for (method, lists) in [(Method::Graph, toolbox::IDLE), (Method::Gmapping, gmapping::IDLE)]
-        {
+        for method in Method::ALL {
             let mut seen = Vec::new();
-            for name in lists.iter().flat_map(|list| list.names) {
+            for name in lists(method).iter().flat_map(|list| list.names) {
                 assert!(method.table().find(name).is_some(), "{name}");
                 assert!(!seen.contains(name), "{name}");
                 seen.push(name);

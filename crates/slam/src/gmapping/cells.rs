@@ -137,12 +137,11 @@ impl Cells {
         (self.first, self.size, self.pages) = (first, size, pages);
     }
 
-    /// Draws what a scan traced; tells how many solid cells were seen through.
-    pub(super) fn draw(&mut self, trace: &Trace) -> u32 {
+    /// Draws what a scan traced.
+    pub(super) fn draw(&mut self, trace: &Trace) {
         let (low, high) = trace.bounds();
         self.reach(low, high);
         let share = self.solid_share;
-        let mut through = 0;
         for row in (low[1]..=high[1]).step_by(SIDE as usize) {
             for column in (low[0]..=high[0]).step_by(SIDE as usize) {
                 if !trace.touches(column, row) {
@@ -151,7 +150,6 @@ impl Cells {
                 let Some(tile) = self.tile_mut(column, row) else { continue };
                 for line in 0..SIDE {
                     let mut free = trace.free(column, row + line);
-                    through += (free & tile.solid[line as usize]).count_ones();
                     while free != 0 {
                         let bit = free.trailing_zeros();
                         free &= free - 1;
@@ -167,7 +165,6 @@ impl Cells {
                 tile.hit(cell_index(column, row), part, share);
             }
         }
-        through
     }
 
     /// Of the means of solid cells the nearest to a place, among those of cells at most `kernel` cells
@@ -401,12 +398,12 @@ mod tests {
         cells
     }
 
-    fn draw(cells: &mut Cells, pose: Pose2, ends: &[[f32; 2]]) -> u32 {
+    fn draw(cells: &mut Cells, pose: Pose2, ends: &[[f32; 2]]) {
         let beams =
             Beams { points: Vec::new(), hits: ends.to_vec(), rims: Vec::new(), origin: [0.0; 2] };
         let mut trace = Trace::default();
         trace.fill(&beams, pose, 1.0);
-        cells.draw(&trace)
+        cells.draw(&trace);
     }
 
     #[test]
@@ -425,10 +422,10 @@ mod tests {
         assert!((off[0] + 0.4).abs() < 0.01 && off[1].abs() < 0.01, "{off:?}");
         assert_eq!(cells.nearest(2.5, 0.5, 1), None);
         // Seen through, it is half a wall, and after ten more no wall at all.
-        assert_eq!(draw(&mut cells, Pose2::new(0.5, 0.5, 0.0), &[[6.0, 0.0]]), 1);
+        draw(&mut cells, Pose2::new(0.5, 0.5, 0.0), &[[6.0, 0.0]]);
         assert_eq!(at(&cells, 4), (1, 2));
         for _ in 0..10 {
-            let _ = draw(&mut cells, Pose2::new(0.5, 0.5, 0.0), &[[6.0, 0.0]]);
+            draw(&mut cells, Pose2::new(0.5, 0.5, 0.0), &[[6.0, 0.0]]);
         }
         assert_eq!(cells.nearest(4.1, 0.75, 1), None);
     }
@@ -440,7 +437,7 @@ mod tests {
         let mut second = first.clone();
         assert_eq!(first.size() + second.size(), alone + 8 * second.pages.len());
         let before = first.cell(4, 0);
-        let _ = draw(&mut second, Pose2::new(0.5, 0.5, 0.0), &[[4.0, 0.0]]);
+        draw(&mut second, Pose2::new(0.5, 0.5, 0.0), &[[4.0, 0.0]]);
         assert_eq!((first.cell(4, 0), second.cell(4, 0).hits), (before, 2));
         // One tile was copied, with the pointers of its page; all else is still shared.
         let copied = size_of::<Tile>() + size_of::<Page>();
@@ -451,7 +448,7 @@ mod tests {
         };
         assert_ne!(shares(&first, 0, 0), shares(&second, 0, 0));
         assert_eq!(shares(&first, 99, 0), shares(&second, 99, 0));
-        let _ = draw(&mut first, Pose2::new(90.5, 0.5, 0.0), &[[4.0, 0.0]]);
+        draw(&mut first, Pose2::new(90.5, 0.5, 0.0), &[[4.0, 0.0]]);
         assert_ne!(shares(&first, 90, 0), shares(&second, 90, 0));
     }
 
@@ -459,7 +456,7 @@ mod tests {
     fn a_wild_jump_does_not_take_all_memory() {
         let mut cells = drawn(&[[4.0, 0.0]]);
         let size = cells.size();
-        let _ = draw(&mut cells, Pose2::new(5e8, 5e8, 0.0), &[[4.0, 0.0]]);
+        draw(&mut cells, Pose2::new(5e8, 5e8, 0.0), &[[4.0, 0.0]]);
         assert_eq!(cells.size(), size);
         assert!(cells.to_grid(0.25, [None; 4]).is_some());
     }

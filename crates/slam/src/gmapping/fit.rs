@@ -201,7 +201,7 @@ mod tests {
         let mut cells = Cells::new(0.05, 0.1);
         let mut trace = Trace::default();
         trace.fill(&beams, Pose2::IDENTITY, cells.per_m());
-        let _ = cells.draw(&trace);
+        cells.draw(&trace);
         (cells, points)
     }
 
