@@ -13,8 +13,10 @@ const CELL_M: f64 = 0.05;
 /// The middle of the robot stays so far from everything \[m\].
 const CLEARANCE_M: f64 = 0.3;
 /// Heights at which things stand in the way: wheels, deck and laser \[m\].
-const HEIGHTS_M: [f64; 3] = [0.015, 0.045, 0.075];
-/// Goals are so far from each other at least \[m\].
+const HEIGHTS_M: [f64; 5] = [0.015, 0.045, 0.06, 0.075, 0.095];
+/// From goal to goal on a straight way, at most \[m\].
+const STEP_M: f64 = 0.5;
+/// Places to visit are so far from each other at least \[m\].
 const APART_M: f64 = 2.0;
 
 /// The floor as a robot sees it.
@@ -101,11 +103,16 @@ impl Floor {
             cells.reverse();
             let mut last = here;
             for cell in self.corners(&cells) {
-                let (dx, dy) = (cell.0.abs_diff(last.0) as f64, cell.1.abs_diff(last.1) as f64);
-                gone_m += dx.hypot(dy) * CELL_M;
+                let ((x, y), (to_x, to_y)) = (lattice.centre_of(last), lattice.centre_of(cell));
+                let length_m = (to_x - x).hypot(to_y - y);
+                let steps = (length_m / STEP_M).ceil().max(1.0);
+                // Far goals are driven to in arcs, which leave the straight way.
+                for step in 1..=steps as usize {
+                    let part = step as f64 / steps;
+                    way.push([x + part * (to_x - x), y + part * (to_y - y)]);
+                }
+                gone_m += length_m;
                 last = cell;
-                let (x, y) = lattice.centre_of(cell);
-                way.push([x, y]);
             }
             here = last;
         }
