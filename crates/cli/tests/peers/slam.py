@@ -16,7 +16,19 @@ from pathlib import Path
 import numpy as np
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin, Writer as Writer2
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
+
+
+def store_of(name):
+    """The types of a distribution, with those of tf2, which not all have."""
+    store = get_typestore(name)
+    if TRANSFORMS not in store.types:
+        text = "geometry_msgs/TransformStamped[] transforms\n"
+        store.register(get_types_from_msg(text, TRANSFORMS))
+    return store
 
 
 def messages(store, drive, is_ros1):
@@ -34,7 +46,7 @@ def messages(store, drive, is_ros1):
 
     def transform(stamp_ns, parent, child, x, y, z, yaw):
         return make(
-            "tf2_msgs/msg/TFMessage",
+            TRANSFORMS,
             transforms=[make(
                 "geometry_msgs/msg/TransformStamped",
                 header=header(stamp_ns, parent),
@@ -50,11 +62,11 @@ def messages(store, drive, is_ros1):
             )],
         )
 
-    yield "/tf_static", "tf2_msgs/msg/TFMessage", drive[0][0], transform(
+    yield "/tf_static", TRANSFORMS, drive[0][0], transform(
         drive[0][0], "base_link", "laser", 0.1, 0.0, 0.2, 0.0
     )
     for stamp_ns, (x, y, yaw), ranges in drive:
-        yield "/tf", "tf2_msgs/msg/TFMessage", stamp_ns, transform(
+        yield "/tf", TRANSFORMS, stamp_ns, transform(
             stamp_ns, "odom", "base_link", x, y, 0.0, yaw
         )
         step = math.pi / (len(ranges) - 1)
@@ -89,10 +101,10 @@ def main():
     drive = json.loads(Path(paths[0]).read_text())
     folder = Path(paths[1])
     with Writer1(folder / "ros1.bag") as writer:
-        fill(writer, get_typestore(Stores.ROS1_NOETIC), drive, True)
+        fill(writer, store_of(Stores.ROS1_NOETIC), drive, True)
     for name, plugin in (("sqlite3", StoragePlugin.SQLITE3), ("mcap", StoragePlugin.MCAP)):
         with Writer2(folder / name, version=9, storage_plugin=plugin) as writer:
-            fill(writer, get_typestore(Stores.ROS2_HUMBLE), drive, False)
+            fill(writer, store_of(Stores.ROS2_HUMBLE), drive, False)
 
 
 if __name__ == "__main__":
