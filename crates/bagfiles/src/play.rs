@@ -194,9 +194,7 @@ impl Player {
     /// Tells the clock.
     fn tick(&mut self) {
         let Some((publisher, period_ns)) = &self.clock else { return };
-        let sec = i32::try_from(self.tick_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-        let nanosec = u32::try_from(self.tick_ns.rem_euclid(1_000_000_000)).unwrap_or(0);
-        publisher.publish(Clock { clock: Time { sec, nanosec } });
+        publisher.publish(Clock { clock: Time::of_ns(self.tick_ns) });
         self.tick_ns = self.tick_ns.saturating_add((*period_ns).max(1));
     }
 

@@ -58,8 +58,7 @@ impl Live {
             None => self.graph.advance_to(unix_ns()),
             Some(clock) => {
                 if let Some(told) = clock.latest() {
-                    let (sec, nanosec) = (told.clock.sec, told.clock.nanosec);
-                    let time_ns = i64::from(sec) * 1_000_000_000 + i64::from(nanosec);
+                    let time_ns = told.clock.ns();
                     // A run that begins again.
                     if time_ns < self.graph.now_ns() {
                         self.graph.jump_to(time_ns);

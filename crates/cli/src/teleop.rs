@@ -199,17 +199,12 @@ impl Driving {
         match &self.outlet {
             Outlet::Plain(publisher) => publisher.publish(twist),
             Outlet::Stamped(publisher) => {
-                let stamp = self.simulated.clone().unwrap_or_else(|| time(unix_ns()));
+                let stamp = self.simulated.clone().unwrap_or_else(|| Time::of_ns(unix_ns()));
                 let header = Header { stamp, frame_id: self.settings.frame_id.clone() };
                 publisher.publish(TwistStamped { header, twist });
             }
         }
     }
-}
-
-fn time(time_ns: i64) -> Time {
-    let sec = i32::try_from(time_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-    Time { sec, nanosec: u32::try_from(time_ns.rem_euclid(1_000_000_000)).unwrap_or_default() }
 }
 
 impl TeleopOptions {

@@ -18,7 +18,7 @@ use periplus_msgs::{map_msgs, nav_msgs, sensor_msgs};
 
 use crate::clouds;
 use crate::frames::Listener;
-use crate::messages::{map, nanoseconds};
+use crate::messages::map;
 use crate::topics::resolve;
 
 use filters::{FilterPort, SpeedPort};
@@ -247,7 +247,7 @@ impl<T: periplus_msgs::Message> Waiting<T> {
 
 /// `global_from_frame` at the time of a message.
 fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Option<Pose> {
-    let stamp_ns = nanoseconds(&header.stamp);
+    let stamp_ns = header.stamp.ns();
     scene.tf.at(scene.global_frame, frame, stamp_ns).ok().map(|(pose, _)| pose)
 }
 
@@ -345,7 +345,7 @@ fn take_scan(
         range_min_m: scan.range_min,
         range_max_m: scan.range_max,
     };
-    let stamp_ns = nanoseconds(&scan.header.stamp);
+    let stamp_ns = scan.header.stamp.ns();
     let count = scan.ranges.len().saturating_sub(1) as f64;
     let length_ns = (f64::from(scan.time_increment) * count * 1e9) as i64;
     let inf_is_valid = source.settings.inf_is_valid;
@@ -384,7 +384,7 @@ fn take_cloud(
     points.clear();
     match clouds::points(cloud) {
         Ok(all) => {
-            let stamp_ns = nanoseconds(&cloud.header.stamp);
+            let stamp_ns = cloud.header.stamp.ns();
             source.insert(scene.now_ns, stamp_ns, pose, origin, all);
         }
         Err(_) => source.counters.malformed += 1,

@@ -7,21 +7,6 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs};
 
-/// A time of a message \[ns\].
-pub(crate) fn nanoseconds(time: &Time) -> i64 {
-    i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec)
-}
-
-/// A time as messages carry it.
-pub(crate) fn stamp(time_ns: i64) -> Time {
-    let sec = i32::try_from(time_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-    Time { sec, nanosec: u32::try_from(time_ns.rem_euclid(1_000_000_000)).unwrap_or_default() }
-}
-
-pub(crate) fn header(time_ns: i64, frame_id: &str) -> Header {
-    Header { stamp: stamp(time_ns), frame_id: frame_id.to_owned() }
-}
-
 /// The pose on the ground of a message; its turn is that about z.
 pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Pose2 {
     let geometry_msgs::Pose { position, orientation } = pose;
@@ -63,7 +48,7 @@ pub(crate) fn occupancy_grid(
 ) -> nav_msgs::OccupancyGrid {
     let Lattice { resolution_m, width, height, origin } = *costmap.lattice();
     nav_msgs::OccupancyGrid {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         info: nav_msgs::MapMetaData {
             map_load_time: Time::default(),
             resolution: resolution_m as f32,
@@ -79,10 +64,10 @@ pub(crate) fn occupancy_grid(
 pub(crate) fn raw(costmap: &Costmap, frame: &str, now_ns: i64, layer: &str) -> nav2_msgs::Costmap {
     let Lattice { resolution_m, width, height, origin } = *costmap.lattice();
     nav2_msgs::Costmap {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         metadata: nav2_msgs::CostmapMetaData {
             map_load_time: Time::default(),
-            update_time: stamp(now_ns),
+            update_time: Time::of_ns(now_ns),
             layer: layer.to_owned(),
             resolution: resolution_m as f32,
             size_x: width as u32,
@@ -101,7 +86,7 @@ pub(crate) fn occupancy_update(
     now_ns: i64,
 ) -> map_msgs::OccupancyGridUpdate {
     map_msgs::OccupancyGridUpdate {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         x: window.x0 as i32,
         y: window.y0 as i32,
         width: window.width() as u32,
@@ -118,7 +103,7 @@ pub(crate) fn raw_update(
     now_ns: i64,
 ) -> nav2_msgs::CostmapUpdate {
     nav2_msgs::CostmapUpdate {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         x: window.x0 as u32,
         y: window.y0 as u32,
         size_x: window.width() as u32,
@@ -140,7 +125,7 @@ pub(crate) fn polygon(
 ) -> geometry_msgs::PolygonStamped {
     let point = |[x, y]: &[f64; 2]| geometry_msgs::Point32 { x: *x as f32, y: *y as f32, z: 0.0 };
     geometry_msgs::PolygonStamped {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         polygon: geometry_msgs::Polygon { points: points.iter().map(point).collect() },
     }
 }

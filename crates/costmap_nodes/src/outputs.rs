@@ -8,10 +8,11 @@ use periplus_costmap::{
     Compat, Config, Costmap, LayerKind, LayeredCostmap, Outgoing, Publication, Window,
 };
 use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs, sensor_msgs, std_msgs};
 
 use crate::clouds::cloud;
-use crate::messages::{header, occupancy_grid, occupancy_update, polygon, raw, raw_update};
+use crate::messages::{occupancy_grid, occupancy_update, polygon, raw, raw_update};
 use crate::topics::resolve;
 
 /// As Nav2 publishes grids.
@@ -167,14 +168,14 @@ impl Outputs {
         for (name, ends) in &self.ends {
             let Some(layer) = costmap.find_as::<VoxelLayer>(name) else { continue };
             if ends.is_heard() {
-                ends.publish(cloud(layer.clearing_ends(), header(now_ns, &frame)));
+                ends.publish(cloud(layer.clearing_ends(), Header::at(now_ns, &frame)));
             }
         }
         for (name, limits) in &self.limits {
             let Some(filter) = costmap.find_as::<SpeedFilter>(name) else { continue };
             if let Some(limit) = filter.take_limit() {
                 limits.publish(nav2_msgs::SpeedLimit {
-                    header: header(now_ns, &frame),
+                    header: Header::at(now_ns, &frame),
                     percentage: limit.is_percentage,
                     speed_limit: limit.limit,
                 });
@@ -217,7 +218,7 @@ fn voxel_grid(layer: &VoxelLayer, frame: &str, now_ns: i64) -> nav2_msgs::VoxelG
     let voxels = layer.voxels();
     let lattice = voxels.lattice();
     nav2_msgs::VoxelGrid {
-        header: header(now_ns, frame),
+        header: Header::at(now_ns, frame),
         data: voxels.columns().to_vec(),
         origin: geometry_msgs::Point32 {
             x: lattice.origin.x_m as f32,

@@ -12,7 +12,7 @@ use periplus_msgs::nav2_msgs::{
 use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
 use periplus_params::Value;
 
-use crate::messages::{nanoseconds, pose2, raw};
+use crate::messages::{pose2, raw};
 use crate::node::State;
 
 /// Answers for a costmap of a name, its layers and its filters, with the messages of a distribution.
@@ -97,7 +97,7 @@ impl State {
         if frame == global_frame {
             return Some(own);
         }
-        let stamp_ns = nanoseconds(&pose.header.stamp);
+        let stamp_ns = pose.header.stamp.ns();
         let (global_from_frame, _) = self.tf.at(global_frame, frame, stamp_ns).ok()?;
         Some(Pose2::from(global_from_frame) * own)
     }

@@ -5,10 +5,10 @@ use std::panic::Location;
 use std::sync::atomic::Ordering;
 
 use periplus_diagnostics::{Diagnostic, Severity};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::rcl_interfaces::Log;
 
 use crate::node::Node;
-use crate::parameters::stamp;
 
 /// How much a line of a log matters. The order is that of weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,7 +92,7 @@ impl Node {
             let place = Location::caller();
             let standard = self.0.standard();
             standard.publish_log(Log {
-                stamp: stamp(self.now_ns()),
+                stamp: Time::of_ns(self.now_ns()),
                 level: level.number(),
                 name: self.logger(),
                 msg: text.to_string(),

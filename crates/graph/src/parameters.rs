@@ -154,15 +154,7 @@ impl NodeCore {
         let standard = self.standard();
         let mut store = lock(&standard.store);
         let event = event(&mut store);
-        let stamp = stamp(self.core.common.clock.now_ns());
+        let stamp = Time::of_ns(self.core.common.clock.now_ns());
         standard.publish_event(ParameterEvent { stamp, node: self.full_name.to_string(), ..event });
     }
-}
-
-pub(crate) fn stamp(time_ns: i64) -> Time {
-    let seconds = time_ns.div_euclid(1_000_000_000);
-    let nanoseconds = time_ns.rem_euclid(1_000_000_000);
-    // After 2038 ROS cannot tell the time either.
-    let sec = i32::try_from(seconds).unwrap_or(i32::MAX);
-    Time { sec, nanosec: u32::try_from(nanoseconds).unwrap_or_default() }
 }

@@ -4,8 +4,6 @@ use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_msgs::{geometry_msgs, tf2_msgs};
 use periplus_tf::{Buffer, Kind, LookupError, Stamped};
 
-use crate::messages::nanoseconds;
-
 /// Trees of frames are no deeper.
 const DEEPEST: usize = 1000;
 
@@ -106,7 +104,7 @@ fn stamped(transform: &geometry_msgs::TransformStamped) -> Stamped {
     Stamped {
         parent: transform.header.frame_id.clone(),
         child: transform.child_frame_id.clone(),
-        stamp_ns: nanoseconds(&transform.header.stamp),
+        stamp_ns: transform.header.stamp.ns(),
         translation: DVec3::new(translation.x, translation.y, translation.z),
         rotation: DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
     }

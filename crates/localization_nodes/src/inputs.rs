@@ -11,7 +11,6 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::Values;
 
 use crate::frames::Frames;
-use crate::messages::nanoseconds;
 
 /// A scan whose transforms do not come is dropped after so long \[ns\].
 const PATIENCE_NS: i64 = 1_000_000_000;
@@ -177,7 +176,7 @@ enum Lack {
 
 /// A scan with its transforms.
 fn placed(message: &Arc<LaserScan>, frames: &Frames, names: &Names) -> Result<Placed, Lack> {
-    let time_ns = nanoseconds(&message.header.stamp);
+    let time_ns = message.header.stamp.ns();
     let (laser, base) = (message.header.frame_id.as_str(), names.base.as_str());
     if laser.is_empty() {
         return Err(Lack::Frame);

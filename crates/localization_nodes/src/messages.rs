@@ -2,7 +2,6 @@
 
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_localization::{Covariance2, Particles, Scan};
-use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{
     self, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion,
 };
@@ -12,21 +11,6 @@ use periplus_msgs::{nav2_msgs, tf2_msgs};
 
 /// How far the length of a quaternion may be from 1: what is off further was not meant as one.
 const OFF: f64 = 0.01;
-
-/// A time of a message \[ns\].
-pub(crate) fn nanoseconds(time: &Time) -> i64 {
-    i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec)
-}
-
-/// A time as messages carry it.
-pub(crate) fn stamp(time_ns: i64) -> Time {
-    let sec = i32::try_from(time_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-    Time { sec, nanosec: u32::try_from(time_ns.rem_euclid(1_000_000_000)).unwrap_or_default() }
-}
-
-pub(crate) fn header(time_ns: i64, frame_id: &str) -> Header {
-    Header { stamp: stamp(time_ns), frame_id: frame_id.to_owned() }
-}
 
 /// A scan of a message, with where its scanner is on the robot: `base_from_laser`. A scanner that
 /// hangs upside down is one whose axis points down.
@@ -83,7 +67,7 @@ pub(crate) fn pose_with_covariance(
     frame: &str,
 ) -> PoseWithCovarianceStamped {
     PoseWithCovarianceStamped {
-        header: header(time_ns, frame),
+        header: Header::at(time_ns, frame),
         pose: PoseWithCovariance { pose: pose(map_from_base), covariance: covariance.to_rows() },
     }
 }
@@ -94,7 +78,7 @@ pub(crate) fn cloud(particles: &Particles, time_ns: i64, frame: &str) -> nav2_ms
         weight: particles.weight[index],
     };
     nav2_msgs::ParticleCloud {
-        header: header(time_ns, frame),
+        header: Header::at(time_ns, frame),
         particles: (0..particles.len()).map(particle).collect(),
     }
 }
@@ -104,7 +88,7 @@ pub(crate) fn poses(
     time_ns: i64,
     frame: &str,
 ) -> geometry_msgs::PoseArray {
-    geometry_msgs::PoseArray { header: header(time_ns, frame), poses: all.map(pose).collect() }
+    geometry_msgs::PoseArray { header: Header::at(time_ns, frame), poses: all.map(pose).collect() }
 }
 
 pub(crate) fn transform(
@@ -116,7 +100,7 @@ pub(crate) fn transform(
     let Pose { translation, rotation } = Pose::from(parent_from_child);
     tf2_msgs::TFMessage {
         transforms: vec![geometry_msgs::TransformStamped {
-            header: header(time_ns, parent),
+            header: Header::at(time_ns, parent),
             child_frame_id: child.to_owned(),
             transform: geometry_msgs::Transform {
                 translation: geometry_msgs::Vector3 {

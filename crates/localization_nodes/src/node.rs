@@ -19,7 +19,7 @@ use periplus_tf::Kind;
 use crate::Files;
 use crate::frames::{Frames, plain};
 use crate::inputs::{Inputs, NO_SCANS, Names, Placed};
-use crate::messages::{nanoseconds, pose2, scan};
+use crate::messages::{pose2, scan};
 use crate::outputs::{Health, Outputs};
 use crate::saved;
 use crate::services;
@@ -247,7 +247,7 @@ impl State {
             }
         };
         pose = pose.normalized();
-        let moved = self.moved_since(nanoseconds(&message.header.stamp), node);
+        let moved = self.moved_since(message.header.stamp.ns(), node);
         let guess = Guess {
             frame: message.header.frame_id.clone(),
             pose,

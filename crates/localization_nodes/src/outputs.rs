@@ -6,9 +6,10 @@ use periplus_localization::{Amcl, State, Status};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use periplus_msgs::geometry_msgs::{PoseArray, PoseWithCovarianceStamped};
 use periplus_msgs::nav2_msgs::ParticleCloud;
+use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 
-use crate::messages::{cloud, header, pose_with_covariance, poses, transform};
+use crate::messages::{cloud, pose_with_covariance, poses, transform};
 
 /// Topics that are published.
 pub(crate) struct Outputs {
@@ -71,7 +72,7 @@ impl Outputs {
         let rivals = health.status.rivals.iter().map(|rival| rival.mean);
         self.rivals.publish(poses(rivals, time_ns, frame));
         self.diagnostics
-            .publish(DiagnosticArray { header: header(time_ns, ""), status: vec![status] });
+            .publish(DiagnosticArray { header: Header::at(time_ns, ""), status: vec![status] });
     }
 }
 

@@ -4,7 +4,6 @@
 
 mod saver;
 mod server;
-mod stamp;
 
 pub use saver::{MAP_SAVER, MapSaver, WAIT_NS};
 pub use server::{MAP_SERVER, MapServer, MapServerSettings};

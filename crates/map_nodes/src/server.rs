@@ -7,12 +7,12 @@ use periplus_graph::{
     Actor, GraphError, Io, Level, Lifecycle, Node, Publisher, Qos, Step, StepOutcome,
 };
 use periplus_maps::{Distro, Loaded, load, to_message};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapResponse};
 use periplus_params::{Table, Value, Values, text};
 
 use crate::Files;
-use crate::stamp::stamp;
 
 /// Parameters of [`MapServer`].
 pub static MAP_SERVER: Table = Table {
@@ -230,7 +230,8 @@ impl State {
                     lattice.resolution_m
                 ),
             );
-            self.map = Some(to_message(&map.grid, &self.settings.frame_id, stamp(io.now_ns())));
+            self.map =
+                Some(to_message(&map.grid, &self.settings.frame_id, Time::of_ns(io.now_ns())));
         }
         loaded
     }

@@ -28,6 +28,7 @@ mod json;
 mod macros;
 mod message;
 mod number;
+mod time;
 mod wire;
 mod yaml;
 

@@ -10,7 +10,6 @@ pub mod drives;
 mod naming;
 mod sensors;
 mod setting;
-mod stamp;
 pub mod states;
 mod views;
 
@@ -18,5 +17,4 @@ pub use build::devices;
 pub use device::{Device, Moment, Span};
 pub use naming::{gz_topic, node_of, plain_node, publisher_qos, subscription_qos};
 pub use setting::Setting;
-pub use stamp::{header, stamp};
 pub use views::Views;

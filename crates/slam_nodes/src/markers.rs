@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use periplus_base::Pose2;
 use periplus_msgs::geometry_msgs::{Point, Quaternion, Vector3};
 use periplus_msgs::std_msgs::ColorRGBA;
+use periplus_msgs::std_msgs::Header;
 use periplus_msgs::visualization_msgs::{
     InteractiveMarker, InteractiveMarkerControl, Marker, MarkerArray,
 };
 use periplus_slam::{Link, Slam};
 
-use crate::messages::{header, pose};
+use crate::messages::pose;
 
 /// Colours: kept scans, those moved by hand, chains, ties, closures, closures that were refused.
 const NODE: [f32; 3] = [1.0, 0.1, 0.1];
@@ -33,7 +34,7 @@ pub(crate) fn graph(
     let poses = slam.poses();
     let place = |key: usize| poses.get(key).map(|pose| point(*pose));
     let base = |ns: &str, id: usize, r#type: i32, colour: [f32; 3], size_m: f64| Marker {
-        header: header(time_ns, frame),
+        header: Header::at(time_ns, frame),
         ns: ns.to_owned(),
         id: i32::try_from(id).unwrap_or(i32::MAX),
         r#type,
@@ -44,7 +45,7 @@ pub(crate) fn graph(
         ..Marker::default()
     };
     let mut markers = vec![Marker {
-        header: header(time_ns, frame),
+        header: Header::at(time_ns, frame),
         action: Marker::DELETEALL,
         pose: pose(Pose2::IDENTITY),
         ..Marker::default()
@@ -113,7 +114,7 @@ pub(crate) fn handles(
             ..Marker::default()
         };
         InteractiveMarker {
-            header: header(time_ns, frame),
+            header: Header::at(time_ns, frame),
             pose: pose(*place),
             name: key.to_string(),
             description: String::new(),

@@ -2,7 +2,6 @@
 
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_matching::Symmetric3;
-use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{
     self, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion,
 };
@@ -16,21 +15,6 @@ const OFF: f64 = 0.01;
 /// How sure people are who do not say: one standard deviation \[m, rad\], as `RViz` sends it.
 const USUAL: [f64; 2] = [0.5, 0.26];
 
-/// A time of a message \[ns\].
-pub(crate) fn nanoseconds(time: &Time) -> i64 {
-    i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec)
-}
-
-/// A time as messages carry it.
-pub(crate) fn stamp(time_ns: i64) -> Time {
-    let sec = i32::try_from(time_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-    Time { sec, nanosec: u32::try_from(time_ns.rem_euclid(1_000_000_000)).unwrap_or_default() }
-}
-
-pub(crate) fn header(time_ns: i64, frame_id: &str) -> Header {
-    Header { stamp: stamp(time_ns), frame_id: frame_id.to_owned() }
-}
-
 /// A scan of a message, with where its scanner is on the robot. A scanner that hangs upside down is
 /// one whose axis points down, or one that is said to be.
 pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool) -> Scan {
@@ -38,7 +22,7 @@ pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool
     let up = base_from_laser.rotation * DVec3::Z;
     let place = base_from_laser.translation;
     Scan {
-        time_ns: nanoseconds(&message.header.stamp),
+        time_ns: message.header.stamp.ns(),
         base_from_laser: Pose2::new(place.x, place.y, libm::atan2(ahead.y, ahead.x)),
         is_flipped: (up.z < 0.0) != is_inverted,
         angle_min_rad: message.angle_min.into(),
@@ -105,7 +89,7 @@ pub(crate) fn pose_with_covariance(
         rows[at] = value;
     }
     PoseWithCovarianceStamped {
-        header: header(time_ns, frame),
+        header: Header::at(time_ns, frame),
         pose: PoseWithCovariance { pose: pose(map_from_base), covariance: rows },
     }
 }
@@ -128,7 +112,7 @@ pub(crate) fn transform(
     let Pose { translation, rotation } = Pose::from(parent_from_child);
     tf2_msgs::TFMessage {
         transforms: vec![geometry_msgs::TransformStamped {
-            header: header(time_ns, parent),
+            header: Header::at(time_ns, parent),
             child_frame_id: child.to_owned(),
             transform: geometry_msgs::Transform {
                 translation: geometry_msgs::Vector3 {

@@ -22,7 +22,7 @@ use crate::engine::{Engine, Start};
 use crate::frames::{Frames, plain};
 use crate::inputs::{Inputs, Names, Placed};
 use crate::markers;
-use crate::messages::{covariance, nanoseconds, pose2, scan};
+use crate::messages::{covariance, pose2, scan};
 use crate::outputs::Outputs;
 use crate::services;
 use crate::told::Told;
@@ -380,7 +380,7 @@ impl State {
         if !(self.scans - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
             return;
         }
-        let time_ns = nanoseconds(&placed.message.header.stamp);
+        let time_ns = placed.message.header.stamp.ns();
         // Only what somebody asked for: by itself the engine is the better for every scan.
         let interval_ns = number(&self.values, "minimum_time_interval")
             .filter(|_| is_given(&self.values, "minimum_time_interval"))

@@ -7,6 +7,7 @@ use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_grid::OccupancyGrid;
 use periplus_maps::to_message;
 use periplus_matching::Symmetric3;
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::{self, MapMetaData};
 use periplus_msgs::sensor_msgs::LaserScan;
@@ -16,7 +17,7 @@ use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpda
 use periplus_params::Values;
 
 use crate::Program;
-use crate::messages::{pose_with_covariance, stamp, transform};
+use crate::messages::{pose_with_covariance, transform};
 use crate::values::text;
 
 /// Topics that are published.
@@ -60,7 +61,7 @@ impl Outputs {
     }
 
     pub(crate) fn publish_map(&self, map: &OccupancyGrid, time_ns: i64, frame: &str) {
-        let message = to_message(map, frame, stamp(time_ns));
+        let message = to_message(map, frame, Time::of_ns(time_ns));
         self.metadata.publish(message.info.clone());
         self.map.publish(message);
     }

@@ -6,6 +6,7 @@ use periplus_base::Pose2;
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{Actor, GraphError, Level, Node};
 use periplus_maps::{Distro, Saving, render, to_message};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse};
 use periplus_msgs::slam_toolbox::{
     Clear, ClearQueue, ClearQueueResponse, ClearResponse, DeserializePoseGraph,
@@ -19,7 +20,6 @@ use periplus_params::Values;
 
 use crate::Program;
 use crate::engine::{Engine, Start, settings};
-use crate::messages::stamp;
 use crate::node::State;
 use crate::values::{flag, text};
 
@@ -102,7 +102,7 @@ pub(crate) fn serve(
 impl State {
     fn map_now(&self, node: &Node) -> GetMapResponse {
         let frame = text(&self.values, "map_frame").unwrap_or_default();
-        let map = self.map.as_ref().map(|map| to_message(map, &frame, stamp(node.now_ns())));
+        let map = self.map.as_ref().map(|map| to_message(map, &frame, Time::of_ns(node.now_ns())));
         if map.is_none() {
             node.log(Level::Warn, "somebody asks for the map, and there is none yet");
         }

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use periplus_diagnostics::SourceMap;
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::{DynamicMessage, Layout};
 use periplus_yaml::{Node, Value};
 use serde_json::{Map, json};
 
-use crate::{Failure, Outcome, clock};
+use crate::{Failure, Outcome};
 
 /// Values of a message, to be filled in.
 pub struct Values {
@@ -65,7 +66,7 @@ fn to_json(node: &Node, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json
     match &node.value {
         Value::Scalar { text, is_plain: true } => match (stamped(text, layout), node) {
             (Some(path), _) => {
-                let stamp = clock::stamp(now_ns);
+                let stamp = Time::of_ns(now_ns);
                 let stamp = json!({ "sec": stamp.sec, "nanosec": stamp.nanosec });
                 if path.is_empty() { stamp } else { json!({ path: stamp }) }
             }

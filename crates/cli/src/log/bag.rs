@@ -9,7 +9,6 @@ use periplus_bags::{BagTopic, Selection, Target, Translation};
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::Message;
-use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -54,7 +53,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
     }
     let mut missing: BTreeMap<String, usize> = BTreeMap::new();
     let faults = each::<LaserScan>(bag, &[topic.as_str()], |_, message| {
-        let time_ns = stamp_ns(&message.header.stamp);
+        let time_ns = message.header.stamp.ns();
         let frame = message.header.frame_id.trim_start_matches('/').to_owned();
         let base_from_laser = base.as_ref().and_then(|base| {
             let found = frames.buffer.lookup(base, &frame, time_ns);
@@ -157,7 +156,7 @@ impl Frames {
                 let stamped = Stamped {
                     parent: it.header.frame_id,
                     child: it.child_frame_id,
-                    stamp_ns: stamp_ns(&it.header.stamp),
+                    stamp_ns: it.header.stamp.ns(),
                     translation: DVec3::new(t.x, t.y, t.z),
                     rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
                 };
@@ -178,7 +177,7 @@ impl Frames {
             let stamped = Stamped {
                 parent: message.header.frame_id.clone(),
                 child: child.to_owned(),
-                stamp_ns: stamp_ns(&message.header.stamp),
+                stamp_ns: message.header.stamp.ns(),
                 translation: DVec3::new(t.x, t.y, t.z),
                 rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
             };
@@ -227,8 +226,4 @@ fn each<M: Message>(
         faults.push(format!("{broken} messages on {} cannot be decoded", names.join(", ")));
     }
     Ok(faults)
-}
-
-fn stamp_ns(stamp: &Time) -> i64 {
-    i64::from(stamp.sec) * 1_000_000_000 + i64::from(stamp.nanosec)
 }

@@ -1,7 +1,6 @@
 //! The rate of `robot_state_publisher`.
 
 use periplus_graph::{Graph, GraphError, NodeSettings, Qos};
-use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -52,10 +51,8 @@ fn told(options: RobotStateOptions, stamps_ns: &[i64]) -> Result<Vec<bool>, Grap
     let frames = user.mailbox::<TFMessage>("/tf", Qos::reliable(100))?;
     let one = |stamp_ns: i64| {
         graph.advance_to(stamp_ns);
-        let sec = i32::try_from(stamp_ns.div_euclid(1_000_000_000)).unwrap_or(i32::MAX);
-        let nanosec = u32::try_from(stamp_ns.rem_euclid(1_000_000_000)).unwrap_or_default();
         states.publish(JointState {
-            header: Header { stamp: Time { sec, nanosec }, frame_id: String::new() },
+            header: Header::at(stamp_ns, ""),
             name: vec!["turn".into()],
             position: vec![0.5],
             ..JointState::default()

@@ -1,10 +1,10 @@
 //! Which goals somebody means who asks to stop some.
 
 use periplus_msgs::action_msgs::{CancelGoalRequest, CancelGoalResponse, GoalInfo};
+use periplus_msgs::builtin_interfaces::Time;
 
 use super::GoalId;
 use super::goal::{GoalEvent, GoalState};
-use crate::parameters::stamp;
 
 /// A goal as far as it matters here.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct Standing {
 
 impl Standing {
     pub(super) fn info(&self) -> GoalInfo {
-        GoalInfo { goal_id: self.id.into(), stamp: stamp(self.accepted_ns) }
+        GoalInfo { goal_id: self.id.into(), stamp: Time::of_ns(self.accepted_ns) }
     }
 }
 
@@ -26,8 +26,7 @@ impl Standing {
 /// then; with both these and that one. Source: `rcl_action_process_cancel_request`.
 pub(super) fn meant(request: &CancelGoalRequest, goals: &[Standing]) -> (Vec<GoalId>, i8) {
     let id = GoalId::from(&request.goal_info.goal_id);
-    let time = &request.goal_info.stamp;
-    let time_ns = i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec);
+    let time_ns = request.goal_info.stamp.ns();
     let can_stop = |goal: &&Standing| goal.state.after(GoalEvent::Cancel).is_some();
     if id != GoalId::NONE && time_ns == 0 {
         return match goals.iter().find(|goal| goal.id == id) {
@@ -58,7 +57,7 @@ mod tests {
             goal(4, 30, GoalState::Canceling),
         ];
         let check = |number: u8, time_ns: i64, expected: &[u8], code: i8| {
-            let goal_info = GoalInfo { goal_id: id(number).into(), stamp: stamp(time_ns) };
+            let goal_info = GoalInfo { goal_id: id(number).into(), stamp: Time::of_ns(time_ns) };
             let (meant, said) = meant(&CancelGoalRequest { goal_info }, &goals);
             let expected: Vec<GoalId> = expected.iter().map(|number| id(*number)).collect();
             assert_eq!((meant, said), (expected, code), "{number} {time_ns}");

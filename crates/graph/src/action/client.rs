@@ -13,7 +13,6 @@ use super::goal::{GoalId, GoalState};
 use super::{FEEDBACK_QOS, Names, STATUS_QOS};
 use crate::common::lock;
 use crate::node::Node;
-use crate::parameters::stamp;
 use crate::{CallError, Client, GraphError, Mailbox, Pending};
 
 /// Sends goals of an action.
@@ -132,7 +131,7 @@ impl<A: Action> ActionClient<A> {
     /// Asks to stop all goals that were accepted by a time \[ns\].
     #[must_use]
     pub fn cancel_before(&self, time_ns: i64) -> Pending<CancelGoal> {
-        self.ask_cancel(GoalId::NONE, stamp(time_ns))
+        self.ask_cancel(GoalId::NONE, Time::of_ns(time_ns))
     }
 
     fn ask_cancel(&self, id: GoalId, stamp: Time) -> Pending<CancelGoal> {

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, Weak};
 use periplus_msgs::action_msgs::{
     CancelGoal, CancelGoalRequest, CancelGoalResponse, GoalStatusArray,
 };
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::{Action, Message, Service};
 
 use super::cancel::meant;
@@ -16,7 +17,6 @@ use crate::actor::Io;
 use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::lock;
 use crate::node::{Node, NodeCore};
-use crate::parameters::stamp;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 use crate::service::{OwnServer, Reply, Request, ServerReaction};
@@ -306,7 +306,7 @@ impl<A: Action> NewGoal<A> {
         table.accept(self.id, accepted_ns);
         drop(table);
         if let Some(reply) = self.reply.take() {
-            answer(reply, A::accept_goal(true, stamp(accepted_ns)));
+            answer(reply, A::accept_goal(true, Time::of_ns(accepted_ns)));
         }
         self.core.tell_states();
         Some(GoalHandle { core: self.core.clone(), id: self.id, goal: self.goal.clone() })
@@ -316,7 +316,7 @@ impl<A: Action> NewGoal<A> {
 impl<A: Action> Drop for NewGoal<A> {
     fn drop(&mut self) {
         if let Some(reply) = self.reply.take() {
-            answer(reply, A::accept_goal(false, stamp(self.core.now_ns())));
+            answer(reply, A::accept_goal(false, Time::of_ns(self.core.now_ns())));
         }
     }
 }

@@ -7,13 +7,14 @@ use periplus_graph::Publisher;
 use periplus_msgs::gazebo_msgs::{ContactState, ContactsState};
 use periplus_msgs::geometry_msgs::Wrench;
 use periplus_msgs::ros_gz_interfaces::{self, Contacts, Entity, JointWrench};
+use periplus_msgs::std_msgs::Header;
 use periplus_scene::SensorKind;
 use periplus_sensors::touches;
 
 use super::imu::vector;
 use super::port::Style;
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct ContactDevice {
     mount: Mount,
@@ -126,13 +127,13 @@ impl Device for ContactDevice {
         for out in &self.outs {
             match out {
                 Out::Classic { publisher, frame, in_world } => publisher.publish(ContactsState {
-                    header: header(time_ns, frame),
+                    header: Header::at(time_ns, frame),
                     states: contacts.iter().map(|it| self.state(world, it, *in_world)).collect(),
                 }),
                 // As in Gazebo, nothing is said of nothing.
                 Out::Gz { .. } if contacts.is_empty() => {}
                 Out::Gz { publisher, frame } => {
-                    let header = header(time_ns, frame);
+                    let header = Header::at(time_ns, frame);
                     let contacts = contacts.iter().map(|it| gz_contact(world, it)).collect();
                     publisher.publish(Contacts { header, contacts });
                 }

@@ -4,12 +4,13 @@ use periplus_base::DVec3;
 use periplus_graph::Publisher;
 use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs;
+use periplus_msgs::std_msgs::Header;
 use periplus_scene::{Noise, NoiseKind};
 use periplus_sensors::{Imu, Motion, OrientationReference};
 
 use super::port::{Port, Style};
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct ImuDevice {
     mount: Mount,
@@ -98,7 +99,7 @@ impl Device for ImuDevice {
         }
         for (frame, out) in self.outs.iter().filter(|(_, out)| out.is_heard()) {
             out.publish(sensor_msgs::Imu {
-                header: header(time_ns, frame),
+                header: Header::at(time_ns, frame),
                 orientation: orientation.clone(),
                 orientation_covariance,
                 angular_velocity: vector(reading.angular_velocity_rad_s),

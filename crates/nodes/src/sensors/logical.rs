@@ -4,11 +4,12 @@ use periplus_base::Pose;
 use periplus_graph::Publisher;
 use periplus_msgs::geometry_msgs;
 use periplus_msgs::ros_gz_interfaces::{LogicalCameraImage, LogicalCameraImageModel};
+use periplus_msgs::std_msgs::Header;
 use periplus_scene::SensorKind;
 use periplus_sensors::LogicalCamera;
 
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct LogicalDevice {
     mount: Mount,
@@ -64,7 +65,7 @@ impl Device for LogicalDevice {
             .collect();
         for (frame, out) in &self.outs {
             out.publish(LogicalCameraImage {
-                header: header(time_ns, frame),
+                header: Header::at(time_ns, frame),
                 pose: pose_of(motion.world_from_sensor),
                 model: seen.clone(),
             });

@@ -4,13 +4,14 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::Publisher;
 use periplus_msgs::geometry_msgs::Vector3Stamped;
 use periplus_msgs::sensor_msgs::{NavSatFix, NavSatStatus};
+use periplus_msgs::std_msgs::Header;
 use periplus_scene::{SensorKind, SphericalCoordinates};
 use periplus_sensors::{Globe, NavSat, NavSatNoise};
 
 use super::imu::{diagonal, vector};
 use super::port::Style;
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct NavSatDevice {
     mount: Mount,
@@ -104,7 +105,7 @@ impl Device for NavSatDevice {
         let reading = self.sensor.measure(&motion, tick.dt_s, &mut stream);
         for out in &self.outs {
             out.fix.publish(NavSatFix {
-                header: header(time_ns, &out.frame),
+                header: Header::at(time_ns, &out.frame),
                 status: NavSatStatus {
                     status: NavSatStatus::STATUS_FIX,
                     service: NavSatStatus::SERVICE_GPS,
@@ -117,7 +118,7 @@ impl Device for NavSatDevice {
             });
             if let Some(velocity) = &out.velocity {
                 velocity.publish(Vector3Stamped {
-                    header: header(time_ns, &out.frame),
+                    header: Header::at(time_ns, &out.frame),
                     vector: vector(reading.velocity_m_s),
                 });
             }

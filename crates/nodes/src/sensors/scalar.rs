@@ -4,13 +4,14 @@ use periplus_base::{DVec3, Stream};
 use periplus_graph::Publisher;
 use periplus_msgs::ros_gz_interfaces;
 use periplus_msgs::sensor_msgs::{FluidPressure, MagneticField};
+use periplus_msgs::std_msgs::Header;
 use periplus_scene::SensorKind;
 use periplus_sensors::{Altimeter, Barometer, Magnetometer, Motion};
 
 use super::imu::{diagonal, vector};
 use super::timer::Tick;
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct FieldDevice {
     mount: Mount,
@@ -112,7 +113,13 @@ impl Device for FieldDevice {
         let Some(motion) = self.mount.motion(moment.world) else { return };
         for (frame, kind) in &mut self.outs {
             let mut stream = self.mount.streams().tick(tick.number);
-            kind.publish(header(time_ns, frame), self.world_field_t, &motion, tick, &mut stream);
+            kind.publish(
+                Header::at(time_ns, frame),
+                self.world_field_t,
+                &motion,
+                tick,
+                &mut stream,
+            );
         }
     }
 

@@ -2,12 +2,13 @@
 
 use periplus_graph::Publisher;
 use periplus_msgs::sensor_msgs::Range;
+use periplus_msgs::std_msgs::Header;
 use periplus_optics::{Geometry, filter};
 use periplus_scene::SensorKind;
 use periplus_sensors::{Sonar, View};
 
 use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment, header};
+use crate::{Device, Moment};
 
 struct SonarDevice {
     mount: Mount,
@@ -59,7 +60,7 @@ impl Device for SonarDevice {
         let [min_m, max_m] = self.sonar.range_m();
         for (frame, out) in &self.outs {
             out.publish(Range {
-                header: header(time_ns, frame),
+                header: Header::at(time_ns, frame),
                 radiation_type: Range::ULTRASOUND,
                 field_of_view: self.sonar.field_of_view_rad() as f32,
                 min_range: min_m as f32,

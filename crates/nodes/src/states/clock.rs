@@ -1,10 +1,11 @@
 //! `/clock`.
 
 use periplus_graph::{Graph, GraphError, NodeSettings, Publisher, Qos};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::rosgraph_msgs;
 
 use crate::drives::Beat;
-use crate::{Device, Moment, stamp};
+use crate::{Device, Moment};
 
 /// Publishes the simulated time on `/clock`, best effort with depth 1 as `rclcpp::ClockQoS` asks.
 pub struct ClockPublisher {
@@ -32,7 +33,7 @@ impl Device for ClockPublisher {
     fn sense(&mut self, moment: &mut Moment<'_>) {
         let now_ns = moment.time_ns();
         if self.tells.due(now_ns) {
-            self.publisher.publish(rosgraph_msgs::Clock { clock: stamp(now_ns) });
+            self.publisher.publish(rosgraph_msgs::Clock { clock: Time::of_ns(now_ns) });
         }
     }
 

@@ -3,8 +3,7 @@
 use periplus_base::{DQuat, DVec3, Pose};
 use periplus_dynamics::Twist;
 use periplus_msgs::geometry_msgs;
-
-use crate::header;
+use periplus_msgs::std_msgs::Header;
 
 pub(crate) fn vector(vector: DVec3) -> geometry_msgs::Vector3 {
     geometry_msgs::Vector3 { x: vector.x, y: vector.y, z: vector.z }
@@ -41,7 +40,7 @@ pub(crate) fn transform(
     parent_from_child: Pose,
 ) -> geometry_msgs::TransformStamped {
     geometry_msgs::TransformStamped {
-        header: header(time_ns, parent),
+        header: Header::at(time_ns, parent),
         child_frame_id: child.into(),
         transform: geometry_msgs::Transform {
             translation: vector(parent_from_child.translation),

@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
+use periplus_msgs::std_msgs::Header;
 use periplus_params::{Table, Values, flag, number, texts};
 use periplus_scene::{JointKind, Mimic, Model};
-
-use crate::header;
 
 /// Parameters of [`JointStateSource`].
 pub static JOINT_STATE_PUBLISHER: Table = Table {
@@ -177,7 +176,7 @@ impl State {
 
     fn tell(&self, now_ns: i64) {
         let mut message =
-            sensor_msgs::JointState { header: header(now_ns, ""), ..Default::default() };
+            sensor_msgs::JointState { header: Header::at(now_ns, ""), ..Default::default() };
         for joint in &self.joints {
             let Some((position, velocity)) = self.state_of(joint, self.joints.len()) else {
                 continue;

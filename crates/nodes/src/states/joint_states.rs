@@ -4,11 +4,12 @@ use periplus_diagnostics::Diagnostics;
 use periplus_dynamics::{JointId, World};
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
+use periplus_msgs::std_msgs::Header;
 use periplus_params::Value;
 use periplus_plugins::Family;
 
 use crate::drives::{Beat, Order};
-use crate::{Device, Moment, Setting, gz_topic, header, plain_node, publisher_qos};
+use crate::{Device, Moment, Setting, gz_topic, plain_node, publisher_qos};
 
 /// How often a robot without a publisher of its own tells its joints \[Hz\].
 const USUAL_RATE_HZ: f64 = 50.0;
@@ -47,7 +48,7 @@ impl JointStates {
             return;
         }
         let mut message =
-            sensor_msgs::JointState { header: header(time_ns, ""), ..Default::default() };
+            sensor_msgs::JointState { header: Header::at(time_ns, ""), ..Default::default() };
         for (name, joint) in &self.joints {
             let state = world.axis_state(*joint).unwrap_or_default();
             message.name.push(name.clone());

@@ -3,11 +3,12 @@
 use periplus_base::Pose;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Node, Publisher, Qos};
+use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, nav_msgs, tf2_msgs};
 
 use super::geometry;
 use crate::drives::Order;
-use crate::{header, publisher_qos};
+use crate::publisher_qos;
 
 /// What Gazebo's plugins say of what they do not know: height, roll and pitch.
 const UNKNOWN: f64 = 1e12;
@@ -92,7 +93,7 @@ impl Teller {
         }
         if let Some(odometry) = self.odometry.as_ref().filter(|odometry| odometry.is_heard()) {
             odometry.publish(nav_msgs::Odometry {
-                header: header(time_ns, &self.parent_frame),
+                header: Header::at(time_ns, &self.parent_frame),
                 child_frame_id: self.child_frame.clone(),
                 pose: geometry_msgs::PoseWithCovariance {
                     pose: geometry::pose(parent_from_child),

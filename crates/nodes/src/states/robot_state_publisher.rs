@@ -179,8 +179,7 @@ impl State {
             self.told_ns.clear();
         }
         self.last_ns = now_ns;
-        let stamp_ns =
-            i64::from(header.stamp.sec) * 1_000_000_000 + i64::from(header.stamp.nanosec);
+        let stamp_ns = header.stamp.ns();
         let oldest_ns = name.iter().map(|name| self.told_ns.get(name).copied().unwrap_or(0)).min();
         let Some(oldest_ns) = oldest_ns.map(|oldest_ns| oldest_ns.min(now_ns)) else { return };
         // In whole milliseconds, as the original counts.

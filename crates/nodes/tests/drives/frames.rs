@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
-use periplus_nodes::stamp;
 use periplus_nodes::states::{
     JointStateOptions, JointStateSource, RobotStateOptions, RobotStatePublisher,
 };
@@ -55,7 +55,7 @@ fn ears() -> Ears {
 
 fn state(time_ms: i64, reach: f64) -> sensor_msgs::JointState {
     let mut state = sensor_msgs::JointState::default();
-    state.header.stamp = stamp(time_ms * 1_000_000);
+    state.header.stamp = Time::of_ns(time_ms * 1_000_000);
     state.name = vec!["reach".into()];
     state.position = vec![reach];
     state
@@ -101,7 +101,7 @@ fn frames_come_with_joint_states_at_20_hertz_at_most() {
         .collect();
     // The finger is 1 m ahead of the hand, and 2 * 0.5 - 0.1 m below.
     assert_eq!(found, [("r1/hand", "r1/finger", -0.9), ("r1/base", "r1/hand", 0.5)]);
-    assert_eq!(last.transforms[0].header.stamp, stamp(1_100_000_000));
+    assert_eq!(last.transforms[0].header.stamp, Time::of_ns(1_100_000_000));
 }
 
 #[test]
@@ -150,5 +150,5 @@ fn default_joint_states_and_sources() {
     let error = (last.position[0] - 0.3).abs() + (last.position[1] + 0.5).abs();
     assert!(error < 1e-12, "{last:?}");
     assert_eq!(last.velocity, [0.25, -0.5]);
-    assert_eq!(last.header.stamp, stamp(1_100_000_000));
+    assert_eq!(last.header.stamp, Time::of_ns(1_100_000_000));
 }

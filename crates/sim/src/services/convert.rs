@@ -1,7 +1,6 @@
 //! Poses, velocities and colours in messages.
 
 use periplus_base::{DQuat, DVec3, Pose};
-use periplus_msgs::builtin_interfaces::{Duration, Time};
 use periplus_msgs::geometry_msgs::{self, Point, Quaternion, Twist, Vector3};
 use periplus_msgs::std_msgs::ColorRGBA;
 use periplus_scene::Colour;
@@ -43,14 +42,4 @@ pub(super) fn colour(message: &ColorRGBA) -> Colour {
 #[expect(clippy::cast_possible_truncation, reason = "messages carry colours in single precision")]
 pub(super) fn colour_message(Colour([r, g, b, a]): Colour) -> ColorRGBA {
     ColorRGBA { r: r as f32, g: g as f32, b: b as f32, a: a as f32 }
-}
-
-/// A moment \[ns\].
-pub(super) fn time_ns(time: &Time) -> i64 {
-    i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec)
-}
-
-/// A stretch \[ns\]; below zero is without end.
-pub(super) fn duration_ns(duration: &Duration) -> i64 {
-    i64::from(duration.sec) * 1_000_000_000 + i64::from(duration.nanosec)
 }

@@ -8,7 +8,7 @@ use periplus_msgs::gazebo_msgs::{
     GetWorldPropertiesResponse, SpawnEntity, SpawnEntityResponse, SpawnModel, SpawnModelResponse,
 };
 use periplus_msgs::geometry_msgs;
-use periplus_nodes::header;
+use periplus_msgs::std_msgs::Header;
 
 use super::offer::Offer;
 use super::reading::{Search, Source};
@@ -82,7 +82,7 @@ impl Factory {
             DeleteLightResponse { success, status_message }
         });
         self.list.answer(|_| GetModelListResponse {
-            header: header(simulation.time_ns(), ""),
+            header: Header::at(simulation.time_ns(), ""),
             model_names: simulation.models().map(str::to_owned).collect(),
             success: true,
         });

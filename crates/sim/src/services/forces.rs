@@ -11,7 +11,7 @@ use periplus_msgs::gazebo_msgs::{
 };
 use periplus_msgs::geometry_msgs::{Point, Wrench};
 
-use super::convert::{duration_ns, time_ns, vector};
+use super::convert::vector;
 use super::entity;
 use super::offer::Offer;
 use crate::Simulation;
@@ -208,8 +208,8 @@ fn accept(
         Ok(on) => on,
         Err(why) => return (false, why),
     };
-    let start_ns = time_ns(start).max(simulation.time_ns());
-    let end_ns = match duration_ns(duration) {
+    let start_ns = start.ns().max(simulation.time_ns());
+    let end_ns = match duration.ns() {
         0 => return (true, "a duration of 0 does nothing; below 0 is without end".into()),
         below if below < 0 => i64::MAX,
         length_ns => start_ns.saturating_add(length_ns.max(simulation.step_ns())),

@@ -9,7 +9,7 @@ use periplus_msgs::ros_gz_interfaces::{
 };
 use periplus_nodes::gz_topic;
 
-use super::convert::{pose, time_ns};
+use super::convert::pose;
 use super::offer::Offer;
 use super::reading::{Search, Source};
 use super::spawn::{Spawned, Standing, Wish, copy, delete, lights, spawn};
@@ -99,7 +99,7 @@ fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &WorldControl)
         0 => u32::from(asked.step),
         steps => steps,
     };
-    let to_ns = time_ns(&asked.run_to_sim_time);
+    let to_ns = asked.run_to_sim_time.ns();
     // Only a paused world can be stepped; one that runs goes on.
     if !asked.pause {
         tempo.set_paused(false);

@@ -8,7 +8,7 @@ use periplus_host::Stopwatch;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::gazebo_msgs::PerformanceMetrics;
 use periplus_msgs::ros_gz_interfaces::WorldStatistics;
-use periplus_nodes::{header, stamp};
+use periplus_msgs::std_msgs::Header;
 
 use super::harmonic::name_of;
 use super::tempo::Tempo;
@@ -74,22 +74,22 @@ impl Metrics {
         self.harmonic.look(&self.node, &wanted)?;
         if let Some(publisher) = self.classic.heard() {
             publisher.publish(PerformanceMetrics {
-                header: header(now_ns, ""),
+                header: Header::at(now_ns, ""),
                 real_time_factor: factor,
                 sensors: Vec::new(),
             });
         }
         if let Some(publisher) = self.harmonic.heard() {
             publisher.publish(WorldStatistics {
-                header: header(now_ns, ""),
-                sim_time: stamp(now_ns),
+                header: Header::at(now_ns, ""),
+                sim_time: Time::of_ns(now_ns),
                 pause_time: wall(self.paused),
                 real_time: wall(self.real),
                 paused: !tempo.may_step(),
                 iterations: self.iterations,
                 model_count: i32::try_from(simulation.models().count()).unwrap_or(i32::MAX),
                 real_time_factor: factor,
-                step_size: stamp(if tempo.may_step() { simulation.step_ns() } else { 0 }),
+                step_size: Time::of_ns(if tempo.may_step() { simulation.step_ns() } else { 0 }),
                 stepping: tempo.is_stepping(),
                 ..WorldStatistics::default()
             });
@@ -99,7 +99,7 @@ impl Metrics {
 }
 
 fn wall(time: Duration) -> Time {
-    stamp(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
+    Time::of_ns(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
 }
 
 /// Simulated seconds per second of the wall; a jump back counts as standing still.

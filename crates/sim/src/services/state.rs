@@ -8,7 +8,7 @@ use periplus_msgs::gazebo_msgs::{
     SetModelConfigurationResponse, SetModelState, SetModelStateResponse,
 };
 use periplus_msgs::geometry_msgs::{Pose, Twist};
-use periplus_nodes::header;
+use periplus_msgs::std_msgs::Header;
 
 use super::Log;
 use super::convert::{pose, pose_message, twist_message, vector};
@@ -92,7 +92,7 @@ impl State {
             }
             let Motion { pose, linear_m_s, angular_rad_s } = found.unwrap_or_default();
             GetEntityStateResponse {
-                header: header(simulation.time_ns(), &asked.reference_frame),
+                header: Header::at(simulation.time_ns(), &asked.reference_frame),
                 state: EntityState {
                     name: asked.name.clone(),
                     pose: pose_message(pose),
@@ -108,7 +108,7 @@ impl State {
             let (success, status_message) = told(&found, "GetModelState: got properties");
             let Motion { pose, linear_m_s, angular_rad_s } = found.unwrap_or_default();
             GetModelStateResponse {
-                header: header(simulation.time_ns(), frame),
+                header: Header::at(simulation.time_ns(), frame),
                 pose: pose_message(pose),
                 twist: twist_message(linear_m_s, angular_rad_s),
                 success,

@@ -5,11 +5,11 @@ use std::time::Duration;
 use periplus_base::{DQuat, Rpy, quaternion_from_rpy};
 use periplus_graph::{NodeSettings, Qos};
 use periplus_host::{sleep, unix_ns};
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 
-use crate::clock::stamp;
 use crate::failure::endless;
 use crate::{Failure, Outcome, Session};
 
@@ -125,7 +125,7 @@ pub fn broadcast(session: &mut Session<'_>, broadcast: &Broadcast) -> Outcome {
     let ([x, y, z], [qx, qy, qz, qw]) = (broadcast.translation, broadcast.rotation);
     publisher.publish(TFMessage {
         transforms: vec![TransformStamped {
-            header: Header { stamp: stamp(unix_ns()), frame_id: broadcast.parent.clone() },
+            header: Header { stamp: Time::of_ns(unix_ns()), frame_id: broadcast.parent.clone() },
             child_frame_id: broadcast.child.clone(),
             transform: Transform {
                 translation: Vector3 { x, y, z },

@@ -64,8 +64,7 @@ impl Frames {
 }
 
 pub(super) fn stamp_ns(transform: &TransformStamped) -> i64 {
-    let stamp = &transform.header.stamp;
-    i64::from(stamp.sec) * 1_000_000_000 + i64::from(stamp.nanosec)
+    transform.header.stamp.ns()
 }
 
 fn stamped(transform: &TransformStamped) -> Stamped {

@@ -3,6 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{GraphError, Publisher, Qos, valid_topic_name};
 use periplus_msgs::sensor_msgs::{CameraInfo, Image, PointCloud2};
+use periplus_msgs::std_msgs::Header;
 use periplus_optics::{Picture, Wanted};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{Calibration, Pinhole};
@@ -12,7 +13,6 @@ use super::super::port::{Port, Style};
 use super::info::{calibration, message};
 use super::pixels::{Encoding, colour_image, depth_image, label_image, millimetre_image};
 use super::points::{Cloud, cloud};
-use crate::header;
 
 /// One thing that a camera publishes.
 pub(super) struct Out {
@@ -57,7 +57,7 @@ impl Out {
         if !self.is_heard() {
             return;
         }
-        let header = header(time_ns, &self.frame);
+        let header = Header::at(time_ns, &self.frame);
         match &self.to {
             To::Colour(out, encoding) => out.publish(colour_image(header, picture, *encoding)),
             To::Depth(out) => out.publish(depth_image(header, picture)),

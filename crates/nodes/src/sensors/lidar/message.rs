@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use periplus_msgs::geometry_msgs::Point32;
 use periplus_msgs::sensor_msgs::{self, ChannelFloat32, LaserScan, PointCloud, PointCloud2};
+use periplus_msgs::std_msgs::Header;
 use periplus_sensors::{Lidar, Quirks};
 
-use crate::header;
 use crate::sensors::cloud::{CLASSIC_LASER, GZ_LIDAR, cloud};
 
 /// What a publisher of scans is told beside the scan.
@@ -41,7 +41,7 @@ impl Told {
         let [range_min_m, range_max_m] = lidar.range_m();
         #[expect(clippy::cast_precision_loss, reason = "fewer than 2^22 beams")]
         LaserScan {
-            header: header(time_ns, &self.frame_id),
+            header: Header::at(time_ns, &self.frame_id),
             angle_min: single(angles.first_rad[0]),
             angle_max: single(angles.last_rad[0]),
             angle_increment: single(step_rad),
@@ -66,7 +66,7 @@ impl Told {
             }
         }
         let count = data.len() / 16;
-        cloud(header(time_ns, &self.frame_id), CLASSIC_LASER, [count, 1], true, data)
+        cloud(Header::at(time_ns, &self.frame_id), CLASSIC_LASER, [count, 1], true, data)
     }
 
     /// All points in rows, those that were not met as well (Gazebo's own).
@@ -85,7 +85,7 @@ impl Told {
             data.extend_from_slice(&ring.to_le_bytes());
             data.extend_from_slice(&[0; 6]);
         }
-        cloud(header(time_ns, &self.frame_id), GZ_LIDAR, [columns, rows], false, data)
+        cloud(Header::at(time_ns, &self.frame_id), GZ_LIDAR, [columns, rows], false, data)
     }
 
     /// The points that were met, in the message of old.
@@ -97,7 +97,7 @@ impl Told {
             .filter(|([x, y, z], _)| x.is_finite() && y.is_finite() && z.is_finite());
         let (points, values) = met.map(|([x, y, z], value)| (Point32 { x, y, z }, value)).unzip();
         PointCloud {
-            header: header(time_ns, &self.frame_id),
+            header: Header::at(time_ns, &self.frame_id),
             points,
             channels: vec![ChannelFloat32 { name: "intensity".into(), values }],
         }
@@ -111,7 +111,7 @@ impl Told {
         let [range_min_m, range_max_m] = lidar.range_m();
         let wide = |axis: usize| angles.last_rad[axis] - angles.first_rad[axis];
         sensor_msgs::Range {
-            header: header(time_ns, &self.frame_id),
+            header: Header::at(time_ns, &self.frame_id),
             radiation_type: if self.is_ultrasound {
                 sensor_msgs::Range::ULTRASOUND
             } else {
