@@ -1,17 +1,18 @@
 //! Where frames are, as heard on `/tf` and `/tf_static`.
 
-use periplus_base::{DQuat, DVec3, Pose};
+use periplus_base::Pose;
 use periplus_costmap::Frames;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
-use periplus_msgs::{geometry_msgs, tf2_msgs};
-use periplus_tf::{Buffer, Kind, LookupError, Stamped};
+use periplus_msgs::tf2_msgs;
+use periplus_tf::{Kind, LookupError};
+use periplus_whereabouts as whereabouts;
 
 /// Most transforms that wait between two updates.
 const DEPTH: usize = 1000;
 
 /// Frames, and where news of them come from.
 pub(crate) struct Listener {
-    buffer: Buffer,
+    frames: whereabouts::Frames,
     moving: Mailbox<tf2_msgs::TFMessage>,
     fixed: Mailbox<tf2_msgs::TFMessage>,
 }
@@ -19,7 +20,7 @@ pub(crate) struct Listener {
 impl Listener {
     pub(crate) fn new(node: &Node) -> Result<Self, GraphError> {
         Ok(Self {
-            buffer: Buffer::default(),
+            frames: whereabouts::Frames::default(),
             moving: node.mailbox("/tf", Qos::reliable(DEPTH))?,
             fixed: node.mailbox("/tf_static", Qos::latched(DEPTH))?,
         })
@@ -29,10 +30,7 @@ impl Listener {
     pub(crate) fn listen(&mut self) {
         for (mailbox, kind) in [(&self.fixed, Kind::Fixed), (&self.moving, Kind::Moving)] {
             for message in mailbox.drain() {
-                for transform in &message.transforms {
-                    // What is malformed is dropped, as tf2 drops it.
-                    let _refused = self.buffer.set(&stamped(transform), "tf", kind);
-                }
+                self.frames.take(&message, kind);
             }
         }
     }
@@ -44,30 +42,16 @@ impl Listener {
         source: &str,
         time_ns: i64,
     ) -> Result<(Pose, i64), LookupError> {
-        let target = target.trim_start_matches('/');
-        let source = source.trim_start_matches('/');
-        let found = self.buffer.lookup(target, source, time_ns)?;
-        Ok((found.target_from_source, found.time_ns))
+        self.frames.at(target, source, time_ns)
     }
 
     pub(crate) fn has(&self, frame: &str) -> bool {
-        self.buffer.has_frame(frame)
+        self.frames.has(frame)
     }
 }
 
 impl Frames for Listener {
     fn latest(&self, target: &str, source: &str) -> Option<Pose> {
         self.at(target, source, 0).ok().map(|(pose, _)| pose)
-    }
-}
-
-fn stamped(transform: &geometry_msgs::TransformStamped) -> Stamped {
-    let geometry_msgs::Transform { translation, rotation } = &transform.transform;
-    Stamped {
-        parent: transform.header.frame_id.clone(),
-        child: transform.child_frame_id.clone(),
-        stamp_ns: transform.header.stamp.ns(),
-        translation: DVec3::new(translation.x, translation.y, translation.z),
-        rotation: DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
     }
 }

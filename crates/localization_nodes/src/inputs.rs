@@ -3,14 +3,12 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use periplus_base::{Pose, Pose2};
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{Client, GraphError, Mailbox, Node, Pending, Qos};
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, OccupancyGrid};
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::Values;
-
-use crate::frames::Frames;
+use periplus_whereabouts::{Frames, Places, Robot, places};
 
 /// A scan whose transforms do not come is dropped after so long \[ns\].
 const PATIENCE_NS: i64 = 1_000_000_000;
@@ -48,12 +46,21 @@ pub(crate) struct Names {
     pub(crate) base: String,
 }
 
+impl Names {
+    fn robot(&self) -> Robot<'_> {
+        Robot {
+            odom: &self.odom,
+            base: &self.base,
+            odom_parameter: "odom_frame_id",
+            base_parameter: "base_frame_id",
+        }
+    }
+}
+
 /// A scan with where everything was at its time.
 pub(crate) struct Placed {
     pub(crate) message: Arc<LaserScan>,
-    pub(crate) time_ns: i64,
-    pub(crate) base_from_laser: Pose,
-    pub(crate) odom_from_base: Pose2,
+    pub(crate) places: Places,
 }
 
 impl Inputs {
@@ -129,14 +136,15 @@ impl Inputs {
     ) -> Option<Placed> {
         loop {
             let (came_ns, message) = self.waiting.front()?;
-            match placed(message, frames, names) {
-                Ok(placed) => {
+            match places(message, frames, &names.robot()) {
+                Ok(places) => {
+                    let message = message.clone();
                     self.waiting.pop_front();
-                    return Some(placed);
+                    return Some(Placed { message, places });
                 }
                 Err(_) if now_ns - came_ns <= PATIENCE_NS => return None,
                 Err(lack) => {
-                    complaints.push(lack.told(&message.header.frame_id, frames, names));
+                    complaints.push(lack.told(&message.header.frame_id, frames, &names.robot()));
                     self.waiting.pop_front();
                 }
             }
@@ -164,57 +172,5 @@ impl Inputs {
         let silent_s = silent_ns as f64 * 1e-9;
         let words = format!("no scan has come on `{topic}` for {silent_s:.0} s");
         Some(Diagnostic::error(NO_SCANS, words).help(help))
-    }
-}
-
-/// What a scan lacks.
-enum Lack {
-    Frame,
-    Laser,
-    Odometry,
-}
-
-/// A scan with its transforms.
-fn placed(message: &Arc<LaserScan>, frames: &Frames, names: &Names) -> Result<Placed, Lack> {
-    let time_ns = message.header.stamp.ns();
-    let (laser, base) = (message.header.frame_id.as_str(), names.base.as_str());
-    if laser.is_empty() {
-        return Err(Lack::Frame);
-    }
-    // The scanner seldom moves on the robot; what is known of it may be older or newer.
-    let base_from_laser = frames.at(base, laser, time_ns).or_else(|_| frames.at(base, laser, 0));
-    let (base_from_laser, _) = base_from_laser.map_err(|_| Lack::Laser)?;
-    let found = frames.at(&names.odom, base, time_ns);
-    let odom_from_base = Pose2::from(found.map_err(|_| Lack::Odometry)?.0);
-    Ok(Placed { message: message.clone(), time_ns, base_from_laser, odom_from_base })
-}
-
-impl Lack {
-    /// Says which transform is missing.
-    fn told(&self, laser: &str, frames: &Frames, names: &Names) -> Diagnostic {
-        let Names { odom, base } = names;
-        match self {
-            Self::Frame => Diagnostic::error("scan-without-frame", "scans have no `frame_id`")
-                .help("have the driver say in which frame it measures"),
-            Self::Laser => {
-                let why = frames.missing(base, laser);
-                Diagnostic::error(
-                    "no-laser-transform",
-                    format!("scans are dropped: no transform from `{laser}` to `{base}`: {why}"),
-                )
-                .help("start robot_state_publisher or a static transform, or set `base_frame_id`")
-            }
-            Self::Odometry => {
-                let why = frames.missing(odom, base);
-                Diagnostic::error(
-                    "no-odometry",
-                    format!(
-                        "scans are dropped: no transform from `{base}` to `{odom}` at their time: \
-                         {why}"
-                    ),
-                )
-                .help("start what publishes odometry, or set `odom_frame_id` and `base_frame_id`")
-            }
-        }
     }
 }

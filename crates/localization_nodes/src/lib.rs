@@ -8,14 +8,12 @@
 //! Source of names and QoS: `nav2_amcl/src/amcl_node.cpp` (main, 2026) and the wiki of ROS 1's `amcl`.
 
 mod file;
-mod frames;
 mod inputs;
 mod messages;
 mod node;
 mod outputs;
 mod saved;
 mod services;
-mod told;
 
 pub use messages::scan;
 pub use node::{AmclNode, read};

@@ -2,12 +2,11 @@
 
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_localization::{Covariance2, Particles, Scan};
-use periplus_msgs::geometry_msgs::{
-    self, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion,
-};
+use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
+use periplus_msgs::nav2_msgs;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
-use periplus_msgs::{nav2_msgs, tf2_msgs};
+use periplus_whereabouts::pose;
 
 /// How far the length of a quaternion may be from 1: what is off further was not meant as one.
 const OFF: f64 = 0.01;
@@ -48,18 +47,6 @@ pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     Ok(Pose2::from(Pose::from_xyz_quaternion(xyz, rotation)))
 }
 
-pub(crate) fn pose(pose: Pose2) -> geometry_msgs::Pose {
-    let Pose { translation, rotation } = Pose::from(pose);
-    geometry_msgs::Pose {
-        position: geometry_msgs::Point { x: translation.x, y: translation.y, z: translation.z },
-        orientation: quaternion(rotation),
-    }
-}
-
-fn quaternion(rotation: DQuat) -> Quaternion {
-    Quaternion { x: rotation.x, y: rotation.y, z: rotation.z, w: rotation.w }
-}
-
 pub(crate) fn pose_with_covariance(
     map_from_base: Pose2,
     covariance: Covariance2,
@@ -91,29 +78,6 @@ pub(crate) fn poses(
     geometry_msgs::PoseArray { header: Header::at(time_ns, frame), poses: all.map(pose).collect() }
 }
 
-pub(crate) fn transform(
-    parent: &str,
-    child: &str,
-    parent_from_child: Pose2,
-    time_ns: i64,
-) -> tf2_msgs::TFMessage {
-    let Pose { translation, rotation } = Pose::from(parent_from_child);
-    tf2_msgs::TFMessage {
-        transforms: vec![geometry_msgs::TransformStamped {
-            header: Header::at(time_ns, parent),
-            child_frame_id: child.to_owned(),
-            transform: geometry_msgs::Transform {
-                translation: geometry_msgs::Vector3 {
-                    x: translation.x,
-                    y: translation.y,
-                    z: translation.z,
-                },
-                rotation: quaternion(rotation),
-            },
-        }],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,7 +88,7 @@ mod tests {
         let back = pose2(&pose(there)).unwrap_or_default();
         assert!((back.yaw_rad - 3.0).abs() < 1e-12 && back.x_m == 1.0, "{back:?}");
         let mut bad = pose(there);
-        bad.orientation = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
+        bad.orientation = geometry_msgs::Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
         assert!(pose2(&bad).is_err_and(|why| why.contains("is no rotation")));
         bad.orientation.w = f64::NAN;
         assert!(pose2(&bad).is_err());

@@ -15,15 +15,14 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::Values;
 use periplus_tf::Kind;
+use periplus_whereabouts::{Frames, Told, plain};
 
 use crate::Files;
-use crate::frames::{Frames, plain};
 use crate::inputs::{Inputs, NO_SCANS, Names, Placed};
 use crate::messages::{pose2, scan};
 use crate::outputs::{Health, Outputs};
 use crate::saved;
 use crate::services;
-use crate::told::Told;
 
 pub use crate::file::read;
 
@@ -366,8 +365,8 @@ impl State {
     fn use_scan(&mut self, placed: &Placed, names: &Names, node: &Node) {
         let Some(amcl) = &mut self.amcl else { return };
         let was_settled = amcl.is_settled();
-        let scan = scan(&placed.message, placed.base_from_laser);
-        let updated = match amcl.update(placed.odom_from_base, &scan) {
+        let scan = scan(&placed.message, placed.places.base_from_laser);
+        let updated = match amcl.update(placed.places.odom_from_base, &scan) {
             Ok(updated) => {
                 self.told.fine();
                 updated
@@ -381,7 +380,7 @@ impl State {
                 return;
             }
         };
-        self.publish(updated.as_ref(), placed.time_ns, names);
+        self.publish(updated.as_ref(), placed.places.time_ns, names);
         let now_settled = self.amcl.as_ref().is_some_and(Amcl::is_settled);
         if let Some(update) = updated
             && now_settled

@@ -8,8 +8,9 @@ use periplus_msgs::geometry_msgs::{PoseArray, PoseWithCovarianceStamped};
 use periplus_msgs::nav2_msgs::ParticleCloud;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_whereabouts::transform;
 
-use crate::messages::{cloud, pose_with_covariance, poses, transform};
+use crate::messages::{cloud, pose_with_covariance, poses};
 
 /// Topics that are published.
 pub(crate) struct Outputs {

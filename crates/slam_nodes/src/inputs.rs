@@ -3,14 +3,13 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use periplus_base::{Pose, Pose2};
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{GraphError, Mailbox, Node, Qos, TopicInfo};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::Values;
+use periplus_whereabouts::{Frames, Places, Robot, places};
 
-use crate::frames::Frames;
 use crate::values::integer;
 
 /// A scan whose transforms do not come is dropped after so long \[ns\].
@@ -45,11 +44,21 @@ pub(crate) struct Names {
     pub(crate) base: String,
 }
 
+impl Names {
+    fn robot(&self) -> Robot<'_> {
+        Robot {
+            odom: &self.odom,
+            base: &self.base,
+            odom_parameter: "odom_frame",
+            base_parameter: "base_frame",
+        }
+    }
+}
+
 /// A scan with where everything was at its time.
 pub(crate) struct Placed {
     pub(crate) message: Arc<LaserScan>,
-    pub(crate) base_from_laser: Pose,
-    pub(crate) odom_from_base: Pose2,
+    pub(crate) places: Places,
 }
 
 impl Inputs {
@@ -100,7 +109,8 @@ impl Inputs {
         complaints: &mut Vec<Diagnostic>,
     ) -> Option<Placed> {
         let ready = |(at, (_, message)): (usize, &(i64, Arc<LaserScan>))| {
-            Some((at, placed(message, frames, names).ok()?))
+            let places = places(message, frames, &names.robot()).ok()?;
+            Some((at, Placed { message: message.clone(), places }))
         };
         let mut waiting = self.waiting.iter().enumerate();
         let found = if self.is_newest_first {
@@ -118,8 +128,8 @@ impl Inputs {
         while let Some((came_ns, message)) = self.waiting.front()
             && now_ns - came_ns > PATIENCE_NS
         {
-            if let Err(lack) = placed(message, frames, names) {
-                complaints.push(lack.told(&message.header.frame_id, frames, names));
+            if let Err(lack) = places(message, frames, &names.robot()) {
+                complaints.push(lack.told(&message.header.frame_id, frames, &names.robot()));
             }
             self.waiting.pop_front();
             self.dropped += 1;
@@ -164,58 +174,6 @@ fn scan_topics(node: &Node, but: &str) -> Vec<String> {
             && it.name != but
     };
     node.graph().topics().into_iter().filter(of_scans).map(|it| it.name).collect()
-}
-
-/// What a scan lacks.
-enum Lack {
-    Frame,
-    Laser,
-    Odometry,
-}
-
-/// A scan with its transforms.
-fn placed(message: &Arc<LaserScan>, frames: &Frames, names: &Names) -> Result<Placed, Lack> {
-    let time_ns = message.header.stamp.ns();
-    let (laser, base) = (message.header.frame_id.as_str(), names.base.as_str());
-    if laser.is_empty() {
-        return Err(Lack::Frame);
-    }
-    // The scanner seldom moves on the robot; what is known of it may be older or newer.
-    let base_from_laser = frames.at(base, laser, time_ns).or_else(|_| frames.at(base, laser, 0));
-    let (base_from_laser, _) = base_from_laser.map_err(|_| Lack::Laser)?;
-    let found = frames.at(&names.odom, base, time_ns);
-    let odom_from_base = Pose2::from(found.map_err(|_| Lack::Odometry)?.0);
-    Ok(Placed { message: message.clone(), base_from_laser, odom_from_base })
-}
-
-impl Lack {
-    /// Says which transform is missing.
-    fn told(&self, laser: &str, frames: &Frames, names: &Names) -> Diagnostic {
-        let Names { odom, base, .. } = names;
-        match self {
-            Self::Frame => Diagnostic::error("scan-without-frame", "scans have no `frame_id`")
-                .help("have the driver say in which frame it measures"),
-            Self::Laser => {
-                let why = frames.missing(base, laser);
-                Diagnostic::error(
-                    "no-laser-transform",
-                    format!("scans are dropped: no transform from `{laser}` to `{base}`: {why}"),
-                )
-                .help("start robot_state_publisher or a static transform, or set `base_frame`")
-            }
-            Self::Odometry => {
-                let why = frames.missing(odom, base);
-                Diagnostic::error(
-                    "no-odometry",
-                    format!(
-                        "scans are dropped: no transform from `{base}` to `{odom}` at their time: \
-                         {why}"
-                    ),
-                )
-                .help("start what publishes odometry, or set `odom_frame` and `base_frame`")
-            }
-        }
-    }
 }
 
 #[cfg(test)]

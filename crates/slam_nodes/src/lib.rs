@@ -11,7 +11,6 @@
 mod drawing;
 mod engine;
 mod file;
-mod frames;
 mod inputs;
 mod markers;
 mod messages;
@@ -19,7 +18,6 @@ mod node;
 mod outputs;
 mod program;
 mod services;
-mod told;
 mod values;
 
 pub use file::read;

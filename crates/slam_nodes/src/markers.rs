@@ -10,8 +10,7 @@ use periplus_msgs::visualization_msgs::{
     InteractiveMarker, InteractiveMarkerControl, Marker, MarkerArray,
 };
 use periplus_slam::{Link, Slam};
-
-use crate::messages::pose;
+use periplus_whereabouts::pose;
 
 /// Colours: kept scans, those moved by hand, chains, ties, closures, closures that were refused.
 const NODE: [f32; 3] = [1.0, 0.1, 0.1];

@@ -2,13 +2,11 @@
 
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
 use periplus_matching::Symmetric3;
-use periplus_msgs::geometry_msgs::{
-    self, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion,
-};
+use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
-use periplus_msgs::tf2_msgs;
 use periplus_slam::Scan;
+use periplus_whereabouts::pose;
 
 /// How far the length of a quaternion may be from 1: what is off further was not meant as one.
 const OFF: f64 = 0.01;
@@ -52,18 +50,6 @@ pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     Ok(Pose2::from(Pose::from_xyz_quaternion(xyz, rotation)))
 }
 
-pub(crate) fn pose(pose: Pose2) -> geometry_msgs::Pose {
-    let Pose { translation, rotation } = Pose::from(pose);
-    geometry_msgs::Pose {
-        position: geometry_msgs::Point { x: translation.x, y: translation.y, z: translation.z },
-        orientation: quaternion(rotation),
-    }
-}
-
-fn quaternion(rotation: DQuat) -> Quaternion {
-    Quaternion { x: rotation.x, y: rotation.y, z: rotation.z, w: rotation.w }
-}
-
 /// Rows of six: x, y, z and the turns about them.
 const XX: usize = 0;
 const XY: usize = 1;
@@ -101,27 +87,4 @@ pub(crate) fn covariance(rows: &[f64; 36]) -> Symmetric3 {
         if given.is_finite() && given > 0.0 { given } else { usual * usual }
     };
     Symmetric3::diagonal(variance(XX, USUAL[0]), variance(YY, USUAL[0]), variance(TT, USUAL[1]))
-}
-
-pub(crate) fn transform(
-    parent: &str,
-    child: &str,
-    parent_from_child: Pose2,
-    time_ns: i64,
-) -> tf2_msgs::TFMessage {
-    let Pose { translation, rotation } = Pose::from(parent_from_child);
-    tf2_msgs::TFMessage {
-        transforms: vec![geometry_msgs::TransformStamped {
-            header: Header::at(time_ns, parent),
-            child_frame_id: child.to_owned(),
-            transform: geometry_msgs::Transform {
-                translation: geometry_msgs::Vector3 {
-                    x: translation.x,
-                    y: translation.y,
-                    z: translation.z,
-                },
-                rotation: quaternion(rotation),
-            },
-        }],
-    }
 }

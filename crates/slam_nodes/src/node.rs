@@ -16,16 +16,15 @@ use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeed
 use periplus_params::Values;
 use periplus_slam::{Closure, Counts, Slam, Taken, tables};
 use periplus_tf::Kind;
+use periplus_whereabouts::{Frames, Told, plain};
 
 use crate::drawing::Drawer;
 use crate::engine::{Engine, Start};
-use crate::frames::{Frames, plain};
 use crate::inputs::{Inputs, Names, Placed};
 use crate::markers;
 use crate::messages::{covariance, pose2, scan};
 use crate::outputs::Outputs;
 use crate::services;
-use crate::told::Told;
 use crate::values::{flag, integer, is_given, number, numbers, text};
 use crate::{Files, Program};
 
@@ -396,8 +395,8 @@ impl State {
             return;
         };
         let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
-        let scan = scan(&placed.message, placed.base_from_laser, is_inverted);
-        let update = engine.add_scan(&scan, placed.odom_from_base);
+        let scan = scan(&placed.message, placed.places.base_from_laser, is_inverted);
+        let update = engine.add_scan(&scan, placed.places.odom_from_base);
         let covariance = engine.covariance();
         match update.taken {
             Taken::Ignored(reason) => {
@@ -419,7 +418,7 @@ impl State {
             node.log(Level::Warn, remark);
         }
         self.remarked = remarks.len();
-        self.last = Some(Last { time_ns, odom_from_base: placed.odom_from_base });
+        self.last = Some(Last { time_ns, odom_from_base: placed.places.odom_from_base });
         let Some(outputs) = &self.outputs else { return };
         outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
         if update.taken == Taken::Kept {

@@ -15,9 +15,10 @@ use periplus_msgs::std_msgs::Float64;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpdate, MarkerArray};
 use periplus_params::Values;
+use periplus_whereabouts::transform;
 
 use crate::Program;
-use crate::messages::{pose_with_covariance, transform};
+use crate::messages::pose_with_covariance;
 use crate::values::text;
 
 /// Topics that are published.

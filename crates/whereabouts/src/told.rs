@@ -8,16 +8,16 @@ const QUIET_NS: i64 = 5_000_000_000;
 
 /// What was said, and when; and what is wrong now.
 #[derive(Debug, Default)]
-pub(crate) struct Told {
+pub struct Told {
     said: Vec<(&'static str, i64)>,
     /// What keeps the node from its work.
-    pub(crate) trouble: Option<String>,
+    pub trouble: Option<String>,
 }
 
 impl Told {
     /// Says something, unless it has been said a moment ago. What is an error is the trouble until
     /// [`Told::fine`].
-    pub(crate) fn tell(&mut self, finding: &Diagnostic, node: &Node) {
+    pub fn tell(&mut self, finding: &Diagnostic, node: &Node) {
         if finding.severity == Severity::Error {
             let helps: String = finding.help.iter().map(|help| format!("; {help}")).collect();
             self.trouble = Some(format!("{}{helps}", finding.message));
@@ -30,13 +30,13 @@ impl Told {
     }
 
     /// Whether something was said a moment ago.
-    pub(crate) fn has_said(&mut self, code: &str, now_ns: i64) -> bool {
+    pub fn has_said(&mut self, code: &str, now_ns: i64) -> bool {
         self.said.retain(|(_, said_ns)| (0..QUIET_NS).contains(&(now_ns - said_ns)));
         self.said.iter().any(|(said, _)| *said == code)
     }
 
     /// All is well again.
-    pub(crate) fn fine(&mut self) {
+    pub fn fine(&mut self) {
         self.trouble = None;
     }
 }

@@ -7,15 +7,15 @@ use periplus_tf::{Buffer, Kind, LookupError, Stamped};
 /// Trees of frames are no deeper.
 const DEEPEST: usize = 1000;
 
-/// Frames.
+/// Frames, and how they hang on each other.
 #[derive(Default)]
-pub(crate) struct Frames {
+pub struct Frames {
     buffer: Buffer,
 }
 
 impl Frames {
     /// Takes in what was broadcast.
-    pub(crate) fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
+    pub fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
         for transform in &message.transforms {
             // What is malformed is dropped, as tf2 drops it.
             let _refused = self.buffer.set(&stamped(transform), "tf", kind);
@@ -23,23 +23,22 @@ impl Frames {
     }
 
     /// Time has jumped.
-    pub(crate) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.buffer.clear();
     }
 
     /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
-    pub(crate) fn at(
-        &self,
-        target: &str,
-        source: &str,
-        time_ns: i64,
-    ) -> Result<(Pose, i64), LookupError> {
+    ///
+    /// # Errors
+    /// When nobody knows.
+    pub fn at(&self, target: &str, source: &str, time_ns: i64) -> Result<(Pose, i64), LookupError> {
         let found = self.buffer.lookup(plain(target), plain(source), time_ns)?;
         Ok((found.target_from_source, found.time_ns))
     }
 
     /// How the robot moved from one time to its newest place, by odometry: `then_from_now`.
-    pub(crate) fn moved_since(&self, odom: &str, base: &str, time_ns: i64) -> Option<Pose2> {
+    #[must_use]
+    pub fn moved_since(&self, odom: &str, base: &str, time_ns: i64) -> Option<Pose2> {
         let (odom_from_now, newest_ns) = self.at(odom, base, 0).ok()?;
         if newest_ns != 0 && newest_ns <= time_ns {
             return Some(Pose2::IDENTITY);
@@ -48,8 +47,15 @@ impl Frames {
         Some(Pose2::from(odom_from_then.inverse() * odom_from_now))
     }
 
+    /// Whether anybody has spoken of a frame.
+    #[must_use]
+    pub fn has(&self, frame: &str) -> bool {
+        self.buffer.has_frame(frame)
+    }
+
     /// What is missing between two frames, and who would say it.
-    pub(crate) fn missing(&self, target: &str, source: &str) -> String {
+    #[must_use]
+    pub fn missing(&self, target: &str, source: &str) -> String {
         let (target, source) = (plain(target), plain(source));
         let unheard = |frame: &str| format!("nobody has published the frame `{frame}` on /tf");
         match (self.buffer.has_frame(target), self.buffer.has_frame(source)) {
@@ -95,7 +101,8 @@ impl Frames {
 }
 
 /// Without the slash that ROS 1 once wanted.
-pub(crate) fn plain(frame: &str) -> &str {
+#[must_use]
+pub fn plain(frame: &str) -> &str {
     frame.trim_start_matches('/')
 }
 
