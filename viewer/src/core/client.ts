@@ -1,0 +1,435 @@
+/**
+ * The other end of a Periplus, Foxglove bridge or any server of the protocol: topics, services,
+ * parameters, assets, time. It connects again by itself, and asks only for what somebody hears.
+ */
+import { decoder, encoder, type Message } from './cdr';
+import {
+  callFrame,
+  messageFrame,
+  parseFrame,
+  SUBPROTOCOL,
+  type Channel,
+  type Ends,
+  type Parameter,
+  type ServerFrame,
+  type ServerText,
+  type ServiceOffer,
+} from './protocol';
+import { parseSchema } from './schema';
+
+/** The part of a WebSocket that is used; tests give one of their own. */
+export interface Socket {
+  binaryType: string;
+  readonly readyState: number;
+  readonly bufferedAmount: number;
+  send(data: string | Uint8Array<ArrayBuffer>): void;
+  close(): void;
+  onopen: ((event: never) => void) | null;
+  onclose: ((event: never) => void) | null;
+  onerror: ((event: never) => void) | null;
+  onmessage: ((event: { data: unknown }) => void) | null;
+}
+
+export type Handler = (message: Message, topic: string, bytes: number) => void;
+
+export type State = 'connecting' | 'open' | 'closed';
+
+export interface Events {
+  state(state: State, why: string): void;
+  /** Topics, services or who uses them changed. */
+  offers(): void;
+  parameters(parameters: Parameter[]): void;
+  time(seconds: number): void;
+  /** What the server, or a message, has to say to the user. */
+  status(level: number, message: string): void;
+}
+
+interface Topic {
+  handlers: Set<Handler>;
+  subscription?: number;
+  decode?: (bytes: Uint8Array) => Message;
+  isBroken?: boolean;
+}
+
+interface Pending<T> {
+  resolve(value: T): void;
+  reject(error: Error): void;
+  timer: ReturnType<typeof setTimeout>;
+}
+
+const FIRST_RETRY_MS = 250;
+const LONGEST_RETRY_MS = 3000;
+const CALL_TIMEOUT_MS = 15_000;
+
+export class Client {
+  /** By topic. */
+  readonly channels = new Map<string, Channel>();
+  readonly services = new Map<string, ServiceOffer>();
+  ends: Ends = { publishedTopics: [], subscribedTopics: [], advertisedServices: [] };
+  serverName = '';
+  capabilities: string[] = [];
+  state: State = 'connecting';
+  bytesReceived = 0;
+
+  private socket?: Socket;
+  private topics = new Map<string, Topic>();
+  private topicOf = new Map<number, string>();
+  private ours = new Map<string, { id: number; schema: string }>();
+  private calls = new Map<number, Pending<Message> & { offer: ServiceOffer }>();
+  private assets = new Map<number, Pending<Uint8Array>>();
+  private lastId = 0;
+  private retryMs = FIRST_RETRY_MS;
+  private retry?: ReturnType<typeof setTimeout>;
+  private isStopped = false;
+
+  constructor(
+    private open: () => Socket,
+    private events: Events,
+    /** Texts of types that we publish although no server told of them. */
+    private texts: Record<string, string> = {},
+  ) {}
+
+  start(): void {
+    this.isStopped = false;
+    this.setState('connecting', '');
+    let socket: Socket;
+    try {
+      socket = this.open();
+    } catch (error) {
+      this.lost(`the address is not usable: ${String(error)}`);
+      return;
+    }
+    this.socket = socket;
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => {
+      this.retryMs = FIRST_RETRY_MS;
+      this.setState('open', '');
+      for (const [topic, { id, schema }] of this.ours) this.sendAdvertise(topic, id, schema);
+    };
+    socket.onmessage = (event) => this.receive(event.data);
+    socket.onerror = () => undefined;
+    socket.onclose = () => {
+      if (this.socket === socket) this.lost('the server cannot be reached');
+    };
+  }
+
+  stop(): void {
+    this.isStopped = true;
+    clearTimeout(this.retry);
+    const { socket } = this;
+    this.socket = undefined;
+    socket?.close();
+    this.forget('the connection was closed');
+    this.setState('closed', '');
+  }
+
+  private lost(why: string): void {
+    this.socket = undefined;
+    this.forget(why);
+    this.setState('closed', why);
+    if (this.isStopped) return;
+    this.retry = setTimeout(() => this.start(), this.retryMs);
+    this.retryMs = Math.min(this.retryMs * 2, LONGEST_RETRY_MS);
+  }
+
+  private forget(why: string): void {
+    this.channels.clear();
+    this.services.clear();
+    this.topicOf.clear();
+    this.ends = { publishedTopics: [], subscribedTopics: [], advertisedServices: [] };
+    for (const topic of this.topics.values()) {
+      topic.subscription = undefined;
+      topic.decode = undefined;
+      topic.isBroken = false;
+    }
+    for (const pending of [...this.calls.values(), ...this.assets.values()]) {
+      clearTimeout(pending.timer);
+      pending.reject(new Error(why));
+    }
+    this.calls.clear();
+    this.assets.clear();
+    this.events.offers();
+  }
+
+  private setState(state: State, why: string): void {
+    this.state = state;
+    this.events.state(state, why);
+  }
+
+  private send(message: object): void {
+    if (this.socket?.readyState === 1) this.socket.send(JSON.stringify(message));
+  }
+
+  // Topics.
+
+  /** Hears a topic, now or as soon as there is one. Call what is returned to hear it no longer. */
+  subscribe(topic: string, handler: Handler): () => void {
+    let entry = this.topics.get(topic);
+    if (!entry) this.topics.set(topic, (entry = { handlers: new Set() }));
+    entry.handlers.add(handler);
+    this.ask(topic, entry);
+    return () => {
+      entry.handlers.delete(handler);
+      if (entry.handlers.size > 0 || this.topics.get(topic) !== entry) return;
+      this.topics.delete(topic);
+      if (entry.subscription === undefined) return;
+      this.topicOf.delete(entry.subscription);
+      this.send({ op: 'unsubscribe', subscriptionIds: [entry.subscription] });
+    };
+  }
+
+  private ask(topic: string, entry: Topic): void {
+    const channel = this.channels.get(topic);
+    if (!channel || entry.subscription !== undefined) return;
+    if (channel.encoding !== 'cdr') {
+      this.events.status(1, `${topic} comes as ${channel.encoding}; this page reads CDR only`);
+      return;
+    }
+    try {
+      entry.decode = decoder(parseSchema(channel.schemaName, channel.schema));
+    } catch (error) {
+      this.events.status(2, `${topic}: ${(error as Error).message}`);
+      return;
+    }
+    entry.subscription = ++this.lastId;
+    this.topicOf.set(entry.subscription, topic);
+    const subscriptions = [{ id: entry.subscription, channelId: channel.id }];
+    this.send({ op: 'subscribe', subscriptions });
+  }
+
+  /** Makes a topic of ours; what is returned publishes on it. */
+  publisher(topic: string, schema: string): (message: Message) => void {
+    let known = this.ours.get(topic);
+    if (!known) {
+      known = { id: ++this.lastId, schema };
+      this.ours.set(topic, known);
+      this.sendAdvertise(topic, known.id, schema);
+    }
+    const { id } = known;
+    let encode: ((message: Message) => Uint8Array) | undefined;
+    return (message) => {
+      encode ??= encoder(parseSchema(schema, this.textOf(schema)));
+      if (this.socket?.readyState === 1) this.socket.send(messageFrame(id, encode(message)));
+    };
+  }
+
+  private sendAdvertise(topic: string, id: number, schemaName: string): void {
+    const schema = this.textOf(schemaName);
+    const channel = { id, topic, encoding: 'cdr', schemaName, schema, schemaEncoding: 'ros2msg' };
+    this.send({ op: 'advertise', channels: [channel] });
+  }
+
+  private textOf(schemaName: string): string {
+    const known = this.texts[schemaName];
+    if (known !== undefined) return known;
+    for (const channel of this.channels.values()) {
+      if (channel.schemaName === schemaName) return channel.schema;
+    }
+    throw new Error(`nobody told what a ${schemaName} holds`);
+  }
+
+  // Services, assets and parameters.
+
+  /** Calls a service; fails with the server's reason, or after a while. */
+  call(name: string, request: Message, timeoutMs = CALL_TIMEOUT_MS): Promise<Message> {
+    const offer = this.services.get(name);
+    if (!offer) return Promise.reject(new Error(`nobody offers the service ${name}`));
+    const schema = offer.request?.schema ?? offer.requestSchema ?? '';
+    const schemaName = offer.request?.schemaName ?? `${offer.type}_Request`;
+    let payload: Uint8Array;
+    try {
+      payload = encoder(parseSchema(schemaName, schema))(request);
+    } catch (error) {
+      return Promise.reject(error as Error);
+    }
+    const id = ++this.lastId;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => {
+        this.calls.delete(id);
+        reject(new Error(`${name} did not answer within ${timeoutMs / 1000} s`));
+      }, timeoutMs);
+      this.calls.set(id, { resolve, reject, timer, offer });
+      if (this.socket?.readyState === 1) this.socket.send(callFrame(offer.id, id, 'cdr', payload));
+    });
+  }
+
+  /** The bytes behind a `package://`, `model://` or other address that the server knows. */
+  asset(uri: string): Promise<Uint8Array> {
+    if (this.state !== 'open') return Promise.reject(new Error('not connected'));
+    const requestId = ++this.lastId;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => {
+        this.assets.delete(requestId);
+        reject(new Error(`${uri} did not come in time`));
+      }, CALL_TIMEOUT_MS);
+      this.assets.set(requestId, { resolve, reject, timer });
+      this.send({ op: 'fetchAsset', uri, requestId });
+    });
+  }
+
+  getParameters(names: string[] = []): void {
+    this.send({ op: 'getParameters', parameterNames: names, id: `get${++this.lastId}` });
+  }
+
+  setParameter(parameter: Parameter): void {
+    const id = `set${++this.lastId}`;
+    this.send({ op: 'setParameters', parameters: [parameter], id });
+  }
+
+  private receive(data: unknown): void {
+    if (typeof data === 'string') {
+      let text: ServerText;
+      try {
+        text = JSON.parse(data) as ServerText;
+      } catch {
+        this.events.status(2, 'the server sent text that is no JSON');
+        return;
+      }
+      this.receiveText(text);
+    } else if (data instanceof ArrayBuffer) {
+      this.bytesReceived += data.byteLength;
+      const frame = parseFrame(data);
+      if (frame) this.receiveFrame(frame);
+    }
+  }
+
+  private receiveText(text: ServerText): void {
+    switch (text.op) {
+      case 'serverInfo':
+        this.serverName = text.name;
+        this.capabilities = text.capabilities;
+        if (text.capabilities.includes('connectionGraph')) {
+          this.send({ op: 'subscribeConnectionGraph' });
+        }
+        if (text.capabilities.includes('parameters')) this.getParameters();
+        break;
+      case 'status':
+        this.events.status(text.level, text.message);
+        break;
+      case 'advertise':
+        for (const channel of text.channels) this.advertised(channel);
+        this.events.offers();
+        break;
+      case 'unadvertise':
+        for (const id of text.channelIds) this.unadvertised(id);
+        this.events.offers();
+        break;
+      case 'advertiseServices':
+        for (const service of text.services) this.services.set(service.name, service);
+        this.events.offers();
+        break;
+      case 'unadvertiseServices':
+        for (const [name, service] of this.services) {
+          if (text.serviceIds.includes(service.id)) this.services.delete(name);
+        }
+        this.events.offers();
+        break;
+      case 'parameterValues':
+        this.events.parameters(text.parameters);
+        break;
+      case 'connectionGraphUpdate':
+        this.graphChanged(text);
+        this.events.offers();
+        break;
+      case 'serviceCallFailure': {
+        const call = this.calls.get(text.callId);
+        this.calls.delete(text.callId);
+        clearTimeout(call?.timer);
+        call?.reject(new Error(text.message));
+        break;
+      }
+      case 'removeStatus':
+        break;
+    }
+  }
+
+  private advertised(channel: Channel): void {
+    const before = this.channels.get(channel.topic);
+    if (before && before.id !== channel.id) this.unadvertised(before.id);
+    this.channels.set(channel.topic, channel);
+    const entry = this.topics.get(channel.topic);
+    if (entry) this.ask(channel.topic, entry);
+  }
+
+  private unadvertised(id: number): void {
+    for (const [topic, channel] of this.channels) {
+      if (channel.id !== id) continue;
+      this.channels.delete(topic);
+      const entry = this.topics.get(topic);
+      if (entry?.subscription === undefined) continue;
+      this.topicOf.delete(entry.subscription);
+      entry.subscription = undefined;
+      entry.isBroken = false;
+    }
+  }
+
+  private graphChanged(
+    update: Ends & { removedTopics: string[]; removedServices: string[] },
+  ): void {
+    const merge = <T extends { name: string }>(old: T[], now: T[], removed: string[]) => [
+      ...old.filter((e) => !removed.includes(e.name) && !now.some((n) => n.name === e.name)),
+      ...now,
+    ];
+    const { ends } = this;
+    this.ends = {
+      publishedTopics: merge(ends.publishedTopics, update.publishedTopics, update.removedTopics),
+      subscribedTopics: merge(ends.subscribedTopics, update.subscribedTopics, update.removedTopics),
+      advertisedServices: merge(
+        ends.advertisedServices,
+        update.advertisedServices,
+        update.removedServices,
+      ),
+    };
+  }
+
+  private receiveFrame(frame: ServerFrame): void {
+    switch (frame.op) {
+      case 'message': {
+        const topic = this.topicOf.get(frame.subscription);
+        const entry = topic === undefined ? undefined : this.topics.get(topic);
+        if (topic !== undefined && entry) this.deliver(topic, entry, frame.payload);
+        break;
+      }
+      case 'time':
+        this.events.time(Number(frame.nanoseconds) * 1e-9);
+        break;
+      case 'answer': {
+        const call = this.calls.get(frame.call);
+        if (!call) break;
+        this.calls.delete(frame.call);
+        clearTimeout(call.timer);
+        const { offer } = call;
+        const schema = offer.response?.schema ?? offer.responseSchema ?? '';
+        const schemaName = offer.response?.schemaName ?? `${offer.type}_Response`;
+        try {
+          call.resolve(decoder(parseSchema(schemaName, schema))(frame.payload));
+        } catch (error) {
+          call.reject(error as Error);
+        }
+        break;
+      }
+      case 'asset': {
+        const asset = this.assets.get(frame.request);
+        if (!asset) break;
+        this.assets.delete(frame.request);
+        clearTimeout(asset.timer);
+        if (frame.error) asset.reject(new Error(frame.error));
+        else asset.resolve(frame.data);
+        break;
+      }
+    }
+  }
+
+  private deliver(topic: string, entry: Topic, payload: Uint8Array): void {
+    let message: Message;
+    try {
+      message = entry.decode!(payload);
+    } catch (error) {
+      // Said once: a topic may send a hundred a second.
+      if (!entry.isBroken) this.events.status(2, `${topic}: ${(error as Error).message}`);
+      entry.isBroken = true;
+      return;
+    }
+    for (const handler of entry.handlers) handler(message, topic, payload.byteLength);
+  }
+}

@@ -1,0 +1,122 @@
+/** Texts of ROS messages ("ros2msg"): what fields a type has. */
+
+export interface Field {
+  name: string;
+  /** A primitive ("float64", "string") or the full name of another type ("geometry_msgs/Point"). */
+  type: string;
+  isComplex: boolean;
+  /** None: one value; "sequence": any number; a number: exactly so many. */
+  array: undefined | 'sequence' | number;
+}
+
+export interface Constant {
+  name: string;
+  type: string;
+  value: string;
+}
+
+export interface Definition {
+  name: string;
+  fields: Field[];
+  constants: Constant[];
+}
+
+/** All types that a text speaks of; `root` is the first. */
+export interface Schema {
+  root: Definition;
+  types: Map<string, Definition>;
+}
+
+const PRIMITIVES = new Set(
+  (
+    'bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32 float64 ' +
+    'string wstring'
+  ).split(' '),
+);
+/** ROS 1 had these as words of the language. */
+const ALIASES: Record<string, string> = {
+  time: 'builtin_interfaces/Time',
+  duration: 'builtin_interfaces/Duration',
+  Header: 'std_msgs/Header',
+};
+
+/** "geometry_msgs/msg/Point" and "geometry_msgs/Point" are the same type. */
+export function shortName(type: string): string {
+  const parts = type.split('/');
+  return parts.length > 2 ? `${parts[0]}/${parts[parts.length - 1]}` : type;
+}
+
+/** "geometry_msgs/Point" as ROS 2 writes it. */
+export function longName(type: string): string {
+  const parts = type.split('/');
+  return parts.length === 2 ? `${parts[0]}/msg/${parts[1]}` : type;
+}
+
+/** Reads a text of `name` with all texts that it uses, divided by lines of `=`. */
+export function parseSchema(name: string, text: string): Schema {
+  const types = new Map<string, Definition>();
+  let root: Definition | undefined;
+  for (const part of text.split(/^={3,}\s*$/m)) {
+    const header = /^\s*MSG:\s*(\S+)\s*$/m.exec(part);
+    const own = shortName(header?.[1] ?? name);
+    const definition = parseOne(own, header ? part.replace(header[0], '') : part);
+    types.set(own, definition);
+    root ??= definition;
+  }
+  for (const word of ['Time', 'Duration']) {
+    const own = `builtin_interfaces/${word}`;
+    if (!types.has(own)) types.set(own, parseOne(own, 'int32 sec\nuint32 nanosec'));
+  }
+  return { root: root!, types };
+}
+
+function parseOne(name: string, text: string): Definition {
+  const definition: Definition = { name, fields: [], constants: [] };
+  const own = name.split('/')[0] ?? '';
+  for (const raw of text.split('\n')) {
+    const line = withoutComment(raw).trim();
+    if (!line) continue;
+    const constant = /^(\S+)\s+([A-Z][A-Z0-9_]*)\s*=\s*(.*)$/i.exec(line);
+    if (constant && !/[<>]/.test(constant[1]!)) {
+      definition.constants.push({
+        type: constant[1]!,
+        name: constant[2]!,
+        value: constant[3]!.replace(/^["'](.*)["']$/, '$1'),
+      });
+      continue;
+    }
+    const field = /^(\S+)\s+([A-Za-z]\w*)/.exec(line);
+    if (!field) throw new Error(`${name}: cannot read the line "${line}" of its definition`);
+    definition.fields.push(readField(own, field[1]!, field[2]!));
+  }
+  return definition;
+}
+
+/** What follows a `#`, unless that is in a string. */
+function withoutComment(line: string): string {
+  let quote = '';
+  for (let i = 0; i < line.length; i++) {
+    const c = line[i]!;
+    if (quote) {
+      if (c === quote) quote = '';
+    } else if (c === '"' || c === "'") quote = c;
+    else if (c === '#') return line.slice(0, i);
+  }
+  return line;
+}
+
+function readField(own: string, written: string, name: string): Field {
+  const array = /\[(<=)?(\d*)\]$/.exec(written);
+  let base = (array ? written.slice(0, array.index) : written).replace(/<=\d+$/, '');
+  base = ALIASES[base] ?? base;
+  const isComplex = !PRIMITIVES.has(base);
+  const type = isComplex ? shortName(base.includes('/') ? base : `${own}/${base}`) : base;
+  const size = array && !array[1] && array[2] ? Number(array[2]) : 'sequence';
+  return { name, type, isComplex, array: array ? size : undefined };
+}
+
+export function definitionOf(schema: Schema, type: string): Definition {
+  const found = schema.types.get(type);
+  if (!found) throw new Error(`${schema.root.name}: its text does not define ${type}`);
+  return found;
+}

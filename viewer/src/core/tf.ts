@@ -1,0 +1,207 @@
+/** Where frames were at which time, with the rules of tf2: ten seconds, no extrapolation. */
+import { IDENTITY, interpolate, inverse, multiply, normalize, type Pose } from './pose';
+import { seconds, type TransformStamped } from './types';
+
+interface Sample {
+  timeS: number;
+  parent: string;
+  parentFromChild: Pose;
+}
+
+interface Frame {
+  isStatic: boolean;
+  /** By time, the newest last. */
+  samples: Sample[];
+  /** When the viewer heard of it last, by its own clock [ms]. */
+  heardMs: number;
+}
+
+export type Lookup =
+  | { kind: 'found'; pose: Pose }
+  /** It may still come. */
+  | { kind: 'later'; why: string }
+  | { kind: 'never'; why: string };
+
+const KEPT_S = 10;
+/** More frames than this in one chain is a loop. */
+const MOST_LINKS = 200;
+
+/** ROS 1 wrote frames with a leading slash. */
+export function frameName(name: string): string {
+  return name.startsWith('/') ? name.slice(1) : name;
+}
+
+export class TfBuffer {
+  private frames = new Map<string, Frame>();
+  /** Counts what changed, so that others know when to look again. */
+  version = 0;
+
+  clear(): void {
+    this.frames.clear();
+    this.version++;
+  }
+
+  add(message: TransformStamped, isStatic: boolean, nowMs = 0): void {
+    const child = frameName(message.child_frame_id);
+    const parent = frameName(message.header.frame_id);
+    if (!child || !parent || child === parent) return;
+    const { translation: t, rotation: r } = message.transform;
+    const sample: Sample = {
+      timeS: seconds(message.header.stamp),
+      parent,
+      parentFromChild: { t: [t.x, t.y, t.z], q: normalize([r.x, r.y, r.z, r.w]) },
+    };
+    this.version++;
+    const frame = this.frames.get(child);
+    if (!frame || isStatic || frame.isStatic !== isStatic) {
+      this.frames.set(child, { isStatic, samples: [sample], heardMs: nowMs });
+      return;
+    }
+    frame.heardMs = nowMs;
+    this.insert(frame, sample);
+  }
+
+  private insert(frame: Frame, sample: Sample): void {
+    const { samples } = frame;
+    const newest = samples[samples.length - 1]!;
+    // Time went back: a simulation was reset, or a recording starts anew.
+    if (sample.timeS < newest.timeS - KEPT_S) samples.length = 0;
+    let at = samples.length;
+    while (at > 0 && samples[at - 1]!.timeS > sample.timeS) at--;
+    if (at > 0 && samples[at - 1]!.timeS === sample.timeS) samples[at - 1] = sample;
+    else samples.splice(at, 0, sample);
+    let drop = 0;
+    while (samples[drop]!.timeS < samples[samples.length - 1]!.timeS - KEPT_S) drop++;
+    if (drop > 64) samples.splice(0, drop);
+  }
+
+  /** Forgets what is newer than now: time went back. */
+  rewind(nowS: number): void {
+    for (const [name, frame] of this.frames) {
+      if (frame.isStatic) continue;
+      frame.samples = frame.samples.filter((s) => s.timeS <= nowS);
+      if (frame.samples.length === 0) this.frames.delete(name);
+    }
+    this.version++;
+  }
+
+  /** Names of all frames, sorted. */
+  names(): string[] {
+    const all = new Set<string>();
+    for (const [name, frame] of this.frames) {
+      all.add(name);
+      all.add(frame.samples[frame.samples.length - 1]!.parent);
+    }
+    return [...all].sort();
+  }
+
+  has(name: string): boolean {
+    const wanted = frameName(name);
+    if (this.frames.has(wanted)) return true;
+    for (const frame of this.frames.values()) {
+      if (frame.samples[frame.samples.length - 1]!.parent === wanted) return true;
+    }
+    return false;
+  }
+
+  parentOf(name: string): string | undefined {
+    const samples = this.frames.get(name)?.samples;
+    return samples?.[samples.length - 1]?.parent;
+  }
+
+  /** How long ago the viewer heard of it [ms]; a static frame is always fresh. */
+  ageMs(name: string, nowMs: number): number {
+    const frame = this.frames.get(name);
+    return !frame || frame.isStatic ? 0 : nowMs - frame.heardMs;
+  }
+
+  root(name: string): string {
+    let at = name;
+    for (let i = 0; i < MOST_LINKS; i++) {
+      const parent = this.parentOf(at);
+      if (!parent) return at;
+      at = parent;
+    }
+    return at;
+  }
+
+  /** `targetFromSource` at a time; without one, at the newest that all transforms between have. */
+  lookup(target: string, source: string, timeS?: number): Lookup {
+    const to = frameName(target);
+    const from = frameName(source);
+    if (to === from) return { kind: 'found', pose: IDENTITY };
+    for (const name of [to, from]) {
+      if (!this.has(name)) return { kind: 'later', why: `there is no frame "${name}" yet` };
+    }
+    const up = this.chain(from);
+    const down = this.chain(to);
+    const common = up.find((name) => down.includes(name));
+    if (common === undefined) {
+      return { kind: 'later', why: `"${to}" and "${from}" are not in one tree of frames` };
+    }
+    const used = [...up.slice(0, up.indexOf(common)), ...down.slice(0, down.indexOf(common))];
+    const at = timeS ?? this.newestCommon(used);
+    const commonFromSource = this.compose(up, common, at);
+    if (!('t' in commonFromSource)) return commonFromSource;
+    const commonFromTarget = this.compose(down, common, at);
+    if (!('t' in commonFromTarget)) return commonFromTarget;
+    return { kind: 'found', pose: multiply(inverse(commonFromTarget), commonFromSource) };
+  }
+
+  private chain(name: string): string[] {
+    const out = [name];
+    for (let at = this.parentOf(name); at && out.length < MOST_LINKS; at = this.parentOf(at)) {
+      if (out.includes(at)) break;
+      out.push(at);
+    }
+    return out;
+  }
+
+  private newestCommon(names: string[]): number {
+    let newest = Infinity;
+    for (const name of names) {
+      const frame = this.frames.get(name)!;
+      if (!frame.isStatic)
+        newest = Math.min(newest, frame.samples[frame.samples.length - 1]!.timeS);
+    }
+    return newest;
+  }
+
+  private compose(chain: string[], end: string, timeS: number): Pose | Lookup {
+    let ancestorFromStart = IDENTITY;
+    for (const name of chain) {
+      if (name === end) break;
+      const found = this.at(name, timeS);
+      if (!('t' in found)) return found;
+      ancestorFromStart = multiply(found, ancestorFromStart);
+    }
+    return ancestorFromStart;
+  }
+
+  private at(name: string, timeS: number): Pose | Lookup {
+    const { isStatic, samples } = this.frames.get(name)!;
+    const newest = samples[samples.length - 1]!;
+    if (isStatic || timeS === newest.timeS) return newest.parentFromChild;
+    if (timeS > newest.timeS) {
+      // tf2 never extrapolates: what is asked for may come with the next message.
+      if (timeS === Infinity) return newest.parentFromChild;
+      return { kind: 'later', why: `the newest of "${name}" is ${newest.timeS.toFixed(3)} s` };
+    }
+    if (timeS < samples[0]!.timeS) {
+      return {
+        kind: 'never',
+        why: `"${name}" is known only from ${samples[0]!.timeS.toFixed(3)} s on`,
+      };
+    }
+    let low = 0;
+    let high = samples.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (samples[middle]!.timeS <= timeS) low = middle;
+      else high = middle;
+    }
+    const [a, b] = [samples[low]!, samples[high]!];
+    const u = (timeS - a.timeS) / (b.timeS - a.timeS);
+    return interpolate(a.parentFromChild, b.parentFromChild, u);
+  }
+}

@@ -1,0 +1,137 @@
+import { expect, test, vi } from 'vitest';
+import { FoxgloveServer } from '@foxglove/ws-protocol';
+import { WebSocketServer, WebSocket } from 'ws';
+import { encoder } from '../src/core/cdr';
+import { Client, type Socket } from '../src/core/client';
+import type { Parameter } from '../src/core/protocol';
+import { parseSchema } from '../src/core/schema';
+
+/** The protocol's own server, as peer. */
+async function peer() {
+  const server = new FoxgloveServer({
+    name: 'peer',
+    capabilities: ['clientPublish', 'parameters', 'services', 'connectionGraph', 'assets'] as never,
+    supportedEncodings: ['cdr'],
+  });
+  const sockets = new WebSocketServer({
+    port: 0,
+    handleProtocols: (wanted) => server.handleProtocols(wanted),
+  });
+  sockets.on('connection', (socket, request) =>
+    server.handleConnection(socket as never, request.socket.remoteAddress ?? ''),
+  );
+  await new Promise((resolve) => sockets.once('listening', resolve));
+  const { port } = sockets.address() as { port: number };
+  return { server, sockets, url: `ws://127.0.0.1:${port}` };
+}
+
+function clientOf(url: string, events: Partial<ConstructorParameters<typeof Client>[1]> = {}) {
+  const nothing = () => undefined;
+  return new Client(
+    () => new WebSocket(url, ['foxglove.websocket.v1']) as unknown as Socket,
+    {
+      state: nothing,
+      offers: nothing,
+      parameters: nothing,
+      time: nothing,
+      status: nothing,
+      ...events,
+    },
+    { 'std_msgs/msg/String': 'string data' },
+  );
+}
+
+const text = { topic: '/chatter', encoding: 'cdr', schemaName: 'std_msgs/msg/String' };
+
+test('hears a topic as soon as there is one, and only while somebody hears', async () => {
+  const { server, sockets, url } = await peer();
+  const subscribed = vi.fn();
+  const unsubscribed = vi.fn();
+  server.on('subscribe', subscribed);
+  server.on('unsubscribe', unsubscribed);
+  const client = clientOf(url);
+  const heard: unknown[] = [];
+  const leave = client.subscribe('/chatter', (message) => heard.push(message.data));
+  client.start();
+  await vi.waitFor(() => expect(client.state).toBe('open'));
+  const channel = server.addChannel({ ...text, schema: 'string data', schemaEncoding: 'ros2msg' });
+  await vi.waitFor(() => expect(subscribed).toHaveBeenCalledTimes(1));
+  const encode = encoder(parseSchema('std_msgs/msg/String', 'string data'));
+  server.sendMessage(channel, 5n, encode({ data: 'hello' }));
+  await vi.waitFor(() => expect(heard).toEqual(['hello']));
+  leave();
+  await vi.waitFor(() => expect(unsubscribed).toHaveBeenCalledTimes(1));
+  client.stop();
+  sockets.close();
+});
+
+test('publishes, calls services, reads and sets parameters', async () => {
+  const { server, sockets, url } = await peer();
+  const said: string[] = [];
+  server.on('message', (event) => {
+    // Behind the header of the message and the length of the text.
+    const { data } = event as never as { data: Uint8Array };
+    said.push(String.fromCharCode(...data.subarray(8, 10)));
+  });
+  server.on('getParameters', (_request, connection) => {
+    server.publishParameterValues([{ name: 'node.speed', value: 0.5 }], undefined, connection);
+  });
+  const set = vi.fn();
+  server.on('setParameters', (request) => set(request.parameters));
+  server.on('serviceCallRequest', (request, connection) => {
+    const encode = encoder(parseSchema('x', 'bool success\nstring message'));
+    const data = encode({ success: true, message: 'done' });
+    server.sendServiceCallResponse(
+      {
+        serviceId: request.serviceId,
+        callId: request.callId,
+        encoding: 'cdr',
+        data: new DataView(data.buffer, data.byteOffset, data.byteLength),
+      },
+      connection,
+    );
+  });
+  server.addService({
+    name: '/trigger',
+    type: 'std_srvs/srv/Trigger',
+    requestSchema: '',
+    responseSchema: 'bool success\nstring message',
+  });
+  let parameters: Parameter[] = [];
+  const client = clientOf(url, { parameters: (all) => (parameters = all) });
+  const say = client.publisher('/said', 'std_msgs/msg/String');
+  client.start();
+  await vi.waitFor(() => expect(client.services.has('/trigger')).toBe(true));
+  expect(await client.call('/trigger', {})).toEqual({ success: true, message: 'done' });
+  await vi.waitFor(() => expect(parameters).toEqual([{ name: 'node.speed', value: 0.5 }]));
+  client.setParameter({ name: 'node.speed', value: 0.75 });
+  await vi.waitFor(() => expect(set).toHaveBeenCalledWith([{ name: 'node.speed', value: 0.75 }]));
+  say({ data: 'hi' });
+  await vi.waitFor(() => expect(said).toEqual(['hi']));
+  await expect(client.call('/nowhere', {})).rejects.toThrow('nobody offers');
+  client.stop();
+  sockets.close();
+});
+
+test('connects again after the server was away, and hears what it heard', async () => {
+  const first = await peer();
+  let url = first.url;
+  const nothing = () => undefined;
+  const client = new Client(
+    () => new WebSocket(url, ['foxglove.websocket.v1']) as unknown as Socket,
+    { state: nothing, offers: nothing, parameters: nothing, time: nothing, status: nothing },
+  );
+  client.subscribe('/chatter', nothing);
+  client.start();
+  await vi.waitFor(() => expect(client.state).toBe('open'));
+  for (const socket of first.sockets.clients) socket.terminate();
+  first.sockets.close();
+  const second = await peer();
+  url = second.url;
+  const subscribed = vi.fn();
+  second.server.on('subscribe', subscribed);
+  second.server.addChannel({ ...text, schema: 'string data', schemaEncoding: 'ros2msg' });
+  await vi.waitFor(() => expect(subscribed).toHaveBeenCalled(), { timeout: 5000 });
+  client.stop();
+  second.sockets.close();
+});

@@ -1,0 +1,18 @@
+import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { defineConfig } from 'vitest/config';
+
+// The page is built into the crate that serves it, so that a build of the program needs no Node.
+export default defineConfig({
+  plugins: [svelte()],
+  base: './',
+  build: {
+    outDir: '../crates/server/page',
+    emptyOutDir: true,
+    target: 'es2022',
+    chunkSizeWarningLimit: 900,
+    assetsInlineLimit: 4096,
+    modulePreload: { polyfill: false },
+  },
+  server: { proxy: { '/ws': { target: 'ws://localhost:8765', ws: true } } },
+  test: { include: ['test/**/*.test.ts'], environment: 'node' },
+});
