@@ -9,7 +9,7 @@ use periplus_matching::Symmetric3;
 
 use crate::drift::reversed;
 
-pub(crate) use solve::{Outcome, Solver};
+pub(crate) use solve::{Outcome, Saved, Size, Solver};
 
 /// Where what is known between two poses comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +106,19 @@ impl Graph {
             let edge = &self.edges[edge as usize];
             edge.kind != Kind::Chain && edge.to == key && edge.weight > 0.5
         })
+    }
+
+    /// Puts poses from one on where they hang on those that they came after.
+    pub(crate) fn hang(&mut self, from: usize) {
+        for key in from..self.poses.len() {
+            let chain = self.at[key]
+                .iter()
+                .map(|&edge| self.edges[edge as usize])
+                .find(|edge| edge.kind == Kind::Chain && edge.to == key);
+            if let Some(edge) = chain {
+                self.poses[key] = (self.poses[edge.from] * edge.from_from_to).normalized();
+            }
+        }
     }
 
     /// `a_from_b` of two poses.

@@ -8,7 +8,7 @@ use periplus_base::Pose2;
 use periplus_matching::{Agreement, agreement};
 
 use super::Slam;
-use crate::graph::{Kind, Outcome, Solver};
+use crate::graph::{Kind, Outcome, Saved, Size, Solver};
 use crate::local::apart;
 use crate::loops::Loops;
 use crate::near::ties;
@@ -39,10 +39,10 @@ pub(super) struct Work {
 struct Solving {
     solver: Option<Solver>,
     /// Without a solver, what it was when a session was saved.
-    resumed: Option<(Vec<u32>, f64)>,
+    resumed: Option<Saved>,
     steps: usize,
     /// Poses and edges for which the solver was made.
-    size: (usize, usize),
+    size: Size,
     /// What to go back to when the new map is worse: poses before, and the edges that are on trial.
     trial: Option<(Vec<Pose2>, Vec<usize>)>,
 }
@@ -54,6 +54,8 @@ const SOLVE_EVERY: usize = 4;
 const SOLVE_PART: usize = 60;
 /// So many ties that do not pull are solved for anyway.
 const LOOSE: usize = 60;
+/// Products of blocks in one slice of a step: some 10 ms.
+const PRODUCTS: usize = 400_000;
 /// A step that moves less is the last \[m\].
 const SETTLED_M: f64 = 1e-3;
 /// Ties whose squared Mahalanobis distance is far above this count little.
@@ -146,8 +148,8 @@ impl Slam {
         self.work.is_strained = false;
         self.work.solved_at = self.keys.len();
         let size = (self.graph.poses.len(), self.graph.edges.len());
-        let solver = Some(Solver::new(&self.graph));
-        self.work.solving = Some(Solving { solver, resumed: None, steps: 0, size, trial });
+        let solving = Solving { solver: None, resumed: None, steps: 0, size, trial };
+        self.work.solving = Some(solving);
     }
 
     /// Bends the map to the end, if it is being bent.
@@ -159,19 +161,24 @@ impl Slam {
 
     fn solve_step(&mut self) {
         let Some(mut solving) = self.work.solving.take() else { return };
-        let size = (self.graph.poses.len(), self.graph.edges.len());
         let resumed = solving.resumed.take();
-        let mut solver = match solving.solver.take() {
-            Some(solver) if solving.size == size => solver,
-            None if solving.size == size => resumed
-                .and_then(|state| Solver::resumed(&self.graph, state))
-                .unwrap_or_else(|| Solver::new(&self.graph)),
-            _ => Solver::new(&self.graph),
+        let solver = solving.solver.take();
+        let solver = solver.or_else(|| {
+            resumed.and_then(|it| Solver::resumed(&self.graph, solving.size, &robust, it))
+        });
+        let Some(mut solver) = solver else {
+            // To prepare is a slice of its own.
+            solving.solver = Some(Solver::sized(&self.graph, solving.size));
+            self.work.solving = Some(solving);
+            return;
         };
-        solving.size = size;
-        solving.steps += 1;
-        let outcome = solver.step(&mut self.graph, &robust);
+        let outcome = solver.advance(&mut self.graph, &robust, PRODUCTS);
         solving.solver = Some(solver);
+        let Some(outcome) = outcome else {
+            self.work.solving = Some(solving);
+            return;
+        };
+        solving.steps += 1;
         self.work.bends += 1;
         let goes_on = matches!(outcome, Outcome::Moved(by) if by > SETTLED_M);
         if goes_on && solving.steps < self.settings.solve_steps {
@@ -192,16 +199,7 @@ impl Slam {
                 *pose = *old;
             }
             // Keys that came in the meantime hang on the chain.
-            for key in before.len()..self.graph.poses.len() {
-                let chain = self.graph.at[key]
-                    .iter()
-                    .map(|&edge| self.graph.edges[edge as usize])
-                    .find(|edge| edge.kind == Kind::Chain && edge.to == key);
-                if let Some(edge) = chain {
-                    self.graph.poses[key] =
-                        (self.graph.poses[edge.from] * edge.from_from_to).normalized();
-                }
-            }
+            self.graph.hang(before.len());
             self.loops.undone(format!(
                 "undone: in the map that came of it {:.0} % of the points were seen through",
                 100.0 * (1.0 - sum.share())

@@ -69,12 +69,24 @@ impl Factor {
         &mut self.blocks[start + place]
     }
 
-    /// Turns the matrix into its factor; false when it is not positive definite.
-    pub(crate) fn factorize(&mut self) -> bool {
-        for column in 0..self.diagonal.len() {
-            let Some(l) = lower(&self.diagonal[column]) else { return false };
+    /// Columns.
+    pub(crate) fn len(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    /// Turns columns of the matrix into those of its factor, from the first that is not yet one, up
+    /// to some column or until so many products of blocks are done. Gives the first that is left; none
+    /// when the matrix is not positive definite.
+    pub(crate) fn factorize(&mut self, from: usize, until: usize, most: usize) -> Option<usize> {
+        let mut done = 0;
+        for column in from..until {
+            if done > most {
+                return Some(column);
+            }
+            let l = lower(&self.diagonal[column])?;
             self.diagonal[column] = l;
             let (start, end) = (self.starts[column] as usize, self.starts[column + 1] as usize);
+            done += 1 + (end - start) * (end - start + 1) / 2;
             for block in &mut self.blocks[start..end] {
                 divide(block, &l);
             }
@@ -94,7 +106,7 @@ impl Factor {
                 }
             }
         }
-        true
+        Some(until)
     }
 
     /// Solves for a right side, in place, with the factor.

@@ -5,7 +5,7 @@ use periplus_matching::Symmetric3;
 
 use super::cholesky::{Block, Factor};
 use super::order::order;
-use super::{Graph, Kind};
+use super::{Edge, Graph, Kind};
 
 /// How a step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,19 +16,50 @@ pub(crate) enum Outcome {
     Settled,
 }
 
-/// Gauss-Newton steps with the damping of Levenberg and Marquardt. The order of elimination is kept
-/// while the edges stay the same.
+/// Gauss-Newton steps with the damping of Levenberg and Marquardt, in slices. What the graph gains after
+/// the solver was made does not take part: new poses hang on those that they came after. So the order
+/// of elimination is made once.
 pub(crate) struct Solver {
+    /// Poses and edges for which it was made.
+    size: Size,
     /// Place of each pose in the order of elimination.
     place: Vec<u32>,
     factor: Factor,
     damping: f64,
+    stage: Option<Stage>,
 }
 
+/// Numbers of poses and edges.
+pub(crate) type Size = (usize, usize);
+
+/// In the middle of a step.
+struct Stage {
+    right: Vec<[f64; 3]>,
+    at: Place,
+}
+
+/// Where a step is.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Columns of the matrix that are done.
+    columns: usize,
+    /// Dampings that were too small.
+    tries: usize,
+    /// The cost before the step.
+    before: f64,
+}
+
+/// What is to be known to go on later: the place of each pose in the order of elimination, the
+/// damping, and of a step that has begun its columns, tries and cost before.
+pub(crate) type Saved = (Vec<u32>, (f64, Option<(usize, (usize, f64))>));
+
+/// So many dampings are tried in a step.
+const TRIES: usize = 6;
+
 /// The poses at the other ends of edges that count.
-fn neighbours(graph: &Graph) -> Vec<Vec<u32>> {
-    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); graph.poses.len()];
-    for edge in graph.edges.iter().filter(|edge| edge.weight > 0.0) {
+fn neighbours(graph: &Graph, (poses, edges): Size) -> Vec<Vec<u32>> {
+    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); poses];
+    for edge in graph.edges[..edges].iter().filter(|edge| edge.weight > 0.0) {
         neighbours[edge.from].push(edge.to as u32);
         neighbours[edge.to].push(edge.from as u32);
     }
@@ -38,12 +69,17 @@ fn neighbours(graph: &Graph) -> Vec<Vec<u32>> {
 impl Solver {
     /// Prepares for all edges that count.
     pub(crate) fn new(graph: &Graph) -> Self {
-        let neighbours = neighbours(graph);
-        let order = order(&graph.poses, &neighbours);
-        Self::ordered(&neighbours, &order, 0.0)
+        Self::sized(graph, (graph.poses.len(), graph.edges.len()))
     }
 
-    fn ordered(neighbours: &[Vec<u32>], order: &[u32], damping: f64) -> Self {
+    /// Prepares for the first of the poses and edges.
+    pub(crate) fn sized(graph: &Graph, size: Size) -> Self {
+        let neighbours = neighbours(graph, size);
+        let order = order(&graph.poses[..size.0], &neighbours);
+        Self::ordered(size, &neighbours, &order, 0.0)
+    }
+
+    fn ordered(size: Size, neighbours: &[Vec<u32>], order: &[u32], damping: f64) -> Self {
         let mut place = vec![0; order.len()];
         for (at, &node) in order.iter().enumerate() {
             place[node as usize] = at as u32;
@@ -54,66 +90,108 @@ impl Solver {
                 neighbours[node as usize].iter().map(|&next| place[next as usize]).collect()
             })
             .collect();
-        Self { place, factor: Factor::new(&below), damping }
+        Self { size, place, factor: Factor::new(&below), damping, stage: None }
     }
 
-    /// What is to be known to go on later: the place of each pose in the order of elimination, and
-    /// the damping.
-    pub(crate) fn state(&self) -> (Vec<u32>, f64) {
-        (self.place.clone(), self.damping)
+    /// What is to be known to go on later.
+    pub(crate) fn state(&self) -> Saved {
+        let at = self.stage.as_ref().map(|it| (it.at.columns, (it.at.tries, it.at.before)));
+        (self.place.clone(), (self.damping, at))
     }
 
-    /// A solver for the edges that count, as it was; none when this is no state for so many poses.
-    pub(crate) fn resumed(graph: &Graph, (place, damping): (Vec<u32>, f64)) -> Option<Self> {
-        let size = graph.poses.len();
-        let mut order = vec![u32::MAX; size];
+    /// A solver for the first of the poses and edges, as it was; none when this is no state for them.
+    pub(crate) fn resumed(
+        graph: &Graph,
+        size: Size,
+        robust: &dyn Fn(Kind, f64) -> f64,
+        (place, (damping, at)): Saved,
+    ) -> Option<Self> {
+        let mut order = vec![u32::MAX; size.0];
         for (node, &at) in place.iter().enumerate() {
             *order.get_mut(at as usize)? = node as u32;
         }
-        let is_whole = place.len() == size && !order.contains(&u32::MAX);
+        let is_whole = place.len() == size.0 && !order.contains(&u32::MAX);
         let is_damping = (0.0..1e12).contains(&damping);
-        (is_whole && is_damping).then(|| Self::ordered(&neighbours(graph), &order, damping))
+        if !is_whole || !is_damping {
+            return None;
+        }
+        let mut solver = Self::ordered(size, &neighbours(graph, size), &order, damping);
+        if let Some((columns, (tries, before))) = at {
+            let columns = columns.min(size.0);
+            solver.begin(graph, robust, Place { columns: 0, tries, before });
+            let reached = solver.factor.factorize(0, columns, usize::MAX)?;
+            solver.stage.as_mut()?.at.columns = reached;
+        }
+        Some(solver)
     }
 
     /// One step; the first pose stays where it is.
     pub(crate) fn step(&mut self, graph: &mut Graph, robust: &dyn Fn(Kind, f64) -> f64) -> Outcome {
-        let before = cost(graph, &graph.poses, robust);
-        for _ in 0..6 {
-            let Some(change) = self.change(graph, robust) else {
-                self.damping = (self.damping * 10.0).max(1e-3);
-                continue;
-            };
-            let moved: Vec<Pose2> = graph
-                .poses
-                .iter()
-                .zip(&change)
-                .map(|(pose, [x, y, turn])| {
-                    Pose2::new(pose.x_m + x, pose.y_m + y, normalize_angle(pose.yaw_rad + turn))
-                })
-                .collect();
-            let after = cost(graph, &moved, robust);
-            if after <= before {
-                self.damping = if self.damping < 1e-6 { 0.0 } else { self.damping * 0.1 };
-                graph.poses = moved;
-                let largest = change
-                    .iter()
-                    .map(|[x, y, turn]| x.abs().max(y.abs()).max(turn.abs()))
-                    .fold(0.0, f64::max);
-                return Outcome::Moved(largest);
+        loop {
+            if let Some(outcome) = self.advance(graph, robust, usize::MAX) {
+                return outcome;
             }
-            self.damping = (self.damping * 10.0).max(1e-3);
         }
-        Outcome::Settled
     }
 
-    fn change(
+    /// A part of a step, of so many products of blocks; how the step went when it is done.
+    pub(crate) fn advance(
+        &mut self,
+        graph: &mut Graph,
+        robust: &dyn Fn(Kind, f64) -> f64,
+        most: usize,
+    ) -> Option<Outcome> {
+        let Some(Stage { mut right, mut at }) = self.stage.take() else {
+            let before = self.cost(graph, &graph.poses, robust);
+            self.begin(graph, robust, Place { columns: 0, tries: 0, before });
+            return None;
+        };
+        let size = self.factor.len();
+        let Some(columns) = self.factor.factorize(at.columns, size, most) else {
+            return self.again(graph, robust, at);
+        };
+        at.columns = columns;
+        if columns < size {
+            self.stage = Some(Stage { right, at });
+            return None;
+        }
+        self.factor.solve(&mut right);
+        let change = |node: usize| right[self.place[node] as usize];
+        let moved = graph.poses.iter().take(size).enumerate().map(|(node, pose)| {
+            let [x, y, turn] = change(node);
+            Pose2::new(pose.x_m + x, pose.y_m + y, normalize_angle(pose.yaw_rad + turn))
+        });
+        let moved: Vec<Pose2> = moved.collect();
+        if self.cost(graph, &moved, robust) > at.before {
+            return self.again(graph, robust, at);
+        }
+        self.damping = if self.damping < 1e-6 { 0.0 } else { self.damping * 0.1 };
+        let largest = right.iter().flatten().fold(0.0, |most: f64, it| most.max(it.abs()));
+        graph.poses[..size].copy_from_slice(&moved);
+        graph.hang(size);
+        Some(Outcome::Moved(largest))
+    }
+
+    /// The same step with more damping.
+    fn again(
         &mut self,
         graph: &Graph,
         robust: &dyn Fn(Kind, f64) -> f64,
-    ) -> Option<Vec<[f64; 3]>> {
-        let mut right = vec![[0.0; 3]; graph.poses.len()];
+        at: Place,
+    ) -> Option<Outcome> {
+        self.damping = (self.damping * 10.0).max(1e-3);
+        if at.tries + 1 >= TRIES {
+            return Some(Outcome::Settled);
+        }
+        self.begin(graph, robust, Place { columns: 0, tries: at.tries + 1, ..at });
+        None
+    }
+
+    /// Collects matrix and right side of a step.
+    fn begin(&mut self, graph: &Graph, robust: &dyn Fn(Kind, f64) -> f64, at: Place) {
+        let mut right = vec![[0.0; 3]; self.size.0];
         self.factor.clear();
-        for edge in graph.edges.iter().filter(|edge| edge.weight > 0.0) {
+        for edge in self.edges(graph) {
             let (from, to) = (graph.poses[edge.from], graph.poses[edge.to]);
             let error = edge.error(&graph.poses);
             let weight = edge.weight * robust(edge.kind, edge.information.quadratic(error));
@@ -151,26 +229,23 @@ impl Solver {
                 block[k] += 1e9;
             }
         }
-        if !self.factor.factorize() {
-            return None;
-        }
-        self.factor.solve(&mut right);
-        Some(self.place.iter().map(|&place| right[place as usize]).collect())
+        self.stage = Some(Stage { right, at });
     }
-}
 
-/// The sum that is made small. `robust` gives the weight of a squared distance; its loss is taken as
-/// weight times square, which grows as the loss does for the weights in use.
-pub(crate) fn cost(graph: &Graph, poses: &[Pose2], robust: &dyn Fn(Kind, f64) -> f64) -> f64 {
-    graph
-        .edges
-        .iter()
-        .filter(|edge| edge.weight > 0.0)
-        .map(|edge| {
+    /// The edges that take part and count.
+    fn edges<'a>(&self, graph: &'a Graph) -> impl Iterator<Item = &'a Edge> + use<'a> {
+        graph.edges[..self.size.1].iter().filter(|edge| edge.weight > 0.0)
+    }
+
+    /// The sum that is made small. `robust` gives the weight of a squared distance; its loss is taken
+    /// as weight times square, which grows as the loss does for the weights in use.
+    fn cost(&self, graph: &Graph, poses: &[Pose2], robust: &dyn Fn(Kind, f64) -> f64) -> f64 {
+        let costs = self.edges(graph).map(|edge| {
             let chi2 = edge.chi2(poses);
             edge.weight * robust(edge.kind, chi2).sqrt() * chi2
-        })
-        .sum()
+        });
+        costs.sum()
+    }
 }
 
 fn add(target: &mut Block, part: &Block) {

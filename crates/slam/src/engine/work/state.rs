@@ -43,6 +43,13 @@ impl Work {
     pub(in crate::engine) fn fits(&self, graph: &Graph) -> bool {
         let (keys, edges) = (graph.poses.len(), graph.edges.len());
         self.ties.iter().chain(&self.thins).all(|&key| key < keys)
+            && self.solving.iter().all(|it| {
+                let (poses, count) = it.size;
+                let edges = graph.edges.get(..count).unwrap_or_default();
+                poses <= keys
+                    && edges.len() == count
+                    && edges.iter().all(|edge| edge.from.max(edge.to) < poses)
+            })
             && self
                 .solving
                 .iter()
