@@ -37,6 +37,11 @@ const ARM_M: f64 = 3.0;
 ///
 /// Source: Olson 2008, "Robust and efficient robotic mapping", section on Dijkstra projections.
 pub(crate) fn from_here(graph: &Graph, start: usize, most_m: f64) -> Vec<Sighting> {
+    within(graph, start, most_m, f64::INFINITY)
+}
+
+/// The same by paths that stay within some way of the pose as the crow flies \[m\].
+pub(crate) fn within(graph: &Graph, start: usize, most_m: f64, reach_m: f64) -> Vec<Sighting> {
     let mut settled = vec![false; graph.poses.len()];
     let mut heap = BinaryHeap::new();
     let mut found = Vec::new();
@@ -57,7 +62,8 @@ pub(crate) fn from_here(graph: &Graph, start: usize, most_m: f64) -> Vec<Sightin
             let [there, back] = &edge.covariances;
             let (next, covariance) =
                 if edge.from == sighting.key { (edge.to, there) } else { (edge.from, back) };
-            if settled[next] {
+            let away = start_from_map * graph.poses[next];
+            if settled[next] || libm::hypot(away.x_m, away.y_m) > reach_m {
                 continue;
             }
             let here_from_next = here_from_map * graph.poses[next];

@@ -3,7 +3,7 @@
 use periplus_base::normalize_angle;
 use periplus_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, agreement, register};
 
-use crate::drift::{Sighting, from_here};
+use crate::drift::{Sighting, within};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
 use crate::local::{apart, close_by, floored, grouped, heading_step, points_of, sampled};
@@ -11,6 +11,8 @@ use crate::settings::Settings;
 
 /// A place is known well enough when its uncertainty is below this \[m\] (a turn counted with it).
 const MOST_M: f64 = 0.6;
+/// Paths to them lead no farther away than this and the way since the last tie \[m\].
+const NEAR_M: f64 = 12.0;
 /// Scans this near look at the same things \[m\].
 const REACH_M: f64 = 4.0;
 /// A scan is old when the robot has gone so far since \[m\].
@@ -37,7 +39,10 @@ const VISITS: usize = 2;
 
 /// Ties a key to old ones nearby whose place it knows well; gives the new edges.
 pub(crate) fn ties(keys: &[Key], graph: &Graph, key: usize, settings: &Settings) -> Vec<Edge> {
-    let seen = from_here(graph, key, MOST_M);
+    // What leads to an old scan nearby goes back to where the way was last held, and along an old way.
+    let held = (0..key).rev().find(|&it| graph.is_held(it)).map_or(0.0, |it| keys[it].travel_m);
+    let reach_m = NEAR_M + (keys[key].travel_m - held).max(0.0);
+    let seen = within(graph, key, MOST_M, reach_m);
     let here = graph.poses[key];
     let mut candidates: Vec<(f64, Sighting)> = seen
         .into_iter()
