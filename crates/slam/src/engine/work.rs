@@ -54,8 +54,8 @@ const SOLVE_EVERY: usize = 4;
 const SOLVE_PART: usize = 60;
 /// So many ties that do not pull are solved for anyway.
 const LOOSE: usize = 60;
-/// Products of blocks in one slice of a step: some 10 ms.
-const PRODUCTS: usize = 400_000;
+/// Products of blocks in one slice of a step: some 5 ms.
+const PRODUCTS: usize = 200_000;
 /// A step that moves less is the last \[m\].
 const SETTLED_M: f64 = 1e-3;
 /// Ties whose squared Mahalanobis distance is far above this count little.
@@ -93,10 +93,11 @@ impl Slam {
 
     /// Does one slice of work; false when there is none.
     fn work_slice(&mut self) -> bool {
-        if self.work.solving.is_some() {
-            self.solve_step();
-        } else if let Some(key) = self.work.ties.pop_front() {
+        // Ties first: a way that nothing holds would be searched for loops.
+        if let Some(key) = self.work.ties.pop_front() {
             self.tie(key);
+        } else if self.work.solving.is_some() {
+            self.solve_step();
         } else if self.is_to_be_solved() {
             self.solve(None);
         } else if self.loops.is_busy() {
