@@ -14,6 +14,6 @@ pub use container::ContainerLayer;
 pub use denoise::{DenoiseLayer, denoise};
 pub use inflate::InflationLayer;
 pub use obstacle::ObstacleLayer;
-pub use range::{RangeLayer, RangeReading, probability};
+pub use range::{RangeCounters, RangeLayer, RangeReading, probability};
 pub use static_map::{MapMeaning, StaticLayer};
 pub use voxel::VoxelLayer;

@@ -33,6 +33,7 @@
 //! Source of the rules: `nav2_costmap_2d` of Nav2 (main, 2026-08; jazzy; humble), told again in our
 //! own words; where the generations differ, [`Compat`] says which one is kept to.
 
+mod advice;
 mod area;
 pub mod clear;
 mod combine;
@@ -55,13 +56,14 @@ pub mod tables;
 mod trace;
 mod voxel_grid;
 
+pub use advice::Advice;
 pub use area::{Bounds, Window};
 pub use combine::Combination;
 pub use compat::Compat;
 pub use config::{Config, LayerConfig, LayerKind, SourceConfig};
 pub use costmap::Costmap;
 pub use footprint::Footprint;
-pub use inspect::{Advice, CellReport, Explanation, LayerReport, advice};
+pub use inspect::{CellReport, Explanation, LayerReport};
 pub use layer::{Frames, Layer, Moment, NoFrames};
 pub use layered::{Frame, LayeredCostmap};
 pub use observation::{Counters, DataType, Observation, Source, SourceSettings, Span};

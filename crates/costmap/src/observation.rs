@@ -113,6 +113,8 @@ pub struct Counters {
     pub clouds: u64,
     /// Messages dropped because nobody knew where the sensor was.
     pub without_frame: u64,
+    /// Messages dropped because nobody knew where the sensor was at their time.
+    pub out_of_time: u64,
     /// Messages dropped because they could not be read.
     pub malformed: u64,
     /// Messages that could not be used because the sensor was outside of the grid.
@@ -139,6 +141,37 @@ pub struct Counters {
     pub outside: u64,
     /// Points that marked a cell.
     pub marked: u64,
+}
+
+impl Counters {
+    /// Messages that came, used or not.
+    #[must_use]
+    pub fn messages(&self) -> u64 {
+        self.clouds + self.without_frame + self.out_of_time + self.malformed
+    }
+
+    /// What has come since they stood so.
+    #[must_use]
+    pub fn since(&self, before: &Self) -> Self {
+        Self {
+            clouds: self.clouds.saturating_sub(before.clouds),
+            without_frame: self.without_frame.saturating_sub(before.without_frame),
+            out_of_time: self.out_of_time.saturating_sub(before.out_of_time),
+            malformed: self.malformed.saturating_sub(before.malformed),
+            sensor_outside: self.sensor_outside.saturating_sub(before.sensor_outside),
+            points: self.points.saturating_sub(before.points),
+            without_return: self.without_return.saturating_sub(before.without_return),
+            not_finite: self.not_finite.saturating_sub(before.not_finite),
+            too_low: self.too_low.saturating_sub(before.too_low),
+            too_high: self.too_high.saturating_sub(before.too_high),
+            layer_too_low: self.layer_too_low.saturating_sub(before.layer_too_low),
+            layer_too_high: self.layer_too_high.saturating_sub(before.layer_too_high),
+            too_near: self.too_near.saturating_sub(before.too_near),
+            too_far: self.too_far.saturating_sub(before.too_far),
+            outside: self.outside.saturating_sub(before.outside),
+            marked: self.marked.saturating_sub(before.marked),
+        }
+    }
 }
 
 /// A source of observations.

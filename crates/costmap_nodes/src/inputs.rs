@@ -178,6 +178,21 @@ impl Inputs {
             (port.layer.as_str(), port.source.as_str(), topic)
         })
     }
+
+    /// Filters without a mask, with the topics on which it should come.
+    pub(crate) fn filters_without_mask(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.filters.iter().filter_map(FilterPort::waits_for)
+    }
+
+    /// Layers with a map, with the topics on which it comes.
+    pub(crate) fn maps(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.maps.iter().map(|port| (port.layer.as_str(), port.map.topic()))
+    }
+
+    /// Layers of sonars.
+    pub(crate) fn ranges(&self) -> impl Iterator<Item = &str> {
+        self.ranges.iter().map(|port| port.layer.as_str())
+    }
 }
 
 fn gather<'a>(layer: &'a LayerConfig, layers: &mut Vec<&'a LayerConfig>) {
@@ -202,43 +217,77 @@ impl Place<'_> {
 /// Messages that wait until somebody knows where their frame was.
 struct Waiting<T> {
     messages: VecDeque<(i64, Arc<T>)>,
+    /// What those that wait lacked last.
+    lack: Lack,
 }
 
 impl<T> Default for Waiting<T> {
     fn default() -> Self {
-        Self { messages: VecDeque::new() }
+        Self { messages: VecDeque::new(), lack: Lack::Frame }
     }
 }
 
 /// What came of a message.
 enum Tried {
     Taken,
-    /// Its frame may still come.
-    Later,
+    /// What it lacks may still come.
+    Lacks(Lack),
+}
+
+/// What nobody knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lack {
+    /// Where its frame is.
+    Frame,
+    /// Where its frame was at its time.
+    Time,
+}
+
+/// Messages that waited in vain, by what they lacked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Dropped {
+    without_frame: u64,
+    out_of_time: u64,
+}
+
+impl Dropped {
+    fn count(&mut self, lack: Lack) {
+        match lack {
+            Lack::Frame => self.without_frame += 1,
+            Lack::Time => self.out_of_time += 1,
+        }
+    }
+
+    fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 impl<T: periplus_msgs::Message> Waiting<T> {
-    /// Takes in what has come and tries all that wait, oldest first; gives how many were dropped.
+    /// Takes in what has come and tries all that wait, oldest first; gives those that were dropped.
     fn take(
         &mut self,
         mailbox: &Mailbox<T>,
         now_ns: i64,
         mut attempt: impl FnMut(&T) -> Tried,
-    ) -> u64 {
+    ) -> Dropped {
         for (sample, message) in mailbox.drain_samples() {
             self.messages.push_back((sample.time_ns, message));
         }
-        let mut dropped = 0;
+        let mut dropped = Dropped::default();
         while self.messages.len() > MOST_WAITING {
             self.messages.pop_front();
-            dropped += 1;
+            dropped.count(self.lack);
         }
         self.messages.retain(|(came_ns, message)| match attempt(message) {
             Tried::Taken => false,
-            Tried::Later if now_ns - came_ns <= PATIENCE_NS => true,
-            Tried::Later => {
-                dropped += 1;
-                false
+            Tried::Lacks(lack) => {
+                self.lack = lack;
+                let may_wait = now_ns - came_ns <= PATIENCE_NS;
+                if !may_wait {
+                    dropped.count(lack);
+                }
+                may_wait
             }
         });
         dropped
@@ -246,9 +295,12 @@ impl<T: periplus_msgs::Message> Waiting<T> {
 }
 
 /// `global_from_frame` at the time of a message.
-fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Option<Pose> {
-    let stamp_ns = header.stamp.ns();
-    scene.tf.at(scene.global_frame, frame, stamp_ns).ok().map(|(pose, _)| pose)
+fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Result<Pose, Lack> {
+    match scene.tf.at(scene.global_frame, frame, header.stamp.ns()) {
+        Ok((pose, _)) => Ok(pose),
+        Err(why) if why.kind.is_extrapolation() => Err(Lack::Time),
+        Err(_) => Err(Lack::Frame),
+    }
 }
 
 struct SourcePort {
@@ -287,8 +339,9 @@ impl SourcePort {
                 take_cloud(source, scene, cloud, points)
             }),
         };
-        source.counters.without_frame += dropped;
-        if dropped == 0 {
+        source.counters.without_frame += dropped.without_frame;
+        source.counters.out_of_time += dropped.out_of_time;
+        if dropped.is_none() {
             self.is_lost &= last_frame.is_none();
         } else if !std::mem::replace(&mut self.is_lost, true) {
             let frame = last_frame.unwrap_or_default();
@@ -322,11 +375,17 @@ fn lost(layer: &str, source: &Source, scene: &Scene<'_>, frame: &str) -> Diagnos
 }
 
 /// Where rays begin: the sensor's own frame if one is set.
-fn origin(source: &Source, scene: &Scene<'_>, header: &Header, cloud: Pose) -> Option<DVec3> {
+fn origin(source: &Source, scene: &Scene<'_>, header: &Header, cloud: Pose) -> Result<DVec3, Lack> {
     if source.settings.sensor_frame.is_empty() {
-        return Some(cloud.translation);
+        return Ok(cloud.translation);
     }
-    Some(placed(scene, &source.settings.sensor_frame, header)?.translation)
+    Ok(placed(scene, &source.settings.sensor_frame, header)?.translation)
+}
+
+/// `global_from_frame` of a message, and where its rays begin.
+fn places(source: &Source, scene: &Scene<'_>, header: &Header) -> Result<(Pose, DVec3), Lack> {
+    let pose = placed(scene, &header.frame_id, header)?;
+    Ok((pose, origin(source, scene, header, pose)?))
 }
 
 fn take_scan(
@@ -337,8 +396,10 @@ fn take_scan(
     points: &mut Vec<[f32; 3]>,
 ) -> Tried {
     let frame = scan.header.frame_id.as_str();
-    let Some(first) = placed(scene, frame, &scan.header) else { return Tried::Later };
-    let Some(origin) = origin(source, scene, &scan.header, first) else { return Tried::Later };
+    let (first, origin) = match places(source, scene, &scan.header) {
+        Ok(known) => known,
+        Err(lack) => return Tried::Lacks(lack),
+    };
     let beams = Beams {
         angle_min_rad: scan.angle_min,
         angle_increment_rad: scan.angle_increment,
@@ -377,10 +438,10 @@ fn take_cloud(
     cloud: &sensor_msgs::PointCloud2,
     points: &mut Vec<[f32; 3]>,
 ) -> Tried {
-    let Some(pose) = placed(scene, &cloud.header.frame_id, &cloud.header) else {
-        return Tried::Later;
+    let (pose, origin) = match places(source, scene, &cloud.header) {
+        Ok(known) => known,
+        Err(lack) => return Tried::Lacks(lack),
     };
-    let Some(origin) = origin(source, scene, &cloud.header, pose) else { return Tried::Later };
     points.clear();
     match clouds::points(cloud) {
         Ok(all) => {
@@ -441,9 +502,10 @@ impl RangePort {
     fn take(&mut self, costmap: &mut LayeredCostmap, scene: &Scene<'_>) {
         let Some(layer) = costmap.find_as::<RangeLayer>(&self.layer) else { return };
         for ranges in &self.ranges {
-            self.waiting.take(ranges, scene.now_ns, |range| {
-                let Some(pose) = placed(scene, &range.header.frame_id, &range.header) else {
-                    return Tried::Later;
+            let dropped = self.waiting.take(ranges, scene.now_ns, |range| {
+                let pose = match placed(scene, &range.header.frame_id, &range.header) {
+                    Ok(pose) => pose,
+                    Err(lack) => return Tried::Lacks(lack),
                 };
                 layer.insert(RangeReading {
                     global_from_sensor: pose,
@@ -454,6 +516,8 @@ impl RangePort {
                 });
                 Tried::Taken
             });
+            layer.counters.without_frame += dropped.without_frame;
+            layer.counters.out_of_time += dropped.out_of_time;
         }
     }
 }

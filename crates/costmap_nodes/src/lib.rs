@@ -9,6 +9,7 @@
 
 mod clouds;
 mod frames;
+mod health;
 mod inputs;
 mod messages;
 mod node;

@@ -10,6 +10,7 @@ use periplus_msgs::geometry_msgs;
 use periplus_params::Values;
 
 use crate::frames::Listener;
+use crate::health::{EVERY_NS, Health, Patient};
 use crate::inputs::{Inputs, Scene};
 use crate::outputs::Outputs;
 use crate::parameters::{node_values, split};
@@ -52,6 +53,7 @@ pub(crate) struct State {
     inputs: Inputs,
     outputs: Option<Outputs>,
     outlines: Outlines,
+    health: Health,
     is_active: bool,
     updates: u64,
     trouble: Option<String>,
@@ -116,6 +118,7 @@ impl CostmapNode {
             inputs: Inputs::default(),
             outputs: None,
             outlines: Outlines::new(&node, is_stamped)?,
+            health: Health::new(&node)?,
             is_active: false,
             updates: 0,
             trouble: None,
@@ -134,6 +137,7 @@ impl CostmapNode {
             let period_ns = ((1e9 / hertz) as i64).max(1);
             actor.timer(period_ns, |state, io| state.update(io.now_ns(), io.node()))?;
         }
+        actor.timer(EVERY_NS, |state, io| state.report(io.now_ns(), io.node()))?;
         Ok(Self { actor, life })
     }
 
@@ -276,6 +280,19 @@ impl State {
         }
     }
 
+    /// Tells how it is.
+    fn report(&mut self, now_ns: i64, node: &Node) {
+        let patient = Patient {
+            node: node.full_name(),
+            costmap: self.costmap.as_ref(),
+            inputs: &self.inputs,
+            is_active: self.is_active,
+            updates: self.updates,
+            trouble: self.trouble.as_deref(),
+        };
+        self.health.publish(&patient, now_ns);
+    }
+
     /// Says something, unless it has been said a moment ago.
     fn tell(&mut self, complaint: &Diagnostic, now_ns: i64, node: &Node) {
         self.told.retain(|(_, told_ns)| (0..QUIET_NS).contains(&(now_ns - told_ns)));
@@ -330,8 +347,7 @@ impl State {
                     .last_ns()
                     .filter(|_| is_heard)
                     .map(|last_ns| (now_ns - last_ns) as f64 / 1e9);
-                let counters = source.counters;
-                let count = counters.clouds + counters.without_frame + counters.malformed;
+                let count = source.counters.messages();
                 sources.push((format!("{layer}.{name}"), topic.to_owned(), count, age_s));
             }
         }

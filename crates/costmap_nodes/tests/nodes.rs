@@ -8,6 +8,7 @@ use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use periplus_msgs::geometry_msgs::{
     Polygon, PoseStamped, Quaternion, Transform, TransformStamped, Vector3,
 };
@@ -232,6 +233,132 @@ fn readings_wait_for_their_frame_but_not_for_ever() {
     }
     let advice = stage.costmap.status().advice;
     assert!(advice.iter().any(|one| one.parameter.ends_with("scan.sensor_frame")), "{advice:?}");
+}
+
+/// What `/diagnostics` says of a part: how bad it is, in words, and the values.
+struct Told {
+    level: u8,
+    message: String,
+    values: Vec<(String, String)>,
+}
+
+impl Told {
+    fn latest(all: &Mailbox<DiagnosticArray>, part: &str) -> Self {
+        let array = all.latest().unwrap();
+        let name = format!("local_costmap/local_costmap: {part}");
+        let status = array.status.iter().find(|status| status.name == name).unwrap();
+        let values = status.values.iter().map(|pair| (pair.key.clone(), pair.value.clone()));
+        Self { level: status.level, message: status.message.clone(), values: values.collect() }
+    }
+
+    fn value(&self, key: &str) -> &str {
+        self.values.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
+    }
+}
+
+#[test]
+fn diagnostics_name_what_is_wrong_and_the_parameter() {
+    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Main);
+    let all = stage.user.mailbox::<DiagnosticArray>("/diagnostics", Qos::reliable(10)).unwrap();
+    let part = "voxel_layer.scan";
+    stage.advance(1000);
+    let idle = Told::latest(&all, "costmap");
+    assert_eq!(idle.level, DiagnosticStatus::WARN);
+    assert!(idle.message.contains("activates"), "{}", idle.message);
+    stage.costmap.start();
+    stage.advance(1000);
+    let array = all.latest().unwrap();
+    let levels: Vec<u8> = array.status.iter().map(|status| status.level).collect();
+    assert_eq!(levels, [DiagnosticStatus::ERROR, DiagnosticStatus::ERROR]);
+    assert!(array.status[0].message.contains("`base_link` to `odom`"), "{array:?}");
+    assert!(
+        array.status[1].message.contains("no message came on /scan (`voxel_layer.scan.topic`)")
+    );
+    // One second of scans, of a frame and so much later than now.
+    let see = |stage: &mut Stage, frame: &str, late_ns: i64| {
+        for _ in 0..10 {
+            stage.place("odom", 0.05);
+            stage.scan.publish(LaserScan {
+                header: Header {
+                    stamp: Time::of_ns(stage.now_ns + late_ns),
+                    frame_id: frame.into(),
+                },
+                angle_increment: std::f32::consts::FRAC_PI_2,
+                range_min: 0.1,
+                range_max: 10.0,
+                ranges: vec![1.0, 9.0, f32::INFINITY, 1.2],
+                ..LaserScan::default()
+            });
+            stage.advance(100);
+        }
+    };
+    see(&mut stage, "laser", 0);
+    let fine = Told::latest(&all, part);
+    assert_eq!((fine.level, fine.message.as_str()), (DiagnosticStatus::OK, "20 points marked"));
+    assert_eq!((fine.value("messages"), fine.value("points")), ("10", "30"));
+    assert_eq!(fine.value("points dropped by range"), "10");
+    assert!(fine.value("voxel_layer.scan.inf_is_valid").starts_with("10 of 40 had no return"));
+    // A scanner above what the source takes.
+    let parameters = vec![Parameter {
+        name: "voxel_layer.scan.max_obstacle_height".into(),
+        value: ParameterValue {
+            r#type: ParameterType::PARAMETER_DOUBLE,
+            double_value: 0.1,
+            ..ParameterValue::default()
+        },
+    }];
+    let set = "/local_costmap/local_costmap/set_parameters";
+    stage.ask::<SetParameters>(set, SetParametersRequest { parameters });
+    see(&mut stage, "laser", 0);
+    let high = Told::latest(&all, part);
+    assert_eq!(high.level, DiagnosticStatus::ERROR);
+    assert!(high.message.starts_with("30 of 30 were above the source's"), "{}", high.message);
+    assert!(high.message.contains("(`voxel_layer.scan.max_obstacle_height`)"));
+    assert_eq!(high.value("points dropped by height"), "30");
+    // A frame that nobody knows, and a clock that goes ahead.
+    for (frame, late_ns, parameter, key) in [
+        ("nowhere", 0, "voxel_layer.scan.sensor_frame", "messages dropped by frame"),
+        ("laser", 900_000_000_000, "use_sim_time", "messages dropped by time"),
+    ] {
+        see(&mut stage, frame, late_ns);
+        see(&mut stage, frame, late_ns);
+        see(&mut stage, frame, late_ns);
+        let lost = Told::latest(&all, part);
+        assert_eq!(lost.level, DiagnosticStatus::ERROR, "{}", lost.message);
+        assert!(lost.message.contains(parameter), "{}", lost.message);
+        assert_ne!(lost.value(key), "0");
+    }
+    // Silence; what waited is dropped first.
+    for _ in 0..80 {
+        stage.place("odom", 0.05);
+        stage.advance(100);
+    }
+    assert_eq!(Told::latest(&all, "costmap").level, DiagnosticStatus::OK);
+    let mut quiet = Stage::local();
+    let all = quiet.user.mailbox::<DiagnosticArray>("/diagnostics", Qos::reliable(10)).unwrap();
+    see(&mut quiet, "laser", 0);
+    for _ in 0..60 {
+        quiet.place("odom", 0.05);
+        quiet.advance(100);
+    }
+    let silent = Told::latest(&all, part);
+    assert_eq!(silent.level, DiagnosticStatus::STALE);
+    assert!(silent.message.starts_with("silent on /scan for 6."), "{}", silent.message);
+}
+
+#[test]
+fn diagnostics_say_that_a_map_is_missing() {
+    let mut stage = Stage::new(GLOBAL, "global_costmap", Compat::Main);
+    let all = stage.user.mailbox::<DiagnosticArray>("/diagnostics", Qos::reliable(10)).unwrap();
+    stage.costmap.start();
+    for _ in 0..10 {
+        stage.place("map", 0.2);
+        stage.advance(100);
+    }
+    let status = &all.latest().unwrap().status[0];
+    assert_eq!(status.level, DiagnosticStatus::WARN);
+    let expected = "`static_layer` waits for a map on /map (`static_layer.map_topic`)";
+    assert_eq!(status.message, expected);
 }
 
 #[test]

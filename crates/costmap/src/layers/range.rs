@@ -3,6 +3,8 @@
 //! Cells hold the probability of an obstacle, times 254. Source of the rules:
 //! `nav2_costmap_2d/plugins/range_sensor_layer.cpp`.
 
+use std::collections::VecDeque;
+
 use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
@@ -14,6 +16,9 @@ use crate::{Bounds, Compat, Costmap, Explanation, Layer, Moment, Window};
 
 /// What the cell of a reading holds before it counts.
 const EXPECTED: u8 = 233;
+
+/// Most readings that wait for an update; while nobody knows where the robot is there is none.
+const MOST_READINGS: usize = 1000;
 
 /// How far beyond a reading the cone goes, in parts of it.
 const CONE_REACH: f64 = 1.2;
@@ -31,6 +36,19 @@ pub struct RangeReading {
     pub max_range_m: f64,
     /// Width of the beam \[rad\].
     pub field_of_view_rad: f64,
+}
+
+/// What became of readings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RangeCounters {
+    /// Readings that counted.
+    pub taken: u64,
+    /// Beyond the limits of their sensor, or of the wrong kind.
+    pub beyond_limits: u64,
+    /// Dropped because nobody knew where the sensor was.
+    pub without_frame: u64,
+    /// Dropped because nobody knew where the sensor was at their time.
+    pub out_of_time: u64,
 }
 
 /// Which sensors count.
@@ -86,7 +104,9 @@ pub struct RangeLayer {
     clears_on_max: bool,
     silence_ns: i64,
     grid: Costmap,
-    readings: Vec<RangeReading>,
+    /// Where its readings went.
+    pub counters: RangeCounters,
+    readings: VecDeque<RangeReading>,
     /// What readings touched since the last update.
     touched: Bounds,
     extra: Option<Bounds>,
@@ -110,7 +130,8 @@ impl RangeLayer {
             clears_on_max: false,
             silence_ns: 0,
             grid: Costmap::empty(as_cost(0.5)),
-            readings: Vec::new(),
+            counters: RangeCounters::default(),
+            readings: VecDeque::new(),
             touched: Bounds::EMPTY,
             extra: None,
             last_ns: None,
@@ -151,7 +172,10 @@ impl RangeLayer {
 
     /// Takes in a reading. It counts from the next update on.
     pub fn insert(&mut self, reading: RangeReading) {
-        self.readings.push(reading);
+        if self.readings.len() == MOST_READINGS {
+            self.readings.pop_front();
+        }
+        self.readings.push_back(reading);
     }
 
     /// Its own cells, to be changed by hand.
@@ -310,7 +334,10 @@ impl Layer for RangeLayer {
         let silent_since = *self.last_ns.get_or_insert(moment.now_ns);
         for reading in std::mem::take(&mut self.readings) {
             if self.process(reading) {
+                self.counters.taken += 1;
                 self.last_ns = Some(moment.now_ns);
+            } else {
+                self.counters.beyond_limits += 1;
             }
         }
         bounds.include(&std::mem::take(&mut self.touched));

@@ -15,12 +15,22 @@ pub(super) struct FilterPort {
     filter: String,
     info: Mailbox<nav2_msgs::CostmapFilterInfo>,
     mask: Option<Mailbox<nav_msgs::OccupancyGrid>>,
+    has_mask: bool,
 }
 
 impl FilterPort {
     pub(super) fn new(place: &Place<'_>, filter: &str, topic: &str) -> Result<Self, GraphError> {
         let info = place.node.mailbox(&place.resolve(topic), Qos::latched(1))?;
-        Ok(Self { filter: filter.to_owned(), info, mask: None })
+        Ok(Self { filter: filter.to_owned(), info, mask: None, has_mask: false })
+    }
+
+    /// Its filter, and the topic on which nothing has come that it needs.
+    pub(super) fn waits_for(&self) -> Option<(&str, &str)> {
+        let topic = match &self.mask {
+            None => self.info.topic(),
+            Some(mask) => mask.topic(),
+        };
+        (!self.has_mask).then_some((self.filter.as_str(), topic))
     }
 
     pub(super) fn take(
@@ -52,7 +62,10 @@ impl FilterPort {
         }
         let Some(message) = self.mask.as_ref().and_then(Mailbox::latest) else { return };
         match map(&message) {
-            Ok(grid) => filter.set_mask(Mask { grid, frame: message.header.frame_id.clone() }),
+            Ok(grid) => {
+                filter.set_mask(Mask { grid, frame: message.header.frame_id.clone() });
+                self.has_mask = true;
+            }
             Err(why) => complain(format!("the mask is refused: {why}")),
         }
     }
