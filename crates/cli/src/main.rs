@@ -12,6 +12,7 @@ mod log;
 mod map;
 mod mapping;
 mod options;
+mod page;
 mod picture;
 mod sim;
 mod slam;

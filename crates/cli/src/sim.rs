@@ -24,6 +24,7 @@ use crate::costmap::{CostmapOptions, Costmaps};
 use crate::localize::{BesideOptions, Localization};
 use crate::mapping::{Mapping, MappingOptions};
 use crate::options::{SearchOptions, split};
+use crate::page::{About, Page, PageOptions};
 use crate::terminal;
 
 use ros2::{Reach, Ros2};
@@ -101,6 +102,8 @@ pub(crate) struct SimOptions {
     localization: BesideOptions,
     #[command(flatten)]
     mapping: MappingOptions,
+    #[command(flatten)]
+    page: PageOptions,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -209,6 +212,17 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
+    let about = options.about(&composition);
+    let page = match Page::join(simulation.graph(), &options.page, about) {
+        Ok(page) => page,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    if let Some(page) = page.as_ref().filter(|_| !options.quiet) {
+        terminal::say(&format!("the page is at {}", page.url()));
+    }
     let stop = terminal::stop_on_ctrl_c();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
@@ -226,6 +240,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         }
     });
     let wall = stopwatch.elapsed();
+    drop(page);
     line.clear();
     ros2.tell()?;
     if !options.quiet {
@@ -319,6 +334,15 @@ impl SimOptions {
             (Some(Factor::Of(factor)), _) => Some(factor),
             (Some(Factor::Max), _) | (None, Some(_)) => None,
             (None, None) => composition.real_time_factor(),
+        }
+    }
+
+    /// What the page tells of the run.
+    fn about(&self, composition: &Composition) -> About {
+        About {
+            world: Some(composition.world.name.clone()),
+            files: composition.files.iter().map(|file| file.path.clone()).collect(),
+            resource_path: self.search.resource_path.clone(),
         }
     }
 

@@ -1,0 +1,21 @@
+//! One port with the page and the socket behind it.
+//!
+//! A [`Server`] listens on one address. Who asks by HTTP gets the files of the page, which are part of
+//! the program; who asks for a WebSocket becomes a client of a [`Hub`]. Without a token only this
+//! machine is heard, and of its browsers only pages that came from it: see [`Door`].
+
+mod admit;
+mod frame;
+mod http;
+mod page;
+mod server;
+mod socket;
+mod token;
+
+pub use admit::{Door, Refused};
+pub use http::{Head, HeadError, LONGEST_HEAD};
+pub use server::{Server, ServerSettings};
+pub use token::token;
+
+#[doc(no_inline)]
+pub use periplus_wire_live::Hub;

@@ -1,0 +1,115 @@
+//! Clients: who they are and what they hear.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::{Shared, State};
+use crate::outbox::Outbox;
+use crate::outgoing::Hearer;
+use crate::protocol::{self, Subscription};
+
+/// A client.
+pub(crate) struct Client {
+    pub(super) outbox: Arc<Outbox>,
+    /// The topic of each subscription.
+    pub(super) subscriptions: BTreeMap<u32, String>,
+}
+
+impl State {
+    /// A client comes: it is told who is here and what there is.
+    pub(super) fn join(&mut self, shared: &Shared, outbox: &Arc<Outbox>) -> Option<u64> {
+        let settings = &shared.settings;
+        if self.clients.len() >= settings.limits.clients {
+            return None;
+        }
+        outbox.push(protocol::server_info(
+            &settings.name,
+            &settings.session_id,
+            &settings.metadata,
+        ));
+        outbox.push(protocol::advertise(&self.channel_texts()));
+        outbox.push(protocol::advertise_services(&self.service_texts()));
+        outbox.tell_time(shared.graph.now_ns());
+        let id = self.client_number();
+        let client = Client { outbox: outbox.clone(), subscriptions: BTreeMap::new() };
+        self.clients.insert(id, client);
+        Some(id)
+    }
+
+    /// A client goes.
+    pub(crate) fn leave(&mut self, shared: &Shared, id: u64) {
+        let Some(client) = self.clients.remove(&id) else { return };
+        for (subscription_id, topic) in &client.subscriptions {
+            self.stop(id, *subscription_id, topic);
+        }
+        self.listen(&shared.graph);
+    }
+
+    /// A client wants to hear channels. What cannot be is told.
+    pub(crate) fn subscribe(
+        &mut self,
+        shared: &Shared,
+        client: u64,
+        wanted: &[Subscription],
+    ) -> Vec<String> {
+        let mut refused = Vec::new();
+        for one in wanted {
+            let Some(topic) = self.topic_of(one.channel_id) else {
+                refused.push(format!("there is no channel {}", one.channel_id));
+                continue;
+            };
+            let Some(known) = self.clients.get_mut(&client) else { continue };
+            if known.subscriptions.contains_key(&one.id) {
+                refused.push(format!("subscription {} is in use", one.id));
+                continue;
+            }
+            if known.subscriptions.len() >= shared.settings.limits.entries {
+                refused.push("there are too many subscriptions".to_owned());
+                break;
+            }
+            known.outbox.open(one.id);
+            known.subscriptions.insert(one.id, topic.clone());
+            let hearer = Hearer { client, subscription_id: one.id, outbox: known.outbox.clone() };
+            for (of, way) in self.ways.values() {
+                if *of == topic {
+                    way.add(hearer.clone());
+                }
+            }
+        }
+        self.listen(&shared.graph);
+        refused
+    }
+
+    /// A client no longer wants to.
+    pub(crate) fn unsubscribe(&mut self, shared: &Shared, client: u64, ids: &[u32]) {
+        for id in ids {
+            let Some(known) = self.clients.get_mut(&client) else { return };
+            let Some(topic) = known.subscriptions.remove(id) else { continue };
+            known.outbox.shut(*id);
+            self.stop(client, *id, &topic);
+        }
+        self.listen(&shared.graph);
+    }
+
+    fn stop(&self, client: u64, subscription_id: u32, topic: &str) {
+        for (of, way) in self.ways.values() {
+            if of == topic {
+                way.remove(client, subscription_id);
+            }
+        }
+    }
+
+    /// A topic is gone, and with it all subscriptions to it.
+    pub(super) fn forget_topic(&mut self, topic: &str) {
+        for client in self.clients.values_mut() {
+            let outbox = &client.outbox;
+            client.subscriptions.retain(|id, heard| {
+                let stays = heard != topic;
+                if !stays {
+                    outbox.shut(*id);
+                }
+                stays
+            });
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! What clients and servers say to each other. Plain data in and out, no state.
+
+mod client;
+mod server;
+
+pub use client::{ClientBinary, ClientChannel, ClientText, Malformed, ParameterText, Subscription};
+pub use server::{
+    AssetAnswer, ChannelText, Level, ServiceText, advertise, advertise_services, asset,
+    connection_graph, message_head, parameters, remove_status, schema_of, server_info,
+    service_answer, service_failure, status, time, unadvertise, unadvertise_services,
+};
+
+/// The names of the protocol that a WebSocket may ask for, the best first: that of the protocol's
+/// document, and that of Foxglove's SDK, which is the same.
+pub const SUBPROTOCOLS: [&str; 2] = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
