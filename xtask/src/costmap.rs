@@ -18,3 +18,10 @@ pub(crate) fn bench() -> Result<(), Failed> {
     race.arg(root().join("benches/RESULTS.md"));
     run(&mut race, "see above; `pip install opencv-python-headless` and PERIPLUS_PYTHON for OpenCV")
 }
+
+/// Runs costmaps for an hour of simulated time.
+pub(crate) fn soak() -> Result<(), Failed> {
+    let mut hour = cargo();
+    hour.args(["run", "--quiet", "--release", "--package", "periplus-sim"]);
+    run(hour.args(["--example", "costmap_soak"]), "memory grew, or a mark stayed; see above")
+}

@@ -81,6 +81,8 @@ enum Task {
     Drive,
     /// The same bag from every build and number of threads
     Determinism,
+    /// An hour of simulated time among moving things: memory and marks of costmaps
+    Soak,
     /// The pictures in the documentation, from the program itself
     Pictures,
     /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
@@ -157,6 +159,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         },
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Soak => costmap::soak(),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Zenoh => zenoh::check(),
