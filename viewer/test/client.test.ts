@@ -57,7 +57,7 @@ test('hears a topic as soon as there is one, and only while somebody hears', asy
   const channel = server.addChannel({ ...text, schema: 'string data', schemaEncoding: 'ros2msg' });
   await vi.waitFor(() => expect(subscribed).toHaveBeenCalledTimes(1));
   const encode = encoder(parseSchema('std_msgs/msg/String', 'string data'));
-  server.sendMessage(channel, 5n, encode({ data: 'hello' }));
+  server.sendMessage(channel, 5n, new Uint8Array(encode({ data: 'hello' })));
   await vi.waitFor(() => expect(heard).toEqual(['hello']));
   leave();
   await vi.waitFor(() => expect(unsubscribed).toHaveBeenCalledTimes(1));
@@ -80,7 +80,7 @@ test('publishes, calls services, reads and sets parameters', async () => {
   server.on('setParameters', (request) => set(request.parameters));
   server.on('serviceCallRequest', (request, connection) => {
     const encode = encoder(parseSchema('x', 'bool success\nstring message'));
-    const data = encode({ success: true, message: 'done' });
+    const data = new Uint8Array(encode({ success: true, message: 'done' }));
     server.sendServiceCallResponse(
       {
         serviceId: request.serviceId,

@@ -1,0 +1,95 @@
+// What tests and pictures need: a running Periplus, and a browser that looks at it.
+import { spawn } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { brotliDecompressSync } from 'node:zlib';
+import { chromium } from 'playwright-core';
+
+export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
+const PAGE = join(ROOT, 'crates/server/page');
+const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
+const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+/** Runs the program; resolves once its port answers. */
+export async function periplus(args, port) {
+  if (!existsSync(PROGRAM))
+    throw new Error(`${PROGRAM} is not there: build it, or say PERIPLUS=...`);
+  const child = spawn(PROGRAM, args, { cwd: ROOT, stdio: ['ignore', 'pipe', 'pipe'] });
+  let said = '';
+  for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => (said += data));
+  const isOver = new Promise((resolve) => child.once('exit', resolve));
+  for (let i = 0; i < 300; i++) {
+    const answers = await fetch(`http://127.0.0.1:${port}/`).then(
+      () => true,
+      () => false,
+    );
+    if (answers) break;
+    if (child.exitCode !== null) throw new Error(`periplus ${args.join(' ')} ended:\n${said}`);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  return {
+    said: () => said,
+    stop: async () => {
+      child.kill('SIGINT');
+      const late = setTimeout(() => child.kill('SIGKILL'), 5000);
+      await isOver;
+      clearTimeout(late);
+    },
+  };
+}
+
+const TYPES = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.css': 'text/css',
+  '.svg': 'image/svg+xml',
+};
+
+/** Serves the page as it was built last, for a program that was built with an older one. */
+export async function servePage() {
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, 'http://x').pathname;
+    const name = path === '/' ? '/index.html' : path;
+    const file = join(PAGE, `${name}.br`);
+    if (name.includes('..') || !existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    response.writeHead(200, { 'content-type': TYPES[extname(name)] ?? 'text/plain' });
+    response.end(brotliDecompressSync(readFileSync(file)));
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
+}
+
+/** Debian's Chromium without a window; pictures come from its software renderer. */
+export async function browser() {
+  return chromium.launch({
+    executablePath: BROWSER,
+    args: [
+      '--no-sandbox',
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--hide-scrollbars',
+    ],
+  });
+}
+
+/** Opens the page and waits until it is connected; complaints of the page fail the test. */
+export async function open(chrome, url, options = {}) {
+  const page = await chrome.newPage({
+    viewport: { width: 1280, height: 720 },
+    colorScheme: 'dark',
+    ...options,
+  });
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(String(error.stack ?? error)));
+  page.on('console', (message) => {
+    if (message.type() === 'error') complaints.push(message.text());
+  });
+  await page.goto(url);
+  return { page, complaints };
+}

@@ -1,0 +1,440 @@
+/** What all panels share: the connection, time, frames, displays, words for the user. */
+import { Client, type Handler, type Socket, type State } from '../core/client';
+import type { Message } from '../core/cdr';
+import { SUBPROTOCOL, type Parameter } from '../core/protocol';
+import { longName } from '../core/schema';
+import { TfBuffer } from '../core/tf';
+import { seconds, stampOf, type TransformStamped } from '../core/types';
+import type { Context } from '../displays/display';
+import type { Values } from '../displays/options';
+import { kindOf } from '../displays/registry';
+import { WorldDisplay } from '../displays/world';
+import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
+import { viewFrom, viewTo } from '../rviz/view';
+import { Stage } from '../scene/stage';
+import { FIRST_VIEW, type ViewState } from '../scene/view';
+import { bestFrame, wishFor } from './auto';
+import { Clock } from './clock';
+import { Entry } from './entry.svelte';
+import { TEXTS } from './texts';
+
+export interface Notice {
+  id: number;
+  level: 'info' | 'warn' | 'error';
+  text: string;
+}
+
+export interface LogLine {
+  id: number;
+  level: number;
+  node: string;
+  text: string;
+  timeS: number;
+}
+
+export interface TopicRow {
+  name: string;
+  type: string;
+  publishers: string[];
+  subscribers: string[];
+  metadata?: Record<string, string>;
+}
+
+const MOST_LOG = 1000;
+const FLUSH_MS = 200;
+
+export class App {
+  connection: State = $state('connecting');
+  why = $state('');
+  serverName = $state('');
+  worldName = $state('');
+  timeS = $state(0);
+  factor: number | undefined = $state();
+  isStill = $state(true);
+  framesPerSecond = $state(0);
+  fixedFrame = $state('map');
+  isFrameChosen = $state(false);
+  frames: string[] = $state([]);
+  topics: TopicRow[] = $state.raw([]);
+  services: { name: string; type: string }[] = $state.raw([]);
+  parameters: Record<string, Parameter> = $state({});
+  displays: Entry[] = $state([]);
+  notices: Notice[] = $state([]);
+  log: LogLine[] = $state.raw([]);
+  view: ViewState = $state(structuredClone(FIRST_VIEW));
+  background = $state('');
+  theme: 'dark' | 'light' = $state('dark');
+  /** Displays come by themselves until somebody has chosen. */
+  isAutomatic = $state(true);
+  models: string[] = $state([]);
+  selectedModel = $state('');
+  truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
+  rvizTools: RvizTool[] = $state([]);
+  fileName = $state('');
+
+  readonly tf = new TfBuffer();
+  readonly clock = new Clock();
+  readonly client: Client;
+  stage?: Stage;
+  private rvizOriginal?: Tree;
+  private seen = new Set<string>();
+  private publishers = new Map<string, (message: Message) => void>();
+  private lastId = 0;
+  private newLog: LogLine[] = [];
+  private tfVersion = -1;
+  private isOffersNew = false;
+  private flushedMs = 0;
+
+  constructor(url: string) {
+    this.client = new Client(
+      () => new WebSocket(url, [SUBPROTOCOL]) as unknown as Socket,
+      {
+        state: (state, why) => this.connected(state, why),
+        offers: () => (this.isOffersNew = true),
+        parameters: (all) => {
+          for (const one of all) this.parameters[one.name] = one;
+        },
+        time: (timeS) => this.time(timeS),
+        status: (level, text) => this.notice(level >= 2 ? 'error' : 'warn', text),
+      },
+      TEXTS,
+    );
+    this.client.subscribe('/clock', (message) => this.time(seconds(message.clock as never)));
+    for (const isStatic of [false, true]) {
+      this.client.subscribe(isStatic ? '/tf_static' : '/tf', (message) => {
+        const now = performance.now();
+        for (const one of message.transforms as TransformStamped[]) this.tf.add(one, isStatic, now);
+      });
+    }
+    this.client.subscribe('/rosout', (message) => this.logged(message));
+  }
+
+  // Connection and time.
+
+  private connected(state: State, why: string): void {
+    this.connection = state;
+    this.why = why;
+    if (state === 'closed') this.tf.clear();
+  }
+
+  private time(timeS: number): void {
+    if (!this.clock.set(timeS, performance.now())) return;
+    this.tf.rewind(timeS);
+    for (const { display } of this.displays) {
+      if (display instanceof WorldDisplay) display.restarted();
+      else if (display) display.moved();
+    }
+  }
+
+  private logged(message: Message): void {
+    this.newLog.push({
+      id: ++this.lastId,
+      level: Number(message.level),
+      node: String(message.name),
+      text: String(message.msg),
+      timeS: seconds(message.stamp as never),
+    });
+  }
+
+  notice(level: Notice['level'], text: string): void {
+    if (this.notices.some((notice) => notice.text === text)) return;
+    const notice = { id: ++this.lastId, level, text };
+    this.notices.push(notice);
+    if (this.notices.length > 5) this.notices.shift();
+    if (level !== 'error') setTimeout(() => this.dismiss(notice.id), 6000);
+  }
+
+  dismiss(id: number): void {
+    this.notices = this.notices.filter((notice) => notice.id !== id);
+  }
+
+  // The stage.
+
+  attach(stage: Stage): void {
+    this.stage = stage;
+    stage.view.set($state.snapshot(this.view) as ViewState);
+    stage.ticks.add((nowMs) => this.tick(nowMs));
+    for (const entry of this.displays) entry.start(this.context());
+  }
+
+  private context(): Context {
+    return {
+      stage: this.stage!,
+      tf: this.tf,
+      subscribe: (topic, handler: Handler) => this.client.subscribe(topic, handler),
+      asset: (uri) => this.client.asset(uri),
+      fixedFrame: () => this.fixedFrame,
+      nowS: () => this.clock.nowS,
+      topicsOfType: (types) => this.topicsOf(types),
+    };
+  }
+
+  private tick(nowMs: number): void {
+    for (const { display } of this.displays) display?.tick(nowMs);
+    this.follow();
+    if (nowMs - this.flushedMs > FLUSH_MS) {
+      this.flushedMs = nowMs;
+      this.flush(nowMs);
+    }
+  }
+
+  /** The view goes along with its target frame. */
+  private follow(): void {
+    const { view } = this.stage!;
+    const { targetFrame } = view.state;
+    const isFixed = !targetFrame || targetFrame === '<Fixed Frame>';
+    const found = isFixed ? undefined : this.tf.lookup(this.fixedFrame, targetFrame);
+    const pose = found?.kind === 'found' ? found.pose : undefined;
+    const [x, y, z] = pose?.t ?? (isFixed ? [0, 0, 0] : view.origin.toArray());
+    const q = pose?.q;
+    const yaw = q ? 2 * Math.atan2(q[2], q[3]) : 0;
+    const { origin } = view;
+    const moved =
+      Math.hypot(origin.x - x!, origin.y - y!, origin.z - z!) + Math.abs(yaw - view.originYaw);
+    if (moved < 1e-5) return;
+    origin.set(x!, y!, z!);
+    view.originYaw = yaw;
+    view.update();
+  }
+
+  private flush(nowMs: number): void {
+    if (this.isOffersNew) {
+      this.isOffersNew = false;
+      this.offersChanged();
+    }
+    for (const entry of this.displays) entry.flush();
+    this.timeS = this.clock.nowS;
+    this.factor = this.clock.factor;
+    this.isStill = this.clock.isStill(nowMs);
+    this.framesPerSecond = this.stage?.framesPerSecond ?? 0;
+    if (this.newLog.length > 0) {
+      this.log = [...this.log, ...this.newLog].slice(-MOST_LOG);
+      this.newLog = [];
+    }
+    const world = this.world();
+    const truth = world?.truth;
+    if (truth?.distanceM !== this.truth?.distanceM) this.truth = truth && { ...truth };
+    if (this.tf.version === this.tfVersion) return;
+    this.tfVersion = this.tf.version;
+    const names = this.tf.names();
+    if (names.join() !== this.frames.join()) this.frames = names;
+    if (!this.isFrameChosen && names.length > 0) {
+      this.setFixedFrame(
+        bestFrame(names, (name) => this.tf.root(name)),
+        false,
+      );
+    }
+  }
+
+  setFixedFrame(name: string, isChosen = true): void {
+    if (isChosen) this.isFrameChosen = true;
+    if (name === this.fixedFrame) return;
+    this.fixedFrame = name;
+    for (const { display } of this.displays) display?.moved();
+    this.stage?.invalidate();
+  }
+
+  setView(state: Partial<ViewState>): void {
+    this.stage?.view.set(state);
+    this.view = structuredClone(this.stage?.view.state ?? FIRST_VIEW);
+  }
+
+  // What is offered.
+
+  private offersChanged(): void {
+    const { client } = this;
+    this.serverName = client.serverName;
+    const by = (list: { name: string }[], ids: 'publisherIds' | 'subscriberIds') =>
+      new Map(list.map((e) => [e.name, (e as never as Record<string, string[]>)[ids] ?? []]));
+    const publishers = by(client.ends.publishedTopics, 'publisherIds');
+    const subscribers = by(client.ends.subscribedTopics, 'subscriberIds');
+    const names = new Set([...client.channels.keys(), ...publishers.keys(), ...subscribers.keys()]);
+    this.topics = [...names].sort().map((name) => {
+      const channel = client.channels.get(name);
+      return {
+        name,
+        type: channel ? longName(channel.schemaName) : '',
+        publishers: publishers.get(name) ?? [],
+        subscribers: subscribers.get(name) ?? [],
+        metadata: channel?.metadata,
+      };
+    });
+    this.services = [...client.services.values()]
+      .map(({ name, type }) => ({ name, type }))
+      .sort((a, b) => (a.name < b.name ? -1 : 1));
+    const world = this.services
+      .map((service) => /^\/world\/(.+)\/control$/.exec(service.name)?.[1])
+      .find(Boolean);
+    this.worldName = world ?? '';
+    if (this.isAutomatic) this.addWished();
+  }
+
+  topicsOf(types: readonly string[]): string[] {
+    return this.topics.filter((t) => types.includes(t.type)).map((t) => t.name);
+  }
+
+  private addWished(): void {
+    if (!this.stage || this.connection !== 'open') return;
+    if (this.displays.length === 0) {
+      const grid = this.add(
+        'rviz_default_plugins/Grid',
+        'Grid',
+        { 'Plane Cell Count': 20 },
+        true,
+        true,
+      );
+      if (grid) grid.isAutomatic = true;
+      this.add('rviz_default_plugins/TF', 'TF', { 'Marker Scale': 0.6 }, false, true);
+    }
+    let pictures = this.displays.filter((e) => e.kind.hasPicture && e.isEnabled).length;
+    for (const { name, type } of this.topics) {
+      if (!type || this.seen.has(name)) continue;
+      this.seen.add(name);
+      const wish = wishFor(name, type);
+      if (!wish) continue;
+      const isPicture = type.endsWith('/Image');
+      const isEnabled = wish.isEnabled && (!isPicture || ++pictures <= 1);
+      this.add(wish.class, wish.name, wish.values, isEnabled, true);
+    }
+  }
+
+  // Displays.
+
+  add(
+    kindClass: string,
+    name = '',
+    values: Values = {},
+    isEnabled = true,
+    isAutomatic = false,
+  ): Entry | undefined {
+    const kind = kindOf(kindClass);
+    if (!kind) {
+      this.notice('warn', `There is no display "${kindClass}" here; it was left out.`);
+      return undefined;
+    }
+    if (!isAutomatic) this.isAutomatic = false;
+    this.displays.push(new Entry(kind, name, values, isEnabled));
+    const entry = this.displays[this.displays.length - 1]!;
+    entry.isAutomatic = isAutomatic;
+    if (this.stage) this.begin(entry);
+    return entry;
+  }
+
+  private begin(entry: Entry): void {
+    entry.start(this.context());
+    if (entry.display instanceof WorldDisplay) {
+      entry.display.onModels = (names) => (this.models = names);
+    }
+  }
+
+  remove(entry: Entry): void {
+    this.isAutomatic = false;
+    entry.stop();
+    this.displays = this.displays.filter((e) => e !== entry);
+  }
+
+  setEnabled(entry: Entry, isEnabled: boolean): void {
+    entry.isEnabled = isEnabled;
+    if (isEnabled) this.begin(entry);
+    else entry.stop();
+  }
+
+  setOption(entry: Entry, path: string, value: boolean | number | string): void {
+    entry.values[path] = value;
+    entry.display?.changed(path);
+  }
+
+  world(): WorldDisplay | undefined {
+    const entry = this.displays.find((e) => e.display instanceof WorldDisplay);
+    return entry?.display as WorldDisplay | undefined;
+  }
+
+  clear(): void {
+    for (const entry of this.displays) entry.stop();
+    this.displays = [];
+    this.models = [];
+  }
+
+  // `.rviz` files.
+
+  openRviz(text: string, fileName = ''): void {
+    const file = readRviz(text);
+    this.clear();
+    this.isAutomatic = false;
+    this.rvizOriginal = file.original;
+    this.fileName = fileName;
+    this.rvizTools = file.tools;
+    for (const display of file.displays) {
+      const entry = this.add(display.class, display.name, display.values, display.isEnabled);
+      if (entry) entry.original = display.original;
+    }
+    this.setFixedFrame(file.fixedFrame);
+    this.background = file.background;
+    if (file.view) this.setView(viewFrom(file.view));
+  }
+
+  rvizText(): string {
+    return writeRviz({
+      fixedFrame: this.fixedFrame,
+      background: this.background || '48; 48; 48',
+      displays: this.displays.map((entry) => ({
+        class: entry.kind.class,
+        name: entry.name,
+        isEnabled: entry.isEnabled,
+        values: $state.snapshot(entry.values) as Values,
+        options: entry.kind.options,
+        original: entry.original,
+      })),
+      view: viewTo(this.stage?.view.state ?? FIRST_VIEW),
+      original: this.rvizOriginal,
+    });
+  }
+
+  /** What a tool of the file was given; else what RViz gives it. */
+  toolValue<T extends string | number>(tool: string, path: string, otherwise: T): T {
+    const found = this.rvizTools.find((t) => t.class.endsWith(`/${tool}`))?.values[path];
+    return (found as T | undefined) ?? otherwise;
+  }
+
+  // Saying something.
+
+  publish(topic: string, type: string, message: Message): void {
+    const key = `${topic} ${type}`;
+    let publish = this.publishers.get(key);
+    if (!publish) {
+      try {
+        publish = this.client.publisher(topic, type);
+      } catch (error) {
+        this.notice('error', `${topic}: ${(error as Error).message}`);
+        return;
+      }
+      this.publishers.set(key, publish);
+    }
+    publish(message);
+  }
+
+  header(frame = this.fixedFrame): Message {
+    return { stamp: stampOf(this.clock.nowS), frame_id: frame };
+  }
+
+  /** Calls a service and tells the user if that fails; whether it was done. */
+  async call(name: string, request: Message): Promise<Message | undefined> {
+    try {
+      const answer = await this.client.call(name, request);
+      if (answer.success === false) {
+        const why = answer.message ?? answer.status_message ?? this.lastComplaint();
+        this.notice('error', `${name} was refused. ${String(why)}`);
+        return undefined;
+      }
+      return answer;
+    } catch (error) {
+      this.notice('error', (error as Error).message);
+      return undefined;
+    }
+  }
+
+  private lastComplaint(): string {
+    const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
+    return line ? line.text : 'The log tells why.';
+  }
+}

@@ -1,0 +1,112 @@
+/** Drives a robot by keys, by a stick, and passes keys on as Gazebo's Key Publisher does. */
+import type { App } from './app.svelte';
+import { faster, FIRST_SPEEDS, MOVES, qtCode, SPEEDS, twist } from './teleop';
+
+/** How often a held key is said again [ms]: robots stop that hear nothing for long. */
+const REPEAT_MS = 100;
+
+export class Driver {
+  isOn = $state(true);
+  topic = $state('/cmd_vel');
+  isStamped = $state(false);
+  /** As a person expects of a page; teleop_twist_keyboard goes on until k. */
+  stopsOnRelease = $state(true);
+  speeds = $state({ ...FIRST_SPEEDS });
+  move: readonly number[] = $state([0, 0, 0, 0]);
+  sendsKeys = $state(false);
+  keyTopic = $state('/keyboard/keypress');
+  lastKey = $state('');
+  private isChosen = false;
+  private held: string[] = [];
+  private timer?: ReturnType<typeof setInterval>;
+
+  constructor(private app: App) {}
+
+  /** Topics on which somebody waits for velocities. */
+  topics(): string[] {
+    const found = this.app.topics
+      .filter((t) => /(^|\/)cmd_vel\w*$/.test(t.name) || /Twist(Stamped)?$/.test(t.type))
+      .map((t) => t.name);
+    return [...new Set([this.topic, ...found])].sort();
+  }
+
+  /** Takes the topic that a robot listens to, unless the user chose one. */
+  settle(): void {
+    const listened = this.app.topics.filter((t) => t.subscribers.length > 0).map((t) => t.name);
+    if (this.isChosen || listened.includes(this.topic)) return;
+    const found = listened.find((name) => /(^|\/)cmd_vel$/.test(name));
+    if (found) this.topic = found;
+  }
+
+  choose(topic: string): void {
+    this.isChosen = true;
+    this.topic = topic;
+  }
+
+  isDriven(): boolean {
+    return this.move.some((part) => part !== 0);
+  }
+
+  /** Whether the key was one of ours. */
+  keyDown(event: KeyboardEvent): boolean {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false;
+    if (this.sendsKeys) this.passOn(event.key);
+    if (!this.isOn) return this.sendsKeys && event.key.startsWith('Arrow');
+    const { key } = event;
+    if (SPEEDS[key]) {
+      this.speeds = faster(key, this.speeds);
+      return true;
+    }
+    if (key === 'k') {
+      this.held = [];
+      this.go([0, 0, 0, 0]);
+      return true;
+    }
+    const move = MOVES[key];
+    if (!move) return false;
+    if (event.repeat) return true;
+    this.held = [...this.held.filter((k) => k !== key), key];
+    this.go(move);
+    return true;
+  }
+
+  keyUp(event: KeyboardEvent): void {
+    const wasHeld = this.held.length > 0;
+    const key = event.key.toLowerCase();
+    this.held = this.held.filter((k) => k.toLowerCase() !== key);
+    if (!wasHeld || !this.stopsOnRelease) return;
+    const last = this.held[this.held.length - 1];
+    this.go(last ? MOVES[last]! : [0, 0, 0, 0]);
+  }
+
+  /** Nobody can let go of a key outside of the page. */
+  release(): void {
+    if (this.held.length > 0) {
+      this.held = [];
+      if (this.stopsOnRelease) this.go([0, 0, 0, 0]);
+    }
+  }
+
+  private passOn(key: string): void {
+    const code = qtCode(key);
+    if (code === undefined) return;
+    this.lastKey = `${key === ' ' ? 'Space' : key} = ${code}`;
+    this.app.publish(this.keyTopic, 'std_msgs/msg/Int32', { data: code });
+  }
+
+  /** Parts of the speeds: forward, left, up, turn to the left. */
+  go(move: readonly number[]): void {
+    this.move = move;
+    this.send();
+    clearInterval(this.timer);
+    if (this.isDriven()) this.timer = setInterval(() => this.send(), REPEAT_MS);
+  }
+
+  private send(): void {
+    const now = twist(this.move, this.speeds);
+    if (this.isStamped) {
+      const message = { header: this.app.header('base_link'), twist: now };
+      this.app.publish(this.topic, 'geometry_msgs/msg/TwistStamped', message);
+    } else this.app.publish(this.topic, 'geometry_msgs/msg/Twist', now as never);
+  }
+}

@@ -1,0 +1,76 @@
+/** One display in the list: its options, how it is, and whether it is on. */
+import type { Context, Display, Host, Kind, Level } from '../displays/display';
+import { defaultsOf, type Values } from '../displays/options';
+import type { Tree } from '../rviz/file';
+
+export interface Status {
+  level: Level;
+  text: string;
+}
+
+let lastId = 0;
+
+export class Entry {
+  readonly id = ++lastId;
+  name = $state('');
+  isEnabled = $state(true);
+  isOpen = $state(false);
+  values: Values = $state({});
+  statuses: Record<string, Status> = $state({});
+  canvas: HTMLCanvasElement | undefined = $state();
+  display?: Display;
+  /** Of the file that it came from. */
+  original?: Tree;
+  /** Put there because its topic was. */
+  isAutomatic = false;
+  private pending = new Map<string, Status | undefined>();
+
+  constructor(
+    readonly kind: Kind,
+    name: string,
+    values: Values = {},
+    isEnabled = true,
+  ) {
+    this.name = name || kind.title;
+    this.values = { ...defaultsOf(kind.options), ...values };
+    this.isEnabled = isEnabled;
+  }
+
+  level = $derived.by((): Level => {
+    const all = Object.values(this.statuses).map((status) => status.level);
+    return all.includes('error') ? 'error' : all.includes('warn') ? 'warn' : 'ok';
+  });
+
+  start(context: Context): void {
+    if (!this.isEnabled || this.display) return;
+    const host: Host = {
+      status: (name, level, text) => {
+        this.pending.set(name, text === undefined ? undefined : { level, text });
+      },
+      note: (path, value) => {
+        if (this.values[path] !== value) this.values[path] = value;
+      },
+      picture: (canvas) => (this.canvas = canvas),
+    };
+    this.display = this.kind.make(context, this.values, host);
+    this.display.start();
+  }
+
+  stop(): void {
+    this.display?.stop();
+    this.display = undefined;
+    this.canvas = undefined;
+    this.statuses = {};
+    this.pending.clear();
+  }
+
+  /** Shows what was said since the last time: messages come faster than one reads. */
+  flush(): void {
+    for (const [name, status] of this.pending) {
+      if (!status) delete this.statuses[name];
+      else if (this.statuses[name]?.text !== status.text) this.statuses[name] = status;
+      else if (this.statuses[name].level !== status.level) this.statuses[name] = status;
+    }
+    this.pending.clear();
+  }
+}

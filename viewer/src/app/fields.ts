@@ -1,0 +1,72 @@
+/** Messages as text, and the numbers in them by their paths. */
+
+const isNumbers = (value: unknown): value is ArrayLike<number | bigint> =>
+  ArrayBuffer.isView(value) && !(value instanceof DataView);
+
+/** As `ros2 topic echo` would, with long arrays cut. */
+export function show(value: unknown, indent = '', most = 24): string {
+  if (isNumbers(value)) {
+    const all = Array.from({ length: Math.min(most, value.length) }, (_, i) => number(value[i]!));
+    const rest = value.length > most ? `, … ${value.length} in all` : '';
+    return `[${all.join(', ')}${rest}]`;
+  }
+  if (Array.isArray(value)) {
+    if (value.length === 0) return '[]';
+    if (typeof value[0] !== 'object') {
+      const rest = value.length > most ? `, … ${value.length} in all` : '';
+      return `[${value.slice(0, most).join(', ')}${rest}]`;
+    }
+    const items = value
+      .slice(0, 8)
+      .map((item) => `\n${indent}- ${show(item, `${indent}  `).trimStart()}`);
+    return items.join('') + (value.length > 8 ? `\n${indent}… ${value.length} in all` : '');
+  }
+  if (typeof value === 'object' && value !== null) {
+    return Object.entries(value)
+      .map(([key, inner]) => {
+        const isDeep = typeof inner === 'object' && inner !== null && !isNumbers(inner);
+        const isList = Array.isArray(inner);
+        const text = show(inner, `${indent}  `, most);
+        return isDeep && !isList ? `\n${indent}${key}:${text}` : `\n${indent}${key}: ${text}`;
+      })
+      .join('')
+      .replace(indent === '' ? /^\n/ : /^$/, '');
+  }
+  if (typeof value === 'number') return number(value);
+  const text = String(value);
+  return text.length > 2000 ? `${text.slice(0, 2000)}…` : text;
+}
+
+function number(value: number | bigint): string {
+  return typeof value === 'bigint' || Number.isInteger(value)
+    ? String(value)
+    : value.toPrecision(6);
+}
+
+/** Paths of all numbers; of a list, the first few. */
+export function numericPaths(value: unknown, prefix = ''): string[] {
+  if (typeof value === 'number' || typeof value === 'boolean') return [prefix];
+  if (isNumbers(value) || Array.isArray(value)) {
+    const few = Math.min(value.length, 3);
+    return Array.from({ length: few }, (_, i) => numericPaths(value[i], `${prefix}[${i}]`)).flat();
+  }
+  if (typeof value !== 'object' || value === null) return [];
+  return Object.entries(value).flatMap(([key, inner]) =>
+    numericPaths(inner, prefix ? `${prefix}.${key}` : key),
+  );
+}
+
+/** The number at a path: "pose.position.x", "ranges[3]", and of a rotation "orientation.yaw". */
+export function numberAt(value: unknown, path: string): number {
+  let at: unknown = value;
+  for (const part of path.split(/[.[\]]+/).filter(Boolean)) {
+    if (typeof at !== 'object' || at === null) return NaN;
+    const record = at as Record<string, unknown>;
+    if (part === 'yaw' && !('yaw' in record) && 'w' in record) {
+      const { x, y, z, w } = record as Record<'x' | 'y' | 'z' | 'w', number>;
+      return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    }
+    at = record[part];
+  }
+  return typeof at === 'boolean' ? Number(at) : typeof at === 'number' ? at : NaN;
+}

@@ -1,0 +1,32 @@
+/** An empty message of a type, to be filled in by a person. */
+import { definitionOf, type Definition, type Field, type Schema } from '../core/schema';
+
+const MOST_DEEP = 8;
+
+export function template(schema: Schema): Record<string, unknown> {
+  return structure(schema, schema.root, 0);
+}
+
+function structure(schema: Schema, definition: Definition, depth: number): Record<string, unknown> {
+  return Object.fromEntries(definition.fields.map((f) => [f.name, value(schema, f, depth)]));
+}
+
+function value(schema: Schema, field: Field, depth: number): unknown {
+  if (field.array === 'sequence') return [];
+  if (typeof field.array === 'number') {
+    return Array.from({ length: field.array }, () => one(schema, field, depth));
+  }
+  return one(schema, field, depth);
+}
+
+function one(schema: Schema, field: Field, depth: number): unknown {
+  if (!field.isComplex) {
+    if (field.type === 'bool') return false;
+    return field.type.endsWith('string') ? '' : 0;
+  }
+  if (depth > MOST_DEEP) return {};
+  const inner = structure(schema, definitionOf(schema, field.type), depth + 1);
+  // No rotation is a rotation too.
+  if (field.type === 'geometry_msgs/Quaternion') inner.w = 1;
+  return inner;
+}

@@ -1,0 +1,32 @@
+/** What the messages hold that the page itself publishes. */
+
+const HEADER =
+  'MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n' +
+  '================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n';
+const VECTOR = 'MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n';
+const POINT = 'MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n';
+const POSE =
+  'MSG: geometry_msgs/Pose\nPoint position\nQuaternion orientation\n================\n' +
+  POINT +
+  '================\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n';
+const TWIST = 'Vector3 linear\nVector3 angular\n';
+const join = (...parts: string[]) => parts.join('================\n');
+
+export const TEXTS: Record<string, string> = {
+  'geometry_msgs/msg/Twist': join(TWIST, VECTOR),
+  'geometry_msgs/msg/TwistStamped': join(
+    'std_msgs/Header header\nTwist twist\n',
+    HEADER,
+    `MSG: geometry_msgs/Twist\n${TWIST}`,
+    VECTOR,
+  ),
+  'geometry_msgs/msg/PoseStamped': join('std_msgs/Header header\nPose pose\n', HEADER, POSE),
+  'geometry_msgs/msg/PoseWithCovarianceStamped': join(
+    'std_msgs/Header header\nPoseWithCovariance pose\n',
+    HEADER,
+    'MSG: geometry_msgs/PoseWithCovariance\nPose pose\nfloat64[36] covariance\n',
+    POSE,
+  ),
+  'geometry_msgs/msg/PointStamped': join('std_msgs/Header header\nPoint point\n', HEADER, POINT),
+  'std_msgs/msg/Int32': 'int32 data\n',
+};

@@ -1,0 +1,418 @@
+/** What the mouse does on the stage, and what is asked of a simulation. */
+import {
+  Matrix4,
+  Points,
+  Raycaster,
+  Vector2,
+  Vector3,
+  type Intersection,
+  type Object3D,
+} from 'three';
+import { fromYaw, inverse, multiply, yawOf, type Pose } from '../core/pose';
+import { messageOf } from '../core/types';
+import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
+import { dispose } from '../scene/stage';
+import { Color, Group, Mesh } from 'three';
+import type { App } from './app.svelte';
+
+export type ToolName =
+  'move' | 'select' | 'focus' | 'measure' | 'pose' | 'goal' | 'point' | 'carry' | 'turn' | 'insert';
+
+export const SHORTCUTS: Record<string, ToolName> = {
+  m: 'move',
+  i: 'move',
+  s: 'select',
+  c: 'focus',
+  n: 'measure',
+  p: 'pose',
+  g: 'goal',
+  u: 'point',
+};
+
+const GREEN = new Color('#2fc46b');
+const PINK = new Color('#ff5ad2');
+/** A shorter drag gives no direction [m]. */
+const LEAST_DRAG_M = 0.05;
+
+export class Tools {
+  active: ToolName = $state('move');
+  /** What was found under the mouse. */
+  found: Record<string, string> | undefined = $state();
+  measured = $state('');
+  /** SDF that waits for a place. */
+  toInsert?: { name: string; sdf: string; file: string };
+  private marks = new Group();
+  private start?: Vector3;
+  private points: Vector3[] = [];
+
+  constructor(private app: App) {}
+
+  attach(canvas: HTMLCanvasElement): void {
+    const { stage } = this.app;
+    stage!.scene.add(this.marks);
+    // Before the view hears of it.
+    canvas.addEventListener('pointerdown', (event) => this.down(event), true);
+    canvas.addEventListener('pointermove', (event) => this.moved(event), true);
+    canvas.addEventListener('pointerup', (event) => this.up(event), true);
+  }
+
+  choose(name: ToolName): void {
+    this.active = this.active === name ? 'move' : name;
+    this.clear();
+    if (this.active !== 'select') this.found = undefined;
+    this.app.stage!.view.isHeld = this.active !== 'move';
+  }
+
+  private clear(): void {
+    for (const child of [...this.marks.children]) dispose(child);
+    this.start = undefined;
+    this.points = [];
+    this.measured = '';
+    this.app.stage?.invalidate();
+  }
+
+  private done(): void {
+    this.active = 'move';
+    this.app.stage!.view.isHeld = false;
+    setTimeout(() => this.clear(), 600);
+  }
+
+  private down(event: PointerEvent): void {
+    if (this.active === 'move' || event.button !== 0) return;
+    const { view } = this.app.stage!;
+    view.isHeld = true;
+    const ground = view.ground(event.clientX, event.clientY);
+    const hit = this.hit(event);
+    const at = hit?.point ?? ground;
+    switch (this.active) {
+      case 'pose':
+      case 'goal':
+        this.start = ground;
+        break;
+      case 'carry':
+      case 'turn':
+        this.pick(hit?.object);
+        this.start = ground;
+        break;
+      case 'select':
+        this.inspect(hit);
+        break;
+      case 'focus':
+        if (at) this.app.setView(this.focused(at));
+        this.done();
+        break;
+      case 'point':
+        if (at) this.publishPoint(at);
+        break;
+      case 'measure':
+        if (at) this.measure(at);
+        break;
+      case 'insert':
+        if (ground) void this.insertAt(ground);
+        break;
+    }
+  }
+
+  private moved(event: PointerEvent): void {
+    const now = this.start && this.app.stage!.view.ground(event.clientX, event.clientY);
+    if (!this.start || !now) return;
+    if (this.active === 'pose' || this.active === 'goal') this.arrow(this.start, now);
+    if (this.active === 'carry' || this.active === 'turn') this.ghost(now);
+  }
+
+  private up(event: PointerEvent): void {
+    const { start } = this;
+    const now = this.app.stage!.view.ground(event.clientX, event.clientY);
+    if (!start || !now) return;
+    if (this.active === 'pose' || this.active === 'goal') {
+      const way = now.clone().sub(start);
+      const yaw = way.length() > LEAST_DRAG_M ? Math.atan2(way.y, way.x) : 0;
+      this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]));
+      this.done();
+    } else if (this.active === 'carry' || this.active === 'turn') {
+      void this.drop(now);
+    }
+    this.start = undefined;
+  }
+
+  private focused(at: Vector3) {
+    const { origin, state } = this.app.stage!.view;
+    if (state.kind === 'TopDownOrtho') return { x: at.x - origin.x, y: at.y - origin.y };
+    return { focal: at.clone().sub(origin).toArray() as [number, number, number] };
+  }
+
+  private arrow(from: Vector3, to: Vector3): void {
+    for (const child of [...this.marks.children]) dispose(child);
+    const way = to.clone().sub(from);
+    const length = Math.max(0.4, way.length());
+    const arrow = new Mesh(
+      arrowGeometry(length - 0.2, 0.04, 0.2, 0.12),
+      surface(this.active === 'pose' ? GREEN : PINK),
+    );
+    arrow.position.copy(from).setZ(0.05);
+    arrow.rotation.z = Math.atan2(way.y, way.x);
+    this.marks.add(arrow);
+    this.app.stage!.invalidate();
+  }
+
+  private publishPose(tool: 'pose' | 'goal', pose: Pose): void {
+    const { app } = this;
+    const header = app.header();
+    const { t } = pose;
+    const where = `x ${t[0].toFixed(2)}, y ${t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
+    if (tool === 'goal') {
+      const topic = absolute(app.toolValue('SetGoal', 'Topic', 'goal_pose'));
+      app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
+      app.notice('info', `Goal in ${app.fixedFrame}: ${where}`);
+      return;
+    }
+    const covariance = new Float64Array(36);
+    covariance[0] = app.toolValue('SetInitialPose', 'Covariance x', 0.25);
+    covariance[7] = app.toolValue('SetInitialPose', 'Covariance y', 0.25);
+    covariance[35] = app.toolValue('SetInitialPose', 'Covariance yaw', 0.06853891909122467);
+    const topic = absolute(app.toolValue('SetInitialPose', 'Topic', 'initialpose'));
+    const inner = { pose: messageOf(pose), covariance };
+    app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
+    app.notice('info', `Pose estimate in ${app.fixedFrame}: ${where}`);
+  }
+
+  private publishPoint(at: Vector3): void {
+    const { app } = this;
+    const topic = absolute(app.toolValue('PublishPoint', 'Topic', 'clicked_point'));
+    const point = { x: at.x, y: at.y, z: at.z };
+    app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
+    app.notice(
+      'info',
+      `Point in ${app.fixedFrame}: ${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
+    );
+    if (app.toolValue<string | number>('PublishPoint', 'Single click', 1)) this.done();
+  }
+
+  private measure(at: Vector3): void {
+    if (this.points.length >= 2) this.clear();
+    this.points.push(at.clone());
+    const [a, b] = this.points;
+    if (!a || !b) return;
+    const length = a.distanceTo(b);
+    this.measured = `${length.toFixed(3)} m (x ${(b.x - a.x).toFixed(3)}, y ${(b.y - a.y).toFixed(3)}, z ${(b.z - a.z).toFixed(3)})`;
+    this.marks.add(polyline([...a.toArray(), ...b.toArray()], new Color('#e6c229')));
+    const words = label(`${length.toFixed(3)} m`, Math.max(0.12, length * 0.05), '#ffe27a', true);
+    words.position
+      .copy(a)
+      .lerp(b, 0.5)
+      .setZ(Math.max(a.z, b.z) + 0.15);
+    this.marks.add(words);
+    this.app.stage!.invalidate();
+  }
+
+  /** The first thing under the mouse; points count if they are near. */
+  private hit(event: PointerEvent): Intersection | undefined {
+    const { view, content } = this.app.stage!;
+    const caster: Raycaster = view.ray(event.clientX, event.clientY);
+    caster.params.Line.threshold = 0.02;
+    const solid: Object3D[] = [];
+    let best: { distance: number; hit: Intersection } | undefined;
+    const screen = new Vector2(event.clientX, event.clientY);
+    content.traverseVisible((object) => {
+      const inspect = object.userData.inspect as unknown;
+      if (object instanceof Points && inspect) {
+        const found = this.nearestPoint(object, screen);
+        if (found && (!best || found.distance < best.distance)) best = found;
+      } else if (
+        'isMesh' in object &&
+        !(object as { frustumCulled: boolean } & Object3D).userData.isMark
+      ) {
+        if ((object as Mesh).geometry?.getAttribute('position')) solid.push(object);
+      }
+    });
+    if (best) return best.hit;
+    return caster.intersectObjects(solid, false)[0];
+  }
+
+  /** A point within some pixels of the mouse. */
+  private nearestPoint(
+    object: Points,
+    mouse: Vector2,
+  ): { distance: number; hit: Intersection } | undefined {
+    const { view } = this.app.stage!;
+    const words = object.geometry.getAttribute('words') as
+      { data: { array: Uint32Array; stride: number }; offset: number } | undefined;
+    if (!words) return undefined;
+    const { array, stride } = words.data;
+    const floats = new Float32Array(array.buffer, array.byteOffset, array.length);
+    const count = Math.min(
+      object.geometry.drawRange.count,
+      Math.floor(array.length / stride),
+      400_000,
+    );
+    const matrix = new Matrix4().multiplyMatrices(
+      view.camera.projectionMatrix,
+      view.camera.matrixWorldInverse,
+    );
+    matrix.multiply(object.matrixWorld);
+    const box = this.app.stage!.renderer.domElement.getBoundingClientRect();
+    const at = new Vector3();
+    let best = 9;
+    let found = -1;
+    for (let i = 0; i < count; i++) {
+      at.fromArray(floats, i * stride + words.offset).applyMatrix4(matrix);
+      if (at.z > 1 || at.z < -1) continue;
+      const dx = box.left + ((at.x + 1) / 2) * box.width - mouse.x;
+      const dy = box.top + ((1 - at.y) / 2) * box.height - mouse.y;
+      const distance = Math.hypot(dx, dy);
+      if (distance < best) [best, found] = [distance, i];
+    }
+    if (found < 0) return undefined;
+    const point = new Vector3()
+      .fromArray(floats, found * stride + words.offset)
+      .applyMatrix4(object.matrixWorld);
+    return { distance: best, hit: { object, point, index: found, distance: best } };
+  }
+
+  private inspect(hit: Intersection | undefined): void {
+    if (!hit) {
+      this.found = { Nothing: 'is there' };
+      return;
+    }
+    let object: Object3D | null = hit.object;
+    while (object && !object.userData.inspect) object = object.parent;
+    const inspect = object?.userData.inspect as
+      ((index: number, uv?: Vector2) => Record<string, string>) | undefined;
+    const { point: p } = hit;
+    this.found = {
+      ...(inspect?.(hit.index ?? 0, hit.uv) ?? {}),
+      [`In ${this.app.fixedFrame}`]: `${p.x.toFixed(3)}, ${p.y.toFixed(3)}, ${p.z.toFixed(3)} m`,
+    };
+    this.pick(hit.object);
+  }
+
+  private pick(object: Object3D | undefined): void {
+    let at: Object3D | null | undefined = object;
+    while (at && !at.userData.entity) at = at.parent;
+    if (at?.userData.entity) this.app.selectedModel = at.userData.entity as string;
+  }
+
+  // The simulation.
+
+  private service(what: string): string {
+    return `/world/${this.app.worldName}/${what}`;
+  }
+
+  private control(change: Record<string, unknown>): Promise<unknown> {
+    return this.app.call(this.service('control'), { world_control: change });
+  }
+
+  play(isOn: boolean): void {
+    void this.control({ pause: !isOn });
+  }
+
+  step(steps: number): void {
+    void this.control({ pause: true, multi_step: steps });
+  }
+
+  reset(): void {
+    void this.control({ pause: this.app.isStill, reset: { all: true } });
+  }
+
+  private entity(name: string) {
+    return { name, type: 2 };
+  }
+
+  async remove(name: string): Promise<void> {
+    const done = await this.app.call(this.service('remove'), { entity: this.entity(name) });
+    if (done) this.app.notice('info', `${name} is gone`);
+    if (this.app.selectedModel === name) this.app.selectedModel = '';
+  }
+
+  /** Puts a model where this link of it is at a place in the world. */
+  async place(link: string, worldFromLink: Pose): Promise<void> {
+    await this.app.call(this.service('set_pose'), {
+      entity: { name: link, type: 3 },
+      pose: messageOf(worldFromLink),
+    });
+  }
+
+  private wanted(now: Vector3): Pose | undefined {
+    const { app, start } = this;
+    const world = app.world();
+    const old = world?.poseOf(app.selectedModel)?.worldFromLink;
+    if (!world || !old || !start) return undefined;
+    const worldFromFixed = inverse(world.fixedFromWorld);
+    const fixedFromOld = multiply(world.fixedFromWorld, old);
+    if (this.active === 'carry') {
+      const t: Pose['t'] = [
+        fixedFromOld.t[0] + now.x - start.x,
+        fixedFromOld.t[1] + now.y - start.y,
+        fixedFromOld.t[2],
+      ];
+      return multiply(worldFromFixed, { t, q: fixedFromOld.q });
+    }
+    const angle = (p: Vector3) => Math.atan2(p.y - fixedFromOld.t[1], p.x - fixedFromOld.t[0]);
+    const turn = fromYaw(angle(now) - angle(start));
+    return { t: old.t, q: multiply(turn, { t: [0, 0, 0], q: old.q }).q };
+  }
+
+  private ghost(now: Vector3): void {
+    const pose = this.wanted(now);
+    const world = this.app.world();
+    for (const child of [...this.marks.children]) dispose(child);
+    if (!pose || !world) return;
+    const { t } = multiply(world.fixedFromWorld, pose);
+    const mark = new Mesh(arrowGeometry(0.4, 0.02, 0.15, 0.07), surface(GREEN));
+    mark.position.set(t[0], t[1], 0.05);
+    mark.rotation.z = yawOf(pose.q);
+    const words = label(
+      `${pose.t[0].toFixed(2)}, ${pose.t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`,
+      0.14,
+      '#d5ffe6',
+      true,
+    );
+    words.position.set(t[0], t[1], t[2] + 0.5);
+    this.marks.add(mark, words);
+    this.app.stage!.invalidate();
+  }
+
+  private async drop(now: Vector3): Promise<void> {
+    const pose = this.wanted(now);
+    const { selectedModel } = this.app;
+    for (const child of [...this.marks.children]) dispose(child);
+    const link = this.app.world()?.poseOf(selectedModel)?.link;
+    if (pose && link) await this.place(link, pose);
+  }
+
+  /** The next click on the ground puts it there. */
+  prepare(name: string, sdf: string, file = ''): void {
+    this.toInsert = { name, sdf, file };
+    this.active = 'insert';
+    this.app.stage!.view.isHeld = true;
+    this.app.notice('info', `Click where ${name} shall stand`);
+  }
+
+  private async insertAt(at: Vector3): Promise<void> {
+    const { toInsert, app } = this;
+    if (!toInsert) return;
+    const world = app.world();
+    const fixed: Pose = { t: [at.x, at.y, 0], q: [0, 0, 0, 1] };
+    const pose = world ? multiply(inverse(world.fixedFromWorld), fixed) : fixed;
+    await this.insert(toInsert.name, toInsert.sdf, toInsert.file, pose);
+    this.done();
+  }
+
+  async insert(name: string, sdf: string, file: string, worldFromModel: Pose): Promise<boolean> {
+    const factory = {
+      name,
+      allow_renaming: true,
+      sdf,
+      sdf_filename: file,
+      pose: messageOf(worldFromModel),
+      relative_to: 'world',
+    };
+    const done = await this.app.call(this.service('create'), { entity_factory: factory });
+    if (done) this.app.notice('info', `${name} stands in the world`);
+    return !!done;
+  }
+}
+
+function absolute(topic: string): string {
+  return topic.startsWith('/') ? topic : `/${topic}`;
+}

@@ -1,0 +1,191 @@
+/** LaserScan, PointCloud2 and DepthCloud: points, for as long as they are kept. */
+import type { Message } from '../core/cdr';
+import type { Pose } from '../core/pose';
+import {
+  seconds,
+  type CameraInfo,
+  type Header,
+  type ImageMessage,
+  type LaserScan,
+  type PointCloud2,
+} from '../core/types';
+import { Cloud, type Rows, type Style } from '../scene/cloud';
+import { dispose } from '../scene/stage';
+import { cloudOptions, lookOf } from './cloud_look';
+import { rowsOfCloud, rowsOfScan } from './cloud_rows';
+import { depthRows } from './depth';
+import { FramedDisplay, type Kind } from './display';
+import { alpha, bool, int, number, text, topic, type Values } from './options';
+
+interface Shown {
+  cloud: Cloud;
+  stampS: number;
+}
+
+export abstract class PointsDisplay<M extends { header: Header }> extends FramedDisplay<M> {
+  private shown: Shown[] = [];
+
+  protected abstract rows(message: M): Rows;
+
+  protected override show(message: M, fixedFromFrame: Pose): void {
+    const rows = this.rows(message);
+    const stampS = seconds(message.header.stamp);
+    const style = this.get<Style>('Style');
+    const decayS = this.get<number>('Decay Time');
+    this.expire(decayS);
+    const reusable = this.shown[this.shown.length - 1];
+    let entry = decayS > 0 || reusable?.cloud.style !== style ? undefined : reusable;
+    if (!entry) {
+      if (!(decayS > 0)) this.clear();
+      entry = { cloud: new Cloud(style), stampS };
+      this.shown.push(entry);
+      this.root.add(entry.cloud.object);
+      entry.cloud.object.userData.inspect = (index: number) => this.inspect(entry!.cloud, index);
+    }
+    entry.stampS = stampS;
+    entry.cloud.show(rows);
+    entry.cloud.look(lookOf(this.values, rows, fixedFromFrame));
+    this.put(entry.cloud.object, fixedFromFrame);
+    this.host.status('Points', 'ok', `${rows.count.toLocaleString('en')} points`);
+  }
+
+  private inspect(cloud: Cloud, index: number): Record<string, string> {
+    const point = cloud.at(index);
+    if (!point) return {};
+    const { x, y, z } = point.xyz;
+    const out: Record<string, string> = {
+      Display: String(this.values.Topic ?? ''),
+      'In its frame': `${x.toFixed(3)}, ${y.toFixed(3)}, ${z.toFixed(3)} m`,
+      Range: `${Math.hypot(x, y, z).toFixed(3)} m at ${((Math.atan2(y, x) * 180) / Math.PI).toFixed(2)}°`,
+    };
+    if (point.value !== undefined) out.Value = point.value.toFixed(3);
+    return out;
+  }
+
+  /** Kept for the inspection of what is under the mouse. */
+  clouds(): Cloud[] {
+    return this.shown.map((s) => s.cloud);
+  }
+
+  private expire(decayS: number): void {
+    if (!(decayS > 0)) return;
+    const nowS = this.context.nowS();
+    while (this.shown.length > 0 && nowS - this.shown[0]!.stampS > decayS) {
+      dispose(this.shown.shift()!.cloud.object);
+    }
+  }
+
+  override clear(): void {
+    this.shown = [];
+    super.clear();
+  }
+}
+
+class LaserScanDisplay extends PointsDisplay<LaserScan> {
+  protected override rows(message: LaserScan): Rows {
+    return rowsOfScan(message);
+  }
+}
+
+class PointCloud2Display extends PointsDisplay<PointCloud2> {
+  protected override rows(message: PointCloud2): Rows {
+    return rowsOfCloud(message, this.get('Channel Name'));
+  }
+}
+
+class DepthCloudDisplay extends PointsDisplay<ImageMessage> {
+  private info?: CameraInfo;
+  private color?: ImageMessage;
+  private others: (() => void)[] = [];
+
+  override start(): void {
+    for (const leave of this.others) leave();
+    this.others = [];
+    const depth = this.get<string>('Depth Map Topic');
+    this.values.Topic = depth;
+    super.start();
+    if (!depth) return;
+    const base = depth.slice(0, depth.lastIndexOf('/'));
+    const hear = (name: string, take: (message: Message) => void) => {
+      if (name) this.others.push(this.context.subscribe(name, take));
+    };
+    // ROS puts it beside the picture; Gazebo Classic's cameras call it the same below "depth".
+    hear(`${base}/camera_info`, (message) => (this.info = message as never));
+    hear(this.get('Color Image Topic'), (message) => (this.color = message as never));
+  }
+
+  override changed(path: string): void {
+    if (path.endsWith('Topic')) {
+      this.clear();
+      this.start();
+    }
+    super.changed(path);
+  }
+
+  protected override rows(message: ImageMessage): Rows {
+    if (!this.info) {
+      throw new Error('No camera_info came beside the depth picture yet');
+    }
+    return depthRows(message, this.info, this.color);
+  }
+
+  override stop(): void {
+    for (const leave of this.others) leave();
+    super.stop();
+  }
+}
+
+const SCAN = ['sensor_msgs/msg/LaserScan'];
+const CLOUD = ['sensor_msgs/msg/PointCloud2'];
+const IMAGE = ['sensor_msgs/msg/Image'];
+
+export const laserScan: Kind = {
+  class: 'rviz_default_plugins/LaserScan',
+  also: ['rviz/LaserScan'],
+  title: 'LaserScan',
+  help: 'What a laser scanner met, as points',
+  types: SCAN,
+  options: [...topic('Topic', '', SCAN, { isFiltered: true }), ...cloudOptions('Intensity')],
+  make: (...all) => new LaserScanDisplay(...all),
+};
+
+export const pointCloud2: Kind = {
+  class: 'rviz_default_plugins/PointCloud2',
+  also: ['rviz/PointCloud2'],
+  title: 'PointCloud2',
+  help: 'Clouds of points, coloured by a field, by height or as they come',
+  types: CLOUD,
+  options: [...topic('Topic', '', CLOUD, { isFiltered: true }), ...cloudOptions('Intensity')],
+  make: (...all) => new PointCloud2Display(...all),
+};
+
+const depthOptions = cloudOptions('RGB8').filter((option) => option.path !== 'Decay Time');
+export const depthCloud: Kind = {
+  class: 'rviz_default_plugins/DepthCloud',
+  also: ['rviz/DepthCloud'],
+  title: 'DepthCloud',
+  help: 'A depth picture as points, with the colours of a second picture',
+  types: IMAGE,
+  options: [
+    { path: 'Depth Map Topic', kind: 'topic', default: '', types: IMAGE },
+    { path: 'Color Image Topic', kind: 'topic', default: '', types: IMAGE },
+    text('Depth Map Transport Hint', 'raw'),
+    text('Color Transport Hint', 'raw'),
+    choiceOfReliability(),
+    int('Queue Size', 5, { min: 1 }),
+    bool('Occlusion Compensation/Value', false),
+    number('Occlusion Compensation/Occlusion Time-Out', 30),
+    ...depthOptions.map((option) => (option.path === 'Alpha' ? alpha('Alpha', 1) : option)),
+    number('Decay Time', 0, { min: 0 }),
+  ],
+  make: (context, values: Values, host) => new DepthCloudDisplay(context, values, host),
+};
+
+function choiceOfReliability() {
+  return {
+    path: 'Reliability Policy',
+    kind: 'choice' as const,
+    default: 'Best effort',
+    choices: ['Best effort', 'Reliable', 'System Default'],
+  };
+}

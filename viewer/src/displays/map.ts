@@ -1,0 +1,274 @@
+/** Map: one texture of bytes, coloured by a palette in the shader; changes touch only their cells. */
+import {
+  BufferGeometry,
+  DataTexture,
+  DoubleSide,
+  GLSL3,
+  Mesh,
+  NearestFilter,
+  PlaneGeometry,
+  RawShaderMaterial,
+  RedFormat,
+  RGBAFormat,
+  Vector2,
+} from 'three';
+import type { Message } from '../core/cdr';
+import { multiply, type Pose } from '../core/pose';
+import { poseOf, seconds, type OccupancyGrid, type OccupancyGridUpdate } from '../core/types';
+import { dispose } from '../scene/stage';
+import { Display, type Kind } from './display';
+import { alpha, bool, choice, int, note, topic } from './options';
+import { palette, SCHEMES, type Scheme } from './palette';
+
+const VERTEX = /* glsl */ `
+precision highp float;
+uniform mat4 modelViewMatrix, projectionMatrix;
+in vec3 position; in vec2 uv; out vec2 at;
+void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+
+const FRAGMENT = /* glsl */ `
+precision highp float;
+uniform sampler2D cells, colors; uniform float alpha;
+in vec2 at; out vec4 color;
+void main() {
+  int cell = int(texture(cells, at).r * 255.0 + 0.5);
+  vec4 found = texelFetch(colors, ivec2(cell, 0), 0);
+  color = vec4(found.rgb, found.a * alpha);
+  if (color.a < 0.004) discard;
+}`;
+
+/** A map lies this far under what is drawn on the ground at the same height [m]. */
+const UNDER_M = 0.002;
+
+class MapDisplay extends Display {
+  private grid?: OccupancyGrid;
+  private cells?: DataTexture;
+  private colors = new DataTexture(new Uint8Array(1024), 256, 1, RGBAFormat);
+  private mesh?: Mesh;
+  private leaveUpdates?: () => void;
+  private placed = '';
+
+  override start(): void {
+    super.start();
+    this.leaveUpdates?.();
+    const topic = this.get<string>('Topic');
+    if (!topic) return;
+    if (!this.values['Update Topic']) {
+      this.values['Update Topic'] = `${topic}_updates`;
+    }
+    const updates = this.get<string>('Update Topic');
+    this.leaveUpdates = this.context.subscribe(updates, (message) => this.update(message));
+  }
+
+  protected override receive(message: Message): void {
+    const grid = message as unknown as OccupancyGrid;
+    const { width, height, resolution } = grid.info;
+    if (!(width > 0 && height > 0 && resolution > 0)) {
+      throw new Error(`The map has ${width} x ${height} cells of ${resolution} m: nothing to show`);
+    }
+    if (grid.data.length < width * height) throw new Error('The map has fewer cells than it says');
+    const most = this.context.stage.renderer.capabilities.maxTextureSize;
+    if (Math.max(width, height) > most) {
+      throw new Error(`The map is larger than this GPU can show (${most} cells a side)`);
+    }
+    const old = this.grid?.info;
+    const bytes = new Uint8Array(grid.data.buffer, grid.data.byteOffset, width * height);
+    // Own bytes: updates are written into them.
+    const copy = bytes.slice();
+    this.grid = { ...grid, data: new Int8Array(copy.buffer) };
+    if (this.cells && old?.width === width && old.height === height) {
+      (this.cells.image as { data: Uint8Array }).data = copy;
+      this.cells.needsUpdate = true;
+    } else {
+      this.build(copy, width, height);
+    }
+    this.mesh!.scale.set(width * resolution, height * resolution, 1);
+    this.describe();
+    this.placed = '';
+    this.context.stage.invalidate();
+  }
+
+  private build(bytes: Uint8Array<ArrayBuffer>, width: number, height: number): void {
+    this.clear();
+    this.cells = new DataTexture(bytes, width, height, RedFormat);
+    this.cells.needsUpdate = true;
+    this.colors.magFilter = this.colors.minFilter = NearestFilter;
+    const material = new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms: {
+        cells: { value: this.cells },
+        colors: { value: this.colors },
+        alpha: { value: 1 },
+      },
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+    });
+    const plane = new PlaneGeometry(1, 1).translate(0.5, 0.5, 0);
+    this.mesh = new Mesh<BufferGeometry>(plane, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.userData.inspect = (_i: number, uv?: Vector2) => this.inspect(uv);
+    this.root.add(this.mesh);
+    this.look();
+  }
+
+  /** A part of the map changed. */
+  private update(message: Message): void {
+    const { grid, cells } = this;
+    const change = message as unknown as OccupancyGridUpdate;
+    if (!grid || !cells) return;
+    const { width, height } = grid.info;
+    const { x, y, width: w, height: h, data } = change;
+    if (x < 0 || y < 0 || x + w > width || y + h > height || data.length < w * h) {
+      this.host.status('Update', 'error', 'A change of the map lies outside of the map');
+      return;
+    }
+    if (w === 0 || h === 0) return;
+    const bytes = (cells.image as unknown as { data: Uint8Array }).data;
+    const patch = new Uint8Array(data.buffer, data.byteOffset, w * h);
+    for (let row = 0; row < h; row++) {
+      bytes.set(patch.subarray(row * w, (row + 1) * w), (y + row) * width + x);
+    }
+    this.host.status('Update', 'ok', `The last change had ${w} x ${h} cells`);
+    // A texture that was never drawn is uploaded whole anyhow.
+    const known = this.context.stage.renderer.properties.get(cells) as { __webglTexture?: unknown };
+    if (!known.__webglTexture || cells.version === 0) {
+      cells.needsUpdate = true;
+    } else {
+      const part = new DataTexture(patch.slice(), w, h, RedFormat);
+      part.needsUpdate = true;
+      this.context.stage.renderer.copyTextureToTexture(part, cells, null, new Vector2(x, y));
+      part.dispose();
+    }
+    this.context.stage.invalidate();
+  }
+
+  private describe(): void {
+    const { info } = this.grid!;
+    const { position: p, orientation: q } = info.origin;
+    const of = (...all: number[]) => all.map((v) => +v.toFixed(4)).join('; ');
+    this.host.note('Resolution', +info.resolution.toFixed(6));
+    this.host.note('Width', info.width);
+    this.host.note('Height', info.height);
+    this.host.note('Position', of(p.x, p.y, p.z));
+    this.host.note('Orientation', of(q.x, q.y, q.z, q.w));
+  }
+
+  private look(): void {
+    const material = this.mesh?.material as RawShaderMaterial | undefined;
+    if (!material) return;
+    const isBinary = this.get<boolean>('Binary representation');
+    const from = isBinary ? this.get<number>('Binary threshold') : undefined;
+    const scheme = this.get<Scheme>('Color Scheme');
+    (this.colors.image as { data: Uint8Array }).data = palette(scheme, from) as never;
+    this.colors.needsUpdate = true;
+    material.uniforms.alpha!.value = this.get('Alpha');
+    const behind = this.get<boolean>('Draw Behind');
+    material.depthTest = !behind;
+    // Maps first, costmaps over them, then the rest.
+    this.mesh!.renderOrder = behind ? -30 : scheme === 'costmap' ? -10 : -20;
+  }
+
+  override changed(path: string): void {
+    super.changed(path);
+    if (path === 'Topic') this.values['Update Topic'] = `${this.get<string>('Topic')}_updates`;
+    if (path === 'Update Topic') this.start();
+    this.look();
+  }
+
+  override tick(): void {
+    const { grid, mesh } = this;
+    if (!grid || !mesh) return;
+    const fixed = this.context.fixedFrame();
+    const at = this.get<boolean>('Use Timestamp') ? seconds(grid.header.stamp) : undefined;
+    const found = this.context.tf.lookup(fixed, grid.header.frame_id, at);
+    mesh.visible = found.kind === 'found';
+    if (found.kind !== 'found') {
+      this.host.status('Transform', 'error', `Cannot be placed: ${found.why}`);
+      return;
+    }
+    const fixedFromMap: Pose = multiply(found.pose, poseOf(grid.info.origin));
+    const key = JSON.stringify(fixedFromMap);
+    if (key === this.placed) return;
+    this.placed = key;
+    this.host.status('Transform', 'ok');
+    const [x, y, z] = fixedFromMap.t;
+    mesh.position.set(x, y, z - UNDER_M);
+    mesh.quaternion.set(...fixedFromMap.q);
+    this.context.stage.invalidate();
+  }
+
+  private inspect(uv?: Vector2): Record<string, string> {
+    const { grid } = this;
+    if (!grid || !uv) return {};
+    const { width, height, resolution, origin } = grid.info;
+    const i = Math.min(width - 1, Math.floor(uv.x * width));
+    const j = Math.min(height - 1, Math.floor(uv.y * height));
+    const value = (this.cells!.image as unknown as { data: Uint8Array }).data[j * width + i]!;
+    return {
+      Map: this.get('Topic'),
+      Cell: `${i}, ${j}`,
+      'Middle of the cell': `${(origin.position.x + (i + 0.5) * resolution).toFixed(3)}, ${(origin.position.y + (j + 0.5) * resolution).toFixed(3)} m`,
+      Value: value === 255 ? '-1 (unknown)' : String(value),
+      Meaning: meaning(value, this.get<Scheme>('Color Scheme')),
+    };
+  }
+
+  override clear(): void {
+    if (this.mesh) dispose(this.mesh);
+    this.cells?.dispose();
+    this.cells = undefined;
+    this.mesh = undefined;
+  }
+
+  override stop(): void {
+    this.leaveUpdates?.();
+    this.cells?.dispose();
+    this.colors.dispose();
+    super.stop();
+  }
+}
+
+/** What a cell of an OccupancyGrid says. Costs are published by Nav2 scaled to 0..100. */
+export function meaning(value: number, scheme: Scheme): string {
+  if (value === 255) return 'nobody has seen it';
+  if (scheme !== 'costmap') return `occupied with a probability of ${value} %`;
+  if (value === 0) return 'free';
+  if (value === 100) return 'lethal: an obstacle (cost 254)';
+  if (value === 99) return "inscribed: the robot's middle here touches an obstacle (cost 253)";
+  // nav2_costmap_2d: 1 + 97 (cost - 1) / 251.
+  const cost = Math.round(1 + ((value - 1) * 251) / 97);
+  return `cost about ${cost} = 252 exp(-scaling (distance - inscribed radius))`;
+}
+
+const MAP = ['nav_msgs/msg/OccupancyGrid'];
+
+export const map: Kind = {
+  class: 'rviz_default_plugins/Map',
+  also: ['rviz/Map'],
+  title: 'Map',
+  help: 'Maps and costmaps',
+  types: MAP,
+  options: [
+    ...topic('Topic', '', MAP, { isFiltered: true }),
+    ...topic('Update Topic', '', ['map_msgs/msg/OccupancyGridUpdate']),
+    alpha('Alpha', 0.7),
+    choice('Color Scheme', 'map', SCHEMES),
+    bool('Draw Behind', false),
+    bool('Use Timestamp', false),
+    bool('Binary representation', false),
+    int('Binary threshold', 100, {
+      min: 0,
+      max: 255,
+      when: (v) => v['Binary representation'] === true,
+    }),
+    note('Resolution'),
+    note('Width'),
+    note('Height'),
+    note('Position'),
+    note('Orientation'),
+  ],
+  make: (...all) => new MapDisplay(...all),
+};

@@ -1,0 +1,129 @@
+/** Pictures of every raw encoding of sensor_msgs as pixels of the screen. */
+import type { ImageMessage } from '../core/types';
+
+export interface Range {
+  isNormalized: boolean;
+  min: number;
+  max: number;
+}
+
+type Reader = (u: number, v: number) => number;
+const rgb = (r: number, g: number, b: number) => (r << 16) | (g << 8) | b;
+const CHANNELS: Record<string, [number, number, number, number]> = {
+  // Bytes of a pixel, and where red, green and blue are.
+  rgb8: [3, 0, 1, 2],
+  '8UC3': [3, 2, 1, 0],
+  bgr8: [3, 2, 1, 0],
+  rgba8: [4, 0, 1, 2],
+  bgra8: [4, 2, 1, 0],
+  '8UC4': [4, 2, 1, 0],
+  mono8: [1, 0, 0, 0],
+  '8UC1': [1, 0, 0, 0],
+};
+/** Where red is in the square of four. */
+const BAYER: Record<string, [number, number]> = {
+  bayer_rggb8: [0, 0],
+  bayer_bggr8: [1, 1],
+  bayer_gbrg8: [0, 1],
+  bayer_grbg8: [1, 0],
+};
+
+/** A picture with numbers of its own, which need a range to become grey. */
+export function isDepth(encoding: string): boolean {
+  return ['16UC1', 'mono16', '32FC1', '16SC1', '32SC1', '64FC1'].includes(encoding);
+}
+
+/** Gives 0xrrggbb of a pixel. */
+export function pixelReader(image: ImageMessage): Reader {
+  const { data, step, encoding } = image;
+  const known = CHANNELS[encoding];
+  if (known) {
+    const [size, r, g, b] = known;
+    return (u, v) => {
+      const at = v * step + u * size;
+      return rgb(data[at + r] ?? 0, data[at + g] ?? 0, data[at + b] ?? 0);
+    };
+  }
+  const bayer = BAYER[encoding];
+  if (bayer) {
+    const [ru, rv] = bayer;
+    return (u, v) => {
+      const [u0, v0] = [u & ~1, v & ~1];
+      const at = (du: number, dv: number) => data[(v0 + dv) * step + u0 + du] ?? 0;
+      const green = (at(1 - ru, rv) + at(ru, 1 - rv)) >> 1;
+      return rgb(at(ru, rv), green, at(1 - ru, 1 - rv));
+    };
+  }
+  if (
+    encoding === 'yuv422' ||
+    encoding === 'uyvy' ||
+    encoding === 'yuv422_yuy2' ||
+    encoding === 'yuyv'
+  ) {
+    const luma = encoding === 'yuv422' || encoding === 'uyvy' ? 1 : 0;
+    return (u, v) => {
+      const at = v * step + (u & ~1) * 2;
+      const y = data[at + luma + (u & 1) * 2] ?? 0;
+      const cb = (data[at + 1 - luma] ?? 128) - 128;
+      const cr = (data[at + 3 - luma] ?? 128) - 128;
+      const clamp = (n: number) => Math.max(0, Math.min(255, Math.round(n)));
+      // ITU-R BT.601.
+      return rgb(clamp(y + 1.402 * cr), clamp(y - 0.344 * cb - 0.714 * cr), clamp(y + 1.772 * cb));
+    };
+  }
+  throw new Error(`Pictures in the encoding "${encoding}" cannot be shown`);
+}
+
+/** Numbers of a depth picture, metres or whatever it holds. */
+export function numberReader(image: ImageMessage): Reader {
+  const { data, step, encoding } = image;
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const little = !image.is_bigendian;
+  const size =
+    encoding.startsWith('16') || encoding === 'mono16' ? 2 : encoding === '64FC1' ? 8 : 4;
+  return (u, v) => {
+    const at = v * step + u * size;
+    if (at + size > data.length) return NaN;
+    if (encoding === '32FC1') return view.getFloat32(at, little);
+    if (encoding === '64FC1') return view.getFloat64(at, little);
+    if (encoding === '16SC1') return view.getInt16(at, little);
+    if (encoding === '32SC1') return view.getInt32(at, little);
+    return view.getUint16(at, little);
+  };
+}
+
+/** Fills RGBA pixels. Depth is grey between its least and its greatest, or between given numbers. */
+export function toPixels(image: ImageMessage, out: Uint8ClampedArray, range: Range): void {
+  const { width, height, encoding } = image;
+  const words = new Uint32Array(out.buffer, out.byteOffset, width * height);
+  if (!isDepth(encoding)) {
+    const read = pixelReader(image);
+    for (let v = 0, at = 0; v < height; v++) {
+      for (let u = 0; u < width; u++, at++) {
+        const c = read(u, v);
+        words[at] = 0xff000000 | ((c & 0xff) << 16) | (c & 0xff00) | (c >> 16);
+      }
+    }
+    return;
+  }
+  const read = numberReader(image);
+  let { min, max } = range;
+  if (range.isNormalized) {
+    [min, max] = [Infinity, -Infinity];
+    for (let v = 0; v < height; v++) {
+      for (let u = 0; u < width; u++) {
+        const n = read(u, v);
+        if (n < min && n > -Infinity) min = n;
+        if (n > max && n < Infinity) max = n;
+      }
+    }
+  }
+  const scale = max > min ? 255 / (max - min) : 0;
+  for (let v = 0, at = 0; v < height; v++) {
+    for (let u = 0; u < width; u++, at++) {
+      const n = read(u, v);
+      const grey = Number.isNaN(n) ? 0 : Math.max(0, Math.min(255, (n - min) * scale)) | 0;
+      words[at] = 0xff000000 | (grey << 16) | (grey << 8) | grey;
+    }
+  }
+}

@@ -1,0 +1,57 @@
+/** All displays, and which one shows a type of message by itself. */
+import { depthCloud, laserScan, pointCloud2 } from './clouds';
+import type { Kind } from './display';
+import { axes, grid, tf } from './frames';
+import { camera, image } from './image';
+import { visualizeLidar } from './lidar';
+import { map } from './map';
+import { marker, markerArray } from './markers';
+import {
+  odometry,
+  particleCloud,
+  path,
+  polygon,
+  pose,
+  poseArray,
+  poseWithCovariance,
+  range,
+} from './poses';
+import { robotModel } from './robot';
+import { voxelGrid } from './voxels';
+import { world } from './world';
+
+export const KINDS: readonly Kind[] = [
+  axes,
+  camera,
+  depthCloud,
+  grid,
+  image,
+  laserScan,
+  map,
+  marker,
+  markerArray,
+  odometry,
+  particleCloud,
+  path,
+  pointCloud2,
+  polygon,
+  pose,
+  poseArray,
+  poseWithCovariance,
+  range,
+  robotModel,
+  tf,
+  visualizeLidar,
+  voxelGrid,
+  world,
+];
+
+/** By the name in an `.rviz` file, of any generation. */
+export function kindOf(name: string): Kind | undefined {
+  return KINDS.find((kind) => kind.class === name || kind.also?.includes(name));
+}
+
+/** The display that a topic of this type is shown with. */
+export function kindForType(type: string): Kind | undefined {
+  return KINDS.find((kind) => kind.types.includes(type) && kind !== camera && kind !== depthCloud);
+}

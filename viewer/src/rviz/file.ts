@@ -1,0 +1,234 @@
+/** `.rviz` files in and out. What is not known stays as it was. */
+import { dump, load } from 'js-yaml';
+import type { Option, Value, Values } from '../displays/options';
+
+export type Tree = { [key: string]: unknown };
+
+export interface RvizDisplay {
+  class: string;
+  name: string;
+  isEnabled: boolean;
+  values: Values;
+  /** As it was in the file; what is not known of it is written back. */
+  original: Tree;
+}
+
+export interface RvizView {
+  class: string;
+  values: Values;
+}
+
+export interface RvizTool {
+  class: string;
+  values: Values;
+}
+
+export interface RvizFile {
+  fixedFrame: string;
+  background: string;
+  frameRate: number;
+  displays: RvizDisplay[];
+  view?: RvizView;
+  tools: RvizTool[];
+  original: Tree;
+}
+
+const isTree = (value: unknown): value is Tree =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
+
+/** RViz's own keys of a display, which are no options. */
+const FRAME_KEYS = ['Class', 'Name', 'Enabled', 'Value'];
+
+/** Nested maps as paths: `{Topic: {Value: /scan}}` is `Topic` with "/scan". */
+export function flatten(tree: Tree, prefix = '', out: Values = {}): Values {
+  for (const [key, value] of Object.entries(tree)) {
+    const path = prefix ? `${prefix}/${key}` : key;
+    if (key === 'Value' && prefix && !isTree(value)) out[prefix] = value as Value;
+    else if (isTree(value)) flatten(value, path, out);
+    else if (value !== null && !Array.isArray(value)) out[path] = value as Value;
+  }
+  return out;
+}
+
+function displayOf(tree: Tree): RvizDisplay {
+  const rest = Object.fromEntries(
+    Object.entries(tree).filter(([key]) => !FRAME_KEYS.includes(key)),
+  );
+  const values = flatten(rest);
+  // ROS 1 wrote other names for the same.
+  if (values.Unreliable !== undefined && values['Topic/Reliability Policy'] === undefined) {
+    values['Topic/Reliability Policy'] = values.Unreliable ? 'Best Effort' : 'Reliable';
+  }
+  for (const [old, now] of [
+    ['Marker Topic', 'Topic'],
+    ['Image Topic', 'Topic'],
+    ['Robot Description', 'Description Topic'],
+  ] as const) {
+    if (typeof values[old] === 'string' && values[now] === undefined) values[now] = values[old];
+  }
+  return {
+    class: String(tree.Class ?? ''),
+    name: String(tree.Name ?? ''),
+    isEnabled: tree.Enabled !== false && tree.Value !== false,
+    values,
+    original: tree,
+  };
+}
+
+/** Displays in groups come one after another; a group that is off turns its displays off. */
+function displaysOf(list: unknown, isOn = true): RvizDisplay[] {
+  return (Array.isArray(list) ? list : []).filter(isTree).flatMap((tree) => {
+    if (!String(tree.Class ?? '').endsWith('/Group')) {
+      const display = displayOf(tree);
+      return [{ ...display, isEnabled: display.isEnabled && isOn }];
+    }
+    return displaysOf(tree.Displays, isOn && tree.Enabled !== false);
+  });
+}
+
+export function readRviz(text: string): RvizFile {
+  let tree: unknown;
+  try {
+    tree = load(text);
+  } catch (error) {
+    throw new Error(`This is no YAML: ${(error as Error).message.split('\n')[0]}`);
+  }
+  const manager = isTree(tree) ? tree['Visualization Manager'] : undefined;
+  if (!isTree(manager)) throw new Error('This is no .rviz file: it has no "Visualization Manager"');
+  const global = isTree(manager['Global Options']) ? manager['Global Options'] : {};
+  const views = isTree(manager.Views) ? manager.Views : {};
+  const current = isTree(views.Current) ? views.Current : undefined;
+  const tools = Array.isArray(manager.Tools) ? manager.Tools.filter(isTree) : [];
+  return {
+    fixedFrame: String(global['Fixed Frame'] ?? 'map'),
+    background: String(global['Background Color'] ?? '48; 48; 48'),
+    frameRate: Number(global['Frame Rate'] ?? 30),
+    displays: displaysOf(manager.Displays),
+    view: current && { class: String(current.Class ?? ''), values: flatten(current) },
+    tools: tools.map((tool) => ({ class: String(tool.Class ?? ''), values: flatten(tool) })),
+    original: tree as Tree,
+  };
+}
+
+/** Paths as nested maps again. What has parts below it gets its own value as `Value`. */
+export function nest(values: Values): Tree {
+  const out: Tree = {};
+  const paths = Object.keys(values);
+  for (const path of paths) {
+    const parts = path.split('/');
+    let at = out;
+    for (const part of parts.slice(0, -1)) {
+      const next = at[part];
+      if (isTree(next)) at = next;
+      else {
+        const made: Tree = {};
+        if (next !== undefined) made.Value = next;
+        at[part] = made;
+        at = made;
+      }
+    }
+    const last = parts[parts.length - 1]!;
+    if (isTree(at[last])) (at[last] as Tree).Value = values[path];
+    else at[last] = values[path];
+  }
+  return out;
+}
+
+function merge(base: Tree, over: Tree): Tree {
+  const out = { ...base };
+  for (const [key, value] of Object.entries(over)) {
+    const old = out[key];
+    out[key] = isTree(old) && isTree(value) ? merge(old, value) : value;
+  }
+  return out;
+}
+
+export interface Saved {
+  fixedFrame: string;
+  background: string;
+  displays: {
+    class: string;
+    name: string;
+    isEnabled: boolean;
+    values: Values;
+    options: readonly Option[];
+    original?: Tree;
+  }[];
+  view: RvizView;
+  original?: Tree;
+}
+
+const DEFAULT_TOOLS = [
+  { Class: 'rviz_default_plugins/Interact', 'Hide Inactive Objects': true },
+  { Class: 'rviz_default_plugins/MoveCamera' },
+  { Class: 'rviz_default_plugins/Select' },
+  { Class: 'rviz_default_plugins/FocusCamera' },
+  { Class: 'rviz_default_plugins/Measure', 'Line color': '128; 128; 0' },
+  {
+    Class: 'rviz_default_plugins/SetInitialPose',
+    'Covariance x': 0.25,
+    'Covariance y': 0.25,
+    'Covariance yaw': 0.06853891909122467,
+    Topic: topicTree('initialpose'),
+  },
+  { Class: 'rviz_default_plugins/SetGoal', Topic: topicTree('goal_pose') },
+  {
+    Class: 'rviz_default_plugins/PublishPoint',
+    'Single click': true,
+    Topic: topicTree('clicked_point'),
+  },
+];
+
+function topicTree(topic: string): Tree {
+  return {
+    Depth: 5,
+    'Durability Policy': 'Volatile',
+    'History Policy': 'Keep Last',
+    'Reliability Policy': 'Reliable',
+    Value: topic,
+  };
+}
+
+export function writeRviz(saved: Saved): string {
+  const displays = saved.displays.map((display) => {
+    const paths = new Set(display.options.filter((o) => o.kind !== 'note').map((o) => o.path));
+    // Also what came by itself: namespaces, links, frames.
+    const values = Object.fromEntries(
+      Object.entries(display.values).filter(
+        ([path]) => paths.has(path) || /^(Namespaces|Links|Frames)\//.test(path),
+      ),
+    );
+    return merge(display.original ?? {}, {
+      ...nest(values),
+      Class: display.class,
+      Name: display.name,
+      Enabled: display.isEnabled,
+      Value: display.isEnabled,
+    });
+  });
+  const base: Tree = saved.original ?? {
+    Panels: [
+      { Class: 'rviz_common/Displays', Name: 'Displays' },
+      { Class: 'rviz_common/Tool Properties', Name: 'Tool Properties' },
+      { Class: 'rviz_common/Views', Name: 'Views' },
+    ],
+    'Visualization Manager': {
+      Class: '',
+      Enabled: true,
+      Name: 'root',
+      Tools: DEFAULT_TOOLS,
+      Transformation: { Current: { Class: 'rviz_default_plugins/TF' } },
+      Value: true,
+    },
+  };
+  const manager = merge((base['Visualization Manager'] ?? {}) as Tree, {
+    'Global Options': {
+      'Background Color': saved.background,
+      'Fixed Frame': saved.fixedFrame,
+      'Frame Rate': 30,
+    },
+    Views: { Current: { Class: saved.view.class, ...nest(saved.view.values) }, Saved: null },
+  });
+  manager.Displays = displays;
+  return dump({ ...base, 'Visualization Manager': manager }, { sortKeys: false, lineWidth: 200 });
+}

@@ -1,0 +1,274 @@
+/**
+ * Points, straight from the bytes of a message to the GPU: the shader picks coordinates and colours out
+ * of each point's words, so that two million points cost one upload and no loop.
+ */
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  BoxGeometry,
+  Color,
+  GLSL3,
+  InstancedBufferGeometry,
+  InstancedInterleavedBuffer,
+  InterleavedBuffer,
+  InterleavedBufferAttribute,
+  IntType,
+  Mesh,
+  PlaneGeometry,
+  Points,
+  RawShaderMaterial,
+  Sphere,
+  Vector2,
+  Vector3,
+} from 'three';
+
+/** Points as rows of 32-bit words. */
+export interface Rows {
+  words: Uint32Array;
+  /** Words from one point to the next. */
+  stride: number;
+  count: number;
+  /** Words into a row: where x, y, z begin. */
+  xyz: number;
+  /** Where the number is that tells the colour; a float. */
+  value?: number;
+  /** Where colours are: 0x00rrggbb. */
+  rgb?: number;
+}
+
+export const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles'] as const;
+export type Style = (typeof STYLES)[number];
+
+export interface Look {
+  style: Style;
+  sizeM: number;
+  sizePx: number;
+  alpha: number;
+  coloring: 'flat' | 'value' | 'axis' | 'rgb';
+  color: Color;
+  /** Between these the colours go. */
+  low: number;
+  high: number;
+  isRainbow: boolean;
+  isInverted: boolean;
+  lowColor: Color;
+  highColor: Color;
+  /** Which coordinate; in the fixed frame or in that of the points. */
+  axis: Vector3;
+  axisOffset: number;
+}
+
+const COLORS = /* glsl */ `
+uniform int coloring;
+uniform vec3 flatColor, lowColor, highColor, axis;
+uniform float low, high, axisOffset;
+uniform bool isRainbow, isInverted;
+// RViz's rainbow: from red at 0 over yellow, green and cyan to blue and magenta at 1.
+vec3 rainbow(float v) {
+  float h = clamp(v, 0.0, 1.0) * 5.0 + 1.0;
+  int i = int(floor(h));
+  float f = h - float(i);
+  if ((i & 1) == 0) f = 1.0 - f;
+  float n = 1.0 - f;
+  if (i <= 1) return vec3(n, 0.0, 1.0);
+  if (i == 2) return vec3(0.0, n, 1.0);
+  if (i == 3) return vec3(0.0, 1.0, n);
+  if (i == 4) return vec3(n, 1.0, 0.0);
+  return vec3(1.0, n, 0.0);
+}
+vec3 colorOf(vec3 xyz, uint value, uint rgb) {
+  if (coloring == 0) return flatColor;
+  if (coloring == 3) return vec3((rgb >> 16) & 255u, (rgb >> 8) & 255u, rgb & 255u) / 255.0;
+  float number = coloring == 1 ? uintBitsToFloat(value) : dot(axis, xyz) + axisOffset;
+  float part = (number - low) / max(high - low, 1e-9);
+  if (isRainbow || coloring == 2) return rainbow(isInverted && coloring == 1 ? part : 1.0 - part);
+  return mix(lowColor, highColor, clamp(part, 0.0, 1.0));
+}
+`;
+
+const POINTS_VERTEX = /* glsl */ `
+precision highp float; precision highp int;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform float sizePx, sizeM, pixelsPerUnit;
+uniform bool isOrtho;
+in highp uvec3 words; in highp uint value; in highp uint rgb;
+out vec3 vColor;
+${COLORS}
+void main() {
+  vec3 xyz = uintBitsToFloat(words);
+  bool isThere = !any(isnan(xyz)) && !any(isinf(xyz));
+  vec4 seen = modelViewMatrix * vec4(isThere ? xyz : vec3(0.0), 1.0);
+  gl_Position = isThere ? projectionMatrix * seen : vec4(0.0, 0.0, 2.0, 1.0);
+  float metres = sizeM * pixelsPerUnit / (isOrtho ? 1.0 : max(-seen.z, 1e-4));
+  gl_PointSize = sizePx > 0.0 ? sizePx : max(metres, 1.5);
+  vColor = colorOf(xyz, value, rgb);
+}`;
+
+const SOLID_VERTEX = /* glsl */ `
+precision highp float; precision highp int;
+uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
+uniform float sizeM;
+in vec3 position; in vec3 normal;
+in highp uvec3 words; in highp uint value; in highp uint rgb;
+out vec3 vColor;
+${COLORS}
+void main() {
+  vec3 xyz = uintBitsToFloat(words);
+  bool isThere = !any(isnan(xyz)) && !any(isinf(xyz));
+  vec4 at = modelMatrix * vec4(isThere ? xyz : vec3(0.0), 1.0) + vec4(position * sizeM, 0.0);
+  gl_Position = isThere ? projectionMatrix * viewMatrix * at : vec4(0.0, 0.0, 2.0, 1.0);
+  float light = 0.65 + 0.35 * max(dot(normal, normalize(vec3(0.4, -0.5, 0.8))), 0.0);
+  vColor = colorOf(xyz, value, rgb) * light;
+}`;
+
+const FRAGMENT = /* glsl */ `
+precision highp float;
+uniform float alpha; uniform bool isRound;
+in vec3 vColor; out vec4 color;
+void main() {
+  float light = 1.0;
+  if (isRound) {
+    vec2 at = gl_PointCoord * 2.0 - 1.0;
+    float r2 = dot(at, at);
+    if (r2 > 1.0) discard;
+    light = 0.55 + 0.45 * sqrt(1.0 - r2);
+  }
+  color = vec4(vColor * light, alpha);
+}`;
+
+const COLORINGS = { flat: 0, value: 1, axis: 2, rgb: 3 };
+
+export class Cloud {
+  readonly object: Points | Mesh;
+  private material: RawShaderMaterial;
+  private buffer?: InterleavedBuffer;
+  private rows?: Rows;
+  private isSolid: boolean;
+
+  constructor(readonly style: Style) {
+    this.isSolid = style === 'Boxes' || style === 'Tiles';
+    const uniforms: Record<string, { value: unknown }> = {};
+    for (const name of ['coloring', 'low', 'high', 'axisOffset', 'sizePx', 'sizeM', 'alpha']) {
+      uniforms[name] = { value: 0 };
+    }
+    for (const name of ['flatColor', 'lowColor', 'highColor', 'axis']) {
+      uniforms[name] = { value: new Vector3() };
+    }
+    for (const name of ['isRainbow', 'isInverted', 'isRound', 'isOrtho']) {
+      uniforms[name] = { value: false };
+    }
+    uniforms.pixelsPerUnit = { value: 1 };
+    this.material = new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: this.isSolid ? SOLID_VERTEX : POINTS_VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms,
+    });
+    this.object = this.isSolid
+      ? new Mesh(new InstancedBufferGeometry(), this.material)
+      : new Points(new BufferGeometry(), this.material);
+    this.object.frustumCulled = false;
+    const size = new Vector2();
+    this.object.onBeforeRender = (renderer, _scene, camera) => {
+      const scale = camera.projectionMatrix.elements[5]!;
+      uniforms.pixelsPerUnit!.value = (renderer.getDrawingBufferSize(size).y * scale) / 2;
+      uniforms.isOrtho!.value = 'isOrthographicCamera' in camera;
+      this.material.uniformsNeedUpdate = true;
+    };
+  }
+
+  show(rows: Rows): void {
+    const { words, stride } = rows;
+    this.rows = rows;
+    const usable = words.subarray(0, rows.count * stride);
+    if (this.buffer && this.buffer.stride === stride && this.buffer.array.length >= usable.length) {
+      // The place on the GPU is kept: scans come often.
+      (this.buffer.array as Uint32Array).set(usable);
+      this.buffer.clearUpdateRanges();
+      this.buffer.addUpdateRange(0, usable.length);
+      this.buffer.needsUpdate = true;
+    } else {
+      this.allocate(usable, stride);
+    }
+    const { geometry } = this.object;
+    this.attach('words', 3, rows.xyz);
+    this.attach('value', 1, rows.value ?? rows.xyz);
+    this.attach('rgb', 1, rows.rgb ?? rows.xyz);
+    if (this.isSolid) (geometry as InstancedBufferGeometry).instanceCount = rows.count;
+    else geometry.setDrawRange(0, rows.count);
+  }
+
+  private allocate(words: Uint32Array, stride: number): void {
+    this.object.geometry.dispose();
+    const array = words.slice();
+    if (this.isSolid) {
+      this.buffer = new InstancedInterleavedBuffer(array, stride);
+      const geometry = new InstancedBufferGeometry();
+      const shape = this.style === 'Boxes' ? new BoxGeometry(1, 1, 1) : new PlaneGeometry(1, 1);
+      geometry.setIndex(shape.index);
+      geometry.setAttribute('position', shape.getAttribute('position'));
+      geometry.setAttribute('normal', shape.getAttribute('normal'));
+      this.object.geometry = geometry;
+    } else {
+      this.buffer = new InterleavedBuffer(array, stride);
+      this.object.geometry = new BufferGeometry();
+    }
+    // Nobody may ask for a box around words that are no coordinates.
+    this.object.geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
+    this.object.geometry.boundingBox = new Box3();
+  }
+
+  private attach(name: string, size: number, offset: number): void {
+    const { geometry } = this.object;
+    const old = geometry.getAttribute(name) as InterleavedBufferAttribute | undefined;
+    if (old?.data === this.buffer && old?.offset === offset) return;
+    const attribute = new InterleavedBufferAttribute(this.buffer!, size, offset);
+    // The words go to the shader as they are.
+    (attribute as unknown as BufferAttribute).gpuType = IntType;
+    geometry.setAttribute(name, attribute);
+  }
+
+  look(look: Look): void {
+    const { uniforms } = this.material;
+    const isPixels = look.style === 'Points';
+    const set = (name: string, value: unknown) => (uniforms[name]!.value = value);
+    const linear = (color: Color) => {
+      const { r, g, b } = color.clone().convertLinearToSRGB();
+      return new Vector3(r, g, b);
+    };
+    set('coloring', COLORINGS[look.coloring]);
+    set('flatColor', linear(look.color));
+    set('lowColor', linear(look.lowColor));
+    set('highColor', linear(look.highColor));
+    set('low', look.low);
+    set('high', look.high);
+    set('isRainbow', look.isRainbow);
+    set('isInverted', look.isInverted);
+    set('axis', look.axis);
+    set('axisOffset', look.axisOffset);
+    set('sizePx', isPixels ? look.sizePx : 0);
+    set('sizeM', look.sizeM);
+    set('alpha', look.alpha);
+    set('isRound', look.style === 'Spheres');
+    this.material.transparent = look.alpha < 0.999;
+    this.material.depthWrite = look.alpha >= 0.999;
+  }
+
+  /** Where a point is, and what it holds, in its own frame. */
+  at(index: number): { xyz: Vector3; value?: number } | undefined {
+    const { rows } = this;
+    if (!rows || index >= rows.count) return undefined;
+    const floats = new Float32Array(
+      (this.buffer!.array as Uint32Array).buffer,
+      (this.buffer!.array as Uint32Array).byteOffset,
+    );
+    const row = index * rows.stride;
+    const xyz = new Vector3().fromArray(floats, row + rows.xyz);
+    return { xyz, value: rows.value === undefined ? undefined : floats[row + rows.value] };
+  }
+
+  get count(): number {
+    return this.rows?.count ?? 0;
+  }
+}
