@@ -1,0 +1,154 @@
+/** A building as it is drawn: walls between points, what is cut into them, stairs, levels. Metres. */
+
+export interface Point {
+  x: number;
+  y: number;
+}
+
+export interface Wall {
+  id: number;
+  level: number;
+  from: Point;
+  to: Point;
+  thicknessM: number;
+  heightM: number;
+  material: string;
+}
+
+/** A hole in a wall. */
+export interface Opening {
+  id: number;
+  wall: number;
+  kind: 'door' | 'window';
+  /** Where its middle is along the wall, from the wall's beginning. */
+  atM: number;
+  widthM: number;
+  heightM: number;
+  /** How far it is above the floor. */
+  sillM: number;
+}
+
+export interface Stairs {
+  id: number;
+  level: number;
+  /** The middle. */
+  at: Point;
+  /** Up along x, turned by this. */
+  yawRad: number;
+  /** How far they go, and how wide they are. */
+  lengthM: number;
+  widthM: number;
+  steps: number;
+}
+
+export interface Level {
+  name: string;
+  heightM: number;
+}
+
+export interface FloorPlan {
+  /** As the page can show it. */
+  url: string;
+  widthPx: number;
+  heightPx: number;
+  pixelsPerM: number;
+  /** Where the middle of the picture is. */
+  at: Point;
+}
+
+export interface Plan {
+  name: string;
+  author: string;
+  walls: Wall[];
+  openings: Opening[];
+  stairs: Stairs[];
+  levels: Level[];
+  picture?: FloorPlan;
+  lastId: number;
+}
+
+/** What the Building Editor begins with. */
+export const WALL = { thicknessM: 0.15, heightM: 2.5, material: 'Gazebo/Grey' };
+export const DOOR = { widthM: 0.9, heightM: 2, sillM: 0 };
+export const WINDOW = { widthM: 0.8, heightM: 1, sillM: 1 };
+export const STAIRS = { lengthM: 3, widthM: 1, steps: 10 };
+export const PIXELS_PER_M = 100;
+
+/** Materials of Gazebo by name, with their colours. */
+export const MATERIALS: Record<string, [number, number, number]> = {
+  'Gazebo/Grey': [0.7, 0.7, 0.7],
+  'Gazebo/White': [1, 1, 1],
+  'Gazebo/Bricks': [0.72, 0.4, 0.32],
+  'Gazebo/Wood': [0.65, 0.48, 0.3],
+  'Gazebo/CeilingTiled': [0.85, 0.85, 0.82],
+  'Gazebo/Red': [0.8, 0.15, 0.15],
+  'Gazebo/Green': [0.15, 0.6, 0.2],
+  'Gazebo/Blue': [0.15, 0.3, 0.8],
+  'Gazebo/Orange': [0.95, 0.5, 0.1],
+};
+
+export function emptyPlan(): Plan {
+  const levels = [{ name: 'Level 1', heightM: WALL.heightM }];
+  return { name: 'building', author: '', walls: [], openings: [], stairs: [], levels, lastId: 0 };
+}
+
+export const lengthOf = (wall: Wall) =>
+  Math.hypot(wall.to.x - wall.from.x, wall.to.y - wall.from.y);
+
+export const yawOfWall = (wall: Wall) =>
+  Math.atan2(wall.to.y - wall.from.y, wall.to.x - wall.from.x);
+
+/** The place so far along a wall. */
+export function along(wall: Wall, m: number): Point {
+  const yaw = yawOfWall(wall);
+  return { x: wall.from.x + Math.cos(yaw) * m, y: wall.from.y + Math.sin(yaw) * m };
+}
+
+/** How high a level's floor is. */
+export function baseOf(plan: Plan, level: number): number {
+  return plan.levels.slice(0, level).reduce((sum, l) => sum + l.heightM, 0);
+}
+
+/** The wall nearest to a point, and where on it that is. */
+export function nearestWall(
+  plan: Plan,
+  level: number,
+  at: Point,
+): { wall: Wall; atM: number; distanceM: number } | undefined {
+  let best: { wall: Wall; atM: number; distanceM: number } | undefined;
+  for (const wall of plan.walls) {
+    if (wall.level !== level) continue;
+    const length = lengthOf(wall);
+    const yaw = yawOfWall(wall);
+    const [dx, dy] = [at.x - wall.from.x, at.y - wall.from.y];
+    const u = Math.max(0, Math.min(length, dx * Math.cos(yaw) + dy * Math.sin(yaw)));
+    const near = along(wall, u);
+    const distanceM = Math.hypot(at.x - near.x, at.y - near.y);
+    if (!best || distanceM < best.distanceM) best = { wall, atM: u, distanceM };
+  }
+  return best;
+}
+
+/** What is wrong with a plan, in words; nothing if it can be built. */
+export function problems(plan: Plan): string[] {
+  const out: string[] = [];
+  if (!/^[A-Za-z0-9_][\w -]*$/.test(plan.name))
+    out.push('Give the building a name of letters, digits and _');
+  if (plan.walls.length === 0) out.push('There are no walls yet');
+  for (const opening of plan.openings) {
+    const wall = plan.walls.find((w) => w.id === opening.wall);
+    if (!wall) continue;
+    const length = lengthOf(wall);
+    const what = opening.kind === 'door' ? 'A door' : 'A window';
+    if (
+      opening.atM - opening.widthM / 2 < -1e-6 ||
+      opening.atM + opening.widthM / 2 > length + 1e-6
+    ) {
+      out.push(`${what} reaches beyond its wall of ${length.toFixed(2)} m`);
+    }
+    if (opening.sillM + opening.heightM > wall.heightM + 1e-6) {
+      out.push(`${what} is higher than its wall of ${wall.heightM.toFixed(2)} m`);
+    }
+  }
+  return out;
+}

@@ -1,0 +1,210 @@
+import { describe, expect, test } from 'vitest';
+import { rowsOfCloud, rowsOfScan } from '../src/displays/cloud_rows';
+import { fansOf } from '../src/displays/lidar';
+import { toPixels } from '../src/displays/pixels';
+import { KINDS, kindOf } from '../src/displays/registry';
+import { voxels } from '../src/displays/voxels';
+import { numberAt, numericPaths, show } from '../src/app/fields';
+import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
+import { wishFor } from '../src/app/auto';
+import { Clock } from '../src/app/clock';
+import type { ImageMessage, LaserScan, PointCloud2 } from '../src/core/types';
+
+const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: 'laser' };
+const scan: LaserScan = {
+  header,
+  angle_min: 0,
+  angle_max: Math.PI / 2,
+  angle_increment: Math.PI / 4,
+  time_increment: 0,
+  scan_time: 0,
+  range_min: 0.5,
+  range_max: 10,
+  ranges: new Float32Array([2, Infinity, 3]),
+  intensities: new Float32Array([7, 8, 9]),
+};
+const floats = (words: Uint32Array) =>
+  new Float32Array(words.buffer, words.byteOffset, words.length);
+
+describe('points', () => {
+  test('of a scan: only what was met', () => {
+    const rows = rowsOfScan(scan);
+    expect(rows.count).toBe(2);
+    const all = floats(rows.words);
+    expect([all[0], all[1], all[3]]).toEqual([2, 0, 7]);
+    expect(all[5]).toBeCloseTo(3, 6);
+  });
+
+  const cloud = (step: number, offset: number): PointCloud2 => {
+    const data = new Uint8Array(2 * step);
+    const view = new DataView(data.buffer);
+    for (let i = 0; i < 2; i++) {
+      [i, 10, 20].forEach((v, k) => view.setFloat32(i * step + offset + k * 4, v, true));
+    }
+    const fields = ['x', 'y', 'z'].map((name, k) => ({
+      name,
+      offset: offset + k * 4,
+      datatype: 7,
+      count: 1,
+    }));
+    return {
+      header,
+      height: 1,
+      width: 2,
+      fields,
+      is_bigendian: false,
+      point_step: step,
+      row_step: 2 * step,
+      data,
+    };
+  };
+
+  test('of a cloud: its own bytes where they are whole words', () => {
+    const message = cloud(16, 0);
+    const rows = rowsOfCloud(message, 'intensity');
+    expect(rows.words.buffer).toBe(message.data.buffer);
+    expect([rows.stride, rows.xyz, rows.count, rows.value]).toEqual([4, 0, 2, undefined]);
+  });
+
+  test('of a cloud with crooked steps: a copy that says the same', () => {
+    const rows = rowsOfCloud(cloud(15, 1), 'intensity');
+    expect([...floats(rows.words)].filter((_, i) => i % 5 < 3)).toEqual([0, 10, 20, 1, 10, 20]);
+  });
+
+  test('a cloud without coordinates is refused in words', () => {
+    expect(() => rowsOfCloud({ ...cloud(16, 0), fields: [] }, '')).toThrow('no fields x, y and z');
+  });
+});
+
+test('Visualize Lidar: a beam that meets nothing is drawn to the greatest range, if at all', () => {
+  const all = fansOf(scan, true);
+  expect(all.points.length).toBe(6);
+  expect(all.rays.length).toBe(12);
+  expect(all.openRays.slice(3).map((v) => +v.toFixed(4))).toEqual([7.0711, 7.0711, 0]);
+  expect(all.hit.length).toBe(0);
+  expect(all.open.length).toBe(2 * 18);
+  expect(all.dead.length).toBe(2 * 9);
+  expect(fansOf(scan, false).open.length).toBe(0);
+});
+
+test('voxels are marked by two bits, unknown by one', () => {
+  const grid = {
+    header,
+    data: new Uint32Array([0x0003_0001]),
+    origin: { x: 0, y: 0, z: 0 },
+    resolutions: { x: 1, y: 1, z: 1 },
+    size_x: 1,
+    size_y: 1,
+    size_z: 16,
+  };
+  expect(voxels(grid, 'marked')).toEqual([[0.5, 0.5, 0.5]]);
+  expect(voxels(grid, 'unknown')).toEqual([[0.5, 0.5, 1.5]]);
+});
+
+describe('pictures', () => {
+  const image = (encoding: string, data: number[], width = 1): ImageMessage => ({
+    header,
+    height: 1,
+    width,
+    encoding,
+    is_bigendian: 0,
+    step: data.length,
+    data: new Uint8Array(data),
+  });
+  const pixels = (message: ImageMessage) => {
+    const out = new Uint8ClampedArray(message.width * 4);
+    toPixels(message, out, { isNormalized: true, min: 0, max: 1 });
+    return [...out];
+  };
+
+  test('colours in any order', () => {
+    expect(pixels(image('rgb8', [1, 2, 3]))).toEqual([1, 2, 3, 255]);
+    expect(pixels(image('bgr8', [1, 2, 3]))).toEqual([3, 2, 1, 255]);
+    expect(pixels(image('mono8', [9]))).toEqual([9, 9, 9, 255]);
+  });
+
+  test('depth from its least to its greatest; nothing seen is black', () => {
+    const depth = [...new Uint8Array(new Float32Array([1, NaN, 3]).buffer)];
+    expect(pixels(image('32FC1', depth, 3))).toEqual([
+      0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255,
+    ]);
+  });
+
+  test('an encoding that nobody knows is named', () => {
+    expect(() => pixels(image('nv21', [1]))).toThrow('nv21');
+  });
+});
+
+test('every display has a class of its own, and defaults for all of its options', () => {
+  const names = KINDS.flatMap((kind) => [kind.class, ...(kind.also ?? [])]);
+  expect(new Set(names).size).toBe(names.length);
+  for (const { options } of KINDS) {
+    const paths = options.map((o) => o.path);
+    expect(new Set(paths).size).toBe(paths.length);
+  }
+  expect(kindOf('rviz/LaserScan')?.title).toBe('LaserScan');
+});
+
+test('fields of messages', () => {
+  const message = {
+    pose: { orientation: { x: 0, y: 0, z: 1, w: 0 } },
+    ranges: new Float32Array([1.5]),
+  };
+  expect(numericPaths(message)).toContain('ranges[0]');
+  expect(numberAt(message, 'ranges[0]')).toBe(1.5);
+  expect(numberAt(message, 'pose.orientation.yaw')).toBeCloseTo(Math.PI, 12);
+  expect(numberAt(message, 'pose.nothing.x')).toBeNaN();
+  expect(show({ a: 1, b: { c: 'x' }, d: [1, 2] })).toBe('a: 1\nb:\n  c: x\nd: [1, 2]');
+});
+
+describe('driving', () => {
+  test('keys as teleop_twist_keyboard has them', () => {
+    expect(twist(MOVES.u!, FIRST_SPEEDS)).toMatchObject({ linear: { x: 0.5 }, angular: { z: 1 } });
+    expect(twist(MOVES.m!, FIRST_SPEEDS)).toMatchObject({
+      linear: { x: -0.5 },
+      angular: { z: -1 },
+    });
+    expect(twist(MOVES.J!, FIRST_SPEEDS)).toMatchObject({ linear: { x: 0, y: 0.5 } });
+    const there = faster('z', faster('q', FIRST_SPEEDS));
+    expect(there.linearMS).toBeCloseTo(0.495, 12);
+    expect(faster('w', FIRST_SPEEDS)).toEqual({ linearMS: 0.55, angularRadS: 1 });
+  });
+
+  test("Qt's codes", () => {
+    const codes = [
+      'ArrowUp',
+      'ArrowDown',
+      'ArrowLeft',
+      'ArrowRight',
+      'w',
+      'S',
+      ' ',
+      'Escape',
+      'F5',
+    ].map(qtCode);
+    expect(codes).toEqual([16777235, 16777237, 16777234, 16777236, 87, 83, 32, 16777216, 16777268]);
+    expect(qtCode('Unidentified')).toBeUndefined();
+  });
+});
+
+test('what shows itself', () => {
+  expect(
+    wishFor('/global_costmap/costmap', 'nav_msgs/msg/OccupancyGrid')?.values['Color Scheme'],
+  ).toBe('costmap');
+  expect(wishFor('/world/x/scene', 'visualization_msgs/msg/MarkerArray')?.class).toBe(
+    'periplus/World',
+  );
+  expect(wishFor('/world/x/poses', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
+  expect(wishFor('/tf', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
+  expect(wishFor('/scan', 'sensor_msgs/msg/LaserScan')?.isEnabled).toBe(true);
+  expect(wishFor('/chatter', 'std_msgs/msg/String')).toBeUndefined();
+});
+
+test('a clock knows its pace, when it stands, and when time went back', () => {
+  const clock = new Clock();
+  for (let i = 0; i <= 10; i++) expect(clock.set(i * 0.2, i * 100)).toBe(false);
+  expect(clock.factor).toBeCloseTo(2, 9);
+  expect(clock.isStill(1100)).toBe(false);
+  expect(clock.isStill(2000)).toBe(true);
+  expect(clock.set(0, 2100)).toBe(true);
+});

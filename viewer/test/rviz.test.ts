@@ -1,0 +1,170 @@
+import { describe, expect, test } from 'vitest';
+import { nest, readRviz, writeRviz } from '../src/rviz/file';
+import { viewFrom, viewTo } from '../src/rviz/view';
+import { palette } from '../src/displays/palette';
+
+const FILE = `
+Panels:
+  - Class: rviz_common/Displays
+    Name: Displays
+Visualization Manager:
+  Class: ""
+  Displays:
+    - Class: rviz_default_plugins/LaserScan
+      Name: Scan
+      Enabled: true
+      Value: true
+      Size (m): 0.05
+      Autocompute Value Bounds:
+        Max Value: 3
+        Min Value: -3
+        Value: false
+      Topic:
+        Depth: 5
+        Reliability Policy: Best Effort
+        Value: /scan
+      Something New: 7
+    - Class: rviz_common/Group
+      Name: Costs
+      Enabled: false
+      Displays:
+        - Class: rviz_default_plugins/Map
+          Name: Costmap
+          Enabled: true
+          Color Scheme: costmap
+          Topic: {Value: /costmap}
+  Global Options:
+    Background Color: 10; 20; 30
+    Fixed Frame: odom
+    Frame Rate: 30
+  Tools:
+    - Class: rviz_default_plugins/SetInitialPose
+      Covariance x: 0.5
+      Topic: {Value: /start}
+  Views:
+    Current:
+      Class: rviz_default_plugins/TopDownOrtho
+      Angle: 0.5
+      Scale: 40
+      X: 1
+      Y: 2
+Window Geometry:
+  QMainWindow State: 000000ff
+`;
+
+describe('.rviz files', () => {
+  test('displays, groups, options below options, tools, views', () => {
+    const file = readRviz(FILE);
+    expect(file.fixedFrame).toBe('odom');
+    expect(file.displays.map((d) => [d.name, d.isEnabled])).toEqual([
+      ['Scan', true],
+      ['Costmap', false],
+    ]);
+    expect(file.displays[0]!.values).toMatchObject({
+      'Size (m)': 0.05,
+      Topic: '/scan',
+      'Topic/Reliability Policy': 'Best Effort',
+      'Autocompute Value Bounds': false,
+      'Autocompute Value Bounds/Max Value': 3,
+    });
+    expect(file.tools[0]!.values).toMatchObject({ 'Covariance x': 0.5, Topic: '/start' });
+    expect(viewFrom(file.view!)).toMatchObject({ kind: 'TopDownOrtho', scale: 40, x: 1, y: 2 });
+  });
+
+  test('what is not known is written back', () => {
+    const file = readRviz(FILE);
+    const scan = file.displays[0]!;
+    const text = writeRviz({
+      fixedFrame: 'map',
+      background: file.background,
+      displays: [
+        {
+          ...scan,
+          values: { ...scan.values, 'Size (m)': 0.1 },
+          options: [{ path: 'Size (m)', kind: 'number', default: 0.01 }],
+        },
+      ],
+      view: viewTo({
+        kind: 'Orbit',
+        distance: 3,
+        focal: [1, 2, 3],
+        pitch: 1,
+        yaw: 2,
+        scale: 1,
+        angle: 0,
+        x: 0,
+        y: 0,
+        targetFrame: 'base_link',
+      }),
+      original: file.original,
+    });
+    expect(text).toContain('Something New: 7');
+    expect(text).toContain('QMainWindow State');
+    const again = readRviz(text);
+    expect(again.fixedFrame).toBe('map');
+    expect(again.displays[0]!.values['Size (m)']).toBe(0.1);
+    expect(viewFrom(again.view!)).toMatchObject({
+      kind: 'Orbit',
+      distance: 3,
+      focal: [1, 2, 3],
+      targetFrame: 'base_link',
+    });
+  });
+
+  test('ROS 1 names', () => {
+    const file = readRviz(
+      'Visualization Manager: {Displays: [{Class: rviz/Marker, Marker Topic: /m, Queue Size: 100}, {Class: rviz/LaserScan, Topic: /scan, Unreliable: true}]}',
+    );
+    expect(file.displays[0]!.values.Topic).toBe('/m');
+    expect(file.displays[1]!.values['Topic/Reliability Policy']).toBe('Best Effort');
+  });
+
+  test('a file that is none is told so', () => {
+    expect(() => readRviz('a: [')).toThrow('no YAML');
+    expect(() => readRviz('a: 1')).toThrow('no .rviz file');
+  });
+
+  test('paths become maps again', () => {
+    expect(nest({ Shape: 'Arrow', 'Shape/Color': 'red', 'Offset/X': 1 })).toEqual({
+      Shape: { Value: 'Arrow', Color: 'red' },
+      Offset: { X: 1 },
+    });
+  });
+});
+
+describe('palettes', () => {
+  const at = (colors: Uint8Array, i: number) => [...colors.subarray(i * 4, i * 4 + 4)];
+
+  test('map: free is white, occupied black, unknown the well-known green grey', () => {
+    const map = palette('map');
+    expect([0, 50, 100, 101, 128, 254, 255].map((i) => at(map, i))).toEqual([
+      [255, 255, 255, 255],
+      [128, 128, 128, 255],
+      [0, 0, 0, 255],
+      [0, 255, 0, 255],
+      [255, 0, 0, 255],
+      [255, 255, 0, 255],
+      [0x70, 0x89, 0x86, 255],
+    ]);
+  });
+
+  test('costmap: free is clear, then blue to red, inscribed cyan, lethal magenta', () => {
+    const cost = palette('costmap');
+    expect([0, 1, 98, 99, 100].map((i) => at(cost, i))).toEqual([
+      [0, 0, 0, 0],
+      [2, 0, 253, 255],
+      [249, 0, 6, 255],
+      [0, 255, 255, 255],
+      [255, 0, 255, 255],
+    ]);
+  });
+
+  test('raw, and two colours only', () => {
+    expect(at(palette('raw'), 77)).toEqual([77, 77, 77, 255]);
+    const binary = palette('map', 65);
+    expect([64, 65].map((i) => at(binary, i))).toEqual([
+      [255, 255, 255, 255],
+      [0, 0, 0, 255],
+    ]);
+  });
+});
