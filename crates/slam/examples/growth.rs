@@ -48,7 +48,7 @@ fn main() {
         "worst",
         "slice",
         "map MB",
-        "whole MB",
+        "most MB",
         "rms m",
         "max m",
         "loops"
@@ -130,10 +130,10 @@ fn cpu_ns() -> u64 {
     text.split_whitespace().next().and_then(|it| it.parse().ok()).unwrap_or(0)
 }
 
-/// Memory of the whole program \[MB\].
+/// The most memory that the whole program has had \[MB\].
 fn memory_mb() -> f64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"));
     let kilobytes = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());
     kilobytes.unwrap_or(0.0) * 1.024e-3
 }

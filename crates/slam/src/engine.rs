@@ -391,7 +391,7 @@ impl Slam {
         let counts = |edge: &&Edge| edge.weight > 0.0;
         self.graph.edges.iter().filter(counts).map(|edge| {
             let link = match edge.kind {
-                Kind::Chain | Kind::Refined => Link::Chain,
+                Kind::Chain => Link::Chain,
                 Kind::Near => Link::Tie,
                 Kind::Loop => Link::Closure,
             };

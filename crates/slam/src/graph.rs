@@ -2,14 +2,18 @@
 
 mod cholesky;
 mod order;
+mod riders;
 mod solve;
+mod system;
 
 use periplus_base::{Pose2, normalize_angle};
 use periplus_matching::Symmetric3;
 
 use crate::drift::reversed;
 
+pub(crate) use riders::riders;
 pub(crate) use solve::{Outcome, Saved, Size, Solver};
+pub(crate) use system::System;
 
 /// Where what is known between two poses comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +24,6 @@ pub(crate) enum Kind {
     Near,
     /// A loop closed after a search.
     Loop,
-    /// From the last refinement, in which all scans are held against their neighbours.
-    Refined,
 }
 
 /// What is known between two poses.
@@ -61,18 +63,20 @@ impl Edge {
 
     /// Shift and turn by which poses differ from what this says.
     pub(crate) fn error(&self, poses: &[Pose2]) -> [f64; 3] {
-        let found = poses[self.from].inverse() * poses[self.to];
-        [
-            found.x_m - self.from_from_to.x_m,
-            found.y_m - self.from_from_to.y_m,
-            normalize_angle(found.yaw_rad - self.from_from_to.yaw_rad),
-        ]
+        error(poses, (self.from, self.to), self.from_from_to)
     }
 
     /// Squared Mahalanobis distance of the error.
     pub(crate) fn chi2(&self, poses: &[Pose2]) -> f64 {
         self.information.quadratic(self.error(poses))
     }
+}
+
+/// Shift and turn by which two poses differ from what is known between them.
+pub(crate) fn error(poses: &[Pose2], (from, to): (usize, usize), known: Pose2) -> [f64; 3] {
+    let found = poses[from].inverse() * poses[to];
+    let turn = normalize_angle(found.yaw_rad - known.yaw_rad);
+    [found.x_m - known.x_m, found.y_m - known.y_m, turn]
 }
 
 /// Poses of key scans in the map and what is known between them.

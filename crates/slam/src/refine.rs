@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use periplus_base::Pose2;
 use periplus_matching::{Cloud, agreement, compare};
 
-use crate::graph::{Edge, Graph, Kind, Solver};
+use crate::graph::{Graph, Kind, System, error, riders};
 use crate::key::Key;
 use crate::local::apart;
 use crate::settings::Settings;
@@ -19,49 +20,67 @@ const PARTNERS_M: [f32; 2] = [0.3, 0.15];
 const WEIGHTS_M: [f32; 2] = [0.12, 0.06];
 /// What chains say counts this much beside: along corridors only odometry knows.
 const CHAIN: f64 = 0.1;
+/// A sweep moves poses by centimetres: one that would move some by more is not believed \[m\].
+const FARTHEST_M: f64 = 2.0;
 
 /// Refines all poses: each scan is held against its neighbours in place, points of each against lines
 /// of the other, and all poses are solved for together; a few times, as points find better partners.
 /// So a pose is held by all that was ever seen from around it, and not by the order of the drive.
+///
+/// What a pair of scans tells goes straight into the equations: of a map of kilometres there are some
+/// hundred thousand pairs.
 pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
-    let sweeps = settings.refine_sweeps;
-    let mut pairs = Vec::new();
-    for sweep in 0..sweeps {
-        if sweep == 0 {
-            pairs = choose(keys, graph, settings);
+    let pairs = choose(keys, graph, settings);
+    for sweep in 0..settings.refine_sweeps {
+        let Some((poses, farthest_m)) = refined(keys, graph, &pairs, sweep, settings) else {
+            return;
+        };
+        if farthest_m > FARTHEST_M {
+            return;
         }
-        let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
-        let width = |[from, to]: [f32; 2]| from + (to - from) * part;
-        let mut refined = Graph::default();
-        for &pose in &graph.poses {
-            refined.add_pose(pose);
-        }
-        for edge in graph.edges.iter().filter(|edge| edge.kind == Kind::Chain) {
-            refined.add_edge(Edge { weight: CHAIN, ..*edge });
-        }
-        let mut clouds = Clouds::new(keys);
-        for &(from, to) in &pairs {
-            let held = compare(
-                &clouds.get(to),
-                &clouds.get(from),
-                graph.between(from, to),
-                width(PARTNERS_M),
-                width(WEIGHTS_M),
-                if sweep + 2 < sweeps { 2 } else { 1 },
-                &settings.register,
-            );
-            if held.matched < 0.3 {
-                continue;
-            }
-            let (pose, information) = (held.target_from_moving, held.information);
-            refined.add_edge(Edge::new((from, to), pose, information, Kind::Refined));
-        }
-        let mut solver = Solver::new(&refined);
-        for _ in 0..2 {
-            solver.step(&mut refined, &|_, _| 1.0);
-        }
-        graph.poses = refined.poses;
+        graph.poses = poses;
     }
+}
+
+/// Poses after a sweep, and by how much the farthest has moved; none when they cannot be solved for.
+fn refined(
+    keys: &[Key],
+    graph: &Graph,
+    pairs: &[(usize, usize)],
+    sweep: usize,
+    settings: &Settings,
+) -> Option<(Vec<Pose2>, f64)> {
+    let sweeps = settings.refine_sweeps;
+    let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
+    let width = |[from, to]: [f32; 2]| from + (to - from) * part;
+    let poses = &graph.poses;
+    let chain = || graph.edges.iter().filter(|edge| edge.kind == Kind::Chain);
+    let bodies = riders(graph, (poses.len(), graph.edges.len()), sweep);
+    let ends = || chain().map(|edge| (edge.from, edge.to)).chain(pairs.iter().copied());
+    let mut system = System::new(&bodies, ends);
+    for edge in chain() {
+        let information = edge.information * CHAIN;
+        system.add(poses, (edge.from, edge.to), edge.error(poses), &information);
+    }
+    let mut clouds = Clouds::new(keys);
+    for &(from, to) in pairs {
+        let held = compare(
+            &clouds.get(to),
+            &clouds.get(from),
+            graph.between(from, to),
+            width(PARTNERS_M),
+            width(WEIGHTS_M),
+            if sweep + 2 < sweeps { 2 } else { 1 },
+            &settings.register,
+        );
+        if held.matched >= 0.3 {
+            let off = error(poses, (from, to), held.target_from_moving);
+            system.add(poses, (from, to), off, &held.information);
+        }
+    }
+    system.hold(0.0);
+    system.factorize(0, system.len(), usize::MAX)?;
+    Some(system.solve(poses))
 }
 
 /// Clouds that were looked at last, unpacked.

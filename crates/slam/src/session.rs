@@ -22,7 +22,7 @@ pub(crate) use bytes::{Bytes, Fault, Pack, Reader, packed};
 /// What a file of a session begins with.
 pub const SESSION_MAGIC: [u8; 8] = *b"PERISLAM";
 /// The version that is written, and the only one that is read.
-pub const SESSION_VERSION: u32 = 1;
+pub const SESSION_VERSION: u32 = 2;
 
 /// Bytes before the first section: magic and version.
 const HEAD: usize = 12;
@@ -221,7 +221,6 @@ impl Pack for Kind {
             Self::Chain => 0_u8,
             Self::Near => 1,
             Self::Loop => 2,
-            Self::Refined => 3,
         };
         code.pack(out);
     }
@@ -231,7 +230,6 @@ impl Pack for Kind {
             0 => Self::Chain,
             1 => Self::Near,
             2 => Self::Loop,
-            3 => Self::Refined,
             other => return Err(Fault(format!("there is no kind {other} of edges"))),
         })
     }

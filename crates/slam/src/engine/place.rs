@@ -98,7 +98,6 @@ impl Slam {
     /// lies among, and the map is bent accordingly. Gives how many were tied. The work that follows
     /// is done in the background.
     pub fn close_by_hand(&mut self, moved: &BTreeMap<usize, Pose2>) -> usize {
-        self.rest();
         let mut tied = 0;
         for (&key, &map_from_key) in moved {
             if key < self.keys.len() && map_from_key.is_finite() {
@@ -106,7 +105,7 @@ impl Slam {
             }
         }
         if tied > 0 {
-            self.solve(None);
+            self.solve_soon();
             self.work.ties.extend(moved.keys().copied().filter(|&key| key < self.keys.len()));
         }
         tied

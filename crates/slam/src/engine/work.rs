@@ -31,8 +31,9 @@ pub(super) struct Work {
     pub(super) tied: usize,
     pub(super) searches: usize,
     pub(super) slices: usize,
-    /// How often the map was bent.
+    /// How often the map was bent, in steps and in all.
     pub(super) bends: usize,
+    solves: usize,
 }
 
 /// A map that is being bent.
@@ -54,8 +55,8 @@ const SOLVE_EVERY: usize = 4;
 const SOLVE_PART: usize = 60;
 /// So many ties that do not pull are solved for anyway.
 const LOOSE: usize = 60;
-/// Products of blocks in one slice of a step: some 5 ms.
-const PRODUCTS: usize = 200_000;
+/// Products of blocks in one slice of a step: some 4 ms.
+const PRODUCTS: usize = 1_000_000;
 /// A step that moves less is the last \[m\].
 const SETTLED_M: f64 = 1e-3;
 /// Ties whose squared Mahalanobis distance is far above this count little.
@@ -153,11 +154,9 @@ impl Slam {
         self.work.solving = Some(solving);
     }
 
-    /// Bends the map to the end, if it is being bent.
-    pub(super) fn rest(&mut self) {
-        while self.work.solving.is_some() {
-            self.solve_step();
-        }
+    /// Asks for the map to be bent; when it is being bent, once more after that.
+    pub(super) fn solve_soon(&mut self) {
+        self.work.loose += LOOSE + self.keys.len() / SOLVE_PART;
     }
 
     fn solve_step(&mut self) {
@@ -169,7 +168,8 @@ impl Slam {
         });
         let Some(mut solver) = solver else {
             // To prepare is a slice of its own.
-            solving.solver = Some(Solver::sized(&self.graph, solving.size));
+            solving.solver = Some(Solver::new(&self.graph, solving.size, self.work.solves));
+            self.work.solves += 1;
             self.work.solving = Some(solving);
             return;
         };

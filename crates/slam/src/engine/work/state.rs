@@ -16,6 +16,7 @@ packed!(Work {
     searches,
     slices,
     bends,
+    solves,
 });
 
 impl Pack for Solving {
