@@ -212,6 +212,13 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
+    if options.page.page.is_some() {
+        let around = composition.files.iter().filter_map(|file| file.path.parent());
+        if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
+            terminal::complain(&format!("the world cannot be shown: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    }
     let about = options.about(&composition);
     let page = match Page::join(simulation.graph(), &options.page, about) {
         Ok(page) => page,

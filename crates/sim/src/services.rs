@@ -22,10 +22,13 @@ mod physics;
 mod properties;
 mod reading;
 mod spawn;
+mod stage;
 mod state;
 mod state_plugin;
 mod tempo;
 mod topics;
+
+use std::path::PathBuf;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{GraphError, Node, NodeSettings};
@@ -38,6 +41,7 @@ use self::metrics::Metrics;
 use self::offer::Offer;
 use self::physics::{Factor, Physics};
 use self::properties::Properties;
+use self::stage::Stage;
 use self::state::State;
 use self::state_plugin::StatePlugin;
 use self::tempo::Tempo;
@@ -65,6 +69,7 @@ pub struct Services {
     harmonic: Harmonic,
     topics: StateTopics,
     metrics: Metrics,
+    stage: Option<Stage>,
     last_ns: i64,
 }
 
@@ -99,8 +104,25 @@ impl Services {
             harmonic: Harmonic::new(&node, &scene.name)?,
             topics: StateTopics::new(&node, &states, now_ns)?,
             metrics: Metrics::new(&node, &scene.name, now_ns),
+            stage: None,
             last_ns: now_ns,
         })
+    }
+
+    /// Shows the world to who draws it, and lets them save it: `/world/<world>/scene`, `poses`,
+    /// `save` and `library`. Models that could be put into it are looked for in these folders beside
+    /// those of the environment.
+    ///
+    /// # Errors
+    /// When one of the topics has another type.
+    pub fn show(
+        &mut self,
+        simulation: &Simulation,
+        folders: Vec<PathBuf>,
+    ) -> Result<(), GraphError> {
+        let folders = self.search.folders.iter().cloned().chain(folders).collect();
+        self.stage = Some(Stage::new(&self.log.node, &simulation.scene.name, folders)?);
+        Ok(())
     }
 
     /// Stops time, or lets it go on.
@@ -167,6 +189,9 @@ impl Services {
         self.last_ns = simulation.time_ns();
         self.forces.serve(simulation);
         self.publish(simulation);
+        if let Some(stage) = &mut self.stage {
+            stage.serve(simulation);
+        }
         if self.tempo.may_step() {
             self.forces.push(simulation);
         } else {

@@ -87,6 +87,8 @@ pub struct Simulation {
     options: Options,
     /// Whether the seed is another than that with which devices were made.
     has_new_seed: bool,
+    /// How often models came or went.
+    changes: u64,
     step_ns: i64,
     time_ns: i64,
     shares: Shares,
@@ -111,6 +113,7 @@ impl Simulation {
             world_devices: Vec::new(),
             has_new_seed: false,
             running: Vec::new(),
+            changes: 0,
             time_ns: 0,
             shares: Shares::default(),
             journal: graph.node(NodeSettings::new("periplus").keep_names()).ok(),
@@ -250,6 +253,7 @@ impl Simulation {
         self.views.add(Arc::new(member.model.clone()), model, &self.motion);
         let devices = self.devices_of(&member, model, &mut findings);
         self.running.push(Running { member, model, devices });
+        self.changes += 1;
         findings
     }
 
@@ -283,6 +287,7 @@ impl Simulation {
         let gone = self.running.remove(place);
         self.views.remove(gone.model, &self.motion);
         self.motion.remove(gone.model);
+        self.changes += 1;
         true
     }
 
@@ -310,6 +315,16 @@ impl Simulation {
         self.motion.reset();
         self.views.moved();
         self.restart_devices();
+    }
+
+    /// Changes whenever a model comes or goes.
+    pub(crate) fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// What reads the files of shapes.
+    pub(crate) fn files(&self) -> &ShapeFiles {
+        &self.files
     }
 
     pub(crate) fn place_of(&self, name: &str) -> Option<usize> {

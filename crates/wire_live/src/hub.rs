@@ -1,7 +1,10 @@
 //! What stands between a graph and all clients.
 
+mod calls;
 mod channels;
 mod clients;
+mod connections;
+mod parameters;
 mod services;
 mod state;
 
@@ -12,11 +15,13 @@ use std::time::Duration;
 use periplus_graph::{Graph, GraphError, Node, NodeSettings};
 use periplus_wire::lock;
 
+use crate::far::Far;
 use crate::outbox::Outbox;
 use crate::protocol::AssetAnswer;
 use crate::session::Session;
 use crate::settings::Settings;
 
+use parameters::News;
 pub(crate) use state::State;
 
 /// How often the graph is looked at for what came and went, and clients are told the time.
@@ -40,6 +45,8 @@ pub(crate) struct Shared {
     pub(crate) settings: Settings,
     pub(crate) state: Mutex<State>,
     pub(crate) assets: Mutex<Option<Assets>>,
+    /// What nodes answered about parameters, with the wish that it is for.
+    news: Arc<Mutex<Vec<(u64, News)>>>,
     is_closing: Mutex<bool>,
     closing: Condvar,
 }
@@ -57,6 +64,7 @@ impl Hub {
             settings,
             state: Mutex::default(),
             assets: Mutex::default(),
+            news: Arc::default(),
             is_closing: Mutex::new(false),
             closing: Condvar::new(),
         });
@@ -70,6 +78,11 @@ impl Hub {
     /// Where files come from that clients ask for by URI. Whoever gives them decides which may be had.
     pub fn serve_assets(&self, fetch: impl Fn(&str) -> AssetAnswer + Send + Sync + 'static) {
         *lock(&self.shared.assets) = Some(Arc::new(fetch));
+    }
+
+    /// What others have on a network that the graph is on. Tell it when it has changed.
+    pub fn set_far(&self, far: Far) {
+        lock(&self.shared.state).set_far(&self.shared, far);
     }
 
     /// A client comes. None when there are too many.
@@ -111,6 +124,7 @@ impl Shared {
             drop(is_closing);
             let mut state = lock(&self.state);
             state.look(self);
+            state.go_on(self);
             state.tell_time(self.graph.now_ns());
             drop(state);
             let waited = self.closing.wait_timeout(lock(&self.is_closing), LOOK);

@@ -9,7 +9,9 @@
 //!
 //! Source: `docs/ws-protocol/spec.md` of `foxglove/ws-protocol`.
 
+mod far;
 mod frame;
+mod grid;
 mod hub;
 mod outbox;
 mod outgoing;
@@ -17,6 +19,7 @@ pub mod protocol;
 mod session;
 mod settings;
 
+pub use far::{Far, FarService, FarTopic};
 pub use frame::{Frame, Kind};
 pub use hub::Hub;
 pub use outbox::{Outbox, Taken};

@@ -1,13 +1,17 @@
 //! What waits for one client.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
 use periplus_graph::Sample;
+use periplus_msgs::Message as _;
+use periplus_msgs::map_msgs::OccupancyGridUpdate;
+use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_wire::lock;
 
 use crate::frame::Frame;
+use crate::grid::{Difference, difference};
 use crate::protocol;
 
 /// Messages of one subscription that wait: as many as fit here by the size of the last one, but one
@@ -21,6 +25,8 @@ const MOST_WAITING: usize = 256 << 10;
 /// - Of latched topics the last messages wait, as many as each publisher keeps.
 /// - Of other topics the newest wait: as many as their publisher would keep, but not more than a few
 ///   hundred kilobytes, and one where messages may get lost anyhow. Older ones are let fall.
+/// - Of a map whose updates the client hears too, it gets all once and then what is new in it, measured
+///   against what it has.
 /// - Subscriptions take turns, so that a camera does not hold up a scan.
 pub struct Outbox {
     waiting: Mutex<Waiting>,
@@ -46,6 +52,10 @@ struct Lane {
     /// How large the last message was \[bytes\].
     size: usize,
     dropped: u64,
+    /// The subscription that gets what is new in this map, where there is one.
+    updates: Option<u32>,
+    /// The map as the client has it.
+    told: Option<Arc<OccupancyGrid>>,
 }
 
 /// How messages of a publisher wait.
@@ -102,6 +112,16 @@ impl Outbox {
         lock(&self.waiting).lanes.insert(subscription_id, Lane::default());
     }
 
+    /// What is new in the map that a subscription hears goes to another one from now on.
+    pub(crate) fn pair(&self, subscription_id: u32, updates: Option<u32>) {
+        if let Some(lane) = lock(&self.waiting).lanes.get_mut(&subscription_id)
+            && lane.updates != updates
+        {
+            lane.updates = updates;
+            lane.told = None;
+        }
+    }
+
     /// A subscription ends: what waits for it is let fall.
     pub(crate) fn shut(&self, subscription_id: u32) {
         lock(&self.waiting).lanes.remove(&subscription_id);
@@ -146,8 +166,23 @@ impl Outbox {
             return Taken::Frame(protocol::time(time_ns));
         }
         let Some((id, sample)) = waiting.next_sample() else { return Taken::Nothing };
+        let lane = waiting.lanes.get_mut(&id);
+        let (updates, told) = lane.map_or((None, None), |lane| (lane.updates, lane.told.take()));
         drop(waiting);
         // Not under the lock: this may be the one who encodes it.
+        if let Some(updates) = updates
+            && let Ok(map) = sample.message::<OccupancyGrid>()
+        {
+            let new = told.as_ref().map_or(Difference::All, |told| difference(told, &map));
+            if let Some(lane) = lock(&self.waiting).lanes.get_mut(&id) {
+                lane.told = Some(map);
+            }
+            match new {
+                Difference::All => {}
+                Difference::None => return Taken::Nothing,
+                Difference::Part(part) => return update(updates, sample.time_ns, &part),
+            }
+        }
         let Some(frame) = Frame::sample(protocol::message_head(id, sample.time_ns), sample) else {
             return Taken::Nothing;
         };
@@ -156,6 +191,13 @@ impl Outbox {
         }
         Taken::Frame(frame)
     }
+}
+
+fn update(subscription_id: u32, time_ns: i64, part: &OccupancyGridUpdate) -> Taken {
+    let Ok(cdr) = part.to_cdr() else { return Taken::Nothing };
+    let mut bytes = protocol::message_head(subscription_id, time_ns);
+    bytes.extend(cdr);
+    Taken::Frame(Frame::binary(bytes))
 }
 
 impl Waiting {

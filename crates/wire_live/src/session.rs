@@ -79,13 +79,27 @@ impl Session {
                 self.publishing.retain(|id, _| !channel_ids.contains(id));
             }
             ClientText::FetchAsset { uri, request_id } => self.fetch(&uri, request_id),
-            ClientText::GetParameters { .. }
-            | ClientText::SetParameters { .. }
-            | ClientText::SubscribeParameterUpdates { .. }
-            | ClientText::UnsubscribeParameterUpdates { .. }
-            | ClientText::SubscribeConnectionGraph
-            | ClientText::UnsubscribeConnectionGraph => {}
+            ClientText::GetParameters { parameter_names, id } => {
+                let mut state = lock(&self.shared.state);
+                state.get_parameters(&self.shared, self.id, &parameter_names, id);
+            }
+            ClientText::SetParameters { parameters, id } => {
+                lock(&self.shared.state).set_parameters(&self.shared, self.id, parameters, id);
+            }
+            ClientText::SubscribeParameterUpdates { parameter_names } => {
+                let mut state = lock(&self.shared.state);
+                state.follow_parameters(&self.shared, self.id, parameter_names);
+            }
+            ClientText::UnsubscribeParameterUpdates { parameter_names } => {
+                lock(&self.shared.state).unfollow_parameters(self.id, &parameter_names);
+            }
+            ClientText::SubscribeConnectionGraph => self.want_connections(true),
+            ClientText::UnsubscribeConnectionGraph => self.want_connections(false),
         }
+    }
+
+    fn want_connections(&self, wants: bool) {
+        lock(&self.shared.state).want_connections(&self.shared, self.id, wants);
     }
 
     fn advertise(&mut self, channel: &ClientChannel) {
@@ -128,22 +142,20 @@ impl Session {
         if self.calls.load(Ordering::Relaxed) >= self.shared.settings.limits.entries {
             return fail("too many calls wait for their answers");
         }
-        let caller = lock(&self.shared.state).caller(&self.shared, service_id);
-        let caller = match caller {
-            Ok(caller) => caller,
-            Err(why) => return fail(&why),
+        let mut state = lock(&self.shared.state);
+        let Some(name) = state.service(service_id) else {
+            return fail(&format!("there is no service {service_id}"));
         };
         self.calls.fetch_add(1, Ordering::Relaxed);
         let (outbox, calls) = (self.outbox.clone(), self.calls.clone());
-        caller.call(payload.to_vec(), move |answer| {
+        let answered = move |answer: Result<&[u8], String>| {
             calls.fetch_sub(1, Ordering::Relaxed);
-            let read = answer.map_err(|error| error.to_string()).and_then(|answer| {
-                let cdr = answer.cdr().map_err(|error| error.to_string())?;
-                Ok(protocol::service_answer(service_id, call_id, cdr))
+            outbox.push(match answer {
+                Ok(cdr) => protocol::service_answer(service_id, call_id, cdr),
+                Err(why) => protocol::service_failure(service_id, call_id, &why),
             });
-            let failed = |why: String| protocol::service_failure(service_id, call_id, &why);
-            outbox.push(read.unwrap_or_else(failed));
-        });
+        };
+        state.call(&self.shared, &name, payload.to_vec(), Box::new(answered));
     }
 
     fn fetch(&self, uri: &str, request_id: u32) {

@@ -9,10 +9,22 @@ use super::{Shared, State};
 use crate::outgoing::{Hearer, Outgoing};
 use crate::protocol::{self, ChannelText};
 
-/// A topic that somebody publishes.
+/// Maps, of which updates are made where nobody publishes any.
+const MAP: &str = "nav_msgs/msg/OccupancyGrid";
+const UPDATE: &str = "map_msgs/msg/OccupancyGridUpdate";
+
+/// A topic as clients see it.
 pub(super) struct Channel {
     id: u32,
+    published: Published,
+}
+
+/// What is published on a topic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Published {
     type_name: String,
+    /// The map of which these updates are made here.
+    of: Option<String>,
 }
 
 impl Channel {
@@ -21,8 +33,8 @@ impl Channel {
             id: self.id,
             topic,
             encoding: "cdr",
-            schema_name: &self.type_name,
-            schema: protocol::schema_of(&self.type_name),
+            schema_name: &self.published.type_name,
+            schema: protocol::schema_of(&self.published.type_name),
             schema_encoding: "ros2msg",
         }
     }
@@ -40,16 +52,14 @@ impl State {
         channels.find(|(_, channel)| channel.id == channel_id).map(|(topic, _)| topic.clone())
     }
 
-    /// Channels and publishers as the graph has them.
+    /// Channels and publishers as the graph has them, and as others have them.
     pub(super) fn look_at_topics(&mut self, shared: &Shared) {
         let topics = shared.graph.topics();
-        let published = topics.iter().filter(|topic| !topic.publishers.is_empty());
-        let published: BTreeMap<&str, &TopicInfo> =
-            published.map(|topic| (topic.name.as_str(), topic)).collect();
+        let published = self.published(&topics);
         self.drop_channels(&published);
         self.add_channels(&published);
         let mut gone: BTreeSet<EndpointId> = self.ways.keys().copied().collect();
-        for topic in published.values() {
+        for topic in &topics {
             for end in &topic.publishers {
                 if !gone.remove(&end.id) {
                     let way = Arc::new(Outgoing::new(&end.qos));
@@ -59,12 +69,34 @@ impl State {
             }
         }
         self.ways.retain(|id, _| !gone.contains(id));
+        self.hear_far(shared);
         self.listen(&shared.graph);
     }
 
-    fn drop_channels(&mut self, published: &BTreeMap<&str, &TopicInfo>) {
+    /// Each topic that somebody publishes, with its type.
+    fn published(&self, topics: &[TopicInfo]) -> BTreeMap<String, Published> {
+        let far = self.far.topics.iter().filter(|topic| !topic.publishers.is_empty());
+        let far = far.map(|topic| (&topic.name, &topic.type_name));
+        let own = topics.iter().filter(|topic| !topic.publishers.is_empty());
+        let own = own.map(|topic| (&topic.name, &topic.type_name));
+        let mut all: BTreeMap<String, Published> = far
+            .chain(own)
+            .map(|(name, type_name)| {
+                (name.clone(), Published { type_name: type_name.clone(), of: None })
+            })
+            .collect();
+        let maps = all.iter().filter(|(_, one)| one.type_name == MAP);
+        let maps: Vec<String> = maps.map(|(name, _)| name.clone()).collect();
+        for map in maps {
+            let made = Published { type_name: UPDATE.to_owned(), of: Some(map.clone()) };
+            all.entry(format!("{map}_updates")).or_insert(made);
+        }
+        all
+    }
+
+    fn drop_channels(&mut self, published: &BTreeMap<String, Published>) {
         let stays = |(topic, channel): &(&String, &Channel)| {
-            published.get(topic.as_str()).is_some_and(|info| info.type_name == channel.type_name)
+            published.get(*topic).is_some_and(|found| found == &channel.published)
         };
         let gone = self.channels.iter().filter(|one| !stays(one));
         let gone: Vec<(String, u32)> = gone.map(|(topic, one)| (topic.clone(), one.id)).collect();
@@ -79,21 +111,47 @@ impl State {
         }
     }
 
-    fn add_channels(&mut self, published: &BTreeMap<&str, &TopicInfo>) {
-        let mut new: Vec<&str> = Vec::new();
-        for (topic, info) in published {
-            if !self.channels.contains_key(*topic) {
-                let channel = Channel { id: self.number(), type_name: info.type_name.clone() };
-                self.channels.insert((*topic).to_owned(), channel);
+    fn add_channels(&mut self, published: &BTreeMap<String, Published>) {
+        let mut new: Vec<&String> = Vec::new();
+        for (topic, found) in published {
+            if !self.channels.contains_key(topic) {
+                let channel = Channel { id: self.number(), published: found.clone() };
+                self.channels.insert(topic.clone(), channel);
                 new.push(topic);
             }
         }
         if new.is_empty() {
             return;
         }
-        let texts: Vec<ChannelText<'_>> =
-            new.iter().map(|topic| self.channels[*topic].announce(topic)).collect();
+        let texts = new.iter().map(|topic| self.channels[*topic].announce(topic));
+        let texts: Vec<ChannelText<'_>> = texts.collect();
         self.tell_all(&protocol::advertise(&texts));
+    }
+
+    /// The topic of the updates that are made here of a map.
+    pub(super) fn updates_of(&self, map: &str) -> Option<String> {
+        let name = format!("{map}_updates");
+        let of = self.channels.get(&name)?.published.of.as_deref();
+        (of == Some(map)).then_some(name)
+    }
+
+    /// Lets the network bring those topics of others that somebody hears.
+    pub(super) fn hear_far(&mut self, shared: &Shared) {
+        let hears = |topic: &str| {
+            let mut clients = self.clients.values();
+            clients.any(|client| client.subscriptions.values().any(|heard| heard == topic))
+        };
+        let wanted = self.far.topics.iter();
+        let wanted = wanted.filter(|topic| !topic.publishers.is_empty() && hears(&topic.name));
+        let mut heard = BTreeMap::new();
+        for topic in wanted {
+            let mailbox = self.heard.remove(&topic.name).or_else(|| {
+                let hash = topic.type_hash.as_deref();
+                shared.node.raw_mailbox(&topic.name, &topic.type_name, hash, topic.wanted()).ok()
+            });
+            heard.extend(mailbox.map(|mailbox| (topic.name.clone(), mailbox)));
+        }
+        self.heard = heard;
     }
 
     /// Subscriptions of clients to a topic.

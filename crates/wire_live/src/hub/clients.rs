@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::parameters::Followed;
 use super::{Shared, State};
 use crate::outbox::Outbox;
 use crate::outgoing::Hearer;
@@ -13,6 +14,8 @@ pub(crate) struct Client {
     pub(super) outbox: Arc<Outbox>,
     /// The topic of each subscription.
     pub(super) subscriptions: BTreeMap<u32, String>,
+    pub(super) wants_connections: bool,
+    pub(super) followed: Followed,
 }
 
 impl State {
@@ -31,7 +34,12 @@ impl State {
         outbox.push(protocol::advertise_services(&self.service_texts()));
         outbox.tell_time(shared.graph.now_ns());
         let id = self.client_number();
-        let client = Client { outbox: outbox.clone(), subscriptions: BTreeMap::new() };
+        let client = Client {
+            outbox: outbox.clone(),
+            subscriptions: BTreeMap::new(),
+            wants_connections: false,
+            followed: Followed::default(),
+        };
         self.clients.insert(id, client);
         Some(id)
     }
@@ -42,6 +50,8 @@ impl State {
         for (subscription_id, topic) in &client.subscriptions {
             self.stop(id, *subscription_id, topic);
         }
+        self.forget_events();
+        self.hear_far(shared);
         self.listen(&shared.graph);
     }
 
@@ -76,6 +86,8 @@ impl State {
                 }
             }
         }
+        self.pair(client);
+        self.hear_far(shared);
         self.listen(&shared.graph);
         refused
     }
@@ -88,6 +100,8 @@ impl State {
             known.outbox.shut(*id);
             self.stop(client, *id, &topic);
         }
+        self.pair(client);
+        self.hear_far(shared);
         self.listen(&shared.graph);
     }
 
@@ -96,6 +110,17 @@ impl State {
             if of == topic {
                 way.remove(client, subscription_id);
             }
+        }
+    }
+
+    /// Who hears a map and its updates gets the map once, and then what is new in it.
+    fn pair(&self, client: u64) {
+        let Some(client) = self.clients.get(&client) else { return };
+        for (id, topic) in &client.subscriptions {
+            let updates = self.updates_of(topic);
+            let mut others = client.subscriptions.iter();
+            let other = updates.and_then(|updates| others.find(|(_, other)| **other == updates));
+            client.outbox.pair(*id, other.map(|(id, _)| *id));
         }
     }
 

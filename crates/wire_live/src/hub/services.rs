@@ -13,30 +13,41 @@ pub(super) struct Offered {
     id: u32,
     type_name: String,
     type_hash: Option<String>,
+    /// Whether it is answered beyond the graph.
+    is_far: bool,
     /// Made with the first call.
     client: Option<Arc<RawClient>>,
+}
+
+/// What there is under a name.
+struct Found {
+    type_name: String,
+    type_hash: Option<String>,
+    is_far: bool,
 }
 
 impl State {
     /// All services, as they are announced.
     pub(super) fn service_texts(&self) -> Vec<ServiceText<'_>> {
-        self.services
-            .iter()
+        let services = self.services.iter();
+        services
             .map(|(name, one)| ServiceText { id: one.id, name, type_name: &one.type_name })
             .collect()
     }
 
-    /// Services as the graph has them.
+    /// Names of all services of a type.
+    pub(super) fn services_of(&self, type_name: &str) -> Vec<String> {
+        let services = self.services.iter().filter(|(_, one)| one.type_name == type_name);
+        services.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// Services as the graph has them, and as others have them.
     pub(super) fn look_at_services(&mut self, shared: &Shared) {
-        let served = shared.graph.services();
-        let served: BTreeMap<String, (String, Option<String>)> = served
-            .into_iter()
-            .filter(|service| service.server.is_some())
-            .map(|service| (service.name, (service.type_name, service.type_hash)))
-            .collect();
+        let served = self.found_services(shared);
         let mut gone = Vec::new();
         self.services.retain(|name, one| {
-            let stays = served.get(name).is_some_and(|(type_name, _)| *type_name == one.type_name);
+            let found = served.get(name);
+            let stays = found.is_some_and(|found| found.type_name == one.type_name);
             if !stays {
                 gone.push(one.id);
             }
@@ -46,31 +57,57 @@ impl State {
             self.tell_all(&protocol::unadvertise_services(&gone));
         }
         let mut new = Vec::new();
-        for (name, (type_name, type_hash)) in served {
-            if !self.services.contains_key(&name) {
-                let id = self.number();
-                new.push(name.clone());
-                self.services.insert(name, Offered { id, type_name, type_hash, client: None });
+        for (name, Found { type_name, type_hash, is_far }) in served {
+            if let Some(known) = self.services.get_mut(&name) {
+                known.is_far = is_far;
+                continue;
             }
+            let id = self.number();
+            new.push(id);
+            self.services.insert(name, Offered { id, type_name, type_hash, is_far, client: None });
         }
         if !new.is_empty() {
-            let texts: Vec<ServiceText<'_>> = self
-                .service_texts()
-                .into_iter()
-                .filter(|one| new.iter().any(|n| n == one.name))
-                .collect();
-            self.tell_all(&protocol::advertise_services(&texts));
+            let mut texts = self.service_texts();
+            texts.retain(|one| new.contains(&one.id));
+            let frame = protocol::advertise_services(&texts);
+            self.tell_all(&frame);
         }
     }
 
+    fn found_services(&self, shared: &Shared) -> BTreeMap<String, Found> {
+        let far = self.far.services.iter().map(|one| {
+            let type_name = one.type_name.clone();
+            (one.name.clone(), Found { type_name, type_hash: None, is_far: true })
+        });
+        let mut found: BTreeMap<String, Found> = far.collect();
+        for one in shared.graph.services() {
+            let Some(server) = one.server else { continue };
+            // What a wire answers for others is theirs.
+            let is_far = server.starts_with("/_wire") && found.contains_key(&one.name);
+            let own = Found { type_name: one.type_name, type_hash: one.type_hash, is_far };
+            found.insert(one.name, own);
+        }
+        found
+    }
+
+    /// Whether a service is answered beyond the graph.
+    pub(super) fn is_far(&self, name: &str) -> bool {
+        self.services.get(name).is_some_and(|one| one.is_far)
+    }
+
+    /// The name of a service.
+    pub(crate) fn service(&self, id: u32) -> Option<String> {
+        self.services.iter().find(|(_, one)| one.id == id).map(|(name, _)| name.clone())
+    }
+
     /// What calls a service.
-    ///
-    /// # Errors
-    /// Why nobody can.
-    pub(crate) fn caller(&mut self, shared: &Shared, id: u32) -> Result<Arc<RawClient>, String> {
-        let mut services = self.services.iter_mut();
-        let Some((name, one)) = services.find(|(_, one)| one.id == id) else {
-            return Err(format!("there is no service {id}"));
+    pub(super) fn client_of(
+        &mut self,
+        shared: &Shared,
+        name: &str,
+    ) -> Result<Arc<RawClient>, String> {
+        let Some(one) = self.services.get_mut(name) else {
+            return Err(format!("nobody answers the service `{name}`"));
         };
         if let Some(client) = &one.client {
             return Ok(client.clone());

@@ -3,13 +3,18 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use periplus_graph::{EndpointId, Graph};
+use periplus_graph::{EndpointId, Graph, Mailbox, RawMailbox};
+use periplus_msgs::rcl_interfaces::ParameterEvent;
 use periplus_wire::Taps;
 
 use super::Shared;
+use super::calls::Waiting;
 use super::channels::Channel;
 use super::clients::Client;
+use super::connections::Connections;
+use super::parameters::Jobs;
 use super::services::Offered;
+use crate::far::Far;
 use crate::frame::Frame;
 use crate::outgoing::Outgoing;
 
@@ -28,6 +33,18 @@ pub(crate) struct State {
     /// By name.
     pub(super) services: BTreeMap<String, Offered>,
     pub(super) clients: BTreeMap<u64, Client>,
+    /// Calls that wait for who answers them.
+    pub(super) waiting: Vec<Waiting>,
+    /// What who wants to know was told last.
+    pub(super) connections: Connections,
+    /// Wishes about parameters.
+    pub(super) jobs: Jobs,
+    /// Changes of parameters, while somebody wants to hear of them.
+    pub(super) events: Option<Mailbox<ParameterEvent>>,
+    /// What others have on a network.
+    pub(super) far: Far,
+    /// Topics of others that somebody hears: what makes the network bring them.
+    pub(super) heard: BTreeMap<String, RawMailbox>,
 }
 
 impl State {
@@ -50,6 +67,24 @@ impl State {
         }
         self.look_at_topics(shared);
         self.look_at_services(shared);
+        self.look_at_connections(shared);
+    }
+
+    /// What others have is other than it was.
+    pub(super) fn set_far(&mut self, shared: &Shared, far: Far) {
+        if self.far != far {
+            self.far = far;
+            self.generation = None;
+            self.look(shared);
+        }
+    }
+
+    /// Goes on with what clients asked for.
+    pub(super) fn go_on(&mut self, shared: &Shared) {
+        self.go_on_calling();
+        self.go_on_with_parameters(shared);
+        // Nobody reads them here: the tap has what they bring.
+        self.heard.values().for_each(|mailbox| drop(mailbox.drain()));
     }
 
     pub(super) fn tell_all(&self, frame: &Frame) {
@@ -82,5 +117,8 @@ impl State {
         self.ways.clear();
         self.listen(graph);
         self.services.clear();
+        self.heard.clear();
+        self.waiting.clear();
+        self.events = None;
     }
 }

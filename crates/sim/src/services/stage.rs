@@ -1,0 +1,111 @@
+//! The world for who draws it: what is in it, where everything is, what could be put into it.
+//!
+//! | name | type | what |
+//! |---|---|---|
+//! | `/world/<world>/scene` | `visualization_msgs/MarkerArray`, latched | every visual, after a marker that deletes all |
+//! | `/world/<world>/poses` | `tf2_msgs/TFMessage` | models and links in the frame `world`, 30 times a second |
+//! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
+//! | `/world/<world>/library` | `std_srvs/Trigger` | models that could be put into it, as JSON |
+//!
+//! They are there when somebody asks for them ([`super::Services::show`]): a bag of everything is not
+//! to hold what nobody asked for.
+
+mod library;
+mod markers;
+mod save;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_host::Stopwatch;
+use periplus_msgs::geometry_msgs::{Transform, TransformStamped};
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::MarkerArray;
+
+use super::convert::{pose_message, vector_message};
+use super::harmonic::name_of;
+use super::offer::Offer;
+use crate::Simulation;
+
+/// Wall time between two messages about where things are: what an eye takes for motion.
+const PERIOD: Duration = Duration::from_millis(33);
+
+/// The frame that is the world itself.
+const WORLD: &str = "world";
+
+/// The world for who draws it.
+pub(super) struct Stage {
+    scene: Publisher<MarkerArray>,
+    poses: Publisher<TFMessage>,
+    save: Offer<Trigger>,
+    library: Offer<Trigger>,
+    /// Where models are looked for that could be put into it.
+    folders: Vec<PathBuf>,
+    /// Which state of the world was told.
+    told: Option<u64>,
+    since: Option<Stopwatch>,
+}
+
+impl Stage {
+    pub(super) fn new(node: &Node, world: &str, folders: Vec<PathBuf>) -> Result<Self, GraphError> {
+        let name = |what| name_of(world, what);
+        Ok(Self {
+            scene: node.publisher(&name("scene"), Qos::latched(1))?,
+            poses: node.publisher(&name("poses"), Qos::best_effort(1))?,
+            save: Offer::new(node, [name("save").as_str()])?,
+            library: Offer::new(node, [name("library").as_str()])?,
+            folders,
+            told: None,
+            since: None,
+        })
+    }
+
+    /// Answers, and publishes what is due.
+    pub(super) fn serve(&mut self, simulation: &Simulation) {
+        self.save.answer(|_| match save::text(simulation) {
+            Ok(message) => TriggerResponse { success: true, message },
+            Err(message) => TriggerResponse { success: false, message },
+        });
+        self.library.answer(|_| {
+            let message = library::models(&self.folders);
+            TriggerResponse { success: true, message }
+        });
+        let changes = simulation.changes();
+        if self.told.replace(changes) != Some(changes) {
+            self.scene.publish(markers::of(simulation));
+        }
+        let is_due = self.since.as_ref().is_none_or(|since| since.elapsed() >= PERIOD);
+        if is_due && self.poses.is_heard() {
+            self.since = Some(Stopwatch::start());
+            self.poses.publish(poses(simulation));
+        }
+    }
+}
+
+/// Where all models and links are.
+fn poses(simulation: &Simulation) -> TFMessage {
+    let header = Header::at(simulation.time_ns(), WORLD);
+    let mut transforms = Vec::new();
+    let mut put = |child_frame_id: String, pose: periplus_base::Pose| {
+        let translation = vector_message(pose.translation);
+        let rotation = pose_message(pose).orientation;
+        let transform = Transform { translation, rotation };
+        transforms.push(TransformStamped { header: header.clone(), child_frame_id, transform });
+    };
+    let motion = &simulation.motion;
+    for running in &simulation.running {
+        let name = &running.member.name;
+        if let Some(pose) = motion.model_pose(running.model) {
+            put(name.clone(), pose);
+        }
+        for link in motion.links(running.model) {
+            if let (Some(own), Some(state)) = (motion.link_name(link), motion.link_state(link)) {
+                put(format!("{name}/{own}"), state.world_from_link);
+            }
+        }
+    }
+    TFMessage { transforms }
+}

@@ -1,0 +1,153 @@
+//! Who publishes, subscribes and serves what, for clients that want to know.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Shared, State};
+use crate::frame::Frame;
+use crate::protocol;
+
+type Names = BTreeMap<String, BTreeSet<String>>;
+
+/// Who uses what, by node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Connections {
+    published: Names,
+    subscribed: Names,
+    served: Names,
+}
+
+impl Connections {
+    fn of(shared: &Shared, state: &State) -> Self {
+        let mut all = Self::default();
+        for topic in shared.graph.topics() {
+            let name = &topic.name;
+            for end in topic.publishers {
+                all.published.entry(name.clone()).or_default().insert(end.node);
+            }
+            for end in topic.subscriptions {
+                all.subscribed.entry(name.clone()).or_default().insert(end.node);
+            }
+        }
+        for service in shared.graph.services() {
+            if let Some(server) = service.server {
+                all.served.entry(service.name).or_default().insert(server);
+            }
+        }
+        for topic in &state.far.topics {
+            let (publishers, subscriptions) = (&topic.publishers, &topic.subscriptions);
+            if !publishers.is_empty() {
+                all.published.entry(topic.name.clone()).or_default().extend(publishers.clone());
+            }
+            if !subscriptions.is_empty() {
+                all.subscribed.entry(topic.name.clone()).or_default().extend(subscriptions.clone());
+            }
+        }
+        for service in &state.far.services {
+            all.served.entry(service.name.clone()).or_default().extend(service.servers.clone());
+        }
+        for names in [&mut all.published, &mut all.subscribed, &mut all.served] {
+            // What stands in the graph for others is not one of them.
+            names.values_mut().for_each(|nodes| nodes.retain(|node| !node.starts_with("/_wire")));
+            names.retain(|_, nodes| !nodes.is_empty());
+        }
+        all
+    }
+
+    /// What is new or other since then, and what is gone.
+    fn since(&self, before: &Self) -> Frame {
+        let changed = |now: &Names, before: &Names| -> Names {
+            let changed = now.iter().filter(|(name, nodes)| before.get(*name) != Some(nodes));
+            changed.map(|(name, nodes)| (name.clone(), nodes.clone())).collect()
+        };
+        let mut published = changed(&self.published, &before.published);
+        let mut subscribed = changed(&self.subscribed, &before.subscribed);
+        let mut gone_topics = Vec::new();
+        for name in before.published.keys().chain(before.subscribed.keys()) {
+            let is_published = self.published.contains_key(name);
+            let is_subscribed = self.subscribed.contains_key(name);
+            if !is_published && !is_subscribed {
+                if !gone_topics.contains(name) {
+                    gone_topics.push(name.clone());
+                }
+            } else if !is_published && before.published.contains_key(name) {
+                published.insert(name.clone(), BTreeSet::new());
+            } else if !is_subscribed && before.subscribed.contains_key(name) {
+                subscribed.insert(name.clone(), BTreeSet::new());
+            }
+        }
+        let gone = before.served.keys().filter(|name| !self.served.contains_key(*name));
+        let gone_services: Vec<String> = gone.cloned().collect();
+        let served = changed(&self.served, &before.served);
+        protocol::connection_graph(&published, &subscribed, &served, &gone_topics, &gone_services)
+    }
+}
+
+impl State {
+    /// A client wants to know, or no longer does.
+    pub(crate) fn want_connections(&mut self, shared: &Shared, client: u64, wants: bool) {
+        self.look_at_connections(shared);
+        let is_first = !self.clients.values().any(|one| one.wants_connections);
+        if wants && is_first {
+            self.connections = Connections::of(shared, self);
+        }
+        let Some(client) = self.clients.get_mut(&client) else { return };
+        if wants && !client.wants_connections {
+            client.outbox.push(self.connections.since(&Connections::default()));
+        }
+        client.wants_connections = wants;
+    }
+
+    /// Tells what has changed to who wants to know.
+    pub(super) fn look_at_connections(&mut self, shared: &Shared) {
+        if !self.clients.values().any(|client| client.wants_connections) {
+            return;
+        }
+        let now = Connections::of(shared, self);
+        if now == self.connections {
+            return;
+        }
+        let frame = now.since(&self.connections);
+        self.connections = now;
+        for client in self.clients.values().filter(|client| client.wants_connections) {
+            client.outbox.push(frame.clone());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(topic: &str, node: &str) -> Names {
+        BTreeMap::from([(topic.to_owned(), BTreeSet::from([node.to_owned()]))])
+    }
+
+    #[test]
+    fn only_what_changed_is_told() {
+        let before = Connections {
+            published: one("/a", "/n"),
+            subscribed: one("/a", "/m"),
+            served: one("/s", "/n"),
+        };
+        let now = Connections {
+            published: one("/a", "/n"),
+            served: one("/t", "/n"),
+            ..Connections::default()
+        };
+        let frame = now.since(&before);
+        let said: serde_json::Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
+        assert_eq!(said["publishedTopics"], serde_json::json!([]));
+        assert_eq!(
+            said["subscribedTopics"],
+            serde_json::json!([{"name": "/a", "subscriberIds": []}])
+        );
+        assert_eq!(
+            said["advertisedServices"],
+            serde_json::json!([{"name": "/t", "providerIds": ["/n"]}])
+        );
+        assert_eq!(said["removedServices"], serde_json::json!(["/s"]));
+        let none = Connections::default().since(&before);
+        let said: serde_json::Value = serde_json::from_slice(none.parts()[0]).expect("JSON");
+        assert_eq!(said["removedTopics"], serde_json::json!(["/a"]));
+    }
+}

@@ -1,0 +1,415 @@
+//! Clients of a hub, without sockets.
+
+use std::time::Duration;
+
+use periplus_graph::{Graph, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::Message;
+use periplus_msgs::geometry_msgs::Twist;
+use periplus_msgs::map_msgs::OccupancyGridUpdate;
+use periplus_msgs::nav_msgs::OccupancyGrid;
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::std_msgs;
+use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
+use periplus_wire_live::{Frame, Hub, Kind, Limits, Session, Settings, Taken};
+use serde_json::{Value, json};
+
+/// Long enough for anything that comes, and not waited for where all goes well.
+const SOON: Duration = Duration::from_secs(10);
+
+/// What comes at once or not at all.
+const NOW: Duration = Duration::ZERO;
+
+fn open(graph: &Graph) -> Hub {
+    Hub::open(graph, Settings { name: "test".into(), ..Settings::default() }).expect("a name")
+}
+
+fn node(graph: &Graph, name: &str) -> Node {
+    graph.node(NodeSettings::new(name)).expect("a name")
+}
+
+/// A client that reads what it gets.
+struct Client(Session);
+
+impl Client {
+    fn join(hub: &Hub) -> Self {
+        Self(hub.join().expect("room"))
+    }
+
+    fn say(&mut self, text: &Value) {
+        self.0.text(&text.to_string());
+    }
+
+    fn next(&self, patience: Duration) -> Option<Frame> {
+        match self.0.outbox().take(patience) {
+            Taken::Frame(frame) => Some(frame),
+            Taken::Nothing | Taken::End(_) => None,
+        }
+    }
+
+    /// The next message in JSON of a kind, whatever comes before it.
+    #[track_caller]
+    fn hears(&self, op: &str) -> Value {
+        loop {
+            let frame = self.next(SOON).unwrap_or_else(|| panic!("no `{op}` came"));
+            if frame.kind() == Kind::Text {
+                let said: Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
+                if said["op"] == op {
+                    return said;
+                }
+            }
+        }
+    }
+
+    /// The next message in bytes that begins so.
+    #[track_caller]
+    fn gets(&self, op: u8) -> Vec<u8> {
+        loop {
+            let frame = self.next(SOON).expect("bytes");
+            let bytes = frame.parts().concat();
+            if frame.kind() == Kind::Binary && bytes[0] == op {
+                return bytes;
+            }
+        }
+    }
+
+    /// The next message of a subscription.
+    #[track_caller]
+    fn message<T: Message>(&self) -> (u32, T) {
+        let bytes = self.gets(1);
+        let id = u32::from_le_bytes([bytes[1], bytes[2], bytes[3], bytes[4]]);
+        (id, T::decode_cdr(&bytes[13..]).expect("a message"))
+    }
+
+    /// Everything that is there by now.
+    fn drain(&self) -> Vec<Frame> {
+        std::iter::from_fn(|| self.next(NOW)).collect()
+    }
+
+    /// Subscribes to a topic as soon as it is announced.
+    #[track_caller]
+    fn subscribe(&mut self, id: u32, announced: &Value, topic: &str) {
+        let channels = announced["channels"].as_array().expect("channels");
+        let channel = channels.iter().find(|channel| channel["topic"] == topic).expect("the topic");
+        let one = json!({"id": id, "channelId": channel["id"]});
+        self.say(&json!({"op": "subscribe", "subscriptions": [one]}));
+    }
+}
+
+fn scan(number: f32) -> LaserScan {
+    LaserScan { range_max: number, ..LaserScan::default() }
+}
+
+#[test]
+fn who_comes_is_told_who_is_here_and_what_there_is() {
+    let graph = Graph::new();
+    let _scans: Publisher<LaserScan> =
+        node(&graph, "lidar").publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let hub = open(&graph);
+    let client = Client::join(&hub);
+    let info = client.hears("serverInfo");
+    assert_eq!((&info["name"], &info["supportedEncodings"]), (&json!("test"), &json!(["cdr"])));
+    let told = client.hears("advertise");
+    let channels = told["channels"].as_array().expect("channels");
+    let scan = channels.iter().find(|channel| channel["topic"] == "/scan").expect("the scan");
+    assert_eq!(scan["schemaName"], "sensor_msgs/msg/LaserScan");
+    assert_eq!((&scan["encoding"], &scan["schemaEncoding"]), (&json!("cdr"), &json!("ros2msg")));
+    assert!(scan["schema"].as_str().expect("a text").contains("MSG: std_msgs/Header"));
+}
+
+#[test]
+fn nobody_is_heard_before_a_client_subscribes_nor_after() {
+    let graph = Graph::new();
+    let scans: Publisher<LaserScan> =
+        node(&graph, "lidar").publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let told = client.hears("advertise");
+    assert!(!scans.is_heard());
+    client.subscribe(7, &told, "/scan");
+    assert!(scans.is_heard());
+    scans.publish(scan(1.0));
+    let (id, heard) = client.message::<LaserScan>();
+    assert_eq!((id, heard), (7, scan(1.0)));
+    client.say(&json!({"op": "unsubscribe", "subscriptionIds": [7]}));
+    assert!(!scans.is_heard());
+    client.subscribe(8, &told, "/scan");
+    assert!(scans.is_heard());
+    drop(client);
+    assert!(!scans.is_heard());
+}
+
+#[test]
+fn the_newest_scan_waits_and_every_map() {
+    let graph = Graph::new();
+    let lidar = node(&graph, "lidar");
+    let scans = lidar.publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let words = lidar.publisher("/words", Qos::latched(2)).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let told = client.hears("advertise");
+    client.subscribe(1, &told, "/scan");
+    client.subscribe(2, &told, "/words");
+    for number in 1..=5_u8 {
+        scans.publish(scan(f32::from(number)));
+        words.publish(std_msgs::String { data: number.to_string() });
+    }
+    let (_, heard) = client.message::<LaserScan>();
+    assert_eq!(heard.range_max, 5.0);
+    let both = [0; 2].map(|_| client.message::<std_msgs::String>().1.data);
+    assert_eq!(both, ["4", "5"]);
+}
+
+#[test]
+fn what_is_latched_comes_to_who_is_late_and_once() {
+    let graph = Graph::new();
+    let words = node(&graph, "talker").publisher("/words", Qos::latched(1)).expect("a topic");
+    words.publish(std_msgs::String { data: "one".into() });
+    let hub = open(&graph);
+    let mut clients: Vec<Client> = (0..3).map(|_| Client::join(&hub)).collect();
+    for client in &mut clients {
+        let told = client.hears("advertise");
+        client.subscribe(1, &told, "/words");
+        assert_eq!(client.message::<std_msgs::String>().1.data, "one");
+        let more = client.drain();
+        assert!(more.iter().all(|frame| frame.parts()[0].first() != Some(&1)), "{more:?}");
+    }
+}
+
+#[test]
+fn topics_that_come_and_go_are_told() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    let client = Client::join(&hub);
+    client.hears("advertise");
+    let talker = node(&graph, "talker");
+    let words: Publisher<std_msgs::String> =
+        talker.publisher("/words", Qos::reliable(1)).expect("a topic");
+    // The node itself has topics too, and which come together is a matter of time.
+    let id = loop {
+        let told = client.hears("advertise");
+        let channels = told["channels"].as_array().expect("channels");
+        if let Some(words) = channels.iter().find(|channel| channel["topic"] == "/words") {
+            break words["id"].clone();
+        }
+    };
+    drop(words);
+    let gone = client.hears("unadvertise");
+    assert_eq!(gone["channelIds"], json!([id]));
+}
+
+#[test]
+fn clients_publish_and_are_told_what_they_may_not() {
+    let graph = Graph::new();
+    let wheels = node(&graph, "wheels").mailbox::<Twist>("/cmd_vel", Qos::reliable(1));
+    let wheels = wheels.expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let channel = |id: u32, encoding: &str, schema: &str| {
+        let one =
+            json!({"id": id, "topic": "/cmd_vel", "encoding": encoding, "schemaName": schema});
+        json!({"op": "advertise", "channels": [one]})
+    };
+    client.say(&channel(3, "cdr", "geometry_msgs/Twist"));
+    let mut twist = Twist::default();
+    twist.linear.x = 0.5;
+    let mut bytes = vec![1, 3, 0, 0, 0];
+    bytes.extend(twist.to_cdr().expect("bytes"));
+    client.0.binary(&bytes);
+    assert_eq!(wheels.latest().as_deref(), Some(&twist));
+
+    client.say(&channel(4, "json", "geometry_msgs/Twist"));
+    assert!(client.hears("status")["message"].as_str().expect("words").contains("only cdr"));
+    client.say(&channel(3, "cdr", "geometry_msgs/Twist"));
+    assert!(client.hears("status")["message"].as_str().expect("words").contains("in use"));
+    client.say(&channel(5, "cdr", "std_msgs/String"));
+    assert!(client.hears("status")["message"].as_str().expect("words").contains("std_msgs"));
+    client.0.binary(&[1, 9, 0, 0, 0]);
+    assert!(client.hears("status")["message"].as_str().expect("words").contains("channel 9"));
+    client.0.binary(&[77]);
+    client.hears("status");
+    client.0.text("{");
+    client.hears("status");
+}
+
+#[test]
+fn services_are_called() {
+    let graph = Graph::new();
+    let calls = node(&graph, "lamp").server::<SetBool>("/lamp").expect("a service");
+    let hub = open(&graph);
+    let client = Client::join(&hub);
+    let told = client.hears("advertiseServices");
+    let services = told["services"].as_array().expect("services");
+    let lamp = services.iter().find(|service| service["name"] == "/lamp").expect("the lamp");
+    assert_eq!(lamp["type"], "std_srvs/srv/SetBool");
+    assert_eq!(lamp["request"]["schemaName"], "std_srvs/srv/SetBool_Request");
+    assert!(lamp["request"]["schema"].as_str().expect("a text").contains("bool data"));
+    let id = u32::try_from(lamp["id"].as_u64().expect("a number")).expect("a small one");
+    let ask = |client: &mut Client, service: u32| {
+        let mut bytes = vec![2];
+        bytes.extend(service.to_le_bytes());
+        bytes.extend(5_u32.to_le_bytes());
+        bytes.extend(3_u32.to_le_bytes());
+        bytes.extend(b"cdr");
+        bytes.extend(SetBoolRequest { data: true }.to_cdr().expect("bytes"));
+        client.0.binary(&bytes);
+    };
+    let mut client = client;
+    ask(&mut client, id);
+    let call = calls.take().expect("a call");
+    assert!(call.request.data);
+    let response = SetBoolResponse { success: true, message: "on".into() };
+    call.answer(response.clone());
+    let bytes = client.gets(3);
+    assert_eq!(bytes[1..5], id.to_le_bytes());
+    assert_eq!(bytes[5..9], 5_u32.to_le_bytes());
+    assert_eq!(&bytes[9..16], b"\x03\0\0\0cdr");
+    assert_eq!(SetBoolResponse::decode_cdr(&bytes[16..]), Ok(response));
+    ask(&mut client, 999);
+    assert_eq!(client.hears("serviceCallFailure")["callId"], 5);
+}
+
+#[test]
+fn of_a_map_only_what_is_new_comes_to_who_hears_its_updates() {
+    let graph = Graph::new();
+    let maps = node(&graph, "mapper").publisher("/map", Qos::latched(1)).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let told = client.hears("advertise");
+    let mut map = OccupancyGrid { data: vec![-1; 12], ..OccupancyGrid::default() };
+    (map.info.width, map.info.height) = (4, 3);
+    maps.publish(map.clone());
+    client.subscribe(1, &told, "/map");
+    client.subscribe(2, &told, "/map_updates");
+    assert_eq!(client.message::<OccupancyGrid>(), (1, map.clone()));
+    map.data[5] = 100;
+    maps.publish(map.clone());
+    let (id, part) = client.message::<OccupancyGridUpdate>();
+    assert_eq!((id, part.x, part.y, part.width, part.height), (2, 1, 1, 1, 1));
+    assert_eq!(part.data, [100]);
+    // What was let fall on the way is in the next update all the same.
+    map.data[0] = 0;
+    maps.publish(map.clone());
+    map.data[4] = 0;
+    maps.publish(map.clone());
+    let (_, part) = client.message::<OccupancyGridUpdate>();
+    assert_eq!((part.x, part.y, part.width, part.height), (0, 0, 1, 2));
+    map.info.origin.position.x = 1.0;
+    maps.publish(map.clone());
+    assert_eq!(client.message::<OccupancyGrid>(), (1, map));
+}
+
+#[test]
+fn parameters_are_told_set_and_followed() {
+    let graph = Graph::new();
+    let _camera = node(&graph, "camera");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    client.hears("advertiseServices");
+    let name = "/camera.use_sim_time";
+    client.say(&json!({"op": "getParameters", "parameterNames": [], "id": "all"}));
+    let settle = |client: &Client, op: &str| -> Value {
+        for _ in 0..500 {
+            graph.settle();
+            for frame in client.drain() {
+                if frame.kind() == Kind::Text {
+                    let said: Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
+                    if said["op"] == op {
+                        return said;
+                    }
+                }
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("no `{op}` came");
+    };
+    let told = settle(&client, "parameterValues");
+    assert_eq!(told["id"], "all");
+    let parameters = told["parameters"].as_array().expect("parameters");
+    assert!(parameters.contains(&json!({"name": name, "value": true})), "{parameters:?}");
+
+    let one = json!({"name": name, "value": 3});
+    client.say(&json!({"op": "setParameters", "parameters": [one], "id": "wrong"}));
+    let words = settle(&client, "status")["message"].as_str().expect("words").to_owned();
+    assert!(words.contains("another type"), "{words}");
+    client.say(&json!({"op": "getParameters", "parameterNames": ["/nobody.x", "y"], "id": "none"}));
+    let told = loop {
+        let told = settle(&client, "parameterValues");
+        if told["id"] == "none" {
+            break told;
+        }
+    };
+    assert_eq!(told["parameters"], json!([]));
+}
+
+#[test]
+fn who_wants_to_know_is_told_who_uses_what() {
+    let graph = Graph::new();
+    let lidar = node(&graph, "lidar");
+    let _scans: Publisher<LaserScan> =
+        lidar.publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    client.say(&json!({"op": "subscribeConnectionGraph"}));
+    let told = client.hears("connectionGraphUpdate");
+    let published = told["publishedTopics"].as_array().expect("topics");
+    assert!(published.contains(&json!({"name": "/scan", "publisherIds": ["/lidar"]})));
+    let _heard = node(&graph, "mapper").mailbox::<LaserScan>("/scan", Qos::sensor_data());
+    let told = loop {
+        let told = client.hears("connectionGraphUpdate");
+        if told["subscribedTopics"].to_string().contains("/scan") {
+            break told;
+        }
+    };
+    assert!(told["subscribedTopics"].to_string().contains("/mapper"), "{told}");
+}
+
+#[test]
+fn too_many_clients_and_too_much_that_waits_are_refused() {
+    let graph = Graph::new();
+    let limits = Limits { clients: 1, entries: 2, waiting: 60_000, ..Limits::default() };
+    let hub = Hub::open(&graph, Settings { limits, ..Settings::default() }).expect("a name");
+    let mut client = Client::join(&hub);
+    assert!(hub.join().is_none());
+    client.drain();
+    let channels: Vec<Value> = (0..3)
+        .map(|id| json!({"id": id, "topic": format!("/t{id}"), "encoding": "cdr", "schemaName": "std_msgs/String"}))
+        .collect();
+    client.say(&json!({"op": "advertise", "channels": channels}));
+    assert!(client.hears("status")["message"].as_str().expect("words").contains("too many"));
+    // Somebody who asks and never reads.
+    for _ in 0..10_000 {
+        client.0.text("{");
+    }
+    assert!(matches!(client.0.outbox().take(NOW), Taken::End(why) if why.contains("too much")));
+    drop(client);
+    assert!(hub.join().is_some());
+}
+
+#[test]
+fn files_come_from_whoever_gives_them() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let ask = json!({"op": "fetchAsset", "uri": "package://a/b.stl", "requestId": 9});
+    client.say(&ask);
+    let bytes = client.gets(4);
+    assert_eq!((&bytes[1..5], bytes[5]), (&9_u32.to_le_bytes()[..], 1));
+    hub.serve_assets(|uri| {
+        if uri == "package://a/b.stl" { Ok(b"solid".to_vec()) } else { Err("no".into()) }
+    });
+    client.say(&ask);
+    let bytes = client.gets(4);
+    assert_eq!((bytes[5], &bytes[6..10], &bytes[10..]), (0, &[0; 4][..], &b"solid"[..]));
+}
+
+#[test]
+fn a_hub_that_goes_sends_its_clients_away() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    let client = Client::join(&hub);
+    client.drain();
+    drop(hub);
+    assert!(matches!(client.0.outbox().take(SOON), Taken::End(why) if why.contains("over")));
+    drop(client);
+    assert!(graph.node(NodeSettings::new("viewers")).is_ok(), "its node went too");
+}
