@@ -6,6 +6,7 @@ mod check;
 mod conformance;
 mod convert;
 mod costmap;
+mod launch;
 mod live;
 mod localize;
 mod log;
@@ -76,6 +77,7 @@ fn main() -> ExitCode {
         }
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
+        Command::Launch(options) => launch::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor::run(&options),

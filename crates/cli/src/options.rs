@@ -9,6 +9,7 @@ use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::doctor::DoctorCostmapOptions;
 use crate::costmap::serve::CostmapServeOptions;
+use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
 use crate::sim::SimOptions;
@@ -37,6 +38,7 @@ pub(crate) enum Command {
     Bag(BagCommand),
     Check(CheckOptions),
     Convert(ConvertOptions),
+    Launch(LaunchOptions),
     Sim(Box<SimOptions>),
     Slam(SlamOptions),
     Localize(LocalizeOptions),

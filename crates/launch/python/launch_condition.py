@@ -1,0 +1,25 @@
+"""The base of conditions."""
+from periplus_launch import conversation, objects
+
+
+class Condition:
+    """Whether something is done: a function of the context."""
+
+    def __init__(self, *, predicate=None):
+        self._predicate = predicate
+
+    def evaluate(self, context):
+        if self._predicate is not None:
+            return bool(self._predicate(context))
+        return conversation.ask(
+            "holds", condition=described(self), context=context._snapshot()
+        )
+
+    def _described(self):
+        return {"condition": "python", "id": objects.keep(self)}
+
+
+def described(condition):
+    if not isinstance(condition, Condition):
+        raise TypeError(f"{condition!r} is no condition")
+    return condition._described()

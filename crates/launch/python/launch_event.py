@@ -1,0 +1,5 @@
+"""The base of events."""
+
+
+class Event:
+    name = "event"

@@ -1,0 +1,2 @@
+"""One handler, by the name of its module."""
+from launch.event_handlers import OnProcessStart  # noqa: F401

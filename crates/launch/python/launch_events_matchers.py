@@ -1,0 +1,2 @@
+"""Conditions on actions."""
+from launch.events import matches_action  # noqa: F401

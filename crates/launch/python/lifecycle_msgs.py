@@ -1,0 +1,2 @@
+"""Stands in for `lifecycle_msgs`."""
+from . import msg  # noqa: F401

@@ -1,0 +1,2 @@
+"""One substitution, by the name of its module."""
+from nav2_common.launch import ParseMultiRobotPose  # noqa: F401

@@ -1,0 +1,79 @@
+"""Objects of launch files as JSON, and those that only Python can evaluate by number."""
+import itertools
+import sys
+
+_numbers = itertools.count(1)
+_kept = {}
+
+
+def keep(subject):
+    """A number by which the subject can be asked for later."""
+    number = getattr(subject, "_number", None)
+    if number is None:
+        number = next(_numbers)
+        try:
+            subject._number = number
+        except AttributeError:
+            pass  # a function of C; it gets a number each time
+    _kept[number] = subject
+    return number
+
+
+def get(number):
+    return _kept[number]
+
+
+def written():
+    """`file:line` of the launch file's line that is being evaluated."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if not frame.f_code.co_filename.startswith("<"):
+            return f"{frame.f_code.co_filename}:{frame.f_lineno}"
+        frame = frame.f_back
+    return None
+
+
+def flat(made):
+    """Actions, however they are put together."""
+    from launch import LaunchDescription
+
+    if made is None:
+        return
+    if isinstance(made, LaunchDescription):
+        yield from flat(made.entities)
+    elif isinstance(made, (list, tuple)) or (hasattr(made, "__iter__") and not isinstance(made, str)):
+        for each in made:
+            yield from flat(each)
+    else:
+        yield made
+
+
+def described(action):
+    from launch.action import Action
+
+    if not isinstance(action, Action):
+        raise TypeError(f"{action!r} is no action of a launch file")
+    return action._described()
+
+
+def text(value):
+    """What may stand where a text is wanted, as a list of parts."""
+    from launch.substitution import Substitution
+
+    if value is None:
+        return None
+    if isinstance(value, Substitution):
+        return [value._described()]
+    if isinstance(value, (list, tuple)):
+        return [part for each in value for part in text(each)]
+    if isinstance(value, (str, int, float)) or hasattr(value, "__fspath__"):
+        return [str(value)]
+    raise TypeError(f"{value!r} is neither a text nor a substitution")
+
+
+def pairs(value):
+    """A dict, or a list of pairs, of texts."""
+    if value is None:
+        return []
+    entries = value.items() if hasattr(value, "items") else value
+    return [[text(a), text(b)] for a, b in entries]

@@ -1,0 +1,539 @@
+//! From what a launch file says to what is to run: conditions are decided, texts resolved, files
+//! included, in the order in which they are written.
+
+mod node;
+mod parameters;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap};
+use periplus_resources::{Host, Resolver};
+use serde_json::{Value, json};
+
+use crate::context::{Context, within};
+use crate::front;
+use crate::guess::Guess as _;
+use crate::outside::{Interpreter, Outside};
+use crate::plan::{Argument, Parameters, Plan, Step, Trigger, What};
+use crate::python;
+use crate::tree::{Action, Condition, Deed, Event, Given, Place, Text};
+use crate::truth::value_of;
+
+/// How deep files may include each other.
+const DEEPEST: usize = 50;
+
+/// How many actions a launch may have: real ones have hundreds.
+const MOST_ACTIONS: usize = 100_000;
+
+pub(crate) type Outcome<T> = Result<T, Box<Diagnostic>>;
+
+/// The work on one launch.
+pub(crate) struct Evaluation<'a> {
+    pub(crate) host: &'a dyn Host,
+    pub(crate) resolver: &'a Resolver<'a>,
+    pub(crate) outside: &'a mut dyn Outside,
+    pub(crate) sources: &'a mut SourceMap,
+    pub(crate) found: Diagnostics,
+    pub(crate) plan: Plan,
+    pub(crate) context: Context,
+    pub(crate) missing_packages: BTreeSet<String>,
+    python: Option<Box<dyn Interpreter>>,
+    /// Where the action that is looked at is written.
+    place: Place,
+    /// What must have happened before what is looked at.
+    after: Vec<Trigger>,
+    /// The steps that actions have become or will become, by the actions' numbers.
+    steps: BTreeMap<u64, usize>,
+    next_step: usize,
+    next_name: usize,
+    depth: usize,
+    actions: usize,
+    is_over: bool,
+}
+
+impl<'a> Evaluation<'a> {
+    pub(crate) fn new(
+        host: &'a dyn Host,
+        resolver: &'a Resolver<'a>,
+        outside: &'a mut dyn Outside,
+        sources: &'a mut SourceMap,
+    ) -> Self {
+        Self {
+            host,
+            resolver,
+            outside,
+            sources,
+            found: Diagnostics::new(),
+            plan: Plan::default(),
+            context: Context::default(),
+            missing_packages: BTreeSet::new(),
+            python: None,
+            place: Place::default(),
+            after: Vec::new(),
+            steps: BTreeMap::new(),
+            next_step: 0,
+            next_name: 0,
+            depth: 0,
+            actions: 0,
+            is_over: false,
+        }
+    }
+
+    /// Reads a launch file of ROS 2 and does what it says.
+    pub(crate) fn launch(&mut self, file: &Path, given: &[(String, String)]) -> Outcome<()> {
+        if self.depth == DEEPEST {
+            return Err(self
+                .error(
+                    "launch-include",
+                    format!("launch files include each other more than {DEEPEST} deep"),
+                )
+                .help("a file that includes itself needs a condition that ends this")
+                .into());
+        }
+        let before = std::mem::replace(&mut self.context.file, file.to_path_buf());
+        self.depth += 1;
+        let outcome = self.actions_of(file).and_then(|actions| {
+            self.missing_arguments(&actions, file, given)?;
+            self.run_all(&actions)
+        });
+        self.depth -= 1;
+        self.context.file = before;
+        outcome
+    }
+
+    /// What a file says.
+    pub(crate) fn actions_of(&mut self, file: &Path) -> Outcome<Vec<Action>> {
+        if file.extension().is_some_and(|extension| extension == "py") {
+            let file = file.display().to_string();
+            let answer = self.ask_python(json!({"ask": "load", "file": file}))?;
+            return self.decode(answer);
+        }
+        let text = self.read(file)?;
+        front::read(file, &text, self.sources, &mut self.found)
+    }
+
+    /// Arguments without a default that were not given; said before anything runs.
+    fn missing_arguments(
+        &mut self,
+        actions: &[Action],
+        file: &Path,
+        given: &[(String, String)],
+    ) -> Outcome<()> {
+        for action in actions {
+            let Deed::Declare { name, default: None, description, .. } = &action.deed else {
+                continue;
+            };
+            if self.context.configurations.contains_key(name) || action.condition.is_some() {
+                continue;
+            }
+            self.place = action.place.clone();
+            let description = self.perform_some(description.as_ref())?;
+            let names: Vec<&str> = given.iter().map(|(name, _)| name.as_str()).collect();
+            let mut wrong = self.error(
+                "launch-argument",
+                format!("{} needs the argument `{name}`, and it was not given", file.display()),
+            );
+            if let Some(description) = description.filter(|text| !text.is_empty()) {
+                wrong = wrong.note(format!("what it is for: {description}"));
+            }
+            if !names.is_empty() {
+                wrong = wrong.note(format!("given are: {}", names.join(", ")));
+            }
+            return Err(wrong.help(format!("add `{name}:=VALUE`")).into());
+        }
+        Ok(())
+    }
+
+    pub(crate) fn run_all(&mut self, actions: &[Action]) -> Outcome<()> {
+        for action in actions {
+            if self.is_over {
+                break;
+            }
+            self.actions += 1;
+            if self.actions > MOST_ACTIONS {
+                return Err(self
+                    .error(
+                        "launch-size",
+                        format!("this launch has more than {MOST_ACTIONS} actions"),
+                    )
+                    .into());
+            }
+            self.place = action.place.clone();
+            let holds = match &action.condition {
+                Some(condition) => self.holds(condition)?,
+                None => true,
+            };
+            if holds {
+                self.run(action)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a condition holds.
+    pub(crate) fn holds(&mut self, condition: &Condition) -> Outcome<bool> {
+        match condition {
+            Condition::If { text } => self.truth_of(text),
+            Condition::Unless { text } => Ok(!self.truth_of(text)?),
+            Condition::Configuration { name, equals, is_negated } => {
+                let wanted = self.perform_some(equals.as_ref())?;
+                let value = self.context.configurations.get(name);
+                let holds = match wanted {
+                    Some(wanted) => value == Some(&wanted),
+                    None => value.is_some(),
+                };
+                Ok(holds != *is_negated)
+            }
+            Condition::Python { id } => {
+                let answer = self.ask_python(json!({"ask": "holds", "id": id}))?;
+                Ok(answer.as_bool().unwrap_or_default())
+            }
+        }
+    }
+
+    fn run(&mut self, action: &Action) -> Outcome<()> {
+        match &action.deed {
+            Deed::Declare { name, default, description, choices } => {
+                self.declare(name, default.as_ref(), description.as_ref(), choices)?;
+            }
+            Deed::Configure { name, value } => {
+                let (name, value) = (self.perform(name)?, self.perform(value)?);
+                self.context.configurations.insert(name, value);
+            }
+            Deed::Forget { name } => {
+                let name = self.perform(name)?;
+                self.context.configurations.remove(&name);
+            }
+            Deed::ForgetAll { keep } => {
+                let kept = self.perform_pairs(keep)?;
+                self.context.configurations = kept.into_iter().collect();
+            }
+            Deed::Environment { name, value } => {
+                let (name, value) = (self.perform(name)?, self.perform(value)?);
+                self.context.environment.insert(name, Some(value));
+            }
+            Deed::Append { name, value, separator, prepend } => {
+                let (name, value) = (self.perform(name)?, self.perform(value)?);
+                let separator =
+                    self.perform_some(separator.as_ref())?.unwrap_or_else(|| ":".into());
+                let joined = match self.context.variable(&name, self.host) {
+                    Some(there) if !there.is_empty() && *prepend => {
+                        format!("{value}{separator}{there}")
+                    }
+                    Some(there) if !there.is_empty() => format!("{there}{separator}{value}"),
+                    _ => value,
+                };
+                self.context.environment.insert(name, Some(joined));
+            }
+            Deed::Unset { name } => {
+                let name = self.perform(name)?;
+                self.context.environment.insert(name, None);
+            }
+            Deed::ResetEnvironment => self.context.environment.clear(),
+            Deed::Group { actions, is_scoped, is_forwarding, configurations } => {
+                self.group(actions, *is_scoped, *is_forwarding, configurations)?;
+            }
+            Deed::ForEach { function } => {
+                let answer = self.ask_python(json!({"ask": "for_each", "id": function}))?;
+                let actions: Vec<Action> = self.decode(answer)?;
+                self.run_all(&actions)?;
+            }
+            Deed::Include { file, arguments } => self.include(file, arguments)?,
+            Deed::Call { function } => {
+                let answer = self.ask_python(json!({"ask": "call", "id": function}))?;
+                let actions: Vec<Action> = self.decode(answer)?;
+                self.run_all(&actions)?;
+            }
+            Deed::PushNamespace { namespace } => {
+                let namespace = self.perform(namespace)?;
+                self.context.namespace = within(&self.context.namespace, &namespace);
+            }
+            Deed::SetParameter { name, value } => {
+                let (name, value) = (self.perform(name)?, self.value(value)?);
+                self.context.parameters.push(Parameters::Values(BTreeMap::from([(name, value)])));
+            }
+            Deed::SetParametersFromFile { file, node: _ } => {
+                let file = self.perform(file)?;
+                self.context.parameters.push(Parameters::File(file));
+            }
+            Deed::SetRemap { from, to } => {
+                let pair = (self.perform(from)?, self.perform(to)?);
+                self.context.remaps.push(pair);
+            }
+            Deed::Node(node) => {
+                let id = self.step_of(action.id);
+                let what = self.node(node)?;
+                self.push(id, what);
+                self.at_end_of(id, &node.running.on_exit)?;
+            }
+            Deed::Load { container, components } => {
+                let what = self.load(container, components)?;
+                let id = self.step_of(action.id);
+                self.push(id, what);
+            }
+            Deed::Process(process) => {
+                let id = self.step_of(action.id);
+                let what = self.process(process)?;
+                self.push(id, what);
+                self.at_end_of(id, &process.running.on_exit)?;
+            }
+            Deed::Log { text, level } => {
+                let text = self.perform(text)?;
+                let level = self.perform_some(level.as_ref())?;
+                let id = self.step_of(action.id);
+                let level = level.map_or_else(|| "info".into(), |level| level.to_lowercase());
+                self.push(id, What::Log { level, text });
+            }
+            Deed::Shutdown { reason } => {
+                let reason = self.perform_some(reason.as_ref())?.unwrap_or_default();
+                let id = self.step_of(action.id);
+                self.push(id, What::Shutdown { reason });
+                // Nothing behind it comes about; what waits for something may never.
+                self.is_over = self.after.is_empty();
+            }
+            Deed::Transition { target, transition } => {
+                let step = target.map(|target| self.step_of(Some(target)));
+                let id = self.step_of(action.id);
+                self.push(id, What::Transition { step, transition: transition.clone() });
+            }
+            Deed::Timer { seconds, actions } => {
+                let seconds = self.perform(seconds)?;
+                let Some(seconds) = seconds.trim().parse().ok().filter(|s: &f64| *s >= 0.0) else {
+                    return Err(self
+                        .error("launch-timer", format!("`{seconds}` is no number of seconds"))
+                        .into());
+                };
+                self.run_after(Trigger::Seconds(seconds), actions)?;
+            }
+            Deed::When { event, actions } => {
+                let trigger = match event {
+                    Event::Started { of } => Trigger::Started(of.map(|of| self.step_of(Some(of)))),
+                    Event::Ended { of } => Trigger::Ended(of.map(|of| self.step_of(Some(of)))),
+                    Event::Printed { of } => Trigger::Printed(of.map(|of| self.step_of(Some(of)))),
+                    Event::Reached { of, from, to } => Trigger::Reached {
+                        step: of.map(|of| self.step_of(Some(of))),
+                        from: from.clone(),
+                        to: to.clone(),
+                    },
+                    Event::Shutdown => Trigger::Shutdown,
+                };
+                self.run_after(trigger, actions)?;
+            }
+            Deed::Left { what } => {
+                let left = self
+                    .warning("launch-left", format!("{what} is not part of the plan"))
+                    .note("everything else of the file is");
+                self.found.push(left);
+            }
+        }
+        Ok(())
+    }
+
+    fn declare(
+        &mut self,
+        name: &str,
+        default: Option<&Text>,
+        description: Option<&Text>,
+        choices: &[String],
+    ) -> Outcome<()> {
+        let default = self.perform_some(default)?;
+        let description = self.perform_some(description)?.filter(|text| !text.is_empty());
+        let given = self.context.configurations.get(name).cloned();
+        let Some(value) = given.or_else(|| default.clone()) else {
+            return Err(self
+                .error("launch-argument", format!("the argument `{name}` was not given"))
+                .help(format!("add `{name}:=VALUE`"))
+                .into());
+        };
+        if !choices.is_empty() && !choices.contains(&value) {
+            return Err(self
+                .error(
+                    "launch-argument",
+                    format!("the argument `{name}` may be {}, not `{value}`", choices.join(", ")),
+                )
+                .guess(&value, choices.iter().map(String::as_str))
+                .into());
+        }
+        self.context.configurations.insert(name.to_owned(), value.clone());
+        if self.plan.arguments.iter().all(|known| known.name != name) {
+            self.plan.arguments.push(Argument {
+                name: name.to_owned(),
+                description,
+                default,
+                choices: choices.to_vec(),
+                value: Some(value),
+            });
+        }
+        Ok(())
+    }
+
+    fn group(
+        &mut self,
+        actions: &[Action],
+        is_scoped: bool,
+        is_forwarding: bool,
+        configurations: &[(Text, Text)],
+    ) -> Outcome<()> {
+        let configurations = self.perform_pairs(configurations)?;
+        if !is_scoped {
+            self.context.configurations.extend(configurations);
+            return self.run_all(actions);
+        }
+        let before = self.context.clone();
+        if !is_forwarding {
+            self.context.configurations.clear();
+        }
+        self.context.configurations.extend(configurations);
+        let outcome = self.run_all(actions);
+        self.context = before;
+        outcome
+    }
+
+    /// Includes a file. What it declares and sets stays set, as `launch` has it.
+    fn include(&mut self, file: &Text, arguments: &[(Text, Text)]) -> Outcome<()> {
+        let file = self.perform(file)?;
+        let arguments = self.perform_pairs(arguments)?;
+        let path = match self.context.file.parent() {
+            Some(folder) if !file.starts_with("package://") => folder.join(&file),
+            _ => Path::new(&file).to_path_buf(),
+        };
+        if file.starts_with("package://") {
+            let id = self.step_of(None);
+            let arguments = arguments.into_iter().collect();
+            self.push(id, What::Include { file, arguments });
+            return Ok(());
+        }
+        let place = self.place.clone();
+        self.context.configurations.extend(arguments.iter().cloned());
+        self.launch(&path, &arguments)?;
+        self.place = place;
+        Ok(())
+    }
+
+    fn run_after(&mut self, trigger: Trigger, actions: &[Action]) -> Outcome<()> {
+        self.after.push(trigger);
+        let outcome = self.run_all(actions);
+        self.after.pop();
+        outcome
+    }
+
+    fn at_end_of(&mut self, id: usize, actions: &[Action]) -> Outcome<()> {
+        if actions.is_empty() {
+            return Ok(());
+        }
+        self.run_after(Trigger::Ended(Some(id)), actions)
+    }
+
+    /// The number of the step that an action is or will be.
+    fn step_of(&mut self, action: Option<u64>) -> usize {
+        let next = self.next_step;
+        let id = match action {
+            Some(action) => *self.steps.entry(action).or_insert(next),
+            None => next,
+        };
+        self.next_step = self.next_step.max(id + 1);
+        id
+    }
+
+    fn push(&mut self, id: usize, what: What) {
+        let written = match &self.place {
+            Place { line: Some(line), .. } => Some(line.clone()),
+            Place { span: Some(span), .. } => {
+                let (file, position) = self.sources.locate(*span);
+                Some(format!("{file}:{}", position.line))
+            }
+            _ => None,
+        };
+        self.plan.steps.push(Step { id, after: self.after.clone(), what, written });
+    }
+
+    /// A name that nobody else has in this launch; the same in every launch.
+    pub(crate) fn anonymous(&mut self, name: &str) -> String {
+        self.next_name += 1;
+        format!("{name}_{}", self.next_name)
+    }
+
+    pub(crate) fn parameter_for_all(&mut self, name: &str) -> Outcome<String> {
+        let set = self.context.parameters.iter().rev().find_map(|parameters| match parameters {
+            Parameters::Values(values) => values.get(name),
+            Parameters::File(_) => None,
+        });
+        match set {
+            Some(Value::String(text)) => Ok(text.clone()),
+            Some(value) => Ok(value.to_string()),
+            None => Err(self
+                .error("launch-parameter", format!("no parameter `{name}` was set for all nodes"))
+                .help("`SetParameter` sets one; it must stand before")
+                .into()),
+        }
+    }
+
+    pub(crate) fn read(&mut self, file: &Path) -> Outcome<String> {
+        let bytes = self.host.read(file).map_err(|why| {
+            self.error("launch-file", format!("{} cannot be read: {why}", file.display()))
+        })?;
+        String::from_utf8(bytes).map_err(|_| {
+            self.error("launch-file", format!("{} is no text in UTF-8", file.display())).into()
+        })
+    }
+
+    pub(crate) fn yaml(&mut self, name: &str, text: &str) -> Outcome<Value> {
+        let file = self.sources.add(name, text);
+        Ok(periplus_yaml::parse(file, self.sources)?.map_or(Value::Null, |node| value_of(&node)))
+    }
+
+    /// Asks the interpreter of Python, with what holds here; takes over what it has changed.
+    pub(crate) fn ask_python(&mut self, mut request: Value) -> Outcome<Value> {
+        let mut python = match self.python.take() {
+            Some(python) => python,
+            None => self.outside.python().map_err(|why| self.error("launch-python", why))?,
+        };
+        request["context"] = json!(self.context.snapshot());
+        let answer = python.ask(request, &mut |question| python::answer(self, &question));
+        self.python = Some(python);
+        let answer = answer.map_err(|why| python::complaint(self, &why))?;
+        if let Some(configurations) = answer.get("configurations") {
+            self.context.configurations = self.decode(configurations.clone())?;
+        }
+        if let Some(environment) = answer.get("environment") {
+            self.context.environment = self.decode(environment.clone())?;
+        }
+        Ok(answer.get("answer").cloned().unwrap_or(Value::Null))
+    }
+
+    pub(crate) fn decode<T: serde::de::DeserializeOwned>(&self, value: Value) -> Outcome<T> {
+        serde_json::from_value(value).map_err(|why| {
+            self.error(
+                "launch-python",
+                format!("this launch file makes what no plan can hold: {why}"),
+            )
+            .into()
+        })
+    }
+
+    pub(crate) fn value(&mut self, given: &Given) -> Outcome<Value> {
+        parameters::value(self, given)
+    }
+
+    pub(crate) fn error(&self, code: &'static str, message: impl Into<String>) -> Diagnostic {
+        self.finding(Severity::Error, code, message.into())
+    }
+
+    pub(crate) fn warning(&self, code: &'static str, message: impl Into<String>) -> Diagnostic {
+        self.finding(Severity::Warning, code, message.into())
+    }
+
+    pub(crate) fn note(&self, code: &'static str, message: impl Into<String>) -> Diagnostic {
+        self.finding(Severity::Hint, code, message.into())
+    }
+
+    fn finding(&self, severity: Severity, code: &'static str, message: String) -> Diagnostic {
+        let finding = Diagnostic::new(severity, code, message);
+        match &self.place {
+            Place { span: Some(span), .. } => finding.at(*span),
+            Place { line: Some(line), .. } => finding.note(format!("written at {line}")),
+            _ => finding,
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Parameters as nodes are given them.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::{Evaluation, Outcome};
+use crate::front;
+use crate::plan::Parameters;
+use crate::tree::{Given, ParametersOf};
+use crate::truth::{truth, typed};
+
+/// The value of a parameter, with its type.
+pub(super) fn value(evaluation: &mut Evaluation<'_>, given: &Given) -> Outcome<Value> {
+    Ok(match given {
+        Given::Value { value } => value.clone(),
+        Given::Text { text, of_type: None } => typed(&evaluation.perform(text)?),
+        Given::Text { text, of_type: Some(of_type) } => {
+            let text = evaluation.perform(text)?;
+            of(evaluation, &text, of_type)?
+        }
+        Given::Texts { texts } => {
+            let texts = evaluation.perform_all(texts)?;
+            let values: Vec<Value> = texts.iter().map(|text| typed(text)).collect();
+            // Values of one list are of one type: texts, unless all are something else.
+            let is_uniform = values.iter().all(|value| kind(value) == kind(&values[0]));
+            if is_uniform { Value::Array(values) } else { texts.into() }
+        }
+    })
+}
+
+fn kind(value: &Value) -> u8 {
+    match value {
+        Value::Bool(_) => 0,
+        Value::Number(number) if number.is_f64() => 1,
+        Value::Number(_) => 2,
+        Value::String(_) => 3,
+        _ => 4,
+    }
+}
+
+/// A text as a value of a type that is named: `str`, `int`, `float`, `bool`, or a list of one.
+fn of(evaluation: &Evaluation<'_>, text: &str, of_type: &str) -> Outcome<Value> {
+    let value = typed(text);
+    let fits = match of_type {
+        "str" | "string" => return Ok(Value::String(text.to_owned())),
+        "int" => value.is_i64(),
+        "float" if value.is_number() => return Ok(value.as_f64().into()),
+        "bool" => match truth(text) {
+            Some(truth) => return Ok(truth.into()),
+            None => value.is_boolean(),
+        },
+        "list_of_str" => match &value {
+            Value::Array(list) => {
+                let text = |value: &Value| match value {
+                    Value::String(text) => text.clone(),
+                    other => other.to_string(),
+                };
+                return Ok(list.iter().map(text).collect());
+            }
+            _ => false,
+        },
+        "list_of_int" => value.as_array().is_some_and(|list| list.iter().all(Value::is_i64)),
+        "list_of_float" => value.as_array().is_some_and(|list| list.iter().all(Value::is_number)),
+        "list_of_bool" => value.as_array().is_some_and(|list| list.iter().all(Value::is_boolean)),
+        _ => false,
+    };
+    if fits {
+        return Ok(value);
+    }
+    Err(evaluation
+        .error("launch-parameter", format!("`{text}` is no value of the type `{of_type}`"))
+        .into())
+}
+
+impl Evaluation<'_> {
+    /// Parameters of a node: those of all nodes first, its own over them.
+    pub(super) fn parameters(&mut self, own: &[ParametersOf]) -> Outcome<Vec<Parameters>> {
+        let mut all = self.context.parameters.clone();
+        for parameters in own {
+            all.push(match parameters {
+                ParametersOf::Values { values } => {
+                    let mut by_name = BTreeMap::new();
+                    for (name, given) in values {
+                        let name = self.perform(name)?;
+                        by_name.insert(name, self.value(given)?);
+                    }
+                    Parameters::Values(by_name)
+                }
+                ParametersOf::File { file, with_substitutions } => {
+                    let file = self.perform(file)?;
+                    let is_resolved = match self.value(with_substitutions)? {
+                        Value::Bool(is) => is,
+                        Value::String(text) => truth(&text).unwrap_or_default(),
+                        _ => false,
+                    };
+                    Parameters::File(if is_resolved { self.resolved_file(&file)? } else { file })
+                }
+            });
+        }
+        Ok(all)
+    }
+
+    /// A copy of a file in which `$(...)` is resolved.
+    fn resolved_file(&mut self, file: &str) -> Outcome<String> {
+        let text = self.read(std::path::Path::new(file))?;
+        let id = self.sources.add(file, text.as_str());
+        let whole = self.sources.whole(id);
+        let text = front::text(&text, whole)?;
+        let text = self.perform(&text)?;
+        let name = std::path::Path::new(file).file_name().and_then(|name| name.to_str());
+        match self.outside.scratch(name.unwrap_or("parameters.yaml"), &text) {
+            Ok(path) => Ok(path.display().to_string()),
+            Err(why) => Err(self
+                .error("launch-file", format!("a file made from {file} cannot be written: {why}"))
+                .into()),
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! "Did you mean".
+
+use periplus_diagnostics::{Diagnostic, closest};
+
+pub(crate) trait Guess {
+    /// Names what was probably meant, if there is something like it.
+    fn guess<'a>(self, written: &str, known: impl IntoIterator<Item = &'a str>) -> Self;
+}
+
+impl Guess for Diagnostic {
+    fn guess<'a>(self, written: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        match closest(written, known) {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None => self,
+        }
+    }
+}

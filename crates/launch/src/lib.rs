@@ -1,0 +1,87 @@
+//! Launch files of ROS 1 and ROS 2 as a plan: what runs, with which parameters, names and environment,
+//! after conditions are decided and included files read.
+//!
+//! A plan is data. Who runs it, and what runs in the place of programs that are not here, is for others
+//! to say. Files in Python are evaluated by an [`Interpreter`] of the caller's, which knows the modules of
+//! [`MODULES`].
+
+mod context;
+mod dialect;
+mod evaluate;
+mod front;
+mod guess;
+mod outside;
+mod perform;
+mod plan;
+mod python;
+mod rewrite;
+mod roslaunch;
+mod stand_in;
+mod tree;
+mod truth;
+mod words;
+
+use std::path::{Path, PathBuf};
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_resources::{Host, Resolver};
+
+use crate::guess::Guess as _;
+pub use dialect::{Dialect, dialect};
+pub use outside::{Answer, Interpreter, Nothing, Outside, Printed};
+pub use plan::{
+    Argument, Component, Node, Parameters, Plan, Process, Running, Step, Trigger, What,
+};
+pub use stand_in::{BOOT, MODULES};
+
+/// What is launched, and with what.
+pub struct Request<'a> {
+    /// The file, absolute.
+    pub file: PathBuf,
+    /// `name:=value` of the command line.
+    pub arguments: Vec<(String, String)>,
+    /// Files and environment.
+    pub host: &'a dyn Host,
+    /// Packages.
+    pub resolver: &'a Resolver<'a>,
+    /// Programs.
+    pub outside: &'a mut dyn Outside,
+}
+
+/// Makes a plan of a launch file. When a finding is an error, the plan goes up to there.
+pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics) {
+    let Request { file, arguments, host, resolver, outside } = request;
+    let mut evaluation = evaluate::Evaluation::new(host, resolver, outside, sources);
+    let outcome = match dialect(host, &file) {
+        Dialect::Ros1 => roslaunch::launch(&mut evaluation, &file, &arguments),
+        Dialect::Ros2 => {
+            evaluation.context.configurations = arguments.iter().cloned().collect();
+            evaluation.launch(&file, &arguments)
+        }
+    };
+    if let Err(wrong) = outcome {
+        evaluation.found.push(*wrong);
+    }
+    unused(&mut evaluation, &arguments, &file);
+    (evaluation.plan, evaluation.found)
+}
+
+/// Arguments of the command line that no file has asked for: a slip in a name would else be silent.
+fn unused(evaluation: &mut evaluate::Evaluation<'_>, given: &[(String, String)], file: &Path) {
+    if evaluation.found.has_errors() {
+        return;
+    }
+    for (name, _) in given {
+        let known: Vec<&str> =
+            evaluation.plan.arguments.iter().map(|argument| argument.name.as_str()).collect();
+        if !known.contains(&name.as_str()) {
+            let finding = periplus_diagnostics::Diagnostic::warning(
+                "launch-argument",
+                format!("{} has no argument `{name}`", file.display()),
+            )
+            .guess(name, known)
+            .help("`--show-args` lists those it has");
+            evaluation.found.push(finding);
+        }
+    }
+}

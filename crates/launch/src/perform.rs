@@ -1,0 +1,401 @@
+//! Texts of launch files, resolved.
+
+use std::path::{Path, PathBuf};
+
+use periplus_diagnostics::{Diagnostic, Severity};
+use periplus_resources::Kind;
+use periplus_xacro::expression::{Budget, EmptyScope, Expression, evaluate};
+use serde_json::json;
+
+use crate::evaluate::{Evaluation, Outcome};
+use crate::guess::Guess as _;
+use crate::outside::Printed;
+use crate::rewrite;
+use crate::tree::{Part, Substitution, Text};
+use crate::truth::truth;
+use crate::words;
+
+/// Work and memory for one expression: launch files compare words.
+const STEPS: u64 = 100_000;
+const BYTES: u64 = 1 << 20;
+
+/// The longest text: descriptions of robots have some hundred thousand bytes.
+pub(crate) const LONGEST: usize = 16 << 20;
+
+impl Evaluation<'_> {
+    /// The text in full.
+    pub(crate) fn perform(&mut self, text: &Text) -> Outcome<String> {
+        let mut whole = String::new();
+        for part in text {
+            match part {
+                Part::Plain(plain) => whole.push_str(plain),
+                Part::Substitution(substitution) => whole.push_str(&self.substitute(substitution)?),
+            }
+            if whole.len() > LONGEST {
+                return Err(self
+                    .error("launch-size", format!("a text has more than {LONGEST} bytes"))
+                    .help("does something contain itself again and again?")
+                    .into());
+            }
+        }
+        Ok(whole)
+    }
+
+    /// The text in full, if there is one.
+    pub(crate) fn perform_some(&mut self, text: Option<&Text>) -> Outcome<Option<String>> {
+        text.map(|text| self.perform(text)).transpose()
+    }
+
+    /// Texts in full.
+    pub(crate) fn perform_all(&mut self, texts: &[Text]) -> Outcome<Vec<String>> {
+        texts.iter().map(|text| self.perform(text)).collect()
+    }
+
+    /// Pairs of texts in full.
+    pub(crate) fn perform_pairs(
+        &mut self,
+        pairs: &[(Text, Text)],
+    ) -> Outcome<Vec<(String, String)>> {
+        pairs.iter().map(|(a, b)| Ok((self.perform(a)?, self.perform(b)?))).collect()
+    }
+
+    /// Whether a text is true.
+    pub(crate) fn truth_of(&mut self, text: &Text) -> Outcome<bool> {
+        let said = self.perform(text)?;
+        truth(&said).ok_or_else(|| {
+            self.error(
+                "launch-condition",
+                format!("a condition must be `true`, `1`, `false` or `0`, and this says `{said}`"),
+            )
+            .into()
+        })
+    }
+
+    fn substitute(&mut self, substitution: &Substitution) -> Outcome<String> {
+        Ok(match substitution {
+            Substitution::Configuration { name, default } => {
+                let name = self.perform(name)?;
+                match (self.context.configurations.get(&name), default) {
+                    (Some(value), _) => value.clone(),
+                    (None, Some(default)) => self.perform(default)?,
+                    (None, None) => return Err(self.no_configuration(&name)),
+                }
+            }
+            Substitution::Environment { name, default } => {
+                let name = self.perform(name)?;
+                match (self.context.variable(&name, self.host), default) {
+                    (Some(value), _) => value,
+                    (None, Some(default)) => self.perform(default)?,
+                    (None, None) => {
+                        return Err(self
+                            .error(
+                                "launch-environment",
+                                format!("the environment has no variable `{name}`"),
+                            )
+                            .help(format!(
+                                "set it, or give the text a default: `$(env {name} VALUE)`"
+                            ))
+                            .into());
+                    }
+                }
+            }
+            Substitution::Join { parts, separator } => {
+                let between = self.perform_some(separator.as_ref())?.unwrap_or_default();
+                self.perform_all(parts)?.join(&between)
+            }
+            Substitution::Path { parts } => join_path(&self.perform_all(parts)?),
+            Substitution::Package { name, is_prefix } => {
+                let name = self.perform(name)?;
+                self.package(&name, *is_prefix)
+            }
+            Substitution::Command { command, on_stderr } => {
+                let line = self.perform(command)?;
+                let on_stderr = self.perform_some(on_stderr.as_ref())?;
+                self.command(&line, on_stderr.as_deref().unwrap_or("fail"))?
+            }
+            Substitution::Executable { name } => {
+                let name = self.perform(name)?;
+                self.find_program(&name)
+            }
+            Substitution::ExecutableInPackage { package, executable } => {
+                let (package, executable) = (self.perform(package)?, self.perform(executable)?);
+                format!("{}/lib/{package}/{executable}", self.package(&package, true))
+            }
+            Substitution::Expression { expression } => {
+                let expression = self.perform(expression)?;
+                self.expression(&expression)?
+            }
+            Substitution::Content { file } => {
+                let file = self.perform(file)?;
+                self.read(Path::new(&file))?
+            }
+            Substitution::Anonymous { name } => {
+                let name = self.perform(name)?;
+                self.anonymous(&name)
+            }
+            Substitution::Equals { a, b } => word(self.same(a, b)?),
+            Substitution::NotEquals { a, b } => word(!self.same(a, b)?),
+            Substitution::All { of } => {
+                // Each is looked at: one that is no truth is an error wherever it stands.
+                let truths: Vec<bool> =
+                    of.iter().map(|text| self.truth_of(text)).collect::<Outcome<_>>()?;
+                word(truths.into_iter().all(|is| is))
+            }
+            Substitution::Any { of } => {
+                let truths: Vec<bool> =
+                    of.iter().map(|text| self.truth_of(text)).collect::<Outcome<_>>()?;
+                word(truths.into_iter().any(|is| is))
+            }
+            Substitution::Not { of } => word(!self.truth_of(of)?),
+            Substitution::IfElse { condition, yes, no } => {
+                let chosen = if self.truth_of(condition)? { yes } else { no };
+                self.perform(chosen)?
+            }
+            Substitution::Parameter { name } => {
+                let name = self.perform(name)?;
+                self.parameter_for_all(&name)?
+            }
+            Substitution::ThisFile => self.context.file.display().to_string(),
+            Substitution::ThisFolder => self.folder().display().to_string(),
+            Substitution::LogFolder => {
+                self.context.variable("ROS_LOG_DIR", self.host).unwrap_or_else(|| {
+                    let home = self.context.variable("HOME", self.host).unwrap_or_default();
+                    let ros = self.context.variable("ROS_HOME", self.host);
+                    format!("{}/log", ros.unwrap_or_else(|| format!("{home}/.ros")))
+                })
+            }
+            Substitution::RewrittenYaml {
+                file,
+                rewrites,
+                key_rewrites,
+                value_rewrites,
+                root,
+                convert,
+            } => {
+                let file = self.perform(file)?;
+                let rewriting = rewrite::Rewriting {
+                    values_by_key: self.perform_pairs(rewrites)?,
+                    keys: self.perform_pairs(key_rewrites)?,
+                    values: self.perform_pairs(value_rewrites)?,
+                    root: self.perform_some(root.as_ref())?,
+                    convert: *convert,
+                };
+                let text = self.read(Path::new(&file))?;
+                let content = self.yaml(&file, &text)?;
+                let rewritten = rewriting.apply(&content);
+                let text = serde_json::to_string_pretty(&rewritten).unwrap_or_default();
+                self.scratch(&file, &text)?
+            }
+            Substitution::ReplacedText { file, replacements, condition } => {
+                let file = self.perform(file)?;
+                let is_wanted = match condition {
+                    Some(condition) => self.holds(condition)?,
+                    None => true,
+                };
+                if !is_wanted {
+                    return Ok(file);
+                }
+                let mut text = self.read(Path::new(&file))?;
+                for (from, to) in self.perform_pairs(replacements)? {
+                    text = text.replace(&from, &to);
+                }
+                self.scratch(&file, &text)?
+            }
+            Substitution::HasNodeParameters { file, node } => {
+                let (file, node) = (self.perform(file)?, self.perform(node)?);
+                let text = self.read(Path::new(&file))?;
+                let content = self.yaml(&file, &text)?;
+                word(rewrite::has_node(&content, &node))
+            }
+            Substitution::Truth { name } => {
+                let name = self.perform(name)?;
+                let said = self.context.configurations.get(&name).cloned();
+                let Some(said) = said else { return Err(self.no_configuration(&name)) };
+                word(
+                    truth(&said)
+                        .unwrap_or(matches!(said.trim().to_lowercase().as_str(), "on" | "yes")),
+                )
+            }
+            Substitution::Python { id } => {
+                let answer = self.ask_python(json!({"ask": "perform", "id": id}))?;
+                answer.as_str().unwrap_or_default().to_owned()
+            }
+        })
+    }
+
+    fn same(&mut self, a: &Text, b: &Text) -> Outcome<bool> {
+        let (a, b) = (self.perform(a)?, self.perform(b)?);
+        // Truths and numbers are equal however they are spelt.
+        if let (Some(a), Some(b)) = (truth(&a), truth(&b)) {
+            return Ok(a == b);
+        }
+        Ok(match (a.trim().parse::<f64>(), b.trim().parse::<f64>()) {
+            (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs().max(b.abs()),
+            _ => a == b,
+        })
+    }
+
+    fn no_configuration(&self, name: &str) -> Box<Diagnostic> {
+        let known = self.context.configurations.keys().map(String::as_str);
+        self.error(
+            "launch-configuration",
+            format!("nothing has set the launch configuration `{name}`"),
+        )
+        .guess(name, known)
+        .help(format!(
+            "declare the argument `{name}` before it is used, or give it: `{name}:=VALUE`"
+        ))
+        .into()
+    }
+
+    /// The folder of a package, or what stands for one that is not here.
+    pub(crate) fn package(&mut self, name: &str, is_prefix: bool) -> String {
+        match self.resolver.find_package(name, &self.context.file) {
+            // An installed package is PREFIX/share/NAME; one that is not installed is its own prefix.
+            Ok(folder) if is_prefix => {
+                let above = folder.parent().filter(|above| above.ends_with("share"));
+                above.and_then(Path::parent).unwrap_or(&folder).display().to_string()
+            }
+            Ok(folder) => folder.display().to_string(),
+            Err(_) => {
+                if self.missing_packages.insert(name.to_owned()) {
+                    let missing = self
+                        .note(
+                            "launch-package",
+                            format!("the package `{name}` is not on this machine"),
+                        )
+                        .note(format!("files in it are called `package://{name}/...` in the plan"))
+                        .help("if it is somewhere here, name its folder: `--resource-path FOLDER`");
+                    self.found.push(missing);
+                }
+                format!("package://{name}")
+            }
+        }
+    }
+
+    /// What a program prints; nothing, with a warning, when it or a file that it is given lies in a
+    /// package that is not here.
+    pub(crate) fn command(&mut self, line: &str, on_stderr: &str) -> Outcome<String> {
+        let printed = match self.ran(line)? {
+            Ok(printed) => printed,
+            Err(why) => {
+                let warning = self
+                    .warning("launch-command", format!("`{}` is not run: {why}", short(line)))
+                    .note("what it would print is left empty");
+                self.found.push(warning);
+                return Ok(String::new());
+            }
+        };
+        let heard = self
+            .warning(
+                "launch-command",
+                format!("`{}` has written to its standard error", short(line)),
+            )
+            .note(printed.errors.trim().to_owned());
+        match on_stderr {
+            "fail" if !printed.errors.is_empty() => {
+                let wrong = Diagnostic { severity: Severity::Error, ..heard };
+                Err(wrong.help("give `Command` `on_stderr='warn'` to go on nevertheless").into())
+            }
+            "warn" if !printed.errors.is_empty() => {
+                self.found.push(heard);
+                Ok(printed.output)
+            }
+            "capture" => Ok(printed.output + &printed.errors),
+            _ => Ok(printed.output),
+        }
+    }
+
+    /// What a command leaves behind; why it cannot be run when something of it is not on this machine.
+    ///
+    /// # Errors
+    /// It is no command, or it fails.
+    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, String>> {
+        let Some(words) = words::split(line).filter(|words| !words.is_empty()) else {
+            return Err(self
+                .error("launch-command", format!("no command can be read from `{line}`"))
+                .help("close every quote")
+                .into());
+        };
+        // The program may be one that is built in.
+        if let Some(word) = words[1..].iter().find(|word| word.starts_with("package://")) {
+            return Ok(Err(format!("the package of {word} is not on this machine")));
+        }
+        let printed = match self.outside.run(&words) {
+            Ok(printed) => printed,
+            Err(why) => return Ok(Err(why)),
+        };
+        if !printed.is_success {
+            return Err(self
+                .error("launch-command", format!("`{}` failed", short(line)))
+                .note(printed.errors.trim().to_owned())
+                .into());
+        }
+        Ok(Ok(printed))
+    }
+
+    fn find_program(&self, name: &str) -> String {
+        let path = self.context.variable("PATH", self.host).unwrap_or_default();
+        path.split(':')
+            .map(|folder| Path::new(folder).join(name))
+            .find(|program| self.host.kind(program) == Some(Kind::File))
+            // Whoever starts it knows programs of ours, and says what is missing.
+            .map_or_else(|| name.to_owned(), |program| program.display().to_string())
+    }
+
+    /// The value of an expression of Python, as text.
+    pub(crate) fn expression(&mut self, expression: &str) -> Outcome<String> {
+        let mut budget = Budget::new(STEPS, BYTES);
+        Expression::parse(expression)
+            .and_then(|parsed| evaluate(&parsed, &EmptyScope, &mut budget))
+            .and_then(|value| value.to_text(&mut budget))
+            .map_err(|error| {
+                let mut wrong = self.error(
+                    "launch-expression",
+                    format!("`{expression}` has no value: {}", error.message),
+                );
+                if let Some(help) = error.help {
+                    wrong = wrong.help(help);
+                }
+                wrong.into()
+            })
+    }
+
+    fn folder(&self) -> PathBuf {
+        self.context.file.parent().map(Path::to_path_buf).unwrap_or_default()
+    }
+
+    fn scratch(&mut self, like: &str, text: &str) -> Outcome<String> {
+        let name = Path::new(like).file_name().and_then(|name| name.to_str()).unwrap_or("file");
+        match self.outside.scratch(name, text) {
+            Ok(path) => Ok(path.display().to_string()),
+            Err(why) => Err(self
+                .error("launch-file", format!("a file made from {like} cannot be written: {why}"))
+                .into()),
+        }
+    }
+}
+
+/// A command with its blanks put together, for messages.
+pub(crate) fn short(line: &str) -> String {
+    line.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A truth as Python writes it, which is how launch files hand it on.
+fn word(truth: bool) -> String {
+    if truth { "True".into() } else { "False".into() }
+}
+
+/// Parts of a path, joined as Python does: one that is absolute begins anew.
+fn join_path(parts: &[String]) -> String {
+    let mut whole = String::new();
+    for part in parts {
+        if part.starts_with('/') {
+            whole.clear();
+        } else if !whole.is_empty() && !whole.ends_with('/') {
+            whole.push('/');
+        }
+        whole.push_str(part);
+    }
+    whole
+}

@@ -1,0 +1,198 @@
+//! `<param>` and `<rosparam>`.
+
+use std::path::Path;
+
+use periplus_diagnostics::Diagnostic;
+use periplus_xml::Element;
+use serde_json::Value;
+
+use super::{Loader, Scope, wrong};
+use crate::context::within;
+use crate::evaluate::Outcome;
+use crate::perform::short;
+use crate::truth::{truth, value_of};
+
+impl Loader<'_, '_> {
+    /// A parameter beside nodes.
+    pub(super) fn parameter(&mut self, element: &Element, scope: &mut Scope) -> Outcome<()> {
+        let (name, value) = self.parameter_of(element, scope)?;
+        if value.is_null() {
+            return Ok(());
+        }
+        match name.strip_prefix('~') {
+            Some(private) => scope.private.push((private.to_owned(), value)),
+            None => {
+                let name = within(&scope.namespace, &name);
+                self.evaluation.plan.parameters.insert(name, value);
+            }
+        }
+        Ok(())
+    }
+
+    /// Name and value of a `<param>`; null for one that is left out.
+    pub(super) fn parameter_of(
+        &mut self,
+        element: &Element,
+        scope: &Scope,
+    ) -> Outcome<(String, Value)> {
+        let name = self.needed(element, "name", scope)?;
+        let of_type = self.optional(element, "type", scope)?.unwrap_or_default();
+        let sources = ["value", "textfile", "binfile", "command"];
+        let given: Vec<&str> =
+            sources.into_iter().filter(|source| element.attribute(source).is_some()).collect();
+        let [source] = given.as_slice() else {
+            let message =
+                format!("`<param>` needs one of {}, and has {}", sources.join(", "), given.len());
+            return Err(wrong("launch-parameter", &message, element));
+        };
+        let written = self.needed(element, source, scope)?;
+        let value = match *source {
+            "value" => {
+                typed(&written, &of_type).map_err(|why| wrong("launch-parameter", &why, element))?
+            }
+            "textfile" => Value::String(self.evaluation.read(Path::new(&written))?),
+            "command" => match self.printed(&written, &of_type, element)? {
+                Some(value) => value,
+                None => return Ok((name, Value::Null)),
+            },
+            _ => {
+                return Err(wrong(
+                    "launch-parameter",
+                    "`binfile` is not supported: give the content as `textfile`",
+                    element,
+                ));
+            }
+        };
+        Ok((name, value))
+    }
+
+    /// What a command prints, as the value of a parameter; none, with a warning, when it cannot be run.
+    fn printed(&mut self, line: &str, of_type: &str, element: &Element) -> Outcome<Option<Value>> {
+        let ran = self.evaluation.ran(line).map_err(|wrong| wrong.at(element.name_origin()))?;
+        match ran {
+            Ok(printed) if of_type == "yaml" => {
+                self.evaluation.yaml("command", &printed.output).map(Some)
+            }
+            Ok(printed) => Ok(Some(Value::String(printed.output))),
+            Err(why) => {
+                let left = Diagnostic::warning(
+                    "launch-command",
+                    format!("`{}` is not run: {why}", short(line)),
+                )
+                .at(element.name_origin())
+                .note("the parameter is left out");
+                self.evaluation.found.push(left);
+                Ok(None)
+            }
+        }
+    }
+
+    /// `<rosparam>` beside nodes.
+    pub(super) fn rosparam(&mut self, element: &Element, scope: &Scope) -> Outcome<()> {
+        let mut namespace = scope.namespace.clone();
+        if let Some(own) = self.optional(element, "ns", scope)? {
+            namespace = within(&namespace, &own);
+        }
+        let command = self.optional(element, "command", scope)?;
+        let parameter = self.optional(element, "param", scope)?;
+        match command.as_deref().unwrap_or("load") {
+            "load" => {
+                let value = self.rosparam_value(element, scope)?;
+                let root = match &parameter {
+                    Some(parameter) => within(&namespace, parameter),
+                    None => namespace,
+                };
+                spread(&root, &value, &mut |name, value| {
+                    self.evaluation.plan.parameters.insert(name.to_owned(), value.clone());
+                });
+                Ok(())
+            }
+            "delete" => {
+                let root = within(&namespace, parameter.as_deref().unwrap_or(""));
+                let under = format!("{}/", root.trim_end_matches('/'));
+                self.evaluation
+                    .plan
+                    .parameters
+                    .retain(|name, _| *name != root && !name.starts_with(&under));
+                Ok(())
+            }
+            "dump" => {
+                self.left(element, "`rosparam dump` writes no file here");
+                Ok(())
+            }
+            other => {
+                let message = format!("`command` is load, delete or dump, not `{other}`");
+                Err(wrong("launch-parameter", &message, element))
+            }
+        }
+    }
+
+    /// The tree that a `<rosparam>` loads.
+    pub(super) fn rosparam_value(&mut self, element: &Element, scope: &Scope) -> Outcome<Value> {
+        let text = match self.optional(element, "file", scope)? {
+            Some(file) if file.starts_with("package://") => {
+                let finding = Diagnostic::warning(
+                    "launch-file",
+                    format!("the parameters of {file} are left out: its package is not here"),
+                )
+                .at(element.name_origin());
+                self.evaluation.found.push(finding);
+                return Ok(Value::Object(serde_json::Map::new()));
+            }
+            Some(file) => self.evaluation.read(Path::new(&file))?,
+            None => element.text().into_owned(),
+        };
+        let resolves = match element.attribute("subst_value") {
+            Some(attribute) => self.truth(attribute, scope)?,
+            None => false,
+        };
+        let text =
+            if resolves { self.resolved_text(&text, &element.name_origin(), scope)? } else { text };
+        let file = self.evaluation.sources.add("rosparam", text);
+        let tree = periplus_yaml::parse(file, self.evaluation.sources)?;
+        Ok(tree.map_or(Value::Null, |node| value_of(&node)))
+    }
+}
+
+/// The leaves of a tree by full name.
+pub(super) fn spread(root: &str, value: &Value, take: &mut dyn FnMut(&str, &Value)) {
+    match value {
+        Value::Object(entries) => {
+            for (key, value) in entries {
+                spread(&within(root, key), value, take);
+            }
+        }
+        Value::Null => {}
+        value => take(root, value),
+    }
+}
+
+/// A text as a value of a type; without one it is what it looks like.
+fn typed(text: &str, of_type: &str) -> Result<Value, String> {
+    let wrong = |what: &str| format!("`{text}` is no {what}");
+    let integer = || text.trim().parse::<i64>().ok();
+    let number = || text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    Ok(match of_type {
+        "" | "auto" => {
+            if let Some(integer) = integer() {
+                integer.into()
+            } else if let Some(number) = number() {
+                number.into()
+            } else {
+                match text.trim().to_lowercase().as_str() {
+                    "true" => true.into(),
+                    "false" => false.into(),
+                    _ => text.into(),
+                }
+            }
+        }
+        "str" | "string" => text.into(),
+        "int" => integer().ok_or_else(|| wrong("whole number"))?.into(),
+        "double" => number().ok_or_else(|| wrong("number"))?.into(),
+        "bool" | "boolean" => truth(text).ok_or_else(|| wrong("truth value"))?.into(),
+        "yaml" => crate::truth::typed(text),
+        other => {
+            return Err(format!("`{other}` is no type: str, int, double, bool, yaml or auto is"));
+        }
+    })
+}

@@ -1,0 +1,226 @@
+//! `$(...)` of ROS 1.
+
+use std::rc::Rc;
+
+use periplus_diagnostics::{Diagnostic, Origin};
+use periplus_xacro::expression::{
+    Budget, Dialect, Expression, ExpressionError, Scope as Names, Value, evaluate,
+};
+use periplus_xml::Attribute;
+
+use super::{Loader, Scope, wrong_at};
+use crate::evaluate::Outcome;
+use crate::guess::Guess as _;
+use crate::perform::LONGEST;
+
+/// Work and memory for one expression.
+const STEPS: u64 = 100_000;
+const BYTES: u64 = 1 << 20;
+
+impl Loader<'_, '_> {
+    /// An attribute's value with everything put in.
+    pub(super) fn resolved(&mut self, attribute: &Attribute, scope: &Scope) -> Outcome<String> {
+        self.resolved_text(&attribute.value, &attribute.value_origin, scope)
+    }
+
+    /// A text with everything put in.
+    pub(super) fn resolved_text(
+        &mut self,
+        text: &str,
+        origin: &Origin,
+        scope: &Scope,
+    ) -> Outcome<String> {
+        // An expression is the whole value, and may have brackets in it.
+        if let Some(expression) =
+            text.trim().strip_prefix("$(eval ").and_then(|rest| rest.strip_suffix(')'))
+        {
+            return self.evaluated(expression, origin, scope);
+        }
+        let mut whole = String::new();
+        let mut rest = text;
+        while let Some(from) = rest.find("$(") {
+            whole.push_str(&rest[..from]);
+            let Some(to) = rest[from..].find(')') else {
+                return Err(wrong_at(
+                    "launch-substitution",
+                    "nothing closes this `$(`".into(),
+                    origin,
+                ));
+            };
+            let words: Vec<&str> = rest[from + 2..from + to].split_whitespace().collect();
+            whole.push_str(&self.substitution(&words, origin, scope)?);
+            rest = &rest[from + to + 1..];
+            if whole.len() > LONGEST {
+                let message = format!("a text has more than {LONGEST} bytes");
+                return Err(wrong_at("launch-size", message, origin));
+            }
+        }
+        whole.push_str(rest);
+        Ok(whole)
+    }
+
+    fn substitution(&mut self, words: &[&str], origin: &Origin, scope: &Scope) -> Outcome<String> {
+        match words {
+            ["arg", name] => self.argument_value(name, scope).ok_or_else(|| {
+                let known = scope.arguments.keys().map(String::as_str);
+                Diagnostic::error(
+                    "launch-argument",
+                    format!("this file has no argument `{name}` so far"),
+                )
+                .at(*origin)
+                .guess(name, known)
+                .help(format!("declare it before: `<arg name=\"{name}\" default=\"...\"/>`"))
+                .into()
+            }),
+            ["find", package] => Ok(self.evaluation.package(package, false)),
+            ["env", name] => self.variable(name, scope).ok_or_else(|| {
+                Diagnostic::error(
+                    "launch-environment",
+                    format!("the environment has no variable `{name}`"),
+                )
+                .at(*origin)
+                .help(format!("set it, or write `$(optenv {name} VALUE)`"))
+                .into()
+            }),
+            ["optenv", name, default @ ..] => {
+                Ok(self.variable(name, scope).unwrap_or_else(|| default.join(" ")))
+            }
+            ["anon", name] => Ok(self.anonymous(name)),
+            ["dirname"] => Ok(folder(scope)),
+            ["eval", ..] => Err(wrong_at(
+                "launch-substitution",
+                "`$(eval ...)` must be the whole value".into(),
+                origin,
+            )),
+            [name @ ("var" | "find-pkg-share" | "find-pkg-prefix"), ..] => {
+                let instead = if *name == "var" { "arg" } else { "find" };
+                Err(Diagnostic::error(
+                    "launch-substitution",
+                    format!("`$({name} ...)` is ROS 2's, and this file is one of ROS 1"),
+                )
+                .at(*origin)
+                .help(format!("write `$({instead} ...)`"))
+                .into())
+            }
+            _ => {
+                let name = words.first().copied().unwrap_or_default();
+                Err(Diagnostic::error(
+                    "launch-substitution",
+                    format!("`$({})` means nothing", words.join(" ")),
+                )
+                .at(*origin)
+                .guess(name, ["anon", "arg", "dirname", "env", "eval", "find", "optenv"])
+                .into())
+            }
+        }
+    }
+
+    fn evaluated(&mut self, expression: &str, origin: &Origin, scope: &Scope) -> Outcome<String> {
+        let mut budget = Budget::new(STEPS, BYTES);
+        let names = Arguments { loader: std::cell::RefCell::new(self), scope };
+        Expression::parse(expression)
+            .and_then(|parsed| evaluate(&parsed, &names, &mut budget))
+            .and_then(|value| value.to_text(&mut budget))
+            .map_err(|error| {
+                let mut wrong = Diagnostic::error(
+                    "launch-expression",
+                    format!("`{expression}` has no value: {}", error.message),
+                )
+                .at(*origin);
+                if let Some(help) = error.help {
+                    wrong = wrong.help(help);
+                }
+                wrong.into()
+            })
+    }
+
+    fn argument_value(&self, name: &str, scope: &Scope) -> Option<String> {
+        scope.arguments.get(name).cloned()
+    }
+
+    fn variable(&self, name: &str, scope: &Scope) -> Option<String> {
+        match scope.environment.get(name) {
+            Some(value) => value.clone(),
+            None => self.evaluation.host.variable(name),
+        }
+    }
+
+    fn anonymous(&mut self, name: &str) -> String {
+        if let Some(known) = self.anonymous.get(name) {
+            return known.clone();
+        }
+        let made = self.evaluation.anonymous(name);
+        self.anonymous.insert(name.to_owned(), made.clone());
+        made
+    }
+}
+
+fn folder(scope: &Scope) -> String {
+    scope.file.parent().map(|folder| folder.display().to_string()).unwrap_or_default()
+}
+
+/// What names mean in `$(eval ...)`: arguments, and functions named as the other substitutions.
+struct Arguments<'s, 'l, 'o, 'e> {
+    loader: std::cell::RefCell<&'s mut Loader<'o, 'e>>,
+    scope: &'l Scope,
+}
+
+const FUNCTIONS: [&str; 6] = ["arg", "env", "optenv", "find", "anon", "dirname"];
+
+impl Names for Arguments<'_, '_, '_, '_> {
+    fn lookup(&self, name: &str, _budget: &mut Budget) -> Result<Option<Value>, ExpressionError> {
+        if FUNCTIONS.contains(&name) {
+            return Ok(Some(Value::host_function(name)));
+        }
+        Ok(self.scope.arguments.get(name).map(|text| converted(text)))
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.scope.arguments.keys().cloned().collect()
+    }
+
+    fn dialect(&self) -> Dialect {
+        Dialect::SubstitutionArgs
+    }
+
+    fn call_host(
+        &self,
+        function: &str,
+        arguments: &[Value],
+        _keywords: &[(Rc<str>, Value)],
+        _budget: &mut Budget,
+    ) -> Option<Result<Value, ExpressionError>> {
+        if !FUNCTIONS.contains(&function) {
+            return None;
+        }
+        let texts: Vec<&str> = arguments
+            .iter()
+            .filter_map(|argument| match argument {
+                Value::Str(text) => Some(&**text),
+                _ => None,
+            })
+            .collect();
+        let mut words = vec![function];
+        words.extend(texts);
+        let mut loader = self.loader.borrow_mut();
+        Some(match loader.substitution(&words, &Origin::default(), self.scope) {
+            Ok(text) => Ok(converted(&text)),
+            Err(wrong) => Err(ExpressionError::new(wrong.message.clone())),
+        })
+    }
+}
+
+/// An argument in an expression: a number or truth if it looks like one, as roslaunch has it.
+fn converted(text: &str) -> Value {
+    if let Ok(integer) = text.parse::<i128>() {
+        return Value::Int(integer);
+    }
+    if let Ok(number) = text.parse::<f64>() {
+        return Value::Float(number);
+    }
+    match text.to_lowercase().as_str() {
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        _ => Value::Str(text.into()),
+    }
+}
