@@ -9,7 +9,7 @@ import { chromium } from 'playwright-core';
 
 export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
 const PAGE = join(ROOT, 'crates/server/page');
-const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
+export const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Runs the program; resolves once its port answers. */

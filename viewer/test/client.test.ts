@@ -65,6 +65,27 @@ test('hears a topic as soon as there is one, and only while somebody hears', asy
   sockets.close();
 });
 
+test('who comes later hears what was said once', async () => {
+  const { server, sockets, url } = await peer();
+  const encode = encoder(parseSchema('std_msgs/msg/String', 'string data'));
+  const schema = { schema: 'string data', schemaEncoding: 'ros2msg' };
+  const channel = server.addChannel({ ...text, ...schema });
+  // As a latched topic does: each who subscribes gets the last message.
+  server.on('subscribe', () =>
+    server.sendMessage(channel, 5n, new Uint8Array(encode({ data: 'map' }))),
+  );
+  const client = clientOf(url);
+  const heard: string[] = [];
+  client.start();
+  await vi.waitFor(() => expect(client.channels.size).toBe(1));
+  client.subscribe('/chatter', () => heard.push('first'));
+  await vi.waitFor(() => expect(heard).toEqual(['first']));
+  client.subscribe('/chatter', () => heard.push('second'));
+  await vi.waitFor(() => expect(heard).toContain('second'));
+  client.stop();
+  sockets.close();
+});
+
 test('publishes, calls services, reads and sets parameters', async () => {
   const { server, sockets, url } = await peer();
   const said: string[] = [];

@@ -62,7 +62,7 @@ export function wishFor(topic: string, type: string): Wish | undefined {
       Object.assign(values, { 'Color Transformer': 'AxisColor', Style: 'Points' });
       return wish(kind.class, values, false);
     case 'sensor_msgs/msg/Image':
-      return wish(kind.class, values, !/depth|label|segment|raw_depth/.test(topic));
+      return wish(kind.class, values, !/(^|\/)depth\/|depth_image|label|segment/.test(topic));
     case 'geometry_msgs/msg/PolygonStamped':
       return wish(kind.class, values, !/raw/.test(topic));
     default:

@@ -1,6 +1,7 @@
 /** Time of the messages, and how fast it goes beside the wall's. */
 
 const WINDOW_MS = 1500;
+const STILL_MS = 600;
 
 export class Clock {
   nowS = 0;
@@ -21,11 +22,9 @@ export class Clock {
     return isBack;
   }
 
-  /** Whether time stands still: nothing was heard for a while, or always the same. */
+  /** Whether time stands still: within a while it changed at most once, by a single step. */
   isStill(wallMs: number): boolean {
-    const last = this.heard[this.heard.length - 1];
-    if (!last) return true;
-    const moved = this.heard.find((h) => h.timeS === last.timeS) ?? last;
-    return wallMs - moved.wallMs > 600;
+    const recent = this.heard.filter((h) => h.wallMs > wallMs - STILL_MS);
+    return new Set(recent.map((h) => h.timeS)).size < 3;
   }
 }

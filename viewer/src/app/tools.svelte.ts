@@ -324,18 +324,18 @@ export class Tools {
     if (this.app.selectedModel === name) this.app.selectedModel = '';
   }
 
-  /** Puts a model where this link of it is at a place in the world. */
-  async place(link: string, worldFromLink: Pose): Promise<void> {
+  /** Puts a model elsewhere; in the world's frame. */
+  async place(name: string, worldFromModel: Pose): Promise<void> {
     await this.app.call(this.service('set_pose'), {
-      entity: { name: link, type: 3 },
-      pose: messageOf(worldFromLink),
+      entity: this.entity(name),
+      pose: messageOf(worldFromModel),
     });
   }
 
   private wanted(now: Vector3): Pose | undefined {
     const { app, start } = this;
     const world = app.world();
-    const old = world?.poseOf(app.selectedModel)?.worldFromLink;
+    const old = world?.poseOf(app.selectedModel);
     if (!world || !old || !start) return undefined;
     const worldFromFixed = inverse(world.fixedFromWorld);
     const fixedFromOld = multiply(world.fixedFromWorld, old);
@@ -376,8 +376,7 @@ export class Tools {
     const pose = this.wanted(now);
     const { selectedModel } = this.app;
     for (const child of [...this.marks.children]) dispose(child);
-    const link = this.app.world()?.poseOf(selectedModel)?.link;
-    if (pose && link) await this.place(link, pose);
+    if (pose && selectedModel) await this.place(selectedModel, pose);
   }
 
   /** The next click on the ground puts it there. */

@@ -167,15 +167,22 @@ export class Client {
     let entry = this.topics.get(topic);
     if (!entry) this.topics.set(topic, (entry = { handlers: new Set() }));
     entry.handlers.add(handler);
+    // Who comes later wants to hear as well what was said once: a map, a robot's description.
+    if (entry.handlers.size > 1) this.leave(entry);
     this.ask(topic, entry);
     return () => {
       entry.handlers.delete(handler);
       if (entry.handlers.size > 0 || this.topics.get(topic) !== entry) return;
       this.topics.delete(topic);
-      if (entry.subscription === undefined) return;
-      this.topicOf.delete(entry.subscription);
-      this.send({ op: 'unsubscribe', subscriptionIds: [entry.subscription] });
+      this.leave(entry);
     };
+  }
+
+  private leave(entry: Topic): void {
+    if (entry.subscription === undefined) return;
+    this.topicOf.delete(entry.subscription);
+    this.send({ op: 'unsubscribe', subscriptionIds: [entry.subscription] });
+    entry.subscription = undefined;
   }
 
   private ask(topic: string, entry: Topic): void {

@@ -88,6 +88,7 @@ export interface Marker {
   points: Point[];
   colors: Color[];
   text: string;
+  texture_resource?: string;
   mesh_resource: string;
   mesh_use_embedded_materials: boolean;
 }

@@ -7,6 +7,7 @@ import {
   InstancedMesh,
   Matrix4,
   Mesh,
+  type MeshLambertMaterial,
   type Object3D,
 } from 'three';
 import type { Color as ColorMessage, Marker, Point } from '../core/types';
@@ -39,6 +40,7 @@ export function markerObject(
   const paint = paintOf(c);
   const solid = (geometry: BufferGeometry) => {
     const mesh = new Mesh(geometry, surface(paint, c.a));
+    if (marker.texture_resource) dress(mesh, marker.texture_resource, library, done);
     mesh.castShadow = c.a > 0.9;
     mesh.receiveShadow = true;
     mesh.scale.set(s.x, s.y, s.z);
@@ -74,6 +76,27 @@ export function markerObject(
     default:
       throw new Error(`Markers of type ${marker.type} are unknown`);
   }
+}
+
+/** Puts a picture on a thing, once it has come. */
+function dress(
+  object: Object3D,
+  uri: string,
+  library: MeshLibrary,
+  done: (why?: string) => void,
+): void {
+  library.texture(uri).then(
+    (texture) => {
+      object.traverse((part) => {
+        const { material } = part as Mesh;
+        for (const one of material ? [material].flat() : []) {
+          Object.assign(one as MeshLambertMaterial, { map: texture, needsUpdate: true });
+        }
+      });
+      done();
+    },
+    (error: Error) => done(`${uri}: ${error.message}`),
+  );
 }
 
 function arrow(marker: Marker, paint: Color): Object3D {
@@ -173,7 +196,9 @@ function mesh(
   library.load(marker.mesh_resource).then(
     (loaded) => {
       const own = marker.mesh_use_embedded_materials;
-      holder.add(copyOf(loaded, isPainted ? paint : undefined, c.a || 1, isPainted && !own));
+      const copy = copyOf(loaded, isPainted ? paint : undefined, c.a || 1, isPainted && !own);
+      holder.add(copy);
+      if (marker.texture_resource) dress(copy, marker.texture_resource, library, done);
       done();
     },
     (error: Error) => done(`${marker.mesh_resource}: ${error.message}`),

@@ -4,7 +4,7 @@
  * A simulation has no frame in common with the robot's. So the world is laid where the robot was seen
  * first: from there on the two drift apart as far as the estimate is wrong.
  */
-import { Group, type Object3D } from 'three';
+import { Box3, Group, type Mesh, type Object3D, Vector3 } from 'three';
 import type { Message } from '../core/cdr';
 import { inverse, multiply, yawOf, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker, type TransformStamped } from '../core/types';
@@ -13,7 +13,7 @@ import { matrixOf } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
-import { bool, choice, topic } from './options';
+import { alpha, bool, choice, topic } from './options';
 
 /** Where the world is in the fixed frame, and how far the estimate is from the truth. */
 export interface Truth {
@@ -22,6 +22,17 @@ export interface Truth {
   distanceM: number;
   yawRad: number;
 }
+
+/** So many poses of the truth wait for an estimate of their time: two seconds of them. */
+const RECENT = 60;
+/** A plane comes as a box that is as thin. */
+const GROUND_M = 0.0011;
+const UNDER_M = 0.02;
+/** What is lower never stands in the way. */
+const TALL_M = 0.8;
+/** So much nearer to the eye than the middle of the view. */
+const NEAR_M = 0.3;
+const GLASS = 0.14;
 
 interface Part {
   marker: Marker;
@@ -38,6 +49,9 @@ export class WorldDisplay extends Display {
   private leavePoses?: () => void;
   private anchor?: { fixed: string; fixedFromWorld: Pose };
   private tfVersion = -1;
+  private seen = '';
+  private seenParts = 0;
+  private recent: { frame: string; stampS: number; worldFromLink: Pose }[] = [];
   truth?: Truth;
   /** Called when models come and go. */
   onModels?: (names: string[]) => void;
@@ -75,10 +89,17 @@ export class WorldDisplay extends Display {
     const pose = poseOf(marker.pose);
     object.position.set(...pose.t);
     object.quaternion.set(...pose.q);
-    const made = markerObject(marker, this.library, (why) => {
-      if (why) this.host.status('Meshes', 'warn', why);
-      this.context.stage.invalidate();
-    });
+    const { scale, color } = marker;
+    // A ground lies a little under what is drawn on it: maps, lines.
+    if (marker.type === 1 && scale.z <= GROUND_M) object.position.z -= UNDER_M;
+    const made = markerObject(
+      { ...marker, color: { ...color, a: color.a * this.get<number>('Alpha') } },
+      this.library,
+      (why) => {
+        if (why) this.host.status('Meshes', 'warn', why);
+        this.context.stage.invalidate();
+      },
+    );
     object.add(made);
     this.holder(marker.header.frame_id).add(object);
     this.parts.set(key, { marker, object });
@@ -136,15 +157,12 @@ export class WorldDisplay extends Display {
   }
 
   links(model: string): string[] {
-    return [...this.frames.keys()].filter((f) => modelOf(f) === model).map(linkOf);
+    return [...this.frames.keys()].filter((f) => f !== model && modelOf(f) === model).map(linkOf);
   }
 
-  /** Where the model's first link is: for moving it by hand. */
-  poseOf(model: string): { link: string; worldFromLink: Pose } | undefined {
-    for (const [frame, { worldFromLink }] of this.frames) {
-      if (modelOf(frame) === model) return { link: frame.replace('/', '::'), worldFromLink };
-    }
-    return undefined;
+  /** Where a model is in the world. */
+  poseOf(model: string): Pose | undefined {
+    return this.frames.get(model)?.worldFromLink;
   }
 
   holders(model: string): Object3D[] {
@@ -158,7 +176,8 @@ export class WorldDisplay extends Display {
   /** The robot's links, which TF knows too. */
   private common(): { frame: string; link: string }[] {
     const { tf } = this.context;
-    const all = [...this.frames.keys()].map((frame) => ({ frame, link: linkOf(frame) }));
+    const parts = [...this.frames.keys()].filter((frame) => frame !== modelOf(frame));
+    const all = parts.map((frame) => ({ frame, link: linkOf(frame) }));
     const known = all.filter(({ link }) => tf.has(link));
     const rank = (link: string) => ['base_footprint', 'base_link'].indexOf(link) >>> 0;
     return known.sort((a, b) => rank(a.link) - rank(b.link));
@@ -184,17 +203,8 @@ export class WorldDisplay extends Display {
       const pose = shared.kind === 'found' ? shared.pose : this.fixedFromWorld;
       this.anchor = { fixed, fixedFromWorld: pose };
     }
-    for (const { frame, link } of this.common()) {
-      const { worldFromLink, stampS } = this.frames.get(frame)!;
-      const exact = tf.lookup(fixed, link, stampS);
-      const found = exact.kind === 'found' ? exact : tf.lookup(fixed, link);
-      if (found.kind !== 'found') continue;
-      this.anchor ??= { fixed, fixedFromWorld: multiply(found.pose, inverse(worldFromLink)) };
-      const really = multiply(this.anchor.fixedFromWorld, worldFromLink);
-      const off = multiply(inverse(really), found.pose);
-      this.truth = { link, distanceM: Math.hypot(off.t[0], off.t[1]), yawRad: yawOf(off.q) };
-      break;
-    }
+    const shown = this.common()[0];
+    if (shown) this.measure(shown.frame, shown.link, fixed);
     this.root.visible = !!this.anchor || this.common().length === 0;
     this.put(this.root, this.fixedFromWorld);
     if (this.truth) {
@@ -209,6 +219,27 @@ export class WorldDisplay extends Display {
     this.robots();
   }
 
+  /**
+   * The estimate comes later than the truth: both are compared at the newest time that both have.
+   */
+  private measure(frame: string, link: string, fixed: string): void {
+    const { worldFromLink, stampS } = this.frames.get(frame)!;
+    if (this.recent[0]?.frame !== frame) this.recent = [];
+    this.recent.push({ frame, stampS, worldFromLink });
+    if (this.recent.length > RECENT) this.recent.shift();
+    for (let i = this.recent.length - 1; i >= 0; i--) {
+      const then = this.recent[i]!;
+      const found = this.context.tf.lookup(fixed, link, then.stampS);
+      if (found.kind !== 'found') continue;
+      this.anchor ??= { fixed, fixedFromWorld: multiply(found.pose, inverse(then.worldFromLink)) };
+      const really = multiply(this.anchor.fixedFromWorld, then.worldFromLink);
+      const off = multiply(inverse(really), found.pose);
+      this.truth = { link, distanceM: Math.hypot(off.t[0], off.t[1]), yawRad: yawOf(off.q) };
+      this.recent.splice(0, i);
+      return;
+    }
+  }
+
   /** What RobotModel shows already is drawn again only if that is wanted. */
   private robots(): void {
     const names = new Set(this.common().map(({ frame }) => modelOf(frame)));
@@ -220,7 +251,41 @@ export class WorldDisplay extends Display {
     }
   }
 
+  /**
+   * Walls between the eye and what it looks at become like glass: all that is tall, and nearer to the
+   * eye than the point around which the view turns.
+   */
+  private seeInside(): void {
+    const { view } = this.context.stage;
+    const { state } = view;
+    const isOn =
+      this.get<boolean>('See Inside') && state.kind !== 'TopDownOrtho' && state.pitch < 1.4;
+    const focal = new Vector3(...state.focal).add(view.origin);
+    const eye = view.camera.position.clone().sub(focal).setZ(0).normalize();
+    const key = [isOn, ...focal.toArray(), ...eye.toArray()].map((v) => (+v).toFixed(2)).join();
+    if (key === this.seen && this.seenParts === this.parts.size) return;
+    this.seen = key;
+    this.seenParts = this.parts.size;
+    const box = new Box3();
+    this.root.updateMatrixWorld(true);
+    for (const { object, marker } of this.parts.values()) {
+      box.setFromObject(object);
+      const isTall = box.max.z - box.min.z > TALL_M && box.max.z > 1;
+      const middle = box.getCenter(new Vector3()).sub(focal).setZ(0);
+      const isGlass = isOn && isTall && middle.dot(eye) > NEAR_M;
+      const alpha = (marker.color.a || 1) * this.get<number>('Alpha') * (isGlass ? GLASS : 1);
+      object.traverse((part) => {
+        for (const one of (part as Mesh).material ? [(part as Mesh).material].flat() : []) {
+          const isClear = alpha < 0.999;
+          if (one.transparent !== isClear) one.needsUpdate = true;
+          Object.assign(one, { transparent: isClear, opacity: alpha, depthWrite: !isClear });
+        }
+      });
+    }
+  }
+
   override tick(): void {
+    this.seeInside();
     if (this.context.tf.version === this.tfVersion || this.anchor) return;
     this.tfVersion = this.context.tf.version;
     this.compare();
@@ -232,7 +297,9 @@ export class WorldDisplay extends Display {
 
   override changed(path: string): void {
     super.changed(path);
+    this.seen = '';
     if (path === 'Align') this.align();
+    if (path === 'Alpha') for (const { marker } of [...this.parts.values()]) this.take(marker);
     this.robots();
   }
 
@@ -242,11 +309,13 @@ export class WorldDisplay extends Display {
     this.frames.clear();
     this.anchor = undefined;
     this.truth = undefined;
+    this.recent = [];
   }
 
   /** Time went back: the robot stands where it began. */
   restarted(): void {
     this.anchor = undefined;
+    this.recent = [];
   }
 
   override stop(): void {
@@ -264,7 +333,9 @@ export const world: Kind = {
   types: [],
   options: [
     ...topic('Topic', '', ARRAY, { durability: 'Transient Local' }),
+    alpha('Alpha', 1),
     choice('Robots', 'Hidden', ['Hidden', 'Solid']),
+    bool('See Inside', true),
     bool('Align', false),
   ],
   make: (...all) => new WorldDisplay(...all),

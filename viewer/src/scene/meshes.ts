@@ -1,13 +1,16 @@
 /** Meshes by their address; readers are loaded when a first file of their kind comes. */
 import {
+  Box3,
   BufferGeometry,
   Group,
   Mesh,
   MeshLambertMaterial,
   Object3D,
-  TextureLoader,
+  RepeatWrapping,
   LoadingManager,
   Color,
+  Texture,
+  Vector3,
 } from 'three';
 
 export type Fetch = (uri: string) => Promise<Uint8Array>;
@@ -17,8 +20,30 @@ const HIDDEN_LIGHTS = ['AmbientLight', 'DirectionalLight', 'PointLight', 'SpotLi
 /** A shared, unchanging thing: clone it before use. */
 export class MeshLibrary {
   private known = new Map<string, Promise<Object3D>>();
+  private pictures = new Map<string, Promise<Texture>>();
 
   constructor(private fetch: Fetch) {}
+
+  /** A picture for a surface. */
+  texture(uri: string): Promise<Texture> {
+    let picture = this.pictures.get(uri);
+    if (!picture) {
+      picture = this.fetch(uri).then(async (bytes) => {
+        const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]), {
+          imageOrientation: 'flipY',
+        });
+        const texture = new Texture(bitmap as never);
+        texture.flipY = false;
+        texture.colorSpace = 'srgb';
+        texture.wrapS = texture.wrapT = RepeatWrapping;
+        texture.needsUpdate = true;
+        return texture;
+      });
+      this.pictures.set(uri, picture);
+      picture.catch(() => this.pictures.delete(uri));
+    }
+    return picture;
+  }
 
   load(uri: string): Promise<Object3D> {
     let mesh = this.known.get(uri);
@@ -31,7 +56,16 @@ export class MeshLibrary {
     return mesh;
   }
 
+  /** `file.dae#submesh=Name&center=1` is a part of a file, as SDF may ask for it. */
   private async read(uri: string): Promise<Object3D> {
+    const hash = uri.indexOf('#');
+    if (hash < 0) return this.readFile(uri);
+    const whole = await this.load(uri.slice(0, hash));
+    const wanted = new URLSearchParams(uri.slice(hash + 1));
+    return partOf(whole, wanted.get('submesh') ?? '', wanted.get('center') === '1');
+  }
+
+  private async readFile(uri: string): Promise<Object3D> {
     const bytes = await this.fetch(uri);
     const ending = /\.([a-z0-9]+)(\?|#|$)/i.exec(uri)?.[1]?.toLowerCase();
     const buffer = bytes.slice().buffer as ArrayBuffer;
@@ -114,9 +148,31 @@ export class MeshLibrary {
       for (const [name, here] of urls) if (url.endsWith(name)) return here;
       return url.startsWith('blob:') || url.startsWith('data:') ? url : 'data:,';
     });
-    void TextureLoader;
     return manager;
   }
+}
+
+/** What of a file has this name; all of it, if nothing has. */
+function partOf(whole: Object3D, name: string, isCentered: boolean): Object3D {
+  const copy = whole.clone(true);
+  const isWanted = (o: Object3D) => o.name === name || (o as Mesh).geometry?.name === name;
+  const found: Object3D[] = [];
+  copy.traverse((o) => {
+    if (isWanted(o) && !found.some((f) => f === o.parent)) found.push(o);
+  });
+  if (found.length === 0) return copy;
+  copy.updateMatrixWorld(true);
+  const out = new Group();
+  for (const part of found) {
+    part.matrix.copy(part.matrixWorld);
+    part.matrix.decompose(part.position, part.quaternion, part.scale);
+    out.add(part);
+  }
+  if (isCentered) {
+    const middle = new Box3().setFromObject(out).getCenter(new Vector3());
+    for (const part of out.children) part.position.sub(middle);
+  }
+  return out;
 }
 
 function plain(geometry: BufferGeometry): Object3D {
