@@ -32,6 +32,13 @@ pub(crate) fn fastest(turns: usize, mut work: impl FnMut() -> f64) -> f64 {
     (0..turns).map(|_| work()).fold(f64::INFINITY, f64::min)
 }
 
+/// The middle of some turns \[s\].
+pub(crate) fn median(turns: usize, mut work: impl FnMut() -> f64) -> f64 {
+    let mut taken: Vec<f64> = (0..turns).map(|_| work()).collect();
+    taken.sort_by(f64::total_cmp);
+    taken[turns / 2]
+}
+
 /// How long something takes \[s\].
 pub(crate) fn seconds(work: impl FnOnce()) -> f64 {
     let start = std::time::Instant::now();

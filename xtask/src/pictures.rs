@@ -1,5 +1,5 @@
-//! Pictures for the documents: the terminal, from what the program really prints, and the worlds, as
-//! cameras see them.
+//! Pictures for the documents: the terminal, from what the program really prints, the worlds, as
+//! cameras see them, and costmaps, as RViz shows them.
 
 use anstyle_svg::Term;
 
@@ -39,18 +39,19 @@ pub(crate) fn draw() -> Result<(), Failed> {
     }
     for (name, world, pose) in PHOTOS {
         let path = format!("docs/pictures/{name}.png");
-        let mut photo = cargo();
-        photo.args([
-            "run",
-            "--quiet",
-            "--release",
-            "--package",
-            "periplus-sim",
-            "--example",
-            "photo",
-        ]);
-        run(photo.args(["--", world, pose, &path]), "see above")?;
+        run(example("photo").args([*world, *pose, path.as_str()]), "see above")?;
         println!("{path}");
     }
+    let path = "docs/pictures/costmaps.png";
+    run(example("costmap_picture").arg(path), "see above")?;
+    println!("{path}");
     Ok(())
+}
+
+/// A small program of the simulator, to be given its words.
+fn example(name: &str) -> std::process::Command {
+    let mut program = cargo();
+    program.args(["run", "--quiet", "--release", "--package", "periplus-sim"]);
+    program.args(["--example", name, "--"]);
+    program
 }

@@ -12,7 +12,7 @@ use clap::Args;
 use periplus_costmap::{Compat, cost};
 use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
 use periplus_graph::Graph;
-use periplus_maps::palette::Scheme;
+use periplus_maps::palette::{Scheme, paint};
 use periplus_pictures::{Layout, write_png};
 
 use crate::terminal;
@@ -29,7 +29,7 @@ pub(crate) struct CostmapOptions {
     /// frame [m]
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true, requires = "costmap")]
     costmap_cell: Vec<Place>,
-    /// At the end write each costmap to a folder as a picture in RViz' colours
+    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER", requires = "costmap")]
     costmap_picture: Option<PathBuf>,
     /// Whose habits the costmaps have where distributions differ
@@ -90,6 +90,7 @@ impl Costmaps {
                 .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
             match made {
                 Ok((node, markers)) => {
+                    node.name_lines_of(file.sources.clone());
                     costmaps.nodes.push(node);
                     costmaps._markers.push(markers);
                 }
@@ -123,42 +124,38 @@ impl Costmaps {
                 }
             }
             if let Some(folder) = &self.pictures {
-                let name = format!("{}.png", node.node().names().name());
-                match self.draw(node, &folder.join(&name)) {
-                    Ok(()) => writeln!(out, "drawn: {}", folder.join(name).display())?,
-                    Err(why) => terminal::complain(&why),
+                for (scheme, suffix) in
+                    [(Scheme::Costmap, ""), (Scheme::Map, "_map"), (Scheme::Raw, "_raw")]
+                {
+                    let name = format!("{}{suffix}.png", node.node().names().name());
+                    match draw(node, scheme, &folder.join(&name)) {
+                        Ok(()) => writeln!(out, "drawn: {}", folder.join(name).display())?,
+                        Err(why) => terminal::complain(&why),
+                    }
                 }
             }
         }
         Ok(())
     }
+}
 
-    /// A picture in the colours of RViz, over white, four pixels for a cell.
-    fn draw(&self, node: &CostmapNode, path: &Path) -> Result<(), String> {
-        const PIXELS: usize = 4;
-        let palette = Scheme::Costmap.palette();
-        let drawn = node.look(|costmap| {
-            let grid = costmap.costmap();
-            let (width, height) = (grid.lattice().width, grid.lattice().height);
-            let mut samples = Vec::with_capacity(width * height * PIXELS * PIXELS * 3);
-            for row in (0..height * PIXELS).rev() {
-                for column in 0..width * PIXELS {
-                    let cost = grid.costs()[row / PIXELS * width + column / PIXELS];
-                    let [r, g, b, a] = palette[usize::from(cost::occupancy_of(cost) as u8)];
-                    samples.extend_from_slice(&if a == 0 { [255; 3] } else { [r, g, b] });
-                }
-            }
-            let size = |cells: usize| (cells * PIXELS) as u32;
-            write_png(size(width), size(height), Layout::Rgb, &samples)
-        });
-        let Some(bytes) = drawn else { return Err("there is no costmap to draw".into()) };
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder)
-                .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-        }
-        std::fs::write(path, bytes)
-            .map_err(|error| format!("cannot write {}: {error}", path.display()))
+/// A picture in colours of RViz, four pixels for a cell.
+fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
+    const PIXELS: usize = 4;
+    let drawn = node.look(|costmap| {
+        let grid = costmap.costmap();
+        let (width, height) = (grid.lattice().width, grid.lattice().height);
+        let values: Vec<i8> = grid.costs().iter().map(|cost| cost::occupancy_of(*cost)).collect();
+        let samples = paint(&scheme.palette(), width, &values, PIXELS);
+        let size = |cells: usize| (cells * PIXELS) as u32;
+        write_png(size(width), size(height), Layout::Rgb, &samples)
+    });
+    let Some(bytes) = drawn else { return Err("there is no costmap to draw".into()) };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     }
+    std::fs::write(path, bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 /// What a costmap lives on, and what it lacks.

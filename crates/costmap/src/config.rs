@@ -87,16 +87,19 @@ impl Config {
         for one in given {
             reading.add(one);
         }
-        let node = reading.values(&tables::COSTMAP, "");
+        let node = reading.values(&tables::COSTMAP, "", Origin::default());
+        reading.check_size(&node);
         let given = || node.text("compat").filter(|_| node.is_given("compat"));
         let told = compat.or_else(|| given().and_then(|text| text.parse().ok()));
         let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Compat::Jazzy));
         let names = reading.names(&node, "plugins");
         let is_usual = names.iter().map(String::as_str).eq(USUAL.map(|(name, _)| name));
         let usual = if is_usual { &USUAL[..] } else { &[] };
-        let layers = reading.layers(&names, "", usual, compat, 0);
+        let list = List { within: "", at: node.origin("plugins"), usual };
+        let layers = reading.layers(&names, &list, compat, 0);
         let names = reading.names(&node, "filters");
-        let filters = reading.layers(&names, "", &[], compat, 0);
+        let list = List { within: "", at: node.origin("filters"), usual: &[] };
+        let filters = reading.layers(&names, &list, compat, 0);
         let footprint = reading.footprint(&node);
         reading.warn_of_rest();
         Self { node, compat, forms, layers, filters, footprint }
@@ -138,6 +141,16 @@ struct Tree<'a> {
     groups: BTreeMap<String, Vec<Given<'a>>>,
 }
 
+/// A list of layers.
+struct List<'a> {
+    /// The container that has it; empty for the node.
+    within: &'a str,
+    /// Where it is written.
+    at: Origin,
+    /// Layers that need no plugin.
+    usual: &'a [(&'a str, LayerKind)],
+}
+
 struct Reading<'a, 'd> {
     tree: Tree<'a>,
     diagnostics: &'d mut Diagnostics,
@@ -171,8 +184,8 @@ impl<'a> Reading<'a, '_> {
         Some(entries.remove(index))
     }
 
-    /// Reads a group by a table.
-    fn values(&mut self, table: &'static Table, group: &str) -> Values {
+    /// Reads a group by a table; `at` is the place to show when something is missing in it.
+    fn values(&mut self, table: &'static Table, group: &str, at: Origin) -> Values {
         let mut entries = self.tree.groups.remove(group).unwrap_or_default();
         let prefix = if group.is_empty() { String::new() } else { format!("{group}.") };
         if group.is_empty() {
@@ -185,7 +198,7 @@ impl<'a> Reading<'a, '_> {
         for entry in &mut entries {
             self.forgive(table, entry, &prefix);
         }
-        table.check(entries, None, self.diagnostics)
+        table.check(entries, at.0, self.diagnostics)
     }
 
     /// Old names and other kinds of numbers are taken, and told.
@@ -249,15 +262,16 @@ impl<'a> Reading<'a, '_> {
     fn layers(
         &mut self,
         names: &[String],
-        within: &str,
-        usual: &[(&str, LayerKind)],
+        list: &List<'_>,
         compat: Compat,
         depth: usize,
     ) -> Vec<LayerConfig> {
+        let List { within, at, usual } = *list;
         let mut layers = Vec::new();
         for name in names {
             let full = if within.is_empty() { name.clone() } else { format!("{within}.{name}") };
             let plugin = self.take(&full, "plugin");
+            let named_at = plugin.as_ref().map_or(at, |plugin| plugin.origin);
             let kind = match plugin {
                 Some(plugin) => self.kind(&full, &plugin),
                 None => {
@@ -265,6 +279,7 @@ impl<'a> Reading<'a, '_> {
                     if usual.is_none() {
                         self.diagnostics.push(
                             Diagnostic::error("no-plugin", format!("`{full}.plugin` is not set"))
+                                .at(at)
                                 .note(format!("layer `{full}` is left out"))
                                 .help(format!(
                                     "write `plugin: \"nav2_costmap_2d::ObstacleLayer\"`, or \
@@ -279,7 +294,7 @@ impl<'a> Reading<'a, '_> {
                 self.forget(&full);
                 continue;
             };
-            layers.push(self.layer(full, kind, compat, depth));
+            layers.push(self.layer(full, kind, named_at, compat, depth));
         }
         layers
     }
@@ -288,10 +303,14 @@ impl<'a> Reading<'a, '_> {
         &mut self,
         name: String,
         kind: LayerKind,
+        named_at: Origin,
         compat: Compat,
         depth: usize,
     ) -> LayerConfig {
-        let values = self.values(kind.table(), &name);
+        let values = self.values(kind.table(), &name, named_at);
+        let place = |parameter: &str| {
+            if values.is_given(parameter) { values.origin(parameter) } else { named_at }
+        };
         let mut sources = Vec::new();
         if kind.has_sources() {
             for source in values
@@ -304,7 +323,7 @@ impl<'a> Reading<'a, '_> {
             if sources.is_empty() {
                 self.diagnostics.push(
                     Diagnostic::warning("no-sources", format!("layer `{name}` has no sources"))
-                        .at(values.origin("observation_sources"))
+                        .at(place("observation_sources"))
                         .note("it will never see an obstacle")
                         .help(format!("set `{name}.observation_sources`, for example to `scan`")),
                 );
@@ -313,7 +332,7 @@ impl<'a> Reading<'a, '_> {
         if kind == LayerKind::Range && values.texts("topics").is_empty() {
             self.diagnostics.push(
                 Diagnostic::error("no-topics", format!("layer `{name}` has no topics"))
-                    .at(values.origin("topics"))
+                    .at(place("topics"))
                     .help(format!("set `{name}.topics`, for example to `[\"/sonar\"]`")),
             );
         }
@@ -321,7 +340,8 @@ impl<'a> Reading<'a, '_> {
         if kind == LayerKind::Container {
             let names = self.names(&values, "plugins");
             if depth < DEEPEST {
-                children = self.layers(&names, &name, &[], compat, depth + 1);
+                let list = List { within: &name, at: place("plugins"), usual: &[] };
+                children = self.layers(&names, &list, compat, depth + 1);
             } else {
                 self.diagnostics.push(Diagnostic::error(
                     "too-deep",
@@ -335,7 +355,7 @@ impl<'a> Reading<'a, '_> {
     fn source(&mut self, layer: &str, name: String, named_at: Origin) -> SourceConfig {
         let group = format!("{layer}.{name}");
         let is_described = self.tree.groups.contains_key(&group);
-        let values = self.values(&tables::SOURCE, &group);
+        let values = self.values(&tables::SOURCE, &group, named_at);
         let tall = values.number("max_obstacle_height").unwrap_or_default();
         let low = values.number("min_obstacle_height").unwrap_or_default();
         if tall <= low {
@@ -418,9 +438,41 @@ impl<'a> Reading<'a, '_> {
         }
     }
 
+    /// A costmap that would be too large has no cells.
+    fn check_size(&mut self, node: &Values) {
+        if !lattice_of(node).is_empty() {
+            return;
+        }
+        let number = |name: &str| node.number(name).unwrap_or_default();
+        let (width, height, resolution) = (number("width"), number("height"), number("resolution"));
+        let biggest = ["width", "height", "resolution"].into_iter().find(|it| node.is_given(it));
+        self.diagnostics.push(
+            Diagnostic::error(
+                "bad-size",
+                format!(
+                    "`width`, `height` and `resolution`: {width} x {height} m in cells of \
+                     {resolution} m are too many cells, or none"
+                ),
+            )
+            .at(node.origin(biggest.unwrap_or("width")))
+            .note("the costmap stays empty until a map gives it a size"),
+        );
+    }
+
     fn footprint(&mut self, node: &Values) -> Footprint {
         let padding_m = node.number("footprint_padding").unwrap_or_default();
         let (footprint, complaint) = footprint_of(node);
+        if complaint.is_none() && footprint.points().iter().all(|point| *point == [0.0, 0.0]) {
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    "empty-footprint",
+                    "`footprint` is empty and `robot_radius` is 0: the robot is a point",
+                )
+                .at(node.origin("robot_radius"))
+                .note("nothing is inscribed, so that plans may lead along every wall")
+                .help("set `footprint`, or `robot_radius` to half the robot's width"),
+            );
+        }
         if let Some(complaint) = complaint {
             self.diagnostics.push(complaint);
         }

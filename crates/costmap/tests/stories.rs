@@ -435,3 +435,40 @@ fn parameters_change_while_it_runs() {
     assert_eq!(refused, "`rolling_window` cannot be changed while the costmap runs");
     assert_eq!(config.compat, Compat::Main);
 }
+
+#[test]
+fn what_is_missing_is_shown_where_it_belongs() {
+    let told = |text: &str| {
+        let mut sources = SourceMap::new();
+        let file = sources.add("params.yaml", text);
+        let tree = periplus_yaml::parse(file, &sources).expect("YAML").expect("something");
+        let mut diagnostics = Diagnostics::new();
+        Config::read_yaml(&tree, "local_costmap", None, &mut diagnostics);
+        let place = |finding: &periplus_diagnostics::Diagnostic| {
+            finding.span.map_or(0, |span| sources.locate(span).1.line)
+        };
+        diagnostics.iter().map(|one| (one.code, place(one))).collect::<Vec<_>>()
+    };
+    let text = "
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      robot_radius: 0.0
+      plugins: [nameless, blind]
+      filters: [keepout]
+      blind:
+        plugin: nav2_costmap_2d::ObstacleLayer
+      keepout:
+        plugin: nav2_costmap_2d::KeepoutFilter
+";
+    assert_eq!(
+        told(text),
+        [("no-plugin", 6), ("no-sources", 9), ("missing-parameter", 11), ("empty-footprint", 5)]
+    );
+    let large = "
+local_costmap:
+  local_costmap:
+    ros__parameters: {plugins: [], resolution: 0.01, width: 1000000, height: 1000000}
+";
+    assert_eq!(told(large), [("bad-size", 4)]);
+}

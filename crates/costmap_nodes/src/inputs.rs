@@ -8,8 +8,8 @@ use std::sync::Arc;
 use periplus_base::{DVec3, Pose};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{
-    Beams, Compat, Config, DataType, LayerConfig, LayerKind, LayeredCostmap, Projector, Source,
-    Window,
+    Beams, Compat, Config, DataType, Layer as _, LayerConfig, LayerKind, LayeredCostmap, Projector,
+    Source, Window,
 };
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
@@ -462,13 +462,15 @@ struct MapPort {
 impl MapPort {
     fn take(&self, costmap: &mut LayeredCostmap, complaints: &mut Vec<Diagnostic>) {
         let Some(layer) = costmap.find_as::<StaticLayer>(&self.layer) else { return };
-        let topic = self.map.topic();
+        let (topic, name) = (self.map.topic(), &self.layer);
+        let told_at = layer.values().map(|values| values.origin("map_topic")).unwrap_or_default();
         let mut refuse = |why: String| {
             complaints.push(
                 Diagnostic::error(
                     "malformed-map",
-                    format!("layer `{}`: a map on `{topic}` is refused: {why}", self.layer),
+                    format!("a map on {topic} (`{name}.map_topic`) is refused: {why}"),
                 )
+                .at(told_at)
                 .help("the layer keeps the map that it had"),
             );
         };

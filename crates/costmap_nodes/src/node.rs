@@ -2,7 +2,7 @@
 
 use periplus_base::Pose2;
 use periplus_costmap::{Advice, CellReport, Config, Footprint, LayerConfig, LayeredCostmap};
-use periplus_diagnostics::Diagnostic;
+use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_graph::{
     Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
 };
@@ -58,6 +58,8 @@ pub(crate) struct State {
     updates: u64,
     trouble: Option<String>,
     told: Vec<(String, i64)>,
+    /// Where the parameters were written, to name the lines.
+    files: SourceMap,
     published_ns: Option<i64>,
     pub(crate) robot: Option<Pose2>,
 }
@@ -123,6 +125,7 @@ impl CostmapNode {
             updates: 0,
             trouble: None,
             told: Vec::new(),
+            files: SourceMap::new(),
             published_ns: None,
             robot: None,
         };
@@ -139,6 +142,11 @@ impl CostmapNode {
         }
         actor.timer(EVERY_NS, |state, io| state.report(io.now_ns(), io.node()))?;
         Ok(Self { actor, life })
+    }
+
+    /// The files from which its parameters were read: what it tells names their lines then.
+    pub fn name_lines_of(&self, files: SourceMap) {
+        self.actor.with(|state| state.files = files);
     }
 
     /// Configures and activates it, as a lifecycle manager would.
@@ -298,8 +306,18 @@ impl State {
         self.told.retain(|(_, told_ns)| (0..QUIET_NS).contains(&(now_ns - told_ns)));
         if self.told.iter().all(|(told, _)| *told != complaint.message) {
             self.told.push((complaint.message.clone(), now_ns));
-            node.log_finding(complaint);
+            node.log_finding(&self.with_line(complaint));
         }
+    }
+
+    /// The same with the file and the line that it is about, if somebody has told them.
+    fn with_line(&self, complaint: &Diagnostic) -> Diagnostic {
+        let mut placed = complaint.clone();
+        if let Some(span) = complaint.span.filter(|span| self.files.holds(*span)) {
+            let (file, position) = self.files.locate(span);
+            placed.message = format!("{} ({file}:{})", complaint.message, position.line);
+        }
+        placed
     }
 
     /// Takes other parameters while it runs.

@@ -15,7 +15,7 @@ use periplus_msgs::geometry_msgs::{
 use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid, Odometry, Path};
 use periplus_msgs::nav2_msgs::*;
 use periplus_msgs::rcl_interfaces::{
-    Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
+    Log, Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
 };
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
@@ -56,13 +56,17 @@ global_costmap:
 ";
 
 fn config(text: &str, node: &str, compat: Compat) -> Config {
+    config_and_text(text, node, compat).0
+}
+
+fn config_and_text(text: &str, node: &str, compat: Compat) -> (Config, SourceMap) {
     let mut sources = SourceMap::new();
     let file = sources.add("params.yaml", text);
     let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();
     let mut diagnostics = Diagnostics::new();
     let config = Config::read_yaml(&tree, node, Some(compat), &mut diagnostics);
     assert!(diagnostics.is_empty(), "{:?}", diagnostics.iter().next());
-    config
+    (config, sources)
 }
 
 struct Stage {
@@ -359,6 +363,78 @@ fn diagnostics_say_that_a_map_is_missing() {
     assert_eq!(status.level, DiagnosticStatus::WARN);
     let expected = "`static_layer` waits for a map on /map (`static_layer.map_topic`)";
     assert_eq!(status.message, expected);
+}
+
+const NARROW: &str = "
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      global_frame: odom
+      rolling_window: true
+      width: 1
+      height: 1
+      update_frequency: 10.0
+      plugins: [static_layer, obstacle_layer]
+      static_layer:
+        plugin: nav2_costmap_2d::StaticLayer
+        map_topic: /plan_of_the_house
+      obstacle_layer:
+        plugin: nav2_costmap_2d::ObstacleLayer
+        observation_sources: scan
+        scan: {topic: /scan, max_obstacle_height: 1.0, clearing: true}
+";
+
+#[test]
+fn what_goes_wrong_while_it_runs_names_parameter_file_and_line() {
+    let mut stage = Stage::new(NARROW, "local_costmap", Compat::Main);
+    let (_, text) = config_and_text(NARROW, "local_costmap", Compat::Main);
+    stage.costmap.name_lines_of(text);
+    let log = stage.user.mailbox::<Log>("/rosout", Qos::reliable(100)).unwrap();
+    let said = |words: &str, place: &str| {
+        let lines: Vec<String> = log.drain().iter().map(|line| line.msg.clone()).collect();
+        let found = lines.iter().any(|line| line.contains(words) && line.contains(place));
+        assert!(found, "`{words}` at {place} is not in {lines:?}");
+    };
+    stage.costmap.start();
+    stage.advance(100);
+    said("`base_link` to `odom`", "check `robot_base_frame`");
+    let maps =
+        stage.user.publisher::<OccupancyGrid>("/plan_of_the_house", Qos::latched(1)).unwrap();
+    maps.publish(OccupancyGrid {
+        info: MapMetaData { resolution: 0.5, width: 3, height: 2, ..MapMetaData::default() },
+        data: vec![0; 5],
+        ..OccupancyGrid::default()
+    });
+    stage.place("odom", 0.05);
+    stage.advance(100);
+    said("(`static_layer.map_topic`) is refused: it has 5 cells", "(params.yaml:13)");
+    // The scanner is 2 m ahead of a costmap of 1 m.
+    let mut far = TransformStamped {
+        header: Header { stamp: stage.stamp(), frame_id: "odom".into() },
+        child_frame_id: "far".into(),
+        ..TransformStamped::default()
+    };
+    far.transform.translation.x = 2.0;
+    far.transform.rotation.w = 1.0;
+    stage.tf.publish(TFMessage { transforms: vec![far] });
+    let see = |stage: &Stage, frame: &str| {
+        stage.scan.publish(LaserScan {
+            header: Header { stamp: stage.stamp(), frame_id: frame.into() },
+            range_max: 10.0,
+            ranges: vec![1.0],
+            ..LaserScan::default()
+        });
+    };
+    see(&stage, "far");
+    stage.place("odom", 0.05);
+    stage.advance(100);
+    said("out of map bounds", "(params.yaml:17)");
+    see(&stage, "nowhere");
+    for _ in 0..15 {
+        stage.place("odom", 0.05);
+        stage.advance(100);
+    }
+    said("in frame `nowhere` are dropped", "(params.yaml:17)");
 }
 
 #[test]

@@ -200,6 +200,12 @@ impl SourceMap {
         })
     }
 
+    /// Whether a span is of a text of this map, as far as its number tells.
+    #[must_use]
+    pub fn holds(&self, span: Span) -> bool {
+        (span.file.0 as usize) < self.files.len()
+    }
+
     /// The name of a span's text and the position of its first byte.
     #[must_use]
     pub fn locate(&self, span: Span) -> (&str, Position) {

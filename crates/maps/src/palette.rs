@@ -77,6 +77,24 @@ impl Scheme {
     }
 }
 
+/// A picture of a grid in these colours: red, green and blue from the upper left corner on, over white
+/// where a colour is clear, so many pixels along each side of a cell. `values` are those of messages,
+/// row by row from below.
+#[must_use]
+pub fn paint(palette: &Palette, width: usize, values: &[i8], pixels: usize) -> Vec<u8> {
+    let mut samples = Vec::with_capacity(values.len() * pixels * pixels * 3);
+    for row in values.rchunks(width.max(1)) {
+        let mut line = Vec::with_capacity(width * pixels * 3);
+        for value in row {
+            let [red, green, blue, opacity] = palette[usize::from(*value as u8)];
+            let colour = if opacity == 0 { [255; 3] } else { [red, green, blue] };
+            (0..pixels).for_each(|_| line.extend_from_slice(&colour));
+        }
+        (0..pixels).for_each(|_| samples.extend_from_slice(&line));
+    }
+    samples
+}
+
 /// The colour of -1.
 const UNKNOWN: Rgba = [0x70, 0x89, 0x86, 255];
 
@@ -96,5 +114,14 @@ mod tests {
         );
         assert_eq!(Scheme::Map.binary(50)[49], [255; 4]);
         assert_eq!(Scheme::Map.binary(50)[50], [0, 0, 0, 255]);
+    }
+
+    #[test]
+    fn a_picture_begins_above_and_is_white_where_it_is_clear() {
+        let pixels = paint(&Scheme::Costmap.palette(), 2, &[0, 99, 100, -1], 1);
+        assert_eq!(pixels[..6], [255, 0, 255, 0x70, 0x89, 0x86]);
+        assert_eq!(pixels[6..], [255, 255, 255, 0, 255, 255]);
+        let large = paint(&Scheme::Raw.palette(), 1, &[7], 2);
+        assert_eq!(large, [7; 12]);
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters from files: those of ROS 2 (`slam_toolbox: ros__parameters:`), and those of ROS 1.
 
-use periplus_diagnostics::{Diagnostics, Origin};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::{Given, Values};
 use periplus_slam::{Method, tables};
 use periplus_yaml::{Node, Value};
@@ -10,70 +10,107 @@ use crate::Program;
 /// Namespaces around a node nest no deeper.
 const DEEPEST: usize = 4;
 
+/// Names under which nodes that make maps have their parameters, with the method that each stands for.
+const NODES: [(&str, Option<Method>); 5] = [
+    ("slam_toolbox", Some(Method::Graph)),
+    ("slam_gmapping", Some(Method::Gmapping)),
+    ("gmapping", Some(Method::Gmapping)),
+    ("turtlebot3_slam_gmapping", Some(Method::Gmapping)),
+    ("slam", None),
+];
+
+/// A parameter as somebody wrote it.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// Its name, with dots.
+    pub name: String,
+    /// What it is to be; the values of a list side by side.
+    pub text: String,
+    /// Where the name is.
+    pub name_origin: Origin,
+    /// Where the value is.
+    pub origin: Origin,
+}
+
+impl Written {
+    /// For a table to check.
+    #[must_use]
+    pub fn given(&self) -> Given<'_> {
+        Given {
+            name: &self.name,
+            text: self.text.as_str().into(),
+            name_origin: self.name_origin,
+            origin: self.origin,
+        }
+    }
+}
+
+/// What a file has for a mapper.
+#[derive(Clone, Debug, Default)]
+pub struct InFile {
+    /// The method that the name of its node stands for.
+    pub method: Option<Method>,
+    /// Its parameters, in their order.
+    pub written: Vec<Written>,
+}
+
+/// Finds the parameters for a mapper in a file; with `wanted` only those for that method. They stand
+/// below `slam_toolbox: ros__parameters:`, below `/**:`, in files of ROS 1 below `slam_gmapping:`, or
+/// are the whole file when there is no such section. It is told when all are for other nodes.
+#[must_use]
+pub fn in_file(file: &Node, wanted: Option<Method>, diagnostics: &mut Diagnostics) -> InFile {
+    let fits = |method: Option<Method>| wanted.is_none() || method.is_none() || method == wanted;
+    let names = NODES.into_iter().filter(|(_, method)| fits(*method));
+    let mut sections = Sections::default();
+    let mut method = None;
+    for (name, of_name) in names.clone() {
+        sections = Sections::default();
+        sections.collect(file, name, 0);
+        if sections.is_named {
+            method = of_name;
+            break;
+        }
+    }
+    if !sections.is_named {
+        // ROS 1: without `ros__parameters`.
+        let of_ros1 = names.into_iter().find_map(|(name, method)| Some((method, file.get(name)?)));
+        if let Some((of_name, section)) = of_ros1.filter(|(_, it)| it.entries().is_some()) {
+            method = of_name;
+            sections.found.push(section);
+        } else if sections.found.is_empty() && sections.others.is_empty() {
+            sections.found.push(file);
+        }
+    }
+    if sections.found.is_empty() {
+        diagnostics.push(
+            Diagnostic::warning("no-parameters", "no node in here makes maps")
+                .at(file.span)
+                .note(format!("there are parameters for {}", sections.others.join(", ")))
+                .help("write them below `slam_toolbox:` or `slam_gmapping:`, or below `/**:`"),
+        );
+    }
+    let mut written = Vec::new();
+    for section in sections.found {
+        flatten(section, "", &mut written);
+    }
+    InFile { method, written }
+}
+
 /// Reads a file for a mapper: for the program that is asked for, or the one that the file is for by
-/// the names of its nodes and parameters. `slam_toolbox: ros__parameters:`, `/**:` and, in files of ROS
-/// 1, `slam_gmapping:` are found, or everything when there is no such section. What is wrong is told,
-/// and the default stands in for it.
+/// the names of its nodes and parameters, see [`in_file`]. What is wrong is told, and the default
+/// stands in for it.
 #[must_use]
 pub fn read(
     file: &Node,
     wanted: Option<Program>,
     diagnostics: &mut Diagnostics,
 ) -> (Program, Values) {
-    let names = ["slam_toolbox", "slam_gmapping"];
-    let mut found = None;
-    for name in
-        names.into_iter().filter(|name| wanted.is_none_or(|program| program.node_name() == *name))
-    {
-        let mut sections = Vec::new();
-        let mut is_named = false;
-        collect(file, name, 0, &mut sections, &mut is_named);
-        if is_named {
-            found = Some((Some(name), sections));
-            break;
-        }
-    }
-    let (name, sections) = found.unwrap_or_else(|| {
-        let mut sections = Vec::new();
-        collect(file, "**", 0, &mut sections, &mut false);
-        let of_ros1 = names.iter().find_map(|name| Some((*name, file.get(name)?)));
-        match of_ros1 {
-            Some((name, section)) => {
-                sections.push(section);
-                (Some(name), sections)
-            }
-            None => {
-                let is_of_others = |(_, value): &(Node, Node)| value.entries().is_some();
-                let entries = file.entries().unwrap_or_default();
-                if sections.is_empty() && !entries.iter().all(is_of_others) {
-                    sections.push(file);
-                }
-                (None, sections)
-            }
-        }
-    });
-    let mut flat = Vec::new();
-    for section in sections {
-        flatten(section, "", &mut flat);
-    }
-    let given: Vec<Given<'_>> = flat
-        .iter()
-        .map(|one| Given {
-            name: &one.name,
-            text: one.text.as_str().into(),
-            name_origin: one.name_origin,
-            origin: one.origin,
-        })
-        .collect();
-    let by_name = match name {
-        Some("slam_gmapping") => Some(Method::Gmapping),
-        Some(_) => Some(Method::Graph),
-        None => tables::method_of(&given),
-    };
-    let program = wanted.unwrap_or_else(|| match by_name {
+    let InFile { method, written } = in_file(file, wanted.map(Program::method), diagnostics);
+    let given: Vec<Given<'_>> = written.iter().map(Written::given).collect();
+    let program = wanted.unwrap_or_else(|| match method.or_else(|| tables::method_of(&given)) {
         Some(Method::Gmapping) => Program::Gmapping,
         _ => {
-            let mode = flat.iter().find(|one| one.name == "mode").map(|one| one.text.as_str());
+            let mode = written.iter().find(|one| one.name == "mode").map(|one| one.text.as_str());
             if mode == Some("localization") { Program::Localization } else { Program::Async }
         }
     });
@@ -84,36 +121,36 @@ pub fn read(
     (program, values)
 }
 
-fn collect<'a>(
-    at: &'a Node,
-    node: &str,
-    depth: usize,
-    found: &mut Vec<&'a Node>,
-    is_named: &mut bool,
-) {
-    for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
-        let Some(key) = key.text() else { continue };
-        let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
-        match value.get("ros__parameters") {
-            Some(parameters) if [node, "**", "*"].contains(&name) => {
-                *is_named |= name == node;
-                found.push(parameters);
+/// What stands below `ros__parameters`.
+#[derive(Default)]
+struct Sections<'a> {
+    /// For the node, and for all.
+    found: Vec<&'a Node>,
+    /// Whether one is for the node by its name.
+    is_named: bool,
+    /// Names of other nodes.
+    others: Vec<String>,
+}
+
+impl<'a> Sections<'a> {
+    fn collect(&mut self, at: &'a Node, node: &str, depth: usize) {
+        for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
+            let Some(key) = key.text() else { continue };
+            let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
+            match value.get("ros__parameters") {
+                Some(parameters) if [node, "**", "*"].contains(&name) => {
+                    self.is_named |= name == node;
+                    self.found.push(parameters);
+                }
+                Some(_) => self.others.push(format!("`{name}`")),
+                None => self.collect(value, node, depth + 1),
             }
-            Some(_) => {}
-            None => collect(value, node, depth + 1, found, is_named),
         }
     }
 }
 
-struct Flat {
-    name: String,
-    text: String,
-    name_origin: Origin,
-    origin: Origin,
-}
-
 /// Names with dots; a list is its values side by side.
-fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>) {
+fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Written>) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(last) = key.text() else { continue };
         let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
@@ -125,7 +162,7 @@ fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>) {
             Value::Scalar { text, .. } => text.clone(),
             Value::List(list) => list.iter().filter_map(Node::text).collect::<Vec<_>>().join(" "),
         };
-        flat.push(Flat { name, text, name_origin: key.span.into(), origin: value.span.into() });
+        flat.push(Written { name, text, name_origin: key.span.into(), origin: value.span.into() });
     }
 }
 
@@ -161,7 +198,12 @@ mod tests {
         check("maxUrange: 5", Program::Gmapping, &[]);
         let all = "/**: {ros__parameters: {map_update_interval: 2}}";
         assert_eq!(check(all, Program::Async, &[]).number("map_update_interval"), Some(2.0));
-        check("amcl: {ros__parameters: {alpha1: 2}}", Program::Async, &[]);
+        check("amcl: {ros__parameters: {alpha1: 2}}", Program::Async, &["no-parameters"]);
+        let in_a_namespace = "robot: {slam_toolbox: {ros__parameters: {resolution: 0.2}}}";
+        assert_eq!(check(in_a_namespace, Program::Async, &[]).number("resolution"), Some(0.2));
+        let beside =
+            "amcl: {ros__parameters: {alpha1: 2}}\nslam: {ros__parameters: {particles: 8}}";
+        assert_eq!(check(beside, Program::Gmapping, &[]).integer("particles"), Some(8));
     }
 
     #[test]

@@ -20,7 +20,7 @@ mod program;
 mod services;
 mod values;
 
-pub use file::read;
+pub use file::{InFile, Written, in_file, read};
 pub use node::{Pace, SlamNode, SlamStatus};
 pub use program::Program;
 

@@ -35,6 +35,8 @@ const LOOK_NS: i64 = 20_000_000;
 const SLICE_NS: i64 = 4_000_000;
 /// Names of the robot's own frame, the most telling first.
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
+/// How long transforms are remembered \[s\].
+const BUFFER: &str = "tf_buffer_duration";
 /// Slices of work after each scan where a run is to keep a pace.
 const FEW_SLICES: usize = 4;
 
@@ -175,7 +177,12 @@ impl SlamNode {
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
         let values = parameters.values();
-        actor.with(|state| state.values = values.clone());
+        actor.with(|state| {
+            state.values = values.clone();
+            if let Some(span_s) = number(&values, BUFFER).filter(|_| program.is_toolbox()) {
+                state.frames = Frames::kept_for(seconds_ns(span_s));
+            }
+        });
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
             state.frames.take(&message, Kind::Fixed);
         })?;
@@ -204,10 +211,11 @@ impl SlamNode {
             }
             state.published_ns = None;
         });
+        // `slam_gmapping` does not listen to it; whoever tells it a pose should hear why that does nothing.
+        actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
+            state.set_pose(&message, io.node());
+        })?;
         if program.is_toolbox() {
-            actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
-                state.set_pose(&message, io.node());
-            })?;
             actor.subscribe("slam_toolbox/feedback", Qos::reliable(10), |state, message, io| {
                 state.drag(&message, io.node());
             })?;
@@ -530,6 +538,15 @@ impl State {
 
     /// Somebody says where the robot is.
     fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
+        if !self.program.is_toolbox() {
+            node.log(
+                Level::Warn,
+                "the initial pose is not taken: each particle draws a map of its own around where \
+                 it is, and none of them could be moved on it; to say where the robot is on a map \
+                 that is there, localize on it, or run `slam_toolbox`",
+            );
+            return;
+        }
         let names = self.names();
         let frame = plain(&message.header.frame_id);
         if !frame.is_empty() && frame != names.map {
@@ -605,6 +622,9 @@ impl State {
             "use_sim_time",
             "debug_logging",
         ];
+        if values.table().find(BUFFER).is_some() && values.get(BUFFER) != self.values.get(BUFFER) {
+            return Err(format!("`{BUFFER}` is read when the node is made; set it in its file"));
+        }
         let changed =
             values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
                 !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)

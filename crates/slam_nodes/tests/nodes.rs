@@ -547,4 +547,9 @@ fn a_life_is_lived_and_ros_1_is_heard() {
     assert!(stage.transform().unwrap().0 > stage.now_ns, "`tf_delay` is in the future");
     let map = stage.ask::<GetMap>("/dynamic_map", GetMapRequest::default());
     assert!(!map.map.data.is_empty());
+    // Nobody moves its particles, and it says why.
+    let initial = stage.user.publisher("initialpose", Qos::reliable(10)).unwrap();
+    initial.publish(PoseWithCovarianceStamped::default());
+    stage.advance(10);
+    assert!(stage.said().contains("the initial pose is not taken: each particle"));
 }

@@ -14,6 +14,12 @@ pub struct Frames {
 }
 
 impl Frames {
+    /// Frames that are remembered for so long behind their newest \[ns\]; by default for ten seconds.
+    #[must_use]
+    pub fn kept_for(span_ns: i64) -> Self {
+        Self { buffer: Buffer::new(span_ns) }
+    }
+
     /// Takes in what was broadcast.
     pub fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
         for transform in &message.transforms {
@@ -114,5 +120,35 @@ fn stamped(transform: &geometry_msgs::TransformStamped) -> Stamped {
         stamp_ns: transform.header.stamp.ns(),
         translation: DVec3::new(translation.x, translation.y, translation.z),
         rotation: DQuat::from_xyzw(rotation.x, rotation.y, rotation.z, rotation.w),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_msgs::builtin_interfaces::Time;
+    use periplus_msgs::std_msgs::Header;
+
+    use super::*;
+
+    #[test]
+    fn frames_are_remembered_for_as_long_as_they_should() {
+        const SECOND_NS: i64 = 1_000_000_000;
+        let remembers = |mut frames: Frames| {
+            for time_s in 0..=20 {
+                let mut transform = geometry_msgs::TransformStamped {
+                    header: Header {
+                        stamp: Time::of_ns(time_s * SECOND_NS),
+                        frame_id: "odom".into(),
+                    },
+                    child_frame_id: "base_link".into(),
+                    ..geometry_msgs::TransformStamped::default()
+                };
+                transform.transform.rotation.w = 1.0;
+                frames.take(&tf2_msgs::TFMessage { transforms: vec![transform] }, Kind::Moving);
+            }
+            frames.at("odom", "base_link", 5 * SECOND_NS).is_ok()
+        };
+        assert!(!remembers(Frames::default()));
+        assert!(remembers(Frames::kept_for(30 * SECOND_NS)));
     }
 }

@@ -26,13 +26,20 @@ pub(crate) struct DoctorCostmapOptions {
 }
 
 pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
-    let file = match read(&options.file, options.compat) {
+    let mut file = match read(&options.file, options.compat) {
         Ok(file) => file,
         Err(why) => {
             terminal::complain(&why);
             return Ok(ExitCode::from(2));
         }
     };
+    // Some things only layers themselves know.
+    for (_, config) in &file.configs {
+        let mut costmap = config.build();
+        for finding in costmap.all_mut().flat_map(|layer| layer.complaints()) {
+            file.diagnostics.push(finding);
+        }
+    }
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
     for (name, config) in &file.configs {

@@ -44,7 +44,7 @@ pub(crate) struct CostmapServeOptions {
     /// frame [m]
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     cell: Vec<Place>,
-    /// At the end write each costmap to a folder as a picture in RViz' colours
+    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER")]
     picture: Option<PathBuf>,
     /// Time is that of /clock, also if the file does not say so

@@ -1,21 +1,15 @@
 //! Parameters for a method of mapping: from files as `slam_toolbox` and `slam_gmapping` have them, and
 //! from the command line.
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, Span};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_host::Machine;
 use periplus_params::{Given, Values};
 use periplus_resources::Host as _;
 use periplus_slam::{Method, tables};
-use periplus_yaml::{Node, Value};
+use periplus_slam_nodes::{Written, in_file};
 
 use super::options::SlamOptions;
 use crate::log::LogOptions;
-
-/// Names under which nodes that make maps have their parameters in files.
-const NODES: [&str; 7] =
-    ["slam_toolbox", "slam_gmapping", "gmapping", "turtlebot3_slam_gmapping", "slam", "**", "*"];
-/// Namespaces around a node nest no deeper.
-const DEEPEST: usize = 4;
 
 /// What parameters say, and what is wrong with them.
 pub(super) struct Parameters {
@@ -25,31 +19,14 @@ pub(super) struct Parameters {
     pub(super) sources: SourceMap,
 }
 
-/// A parameter as somebody wrote it.
-struct Written {
-    name: String,
-    text: String,
-    name_origin: Origin,
-    origin: Origin,
-}
-
-impl Written {
-    fn given(&self) -> Given<'_> {
-        Given {
-            name: &self.name,
-            text: self.text.as_str().into(),
-            name_origin: self.name_origin,
-            origin: self.origin,
-        }
-    }
-}
-
 impl Parameters {
     /// Reads what the options name: flags of their own win, then `-p`, then the file. In words why it cannot be.
     pub(super) fn read(options: &SlamOptions) -> Result<Self, String> {
         let mut sources = SourceMap::new();
         let mut diagnostics = Diagnostics::new();
         let mut layers: Vec<Vec<Written>> = Vec::new();
+        // The method that the node stands for whose parameters are in the file.
+        let mut named = None;
         if let Some(path) = &options.live.params_file {
             let bytes = Machine
                 .read(path)
@@ -59,7 +36,9 @@ impl Parameters {
             let file = sources.add(path.display().to_string(), text);
             match periplus_yaml::parse(file, &sources) {
                 Ok(Some(tree)) => {
-                    layers.push(in_file(&tree, sources.whole(file), &mut diagnostics));
+                    let found = in_file(&tree, options.method, &mut diagnostics);
+                    named = found.method;
+                    layers.push(found.written);
                 }
                 Ok(None) => diagnostics.push(
                     Diagnostic::warning("no-parameters", "there are no parameters in here")
@@ -74,11 +53,12 @@ impl Parameters {
         }
         // The last one of a name counts.
         typed.reverse();
+        let of = |layer: &[Written]| {
+            tables::method_of(&layer.iter().map(Written::given).collect::<Vec<_>>())
+        };
+        let told = options.method.or_else(|| of(&typed)).or(named);
+        let method = told.or_else(|| layers.iter().find_map(|it| of(it))).unwrap_or_default();
         layers.push(typed);
-        let method = options.method.unwrap_or_else(|| {
-            let all: Vec<Given<'_>> = layers.iter().flatten().map(Written::given).collect();
-            tables::method_of(&all).unwrap_or_default()
-        });
         let table = method.table();
         layers.push(own(options, method));
         let canonical = |name: &str| table.find(name).map(|it| it.name);
@@ -162,95 +142,9 @@ fn on_command_line(word: &str, sources: &mut SourceMap) -> Result<Written, Strin
     })
 }
 
-/// The parameters in a file: those below `ros__parameters` of a node that makes maps; in files of
-/// ROS 1 those of such a node, or all.
-fn in_file(tree: &Node, whole: Span, diagnostics: &mut Diagnostics) -> Vec<Written> {
-    let mut sections = Vec::new();
-    let mut others = Vec::new();
-    collect(tree, &mut sections, &mut others, 0);
-    if sections.is_empty() && !others.is_empty() {
-        diagnostics.push(
-            Diagnostic::warning("no-parameters", "no node in here makes maps")
-                .at(whole)
-                .note(format!("there are parameters for {}", others.join(", ")))
-                .help("write them below `slam_toolbox:` or `slam_gmapping:`, or below `/**:`"),
-        );
-    }
-    if sections.is_empty() && others.is_empty() {
-        let named = NODES.iter().find_map(|name| tree.get(name));
-        sections.push(named.filter(|it| it.entries().is_some()).unwrap_or(tree));
-    }
-    let mut all = Vec::new();
-    for section in sections {
-        for (key, value) in section.entries().unwrap_or_default() {
-            let (Some(name), Some(text)) = (key.text(), text(value)) else { continue };
-            all.push(Written {
-                name: name.to_owned(),
-                text,
-                name_origin: key.span.into(),
-                origin: value.span.into(),
-            });
-        }
-    }
-    all
-}
-
-/// A value as it would be typed; none for what is no value of a parameter.
-fn text(value: &Node) -> Option<String> {
-    match &value.value {
-        Value::Scalar { text, .. } => Some(text.clone()),
-        Value::List(items) => {
-            let items: Option<Vec<&str>> = items.iter().map(Node::text).collect();
-            Some(items?.join(" "))
-        }
-        Value::Map(_) => None,
-    }
-}
-
-/// Finds what stands below `ros__parameters`, of nodes that make maps and of others.
-fn collect<'a>(at: &'a Node, found: &mut Vec<&'a Node>, others: &mut Vec<String>, depth: usize) {
-    let Some(entries) = at.entries().filter(|_| depth < DEEPEST) else { return };
-    for (key, value) in entries {
-        let Some(key) = key.text() else { continue };
-        let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
-        match value.get("ros__parameters") {
-            Some(parameters) if NODES.contains(&name) => found.push(parameters),
-            Some(_) => others.push(format!("`{name}`")),
-            None => collect(value, found, others, depth + 1),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn read(text: &str) -> (Vec<String>, Vec<String>) {
-        let mut sources = SourceMap::new();
-        let file = sources.add("file.yaml", text);
-        let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();
-        let mut diagnostics = Diagnostics::new();
-        let written = in_file(&tree, sources.whole(file), &mut diagnostics);
-        let told = diagnostics.iter().map(|it| it.message.clone()).collect();
-        (written.into_iter().map(|it| format!("{}={}", it.name, it.text)).collect(), told)
-    }
-
-    #[test]
-    fn parameters_are_found_as_ros_2_and_ros_1_write_them() {
-        let one = vec!["resolution=0.1".to_owned()];
-        let ros2 = "slam_toolbox:\n  ros__parameters:\n    resolution: 0.1\n";
-        assert_eq!(read(ros2).0, one);
-        assert_eq!(read("/**:\n  ros__parameters: {resolution: 0.1}\n").0, one);
-        assert_eq!(
-            read("robot:\n  slam_toolbox:\n    ros__parameters: {resolution: 0.1}\n").0,
-            one
-        );
-        assert_eq!(read("slam_gmapping:\n  delta: 0.1\n").0, ["delta=0.1"]);
-        assert_eq!(read("delta: 0.1\nmap_start_pose: [1.0, 2, 0]\n").0.len(), 2);
-        let (none, told) = read("amcl:\n  ros__parameters: {alpha1: 0.1}\n");
-        assert!(none.is_empty());
-        assert_eq!(told, ["no node in here makes maps"]);
-    }
 
     #[test]
     fn the_command_line_has_a_place_too() {
