@@ -3,6 +3,7 @@ import { rowsOfCloud, rowsOfScan } from '../src/displays/cloud_rows';
 import { fansOf } from '../src/displays/lidar';
 import { toPixels } from '../src/displays/pixels';
 import { KINDS, kindOf } from '../src/displays/registry';
+import { thinned } from '../src/scene/cloud';
 import { voxels } from '../src/displays/voxels';
 import { numberAt, numericPaths, show } from '../src/app/fields';
 import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
@@ -69,6 +70,13 @@ describe('points', () => {
   test('of a cloud with crooked steps: a copy that says the same', () => {
     const rows = rowsOfCloud(cloud(15, 1), 'intensity');
     expect([...floats(rows.words)].filter((_, i) => i % 5 < 3)).toEqual([0, 10, 20, 1, 10, 20]);
+  });
+
+  test('fewer of them, evenly', () => {
+    const words = new Uint32Array([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    const thin = thinned({ words, stride: 2, count: 5, xyz: 0 }, 2);
+    expect([thin.every, thin.count, ...thin.words]).toEqual([3, 1, 1, 2]);
+    expect(thinned({ words, stride: 2, count: 5, xyz: 0 }, 5).words).toBe(words);
   });
 
   test('a cloud without coordinates is refused in words', () => {

@@ -9,13 +9,16 @@ import {
   type LaserScan,
   type PointCloud2,
 } from '../core/types';
-import { Cloud, type Rows, type Style } from '../scene/cloud';
+import { Cloud, thinned, type Rows, type Style } from '../scene/cloud';
 import { dispose } from '../scene/stage';
 import { cloudOptions, lookOf } from './cloud_look';
 import { rowsOfCloud, rowsOfScan } from './cloud_rows';
 import { depthRows } from './depth';
 import { FramedDisplay, type Kind } from './display';
 import { alpha, bool, int, number, text, topic, type Values } from './options';
+
+/** So many points are drawn without a GPU. */
+const MOST_WITHOUT_GPU = 60_000;
 
 interface Shown {
   cloud: Cloud;
@@ -28,7 +31,8 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
   protected abstract rows(message: M): Rows;
 
   protected override show(message: M, fixedFromFrame: Pose): void {
-    const rows = this.rows(message);
+    const all = this.rows(message);
+    const rows = thinned(all, this.context.stage.isSoftware ? MOST_WITHOUT_GPU : Infinity);
     const stampS = seconds(message.header.stamp);
     const style = this.get<Style>('Style');
     const decayS = this.get<number>('Decay Time');
@@ -46,7 +50,8 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     entry.cloud.show(rows);
     entry.cloud.look(lookOf(this.values, rows, fixedFromFrame));
     this.put(entry.cloud.object, fixedFromFrame);
-    this.host.status('Points', 'ok', `${rows.count.toLocaleString('en')} points`);
+    const thin = rows.every > 1 ? `; without a GPU, one in ${rows.every} is drawn` : '';
+    this.host.status('Points', 'ok', `${all.count.toLocaleString('en')} points${thin}`);
   }
 
   private inspect(cloud: Cloud, index: number): Record<string, string> {

@@ -29,7 +29,7 @@ const RECENT = 60;
 const GROUND_M = 0.0011;
 const UNDER_M = 0.02;
 /** What is lower never stands in the way. */
-const TALL_M = 0.8;
+const TALL_M = 1.3;
 /** So much nearer to the eye than the middle of the view. */
 const NEAR_M = 0.3;
 const GLASS = 0.14;
@@ -270,7 +270,7 @@ export class WorldDisplay extends Display {
     this.root.updateMatrixWorld(true);
     for (const { object, marker } of this.parts.values()) {
       box.setFromObject(object);
-      const isTall = box.max.z - box.min.z > TALL_M && box.max.z > 1;
+      const isTall = box.max.z > TALL_M;
       const middle = box.getCenter(new Vector3()).sub(focal).setZ(0);
       const isGlass = isOn && isTall && middle.dot(eye) > NEAR_M;
       const alpha = (marker.color.a || 1) * this.get<number>('Alpha') * (isGlass ? GLASS : 1);

@@ -37,6 +37,20 @@ export interface Rows {
   rgb?: number;
 }
 
+/** Every so-many-th row, so that no more than `most` are left: a drawing without a GPU stays usable. */
+export function thinned(rows: Rows, most: number): Rows & { every: number } {
+  const every = Math.max(1, Math.ceil(rows.count / most));
+  if (every === 1) return { ...rows, every };
+  const { stride } = rows;
+  const count = Math.floor(rows.count / every);
+  const words = new Uint32Array(count * stride);
+  for (let i = 0; i < count; i++) {
+    const from = i * every * stride;
+    for (let k = 0; k < stride; k++) words[i * stride + k] = rows.words[from + k]!;
+  }
+  return { ...rows, words, count, every };
+}
+
 export const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles'] as const;
 export type Style = (typeof STYLES)[number];
 

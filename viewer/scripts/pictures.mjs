@@ -1,0 +1,135 @@
+// Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png.
+//
+//   npm run pictures [FOLDER]     PERIPLUS=path/to/periplus
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { browser, open, periplus, ROOT, servePage } from '../e2e/lib.mjs';
+
+const OUT = process.argv[2] ?? join(ROOT, 'docs/pictures');
+const PORT = 8841;
+const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
+const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
+mkdirSync(OUT, { recursive: true });
+
+const pages = await servePage();
+const chrome = await browser();
+
+/** Runs a world, opens the page on it, and lets a function look. */
+async function scene(args, look, options = {}) {
+  const run = await periplus(
+    ['sim', ...args, '--rtf', '1', '--ros2', 'off', `--page=127.0.0.1:${PORT}`],
+    PORT,
+  );
+  const { page } = await open(chrome, `${pages.url}?ws=ws://127.0.0.1:${PORT}/`, options);
+  try {
+    await page.waitForFunction('periplus.displays.length > 3', undefined, { timeout: 30_000 });
+    await page.waitForTimeout(2500);
+    await look(page);
+  } finally {
+    await page.close();
+    await run.stop();
+  }
+}
+
+const whole = (page, name) => page.screenshot({ path: join(OUT, `viewer-${name}.png`) });
+/** Only the stage, and of the displays only some; `extra` are put there for the picture. */
+async function part(page, name, kinds, extra = [], view = {}) {
+  await page.evaluate(
+    ([wanted, added, look]) => {
+      const app = window.periplus;
+      for (const entry of app.displays) app.setEnabled(entry, wanted.includes(entry.kind.title));
+      for (const [kind, values] of added) app.add(kind, '', values);
+      app.setView({ kind: 'Orbit', ...look });
+    },
+    [kinds, extra, view],
+  );
+  await page.waitForTimeout(1800);
+  await page.locator('section.stage').screenshot({ path: join(OUT, `viewer-${name}.png`) });
+  await page.evaluate((count) => {
+    const app = window.periplus;
+    for (let i = 0; i < count; i++) app.remove(app.displays[app.displays.length - 1]);
+  }, extra.length);
+}
+
+const drive = async (page, key, ms) => {
+  await page.locator('canvas').first().focus();
+  await page.keyboard.down(key);
+  await page.waitForTimeout(ms);
+  await page.keyboard.up(key);
+};
+
+try {
+  await scene(['worlds/closed_room.world', '--robot', KBOT, '--slam'], async (page) => {
+    for (const key of ['i', 'j', 'i']) await drive(page, key, 1500);
+    await page.waitForTimeout(2500);
+    await page.evaluate(() => window.periplus.setView({ distance: 9, yaw: 3.6, pitch: 0.9 }));
+    await page.waitForTimeout(1000);
+    await whole(page, 'slam');
+  });
+  await scene(['worlds/cube_and_sphere.sdf', '--robot', SAM_BOT], async (page) => {
+    const near = { distance: 5.5, yaw: 3.9, pitch: 0.6, focal: [0.6, 0, 0.2] };
+    const base = ['Grid', 'RobotModel', 'World'];
+    await part(page, 'lidar', base, [['periplus/VisualizeLidar', { Topic: '/scan' }]], near);
+    await part(page, 'scan', [...base, 'LaserScan'], [], near);
+    const cloud = { Topic: '/depth_camera/points', 'Color Transformer': 'RGB8', 'Size (m)': 0.015 };
+    await part(
+      page,
+      'points',
+      ['Grid', 'RobotModel'],
+      [['rviz_default_plugins/PointCloud2', cloud]],
+      near,
+    );
+    await part(page, 'frames', ['Grid', 'RobotModel', 'TF'], [], {
+      ...near,
+      distance: 1.6,
+      focal: [0, 0, 0.1],
+    });
+    await part(page, 'image', [...base, 'Image'], [], near);
+  });
+  await scene(
+    ['worlds/house.sdf', '--robot', SAM_BOT, '--pose', '3,2.5,0.4'],
+    async (page) => {
+      await page.getByRole('tab', { name: 'World' }).click();
+      await page.waitForTimeout(2500);
+      await whole(page, 'house');
+    },
+    { colorScheme: 'light' },
+  );
+  const { page } = await open(chrome, `${pages.url}#building`);
+  const plan = page.getByRole('application');
+  const box = await plan.boundingBox();
+  const press = async (x, y) => {
+    const zoom = await page.evaluate('building.zoom');
+    await page.mouse.click(
+      box.x + box.width / 2 + (x - 3) * zoom,
+      box.y + box.height / 2 - (y - 2) * zoom,
+    );
+  };
+  const line = async (...points) => {
+    await page.keyboard.press('w');
+    for (const [x, y] of points) await press(x, y);
+    await page.keyboard.press('Escape');
+  };
+  await line([-1, -1], [8, -1], [8, 5], [-1, 5], [-1, -1]);
+  await line([3, -1], [3, 5]);
+  await line([3, 2], [8, 2]);
+  for (const [key, x, y] of [
+    ['d', 0.5, -1],
+    ['d', 3, 0.5],
+    ['d', 3, 4],
+    ['n', 1, 5],
+    ['n', 5.5, 5],
+    ['n', 8, 0.5],
+    ['s', 5.8, 3.5],
+  ]) {
+    await page.keyboard.press(key);
+    await press(x, y);
+  }
+  await page.keyboard.press('v');
+  await press(3, 2.6);
+  await page.waitForTimeout(800);
+  await whole(page, 'building');
+} finally {
+  await chrome.close();
+  pages.stop();
+}
