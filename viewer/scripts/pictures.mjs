@@ -7,7 +7,6 @@ import { browser, open, periplus, ROOT, servePage } from '../e2e/lib.mjs';
 
 const OUT = process.argv[2] ?? join(ROOT, 'docs/pictures');
 const PORT = 8841;
-const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 mkdirSync(OUT, { recursive: true });
 
@@ -16,10 +15,7 @@ const chrome = await browser();
 
 /** Runs a world, opens the page on it, and lets a function look. */
 async function scene(args, look, options = {}) {
-  const run = await periplus(
-    ['sim', ...args, '--rtf', '1', '--ros2', 'off', `--page=127.0.0.1:${PORT}`],
-    PORT,
-  );
+  const run = await periplus([...args, `--page=127.0.0.1:${PORT}`], PORT);
   const { page } = await open(chrome, `${pages.url}?ws=ws://127.0.0.1:${PORT}/`, options);
   try {
     await page.waitForFunction('periplus.displays.length > 3', undefined, { timeout: 30_000 });
@@ -51,22 +47,14 @@ async function part(page, name, kinds, extra = [], view = {}) {
   }, extra.length);
 }
 
-const drive = async (page, key, ms) => {
-  await page.locator('canvas').first().focus();
-  await page.keyboard.down(key);
-  await page.waitForTimeout(ms);
-  await page.keyboard.up(key);
-};
+const sim = (world, robot) => ['sim', world, '--robot', robot, '--rtf', '1', '--ros2', 'off'];
 
 try {
-  await scene(['worlds/closed_room.world', '--robot', KBOT, '--slam'], async (page) => {
-    for (const key of ['i', 'j', 'i']) await drive(page, key, 1500);
-    await page.waitForTimeout(2500);
-    await page.evaluate(() => window.periplus.setView({ distance: 9, yaw: 3.6, pitch: 0.9 }));
-    await page.waitForTimeout(1000);
-    await whole(page, 'slam');
+  await scene(['demo', '--no-browser', '--explore'], async (page) => {
+    await page.waitForTimeout(Number(process.env.DEMO_MS ?? 12_000));
+    await whole(page, 'demo');
   });
-  await scene(['worlds/cube_and_sphere.sdf', '--robot', SAM_BOT], async (page) => {
+  await scene(sim('worlds/cube_and_sphere.sdf', SAM_BOT), async (page) => {
     const near = { distance: 5.5, yaw: 3.9, pitch: 0.6, focal: [0.6, 0, 0.2] };
     const base = ['Grid', 'RobotModel', 'World'];
     await part(page, 'lidar', base, [['periplus/VisualizeLidar', { Topic: '/scan' }]], near);
@@ -87,7 +75,7 @@ try {
     await part(page, 'image', [...base, 'Image'], [], near);
   });
   await scene(
-    ['worlds/house.sdf', '--robot', SAM_BOT, '--pose', '3,2.5,0.4'],
+    [...sim('worlds/house.sdf', SAM_BOT), '--pose', '3,2.5,0.4'],
     async (page) => {
       await page.getByRole('tab', { name: 'World' }).click();
       await page.waitForTimeout(2500);

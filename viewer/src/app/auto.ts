@@ -44,7 +44,8 @@ export function wishFor(topic: string, type: string): Wish | undefined {
     case 'nav_msgs/msg/OccupancyGrid': {
       const isCost = /cost/.test(topic);
       const isLocal = /local/.test(topic);
-      if (/_raw$|filter_mask|keepout|speed/.test(topic)) return wish(kind.class, values, false);
+      if (/_raw$|_layer$|filter_mask|keepout|speed/.test(topic))
+        return wish(kind.class, values, false);
       if (isCost) Object.assign(values, { 'Color Scheme': 'costmap', Alpha: isLocal ? 0.7 : 0.35 });
       else values.Alpha = 1;
       return wish(kind.class, values);
