@@ -12,6 +12,8 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
     assetsInlineLimit: 4096,
     modulePreload: { polyfill: false },
+    // What the page holds of others, with their terms.
+    license: { fileName: 'licenses.md' },
   },
   server: { proxy: { '/ws': { target: 'ws://localhost:8765', ws: true } } },
   test: { include: ['test/**/*.test.ts'], environment: 'node' },
