@@ -1,7 +1,7 @@
 /** Time of the messages, and how fast it goes beside the wall's. */
 
 const WINDOW_MS = 1500;
-const STILL_MS = 600;
+const STILL_MS = 1000;
 
 export class Clock {
   nowS = 0;
