@@ -5,12 +5,12 @@ use periplus_diagnostics::Diagnostic;
 use periplus_grid::OccupancyGrid;
 use periplus_matching::Peak;
 
+mod astray;
 mod finer;
 
 use self::finer::Seen;
 use crate::anywhere::Everywhere;
 use crate::bins::{Cluster, Taken, clusters};
-use crate::evidence::agreement;
 use crate::guess::{Guess, check_place, scatter};
 use crate::known_map::KnownMap;
 use crate::motion::move_all;
@@ -94,6 +94,8 @@ pub struct Amcl {
     home: Option<(Known, Pose2)>,
     /// How often a lost robot was looked for in vain.
     vain: u32,
+    /// How far the robot went since a scan fitted \[m\].
+    astray_m: f64,
 }
 
 impl Amcl {
@@ -122,6 +124,7 @@ impl Amcl {
             rivals: None,
             fine: None,
             vain: 0,
+            astray_m: 0.0,
             home: None,
         }
     }
@@ -329,6 +332,7 @@ impl Amcl {
         self.rivals = None;
         self.fine = None;
         self.home = None;
+        self.astray_m = 0.0;
         self.estimate = Some(self.sum_up());
         self.status =
             Status { reason: "no scan has been used since the start".into(), ..Status::default() };
@@ -419,13 +423,13 @@ impl Amcl {
         let seen = Seen::new(scan, &self.settings)?;
         self.follow(&mut estimate, &seen, old_from_new, odom_from_base);
         self.polish(&mut estimate, &seen, odom_from_base);
-        let fit = self.fit(estimate.pose, &seen.beams);
+        let fit = self.fit_of_best(&estimate, &seen.beams);
         self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
         if self.seeks(random_share, odom_from_base)
             && self.seek_again(&mut estimate, &seen, odom_from_base)
         {
             self.watch.forgive();
-            let fit = self.fit(estimate.pose, &seen.beams);
+            let fit = self.fit_of_best(&estimate, &seen.beams);
             self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
         }
         if self.status.state == State::Tracking {
@@ -507,11 +511,6 @@ impl Amcl {
             all.add(particles.pose(index), particles.weight[index]);
         }
         Estimate { pose, covariance: all.covariance(), clusters }
-    }
-
-    /// Which part of the scan is on walls when the robot is there.
-    fn fit(&self, map_from_base: Pose2, beams: &Beams) -> Option<f64> {
-        agreement(self.map.as_ref()?, beams, map_from_base)
     }
 
     fn stream(&mut self, name: &str) -> Stream {

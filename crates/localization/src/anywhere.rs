@@ -18,6 +18,9 @@ const LEAST_SCORE: f64 = 0.35;
 /// Which places are looked for: those that fit nearly as well as the best may be the one.
 const WANTED: Wanted =
     Wanted { least: LEAST_SCORE, share: 0.75, most: 200, apart: (0.4, 0.3), most_work: 50_000_000 };
+/// Around a place there are few.
+const WANTED_NEAR: Wanted =
+    Wanted { least: LEAST_SCORE, share: 0.85, most: 6, apart: (0.3, 0.2), most_work: 4_000_000 };
 
 /// A map, prepared for the search on all of it.
 #[derive(Clone, Debug)]
@@ -58,18 +61,37 @@ impl Everywhere {
 
     /// Where points fit that a scanner saw, in the frame of the base \[m\], the best first.
     pub(crate) fn peaks(&self, ends: &[[f32; 2]]) -> Vec<Peak> {
+        self.search(ends, Pose2::IDENTITY, self.half_m, PI, &WANTED)
+    }
+
+    /// The same not farther from a pose than so, along each axis of the map.
+    pub(crate) fn peaks_near(
+        &self,
+        ends: &[[f32; 2]],
+        pose: Pose2,
+        (half_m, half_rad): (f64, f64),
+    ) -> Vec<Peak> {
+        let [x, y] = self.middle;
+        let middle = Pose2::new(pose.x_m - x, pose.y_m - y, pose.yaw_rad);
+        self.search(ends, middle, [half_m; 2], half_rad, &WANTED_NEAR)
+    }
+
+    fn search(
+        &self,
+        ends: &[[f32; 2]],
+        middle: Pose2,
+        half_m: [f64; 2],
+        half_rad: f64,
+        wanted: &Wanted,
+    ) -> Vec<Peak> {
         let every = ends.len().div_ceil(MOST_POINTS).max(1);
         let points: Vec<[f32; 2]> = ends.iter().step_by(every).copied().collect();
         let farthest = points.iter().map(|[x, y]| x * x + y * y).fold(0.0, f32::max).sqrt();
         // The farthest of points moves by one cell from heading to heading.
         let step_rad = (self.cell_m / f64::from(farthest).max(0.1)).clamp(0.01, 0.1);
-        let window = Window {
-            middle: Pose2::IDENTITY,
-            half_m: self.half_m,
-            half_rad: PI - 0.5 * step_rad,
-            step_rad,
-        };
-        let (mut peaks, _) = self.field.peaks(&points, &window, &WANTED);
+        let half_rad = half_rad.min(PI - 0.5 * step_rad);
+        let window = Window { middle, half_m, half_rad, step_rad };
+        let (mut peaks, _) = self.field.peaks(&points, &window, wanted);
         for peak in &mut peaks {
             peak.pose.x_m += self.middle[0];
             peak.pose.y_m += self.middle[1];

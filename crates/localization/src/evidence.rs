@@ -27,30 +27,50 @@ const UNSEEN: f64 = 0.2;
 /// Of a robot where the map says that none can be.
 const NOT_FREE: f64 = 0.02;
 
-/// Which part of the beams that hit anything ends at walls of the map and goes through none, 0 to 1;
-/// none when nothing was hit.
-pub(crate) fn agreement(map: &KnownMap, beams: &Beams, map_from_base: Pose2) -> Option<f64> {
+/// Of beams that hit something at least such a share counts, however little the map knows there.
+const LEAST_JUDGED: f64 = 0.5;
+
+/// Which part of the beams that hit anything ends at walls of the map and goes through none, 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Agreement {
+    /// Of all beams: what a place that is new has to have for itself.
+    pub(crate) all: f64,
+    /// Of those that the map can judge, at least half of all: for a robot that came here by a way that
+    /// it knew. What ends where the map knows nothing, with no wall in between, says nothing then, so
+    /// that the edge of a map is no contradiction.
+    pub(crate) judged: f64,
+}
+
+/// None when nothing was hit.
+pub(crate) fn agreement(map: &KnownMap, beams: &Beams, map_from_base: Pose2) -> Option<Agreement> {
     let finder = map.finder();
     let map_from_laser = map_from_base * beams.base_from_laser;
     let start = (map_from_laser.x_m, map_from_laser.y_m);
     let every = beams.beams.len().div_ceil(BEAMS).max(1);
-    let (mut sum, mut count) = (0.0, 0);
+    let (mut sum, mut count, mut silent) = (0.0, 0.0_f64, 0.0);
     let hits = beams.beams.iter().filter(|beam| beam.range_m < beams.range_max_m);
     for beam in hits.step_by(every) {
-        count += 1;
+        count += 1.0;
         let [x, y] = beam.end_m;
         let (x_m, y_m) = map_from_base.transform_point(x, y);
         let off = map.distance_m(x_m, y_m) / SIGMA_M;
-        if off > 3.0 {
+        let is_off = off > 3.0;
+        if is_off && map.is_known(x_m, y_m) {
             continue;
         }
         let bearing_rad = map_from_base.yaw_rad + beam.bearing_rad;
         let wall_m = map.wall_m(&finder, start, bearing_rad, NEAR_M, beam.range_m);
-        if wall_m >= beam.range_m - THROUGH_M {
+        if is_off {
+            silent += f64::from(u8::from(wall_m >= beam.range_m));
+        } else if wall_m >= beam.range_m - THROUGH_M {
             sum += libm::exp(-0.5 * off * off);
         }
     }
-    (count > 0).then(|| sum / f64::from(count))
+    if count == 0.0 {
+        return None;
+    }
+    let judged = sum / (count - silent).max(LEAST_JUDGED * count);
+    Some(Agreement { all: sum / count, judged })
 }
 
 /// The natural logarithm of how likely a scan is at a place; only differences between places mean

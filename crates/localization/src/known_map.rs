@@ -186,6 +186,12 @@ impl KnownMap {
         self.index((column, row)).map(|index| self.states[index])
     }
 
+    /// Whether the map says anything of a point \[m\].
+    pub(crate) fn is_known(&self, x_m: f64, y_m: f64) -> bool {
+        let state = self.state(self.cell_at(x_m, y_m));
+        state.is_some_and(|state| state != CellState::Unknown)
+    }
+
     /// How far a point of the map is from what scanners see \[m\]; outside of the map as far as can be.
     #[must_use]
     pub fn distance_m(&self, x_m: f64, y_m: f64) -> f64 {

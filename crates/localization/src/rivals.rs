@@ -104,11 +104,6 @@ impl Rivals {
         are_some
     }
 
-    /// Whether it is more likely that all places are wrong than that the best is right.
-    pub(crate) fn is_nowhere(&self) -> bool {
-        self.nowhere.is_some_and(|nowhere| nowhere > self.places[0].evidence)
-    }
-
     /// The likeliest first, each once, without those that are hopeless.
     fn sort(&mut self) {
         self.places.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));

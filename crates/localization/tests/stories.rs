@@ -427,3 +427,48 @@ fn half_a_cell_lies_between_nav2_and_the_map() {
     assert!((right.0.0 - 0.125).abs() < 1e-12 && (shifted.0.0 - 0.1).abs() < 1e-12);
     assert!((right.1 - 0.8).abs() < 1e-9, "{right:?}");
 }
+
+/// Follows the round from its left end; odometry is wrong by so much at one step. The worst error afterwards
+/// \[m\], \[rad\], and the smallest part of a scan on walls.
+fn follow(map: &OccupancyGrid, slip: Pose2) -> (f64, f64, f64) {
+    let mut amcl = Amcl::new(Settings::default());
+    amcl.set_map("map", map).unwrap();
+    amcl.set_pose(&guess(truth(39))).unwrap();
+    let mut stream = Stream::keyed(8, "follow", 0);
+    let mut odom_from_base = Pose2::IDENTITY;
+    let mut worst = (0.0_f64, 0.0_f64, 1.0_f64);
+    for step in 40..118 {
+        odom_from_base = odom_from_base * (truth(step - 1).inverse() * truth(step));
+        if step == 60 {
+            odom_from_base = odom_from_base * slip;
+        }
+        amcl.update(odom_from_base, &look(&room(Pose2::IDENTITY), truth(step), &mut stream))
+            .unwrap();
+        assert_eq!(amcl.status().state, State::Tracking, "step {step}: {:?}", amcl.status());
+        let error = truth(step).inverse() * (amcl.map_from_odom().unwrap() * odom_from_base);
+        worst.0 = worst.0.max(libm::hypot(error.x_m, error.y_m));
+        worst.1 = worst.1.max(normalize_angle(error.yaw_rad).abs());
+        worst.2 = worst.2.min(amcl.status().fit.unwrap());
+    }
+    worst
+}
+
+#[test]
+fn odometry_that_errs_at_once_does_not_lose_the_robot() {
+    let (metres, radians, _) = follow(&room(Pose2::IDENTITY), Pose2::new(0.2, 0.1, 0.35));
+    assert!(metres < 0.1 && radians < 0.03, "{metres} m, {radians} rad");
+}
+
+#[test]
+fn beyond_the_edge_of_a_map_there_is_no_contradiction() {
+    let mut map = room(Pose2::IDENTITY);
+    for index in 0..map.cells.len() {
+        // Of the room's right part nothing is known: a third of the beams ends there.
+        if map.lattice.cell(index).0 > 160 {
+            map.cells[index] = occupancy::UNKNOWN;
+        }
+    }
+    let (metres, radians, fit) = follow(&map, Pose2::IDENTITY);
+    assert!(metres < 0.1 && radians < 0.03, "{metres} m, {radians} rad");
+    assert!(fit > 0.85, "{fit}");
+}

@@ -4,6 +4,7 @@ use periplus_base::{Pose2, normalize_angle};
 use periplus_diagnostics::Diagnostic;
 use periplus_matching::{Peak, Symmetric3};
 
+use super::astray::{Followed, TRUSTED_M};
 use super::{Amcl, Estimate, has_moved};
 use crate::anywhere::Everywhere;
 use crate::bins::Cluster;
@@ -40,12 +41,12 @@ const STAYS: f64 = 5.0;
 const BETTER: f64 = 0.03;
 /// With a smaller part of what is usual on walls the robot has left the map, or the map is of old:
 /// odometry alone goes on.
-const STRAY: f64 = 0.5;
+pub(super) const STRAY: f64 = 0.5;
 /// Another place is believed when such a part of what is usual is on walls there, and at least half of
 /// the scan.
-const CONVINCING: (f64, f64) = (0.8, 0.5);
+pub(super) const CONVINCING: (f64, f64) = (0.8, 0.5);
 /// Clusters so much less likely than the best (as a logarithm) are left over from before.
-const REFUTED: f64 = 4.6;
+pub(super) const REFUTED: f64 = 4.6;
 
 /// Lighter clusters are no rivals.
 const LEAST_WEIGHT: f64 = 0.05;
@@ -98,12 +99,14 @@ impl Amcl {
         if let Some(old_from_new) = old_from_new {
             rivals.follow(map, &seen.beams, &seen.ends, old_from_new);
         }
-        let fit = agreement(map, &seen.beams, rivals.best().known.pose).unwrap_or(1.0);
+        let fit = agreement(map, &seen.beams, rivals.best().known.pose).map_or(1.0, |it| it.all);
         if let Some((known, old)) = self.home {
-            let known = moved(&known, old.inverse() * odom_from_base);
-            if fit < STRAY * self.watch.usual() {
+            let Followed { known, fit: at_home } =
+                self.followed(seen, &known, old.inverse() * odom_from_base);
+            let is_home = at_home.is_some_and(|it| it >= self.convincing().max(fit - BETTER));
+            if is_home || fit < STRAY * self.watch.usual() {
                 // None of them was it.
-                self.stray(estimate, known, odom_from_base);
+                self.stay(estimate, known, odom_from_base);
                 return;
             }
             self.home = Some((known, odom_from_base));
@@ -121,11 +124,12 @@ impl Amcl {
         self.fine = None;
         if rivals.is_decided() && fit >= self.convincing() {
             self.home = None;
+            // A place that is new has to fit as a whole before it is followed beyond the map.
+            self.astray_m = TRUSTED_M;
             return;
         }
-        if let Some((known, _)) = self.home
-            && rivals.is_nowhere()
-        {
+        // Nobody is told to be elsewhere before it is certain.
+        if let Some((known, _)) = self.home {
             estimate.pose = known.pose;
         }
         self.rivals = Some(rivals);
@@ -136,8 +140,8 @@ impl Amcl {
         (CONVINCING.0 * self.watch.usual()).max(CONVINCING.1)
     }
 
-    /// By odometry alone, since the scan has little to do with the map.
-    fn stray(&mut self, estimate: &mut Estimate, known: Known, odom_from_base: Pose2) {
+    /// All particles around one place.
+    fn stay(&mut self, estimate: &mut Estimate, known: Known, odom_from_base: Pose2) {
         let mut stream = self.stream("stray");
         let mut particles = Particles::default();
         let spread = widened(spread_of(&known));
@@ -175,19 +179,28 @@ impl Amcl {
             libm::hypot(pose.x_m - mean.x_m, pose.y_m - mean.y_m) < near_m
                 && normalize_angle(pose.yaw_rad - mean.yaw_rad).abs() < near_rad
         };
-        let carried =
-            self.fine.take().map(|(known, old)| moved(&known, old.inverse() * odom_from_base));
+        let fine = self.fine.take().map(|(known, old)| (known, old.inverse() * odom_from_base));
+        let carried = fine.map(|(known, step)| moved(&known, step));
         let followed = carried.map(|known| polish(map, &seen.ends, &known));
         let fresh = polish(map, &seen.ends, &Known { pose: mean, information });
         let best = followed
             .filter(|it| is_near(it.known.pose) && it.fit >= fresh.fit - BETTER)
             .unwrap_or(fresh);
         let pose = best.known.pose;
-        let fit = agreement(map, &seen.beams, pose).unwrap_or(1.0);
+        let fit = self.fit(pose, &seen.beams);
+        if let (Some(known), Some((_, step))) = (&carried, fine) {
+            self.astray_m += libm::hypot(step.x_m, step.y_m);
+            if let Some(found) = self.nearby(seen, known, fit) {
+                self.stay(estimate, found.known, odom_from_base);
+                return;
+            }
+        }
+        let fit = fit.unwrap_or(1.0);
+        let Some(map) = &self.map else { return };
         if let Some(known) = carried
             && fit < STRAY * self.watch.usual()
         {
-            self.stray(estimate, known, odom_from_base);
+            self.stay(estimate, known, odom_from_base);
             return;
         }
         if !is_near(pose) {
@@ -210,19 +223,15 @@ impl Amcl {
 
     /// Refines the pose by a scan that the filter does not use.
     pub(super) fn refine(&mut self, odom_from_base: Pose2, scan: &Scan) {
-        let (Some(map), Some((known, old))) = (&self.map, &self.fine) else { return };
-        if !has_moved(*old, odom_from_base, STILL) {
+        let Some((known, old)) = self.fine else { return };
+        if !has_moved(old, odom_from_base, STILL) {
             return;
         }
         let Ok(seen) = Seen::new(scan, &self.settings) else { return };
         if seen.ends.is_empty() {
             return;
         }
-        let known = moved(known, old.inverse() * odom_from_base);
-        let polished = polish(map, &seen.ends, &known).known;
-        let fit = agreement(map, &seen.beams, polished.pose);
-        let is_stray = fit.is_some_and(|fit| fit < STRAY * self.watch.usual());
-        let known = if is_stray { known } else { polished };
+        let Followed { known, fit } = self.followed(&seen, &known, old.inverse() * odom_from_base);
         let pose = known.pose;
         self.fine = Some((known, odom_from_base));
         // What may be the sign of a robot that was carried away is worth the work at once; not so
@@ -259,7 +268,8 @@ impl Amcl {
             return false;
         };
         let least = STRAY * self.watch.usual();
-        let fits = |place: Pose2| agreement(map, &seen.beams, place).is_some_and(|it| it >= least);
+        let all_at = |place: Pose2| agreement(map, &seen.beams, place).map(|it| it.all);
+        let fits = |place: Pose2| all_at(place).is_some_and(|it| it >= least);
         if !rivals.keep(|place| fits(place.known.pose)) {
             return false;
         }
@@ -270,7 +280,7 @@ impl Amcl {
             rivals.add(stays.best(), STAYS);
         }
         let best = rivals.best().known.pose;
-        let fit = agreement(map, &seen.beams, best).unwrap_or(0.0);
+        let fit = all_at(best).unwrap_or(0.0);
         if fit < self.convincing() {
             return false;
         }
@@ -304,13 +314,16 @@ fn still_possible(
     for other in others.iter().filter(|it| it.weight >= LEAST_WEIGHT) {
         let known = Known { pose: other.mean, information: loosely(0.3, 0.2) };
         let there = polish(map, &seen.ends, &known).known.pose;
-        let is_same = libm::hypot(there.x_m - pose.x_m, there.y_m - pose.y_m) < SAME.0
-            && normalize_angle(there.yaw_rad - pose.yaw_rad).abs() < SAME.1;
-        if !is_same && evidence(map, &seen.beams, there) >= least {
+        if !is_same(there, pose) && evidence(map, &seen.beams, there) >= least {
             kept.push(*other);
         }
     }
     kept
+}
+
+pub(super) fn is_same(a: Pose2, b: Pose2) -> bool {
+    libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m) < SAME.0
+        && normalize_angle(a.yaw_rad - b.yaw_rad).abs() < SAME.1
 }
 
 /// Spread at least as far as particles should be.
