@@ -24,6 +24,7 @@ mod slam;
 mod step;
 #[cfg(test)]
 mod tidy;
+mod viewer;
 mod wire;
 mod zenoh;
 
@@ -85,6 +86,9 @@ enum Task {
     Soak,
     /// The pictures in the documentation, from the program itself
     Pictures,
+    /// The page in `viewer`, which needs Node
+    #[command(subcommand)]
+    Viewer(Page),
     /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
     /// eclipse-zenoh, installed into `.venv`
     Zenoh,
@@ -96,6 +100,17 @@ enum Task {
         /// Which targets; all when none is named
         targets: Vec<String>,
     },
+}
+
+/// What is done with the page.
+#[derive(Clone, Copy, Subcommand)]
+enum Page {
+    /// Build it into `crates/server/page`, where it is committed
+    Build,
+    /// Formatting, types, tests; whether it is committed as it is built
+    Check,
+    /// In a browser, against a running `periplus`
+    Browse,
 }
 
 /// What can be raced.
@@ -162,6 +177,9 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Soak => costmap::soak(),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
+        Task::Viewer(Page::Build) => viewer::build(),
+        Task::Viewer(Page::Check) => viewer::check(),
+        Task::Viewer(Page::Browse) => viewer::in_browser(),
         Task::Zenoh => zenoh::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }

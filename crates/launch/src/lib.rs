@@ -30,7 +30,7 @@ use crate::guess::Guess as _;
 pub use dialect::{Dialect, dialect};
 pub use outside::{Answer, Interpreter, Nothing, Outside, Printed};
 pub use plan::{
-    Argument, Component, Node, Parameters, Plan, Process, Running, Step, Trigger, What,
+    Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger, What,
 };
 pub use stand_in::{BOOT, MODULES};
 

@@ -129,18 +129,9 @@ pub struct Node {
     pub package: Option<String>,
     /// The program.
     pub executable: String,
-    /// The name it is given; the program's own when none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// The namespace, absolute; none when the program's own holds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub namespace: Option<String>,
-    /// Parameters, later ones over earlier ones.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub parameters: Vec<Parameters>,
-    /// Names that are replaced: from, to.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub remaps: Vec<(String, String)>,
+    /// What it is called, and what it is given.
+    #[serde(flatten)]
+    pub identity: Identity,
     /// The program's arguments.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub arguments: Vec<String>,
@@ -158,17 +149,13 @@ pub struct Node {
     pub running: Running,
 }
 
-/// A component that is loaded into a container.
+/// What a node is called, and what it is given.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Component {
-    /// The package.
-    pub package: String,
-    /// The class: `nav2_amcl::AmclNode`.
-    pub plugin: String,
-    /// The name it is given.
+pub struct Identity {
+    /// The name it is given; its own when none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// The namespace, absolute.
+    /// The namespace, absolute; none when its own holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub namespace: Option<String>,
     /// Parameters, later ones over earlier ones.
@@ -177,6 +164,18 @@ pub struct Component {
     /// Names that are replaced: from, to.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remaps: Vec<(String, String)>,
+}
+
+/// A component that is loaded into a container.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Component {
+    /// The package.
+    pub package: String,
+    /// The class: `nav2_amcl::AmclNode`.
+    pub plugin: String,
+    /// What it is called, and what it is given.
+    #[serde(flatten)]
+    pub identity: Identity,
 }
 
 /// A program that is no node.

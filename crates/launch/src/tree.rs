@@ -313,10 +313,8 @@ pub(crate) enum ParametersOf {
 pub(crate) struct NodeOf {
     pub(crate) package: Option<Text>,
     pub(crate) executable: Text,
-    pub(crate) name: Option<Text>,
-    pub(crate) namespace: Option<Text>,
-    pub(crate) parameters: Vec<ParametersOf>,
-    pub(crate) remaps: Vec<(Text, Text)>,
+    #[serde(flatten)]
+    pub(crate) identity: IdentityOf,
     pub(crate) arguments: Vec<Text>,
     /// Whether `arguments` are one line, to be split as a shell does.
     pub(crate) is_line: bool,
@@ -328,16 +326,24 @@ pub(crate) struct NodeOf {
     pub(crate) running: RunningOf,
 }
 
+/// What a node is called, and what it is given.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub(crate) struct IdentityOf {
+    pub(crate) name: Option<Text>,
+    pub(crate) namespace: Option<Text>,
+    pub(crate) parameters: Vec<ParametersOf>,
+    pub(crate) remaps: Vec<(Text, Text)>,
+}
+
 /// A component.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct ComponentOf {
     pub(crate) package: Text,
     pub(crate) plugin: Text,
-    pub(crate) name: Option<Text>,
-    pub(crate) namespace: Option<Text>,
-    pub(crate) parameters: Vec<ParametersOf>,
-    pub(crate) remaps: Vec<(Text, Text)>,
+    #[serde(flatten)]
+    pub(crate) identity: IdentityOf,
     pub(crate) condition: Option<Condition>,
 }
 

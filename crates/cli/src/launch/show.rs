@@ -33,8 +33,8 @@ pub(super) fn steps(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
                     Some(package) => format!("{package} {}", node.executable),
                     None => node.executable.clone(),
                 };
-                let name = node.name.as_deref().unwrap_or(&node.executable);
-                let name = format!("{}/{name}", node.namespace.as_deref().unwrap_or(""));
+                let name = node.identity.name.as_deref().unwrap_or(&node.executable);
+                let name = format!("{}/{name}", node.identity.namespace.as_deref().unwrap_or(""));
                 format!("node {program} as {name}")
             }
             What::Load { container, components } => {

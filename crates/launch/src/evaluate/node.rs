@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{Evaluation, Outcome};
-use crate::plan::{Component, Node, Process, Running, What};
-use crate::tree::{ComponentOf, NodeOf, ProcessOf, RunningOf, Target, Text};
+use crate::plan::{Component, Identity, Node, Process, Running, What};
+use crate::tree::{ComponentOf, IdentityOf, NodeOf, ProcessOf, RunningOf, Target, Text};
 use crate::truth::truth;
 use crate::words;
 
@@ -17,10 +17,7 @@ impl Evaluation<'_> {
         let mut made = Node {
             package: self.perform_some(node.package.as_ref())?,
             executable: self.perform(&node.executable)?,
-            name: self.perform_some(node.name.as_ref())?.filter(|name| !name.is_empty()),
-            namespace: self.namespace(node.namespace.as_ref())?,
-            parameters: self.parameters(&node.parameters)?,
-            remaps: self.remaps(&node.remaps)?,
+            identity: self.identity(&node.identity)?,
             arguments,
             ros_arguments: self.perform_all(&node.ros_arguments)?,
             is_lifecycle: node.is_lifecycle,
@@ -30,7 +27,7 @@ impl Evaluation<'_> {
         if made.executable.is_empty() {
             return Err(self.error("launch-node", "a node needs an executable").into());
         }
-        if let Some(name) = made.name.as_deref().filter(|name| name.contains('/')) {
+        if let Some(name) = made.identity.name.as_deref().filter(|name| name.contains('/')) {
             return Err(self
                 .error("launch-node", format!("`{name}` is no name of a node: it has a `/` in it"))
                 .help("what stands before the last `/` belongs into `namespace`")
@@ -56,8 +53,11 @@ impl Evaluation<'_> {
                 let started = self.plan.steps.iter().find(|started| started.id == step);
                 match started.map(|started| &started.what) {
                     Some(What::Node(node)) => {
-                        let name = node.name.clone().unwrap_or_default();
-                        crate::context::within(node.namespace.as_deref().unwrap_or(""), &name)
+                        let name = node.identity.name.clone().unwrap_or_default();
+                        crate::context::within(
+                            node.identity.namespace.as_deref().unwrap_or(""),
+                            &name,
+                        )
                     }
                     _ => {
                         return Err(self
@@ -86,10 +86,7 @@ impl Evaluation<'_> {
             made.push(Component {
                 package: self.perform(&component.package)?,
                 plugin: self.perform(&component.plugin)?,
-                name: self.perform_some(component.name.as_ref())?.filter(|name| !name.is_empty()),
-                namespace: self.namespace(component.namespace.as_ref())?,
-                parameters: self.parameters(&component.parameters)?,
-                remaps: self.remaps(&component.remaps)?,
+                identity: self.identity(&component.identity)?,
             });
         }
         Ok(made)
@@ -157,6 +154,15 @@ impl Evaluation<'_> {
             respawn_after_s,
             // What happens at its end is said in steps of their own.
             is_required: false,
+        })
+    }
+
+    fn identity(&mut self, of: &IdentityOf) -> Outcome<Identity> {
+        Ok(Identity {
+            name: self.perform_some(of.name.as_ref())?.filter(|name| !name.is_empty()),
+            namespace: self.namespace(of.namespace.as_ref())?,
+            parameters: self.parameters(&of.parameters)?,
+            remaps: self.remaps(&of.remaps)?,
         })
     }
 

@@ -6,8 +6,8 @@ use super::entity::Entity;
 use crate::evaluate::Outcome;
 use crate::guess::Guess as _;
 use crate::tree::{
-    Action, ComponentOf, Condition, Deed, Given, NodeOf, ParametersOf, Place, ProcessOf, RunningOf,
-    Target, Text, plain,
+    Action, ComponentOf, Condition, Deed, Given, IdentityOf, NodeOf, ParametersOf, Place,
+    ProcessOf, RunningOf, Target, Text, plain,
 };
 
 /// The names of actions.
@@ -224,17 +224,10 @@ fn node(entity: &Entity<'_>, kind: &str) -> Outcome<Deed> {
         "autostart",
     ]);
     known(entity, &allowed)?;
-    let (namespace, name) = match (entity.text("namespace")?, entity.text("name")?) {
-        (namespace @ Some(_), name) => (namespace, name),
-        (None, name) => (None, name),
-    };
     Ok(Deed::Node(Box::new(NodeOf {
         package: Some(entity.needed("pkg")?),
         executable: entity.needed("exec")?,
-        name,
-        namespace,
-        parameters: parameters(entity)?,
-        remaps: pairs(entity, "remap", "from", "to")?,
+        identity: identity(entity)?,
         arguments: entity.text("args")?.into_iter().collect(),
         is_line: true,
         ros_arguments: entity.text("ros_args")?.into_iter().collect(),
@@ -243,6 +236,15 @@ fn node(entity: &Entity<'_>, kind: &str) -> Outcome<Deed> {
         components: components(entity)?,
         running: running(entity)?,
     })))
+}
+
+fn identity(entity: &Entity<'_>) -> Outcome<IdentityOf> {
+    Ok(IdentityOf {
+        name: entity.text("name")?,
+        namespace: entity.text("namespace")?,
+        parameters: parameters(entity)?,
+        remaps: pairs(entity, "remap", "from", "to")?,
+    })
 }
 
 fn components(entity: &Entity<'_>) -> Outcome<Vec<ComponentOf>> {
@@ -258,10 +260,7 @@ fn components(entity: &Entity<'_>) -> Outcome<Vec<ComponentOf>> {
             Ok(ComponentOf {
                 package: component.needed("pkg")?,
                 plugin: component.needed("plugin")?,
-                name: component.text("name")?,
-                namespace: component.text("namespace")?,
-                parameters: parameters(component)?,
-                remaps: pairs(component, "remap", "from", "to")?,
+                identity: identity(component)?,
                 condition,
             })
         })

@@ -9,7 +9,7 @@ use super::parameters::spread;
 use super::{Loader, Scope, wrong};
 use crate::context::within;
 use crate::evaluate::Outcome;
-use crate::plan::{Node, Parameters, Running, What};
+use crate::plan::{Identity, Node, Parameters, Running, What};
 
 impl Loader<'_, '_> {
     pub(super) fn node(&mut self, element: &Element, scope: &Scope) -> Outcome<()> {
@@ -91,14 +91,16 @@ impl Loader<'_, '_> {
         let what = What::Node(Box::new(Node {
             package: Some(package),
             executable,
-            name: Some(name),
-            namespace: (inner.namespace != "/").then_some(inner.namespace),
-            parameters: if values.is_empty() {
-                Vec::new()
-            } else {
-                vec![Parameters::Values(values)]
+            identity: Identity {
+                name: Some(name),
+                namespace: (inner.namespace != "/").then_some(inner.namespace),
+                parameters: if values.is_empty() {
+                    Vec::new()
+                } else {
+                    vec![Parameters::Values(values)]
+                },
+                remaps: inner.remaps,
             },
-            remaps: inner.remaps,
             arguments,
             running,
             ..Node::default()

@@ -1,0 +1,62 @@
+//! The page: checked, tested, built, and held against what is committed in `crates/server/page`.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::step::{Failed, cargo, root, run, timed};
+
+/// What needs Node is said once.
+const NEEDS_NODE: &str = "it needs Node 20 or newer with npm; see viewer/README.md";
+
+/// Builds the page into the server's folder.
+pub(crate) fn build() -> Result<(), Failed> {
+    install()?;
+    npm(&["run", "build"], "the page does not build")
+}
+
+/// Checks and tests the page, and that the committed one is what its sources give.
+pub(crate) fn check() -> Result<(), Failed> {
+    install()?;
+    timed("page: format", || {
+        npm(&["run", "format"], "`npx prettier --write .` in viewer mends it")
+    })?;
+    timed("page: types", || npm(&["run", "check"], "see above"))?;
+    timed("page: tests", || npm(&["test"], "see above"))?;
+    timed("page: build", || npm(&["run", "build"], "the page does not build"))?;
+    timed("page: as committed", || {
+        npm(&["run", "committed"], "`cargo xtask viewer build`, then commit crates/server/page")
+    })
+}
+
+/// Drives the page in a browser against a running `periplus`, where there is a browser.
+pub(crate) fn in_browser() -> Result<(), Failed> {
+    install()?;
+    if browser().is_none() {
+        println!("SKIPPED: no Chromium to drive the page with; apt-get install chromium");
+        return Ok(());
+    }
+    let mut release = cargo();
+    release.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
+    timed("page: periplus", || run(&mut release, "see above"))?;
+    timed("page: in a browser", || npm(&["run", "e2e"], "see above"))
+}
+
+fn install() -> Result<(), Failed> {
+    let is_installed = folder().join("node_modules/.package-lock.json").exists();
+    if is_installed { Ok(()) } else { npm(&["ci", "--no-audit", "--no-fund"], NEEDS_NODE) }
+}
+
+fn npm(words: &[&str], help: &str) -> Result<(), Failed> {
+    run(Command::new("npm").args(words).current_dir(folder()), help)
+}
+
+fn folder() -> PathBuf {
+    root().join("viewer")
+}
+
+/// A Chromium that the tests can drive.
+fn browser() -> Option<PathBuf> {
+    let named = std::env::var_os("CHROMIUM").map(PathBuf::from);
+    let usual = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+    named.into_iter().chain(usual.map(PathBuf::from)).find(|program| program.exists())
+}
