@@ -395,28 +395,34 @@ impl Loops {
             _ => 3,
         };
         let is_believed = unique >= wanted && unique > rivals.len();
+        // Those that fit elsewhere too are not believed: near scans will tell better, now that the place
+        // is known. But they are done with.
+        let mut settled = agreed;
+        settled.push(self.pending.len() - 1);
+        let of_one = |&index: &usize| is_believed && self.pending[index].is_unique;
+        let believed: Vec<usize> = settled.iter().copied().filter(of_one).collect();
+        // What is told is the newest of those that become part of the map.
+        let told = believed.last().map_or(&new, |&index| &self.pending[index]);
+        let words = match (new.is_unique, is_believed) {
+            (true, _) => "the only place in the region",
+            (false, false) => "fits elsewhere too",
+            (false, true) => "a stretch that fits elsewhere too agrees with it",
+        };
         let reason = format!(
-            "{unique} of {wanted} independent witnesses, {} against; {}",
+            "{unique} of {wanted} independent witnesses, {} against; {words}",
             rivals.len(),
-            if new.is_unique { "the only place in the region" } else { "fits elsewhere too" }
         );
         self.told.push(Closure {
-            keys: (new.middle, new.anchor),
-            old_from_new: new.middle_from_anchor,
+            keys: (told.middle, told.anchor),
+            old_from_new: told.middle_from_anchor,
             is_accepted: is_believed,
-            region_m: new.region_m,
-            agreeing: new.share,
+            region_m: told.region_m,
+            agreeing: told.share,
             reason,
         });
         if !is_believed {
             return Vec::new();
         }
-        // Those that fit elsewhere too are not: near scans will tell better, now that the place is
-        // known. But they are done with.
-        let mut settled = agreed;
-        settled.push(self.pending.len() - 1);
-        let believed = settled.iter().copied().filter(|&index| self.pending[index].is_unique);
-        let believed: Vec<usize> = believed.collect();
         let edges = believed.iter().map(|&index| {
             let it = &self.pending[index];
             Edge::new((it.middle, it.anchor), it.middle_from_anchor, it.information, Kind::Loop)
