@@ -144,7 +144,7 @@ impl Open {
             Source::Stream(messages) => {
                 messages.reader().faults().iter().map(ToString::to_string).collect()
             }
-            Source::Database(_) => Vec::new(),
+            Source::Database(rows) => rows.faults().to_vec(),
         }
     }
 }

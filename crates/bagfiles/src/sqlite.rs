@@ -4,6 +4,7 @@
 //! (Humble and Iron: a table `schema`), 4 (Jazzy: texts and hashes of types).
 
 mod read;
+mod rescue;
 mod write;
 
 pub(crate) use read::{Database, Rows};

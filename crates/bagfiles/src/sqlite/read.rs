@@ -7,6 +7,7 @@ use periplus_bags::{BagTopic, Message, Selection};
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags, OptionalExtension as _};
 
+use super::rescue;
 use crate::BagError;
 use crate::part::Part;
 use crate::write::Storage;
@@ -156,6 +157,14 @@ impl Database {
             .collect();
         let (from_ns, to_ns) = (*selection.span_ns.start(), *selection.span_ns.end());
         let ids: Vec<String> = wanted.keys().map(ToString::to_string).collect();
+        let next = |table: &str| {
+            format!(
+                "SELECT timestamp, id, topic_id FROM {table} WHERE (timestamp, id) > (?1, ?2) AND \
+                 timestamp <= {to_ns} AND topic_id IN ({}) ORDER BY timestamp, id LIMIT {BATCH}",
+                ids.join(", ")
+            )
+        };
+        let mut is_sorted = self.is_indexed;
         if !self.is_indexed {
             // Sorted once, in a file of its own.
             let make = format!(
@@ -163,23 +172,26 @@ impl Database {
                  id)) WITHOUT ROWID; INSERT OR IGNORE INTO periplus_times SELECT timestamp, id, \
                  topic_id FROM messages WHERE timestamp BETWEEN {from_ns} AND {to_ns};"
             );
-            self.connection.execute_batch(&make).map_err(BagError::database(&self.path))?;
+            match self.connection.execute_batch(&make) {
+                Ok(()) => is_sorted = true,
+                Err(error) if is_corrupt(&error) => {}
+                Err(error) => return Err(BagError::database(&self.path)(error)),
+            }
         }
         let table = if self.is_indexed { "messages" } else { "periplus_times" };
-        let next = format!(
-            "SELECT timestamp, id, topic_id FROM {table} WHERE (timestamp, id) > (?1, ?2) AND \
-             timestamp <= {to_ns} AND topic_id IN ({}) ORDER BY timestamp, id LIMIT {BATCH}",
-            ids.join(", ")
-        );
         Ok(Rows {
             connection: self.connection,
-            next,
+            next: next(table),
+            is_sorted,
+            next_rescued: next(rescue::TABLE),
             wanted,
             // Ids may be negative; nothing is before the first of them.
             after: (from_ns, i64::MIN),
             is_done: ids.is_empty() || from_ns > to_ns,
             ahead: VecDeque::new(),
             data: Vec::new(),
+            is_rescued: false,
+            faults: Vec::new(),
         })
     }
 }
@@ -191,6 +203,8 @@ const BATCH: usize = 4096;
 pub(crate) struct Rows {
     connection: Connection,
     next: String,
+    /// The same, of what was rescued from a damaged database.
+    next_rescued: String,
     /// Which topic an id is.
     wanted: BTreeMap<i64, usize>,
     /// Time and id of the last one that is known.
@@ -199,13 +213,40 @@ pub(crate) struct Rows {
     /// Time, id and topic of those to come.
     ahead: VecDeque<(i64, i64, usize)>,
     data: Vec<u8>,
+    /// Whether times are there to be asked in their order.
+    is_sorted: bool,
+    is_rescued: bool,
+    faults: Vec<String>,
 }
 
 impl Rows {
+    /// What was damaged, as far as it was read.
+    pub(crate) fn faults(&self) -> &[String] {
+        &self.faults
+    }
+
+    /// Looks for the next ones. In a damaged database those that can be found without its index.
     fn fill(&mut self) -> rusqlite::Result<()> {
         if !self.ahead.is_empty() || self.is_done {
             return Ok(());
         }
+        if self.is_sorted {
+            match self.look_ahead() {
+                Err(error) if !self.is_rescued && is_corrupt(&error) => {}
+                looked => return looked,
+            }
+        }
+        let rescued = rescue::rescue(&self.connection)?;
+        self.faults.push(format!(
+            "the database is damaged: {rescued} messages could still be found in it"
+        ));
+        (self.is_rescued, self.is_sorted) = (true, true);
+        self.next = std::mem::take(&mut self.next_rescued);
+        // Those that were found before it went wrong come first.
+        if self.ahead.is_empty() { self.look_ahead() } else { Ok(()) }
+    }
+
+    fn look_ahead(&mut self) -> rusqlite::Result<()> {
         let mut statement = self.connection.prepare_cached(&self.next)?;
         let mut rows = statement.query([self.after.0, self.after.1])?;
         let mut count = 0;
@@ -233,8 +274,28 @@ impl Rows {
     }
 
     pub(crate) fn next(&mut self) -> rusqlite::Result<Option<Message<'_>>> {
-        self.fill()?;
-        let Some((time, id, topic)) = self.ahead.pop_front() else { return Ok(None) };
+        loop {
+            self.fill()?;
+            let Some((time, id, topic)) = self.ahead.pop_front() else { return Ok(None) };
+            match self.load(id) {
+                Ok(()) => {
+                    let (log_ns, publish_ns) = (time, time);
+                    let data = &self.data;
+                    return Ok(Some(Message { topic, sequence: 0, log_ns, publish_ns, data }));
+                }
+                Err(error) if is_corrupt(&error) => {
+                    let why = format!("message {id} is lost: {error}");
+                    if self.faults.len() < MOST_FAULTS {
+                        self.faults.push(why);
+                    }
+                }
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Reads the bytes of a message.
+    fn load(&mut self, id: i64) -> rusqlite::Result<()> {
         let mut statement =
             self.connection.prepare_cached("SELECT data FROM messages WHERE id = ?1")?;
         let mut rows = statement.query([id])?;
@@ -243,11 +304,19 @@ impl Rows {
             let bytes = row.get_ref(0)?;
             self.data.extend_from_slice(bytes.as_bytes().unwrap_or_default());
         }
-        drop(rows);
-        drop(statement);
-        let (log_ns, publish_ns) = (time, time);
-        Ok(Some(Message { topic, sequence: 0, log_ns, publish_ns, data: &self.data }))
+        Ok(())
     }
+}
+
+/// More lost messages are not told one by one.
+const MOST_FAULTS: usize = 20;
+
+/// Whether a database is damaged.
+pub(super) fn is_corrupt(error: &rusqlite::Error) -> bool {
+    matches!(
+        error.sqlite_error_code(),
+        Some(rusqlite::ErrorCode::DatabaseCorrupt | rusqlite::ErrorCode::NotADatabase)
+    )
 }
 
 /// Reads only; what somebody put into the file is not run.
@@ -267,8 +336,22 @@ fn connect(path: &Path) -> rusqlite::Result<Connection> {
         // In a folder where nothing may be written, a log stays unread.
         let escaped = plain.replace('%', "%25").replace('?', "%3f").replace('#', "%23");
         let uri = format!("file:{escaped}?immutable=1");
-        open(&uri, flags | OpenFlags::SQLITE_OPEN_URI).map_err(|_| error)
+        let flags = flags | OpenFlags::SQLITE_OPEN_URI;
+        open(&uri, flags)
+            .or_else(|_| if is_corrupt(&error) { open_cut(&uri, flags) } else { Err(error) })
     })
+}
+
+/// Opens a database whose file is shorter than it says. SQLite does so only for those who may change
+/// the schema; as nothing can be written, nobody can.
+fn open_cut(uri: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
+    let connection = Connection::open_with_flags(uri, flags)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+    connection.execute_batch(
+        "PRAGMA writable_schema = ON; PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0;",
+    )?;
+    connection.query_row("SELECT count(*) FROM sqlite_master", [], |_| Ok(()))?;
+    Ok(connection)
 }
 
 /// The columns of the tables; views are none.
