@@ -16,7 +16,7 @@ use periplus_maps::palette::{Scheme, paint};
 use periplus_pictures::{Layout, write_png};
 
 use crate::terminal;
-use file::read;
+use file::{File, read, read_text};
 
 /// What `periplus sim` takes for costmaps.
 #[derive(Debug, Args)]
@@ -76,7 +76,25 @@ impl Costmaps {
 
     /// Those of a file, not yet configured.
     fn of_file(graph: &Graph, path: &Path, compat: Option<Compat>) -> io::Result<Option<Self>> {
-        let file = match read(path, compat) {
+        Self::of_read(graph, read(path, compat))
+    }
+
+    /// Those of a text that has a name, which run then; their pictures go to a folder.
+    pub(crate) fn of_text(
+        graph: &Graph,
+        name: &str,
+        text: &str,
+        pictures: Option<PathBuf>,
+    ) -> io::Result<Option<Self>> {
+        let costmaps = Self::of_read(graph, read_text(name, text.to_owned(), None))?;
+        if let Some(costmaps) = &costmaps {
+            costmaps.start();
+        }
+        Ok(costmaps.map(|costmaps| Self { pictures, ..costmaps }))
+    }
+
+    fn of_read(graph: &Graph, read: Result<File, String>) -> io::Result<Option<Self>> {
+        let file = match read {
             Ok(file) => file,
             Err(why) => {
                 terminal::complain(&why);
@@ -136,6 +154,18 @@ impl Costmaps {
             }
         }
         Ok(())
+    }
+
+    /// Draws each to the folder in the colours of costmaps, as far as one was named.
+    ///
+    /// # Errors
+    /// Why one cannot be.
+    pub(crate) fn write(&self) -> Result<(), String> {
+        let Some(folder) = &self.pictures else { return Ok(()) };
+        self.nodes.iter().try_for_each(|node| {
+            let name = format!("{}.png", node.node().names().name());
+            draw(node, Scheme::Costmap, &folder.join(name))
+        })
     }
 }
 

@@ -6,6 +6,7 @@ mod check;
 mod conformance;
 mod convert;
 mod costmap;
+mod demo;
 mod launch;
 mod live;
 mod localize;
@@ -21,6 +22,7 @@ mod spent;
 mod teleop;
 mod terminal;
 mod verbs;
+mod view;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -30,6 +32,7 @@ use clap::{CommandFactory as _, Parser as _};
 
 use periplus_graph::split_arguments;
 
+use demo::DemoOptions;
 use options::{Command, DoctorCommand, Options};
 
 /// All at once, so that a reader that has seen enough is an error that [`main`] knows.
@@ -61,9 +64,11 @@ fn main() -> ExitCode {
     let (words, ros) = split_arguments(std::env::args());
     let options = Options::parse_from(words);
     options.colour.apply();
-    let outcome = match options.command {
+    let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
+    let outcome = match command {
         Command::Sim(options) => sim::run(&options, ros),
         Command::Teleop(options) => teleop::run(&options, ros),
+        Command::View(options) => view::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),
         Command::Map(command) => map::run(&command, ros),
         Command::Slam(options) => slam::run(&options, ros),
@@ -71,7 +76,7 @@ fn main() -> ExitCode {
         _ if !ros.is_empty() => {
             terminal::complain(
                 "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop`, \
-                 `map`, `costmap` and `slam --live`",
+                 `view`, `map`, `costmap` and `slam --live`",
             );
             return ExitCode::from(2);
         }
@@ -79,6 +84,7 @@ fn main() -> ExitCode {
         Command::Check(options) => check::run(&options),
         Command::Launch(options) => launch::run(&options),
         Command::Conformance(options) => conformance::run(&options),
+        Command::Demo(options) => demo::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor::run(&options),
         Command::Action(options) => options.run(),

@@ -9,6 +9,7 @@ use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::doctor::DoctorCostmapOptions;
 use crate::costmap::serve::CostmapServeOptions;
+use crate::demo::DemoOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
@@ -19,9 +20,12 @@ use crate::verbs::{
     ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ParamOptions, ServiceOptions,
     TfOptions, TopicOptions,
 };
+use crate::view::ViewOptions;
 
 /// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
 /// them, and simulates robots with all their sensors.
+///
+/// Without a command it shows a room with a robot in the browser, as `periplus demo` does.
 #[derive(Debug, Parser)]
 #[command(name = "periplus", version, max_term_width = 100)]
 pub(crate) struct Options {
@@ -29,7 +33,7 @@ pub(crate) struct Options {
     #[arg(long = "color", value_enum, default_value_t = Colour::Auto, global = true, value_name = "WHEN")]
     pub(crate) colour: Colour,
     #[command(subcommand)]
-    pub(crate) command: Command,
+    pub(crate) command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -38,6 +42,7 @@ pub(crate) enum Command {
     Bag(BagCommand),
     Check(CheckOptions),
     Convert(ConvertOptions),
+    Demo(DemoOptions),
     Launch(LaunchOptions),
     Sim(Box<SimOptions>),
     Slam(SlamOptions),
@@ -61,6 +66,7 @@ pub(crate) enum Command {
         folder: Option<PathBuf>,
     },
     Teleop(TeleopOptions),
+    View(ViewOptions),
     #[command(subcommand)]
     Map(MapCommand),
     Costmap(CostmapServeOptions),

@@ -11,7 +11,7 @@ use clap::Args;
 use periplus_graph::Graph;
 use periplus_host::unix_ns;
 use periplus_server::{Hub, Server, ServerSettings, token};
-use periplus_wire_live::Settings;
+use periplus_wire_live::{Far, Settings};
 
 /// The port that Foxglove's programs look at first.
 pub(crate) const PORT: u16 = 8765;
@@ -52,7 +52,6 @@ pub(crate) struct About {
 pub(crate) struct Page {
     // First, so that nobody comes in while the rest goes.
     server: Server,
-    #[expect(dead_code, reason = "it lives as long as the page")]
     hub: Arc<Hub>,
 }
 
@@ -105,6 +104,11 @@ impl Page {
             format!("no page at {address}: {error}{}", if taken { advice } else { "" })
         })?;
         Ok(Self { server, hub })
+    }
+
+    /// What others have on a network that the graph is on.
+    pub(crate) fn set_far(&self, far: Far) {
+        self.hub.set_far(far);
     }
 
     /// What to type into a browser.

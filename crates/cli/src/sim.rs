@@ -29,6 +29,7 @@ use crate::terminal;
 
 use ros2::{Reach, Ros2};
 
+pub(crate) use report::Report;
 pub(crate) use robots::Robots;
 
 /// Run a world with robots in it: physics, sensors, topics, and a bag of what was said
@@ -263,8 +264,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             return Ok(ExitCode::FAILURE);
         }
     };
-    let report =
-        report::Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
+    let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
     if options.json {
         writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
     } else if !options.quiet {
@@ -375,7 +375,7 @@ fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
     Ok(whole)
 }
 
-fn positive(word: &str) -> Result<f64, String> {
+pub(crate) fn positive(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("it has to be a number above 0".into()),

@@ -114,6 +114,12 @@ impl Explorer {
         let here = [map_from_base.x_m, map_from_base.y_m];
         let home_m = *self.home_m.get_or_insert(here);
         let Some(reach) = Reach::new(map, &self.settings.robot, here[0], here[1]) else { return };
+        if reach.count() == 0 {
+            // The map says nothing yet of where it stands: it looks around until it does.
+            self.mood = Mood::Looks;
+            self.way.clear();
+            return;
+        }
         let found = frontiers(&reach, self.settings.shortest_m);
         let open =
             |one: &&Frontier| !self.given_up.iter().any(|it| apart(*it, one.place_m) < SAME_M);

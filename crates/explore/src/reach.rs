@@ -75,6 +75,12 @@ impl<'a> Reach<'a> {
         self.costs.get(index).copied().filter(|cost| cost.is_finite())
     }
 
+    /// How many cells it can go to, beside the one where it is.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.costs.iter().filter(|cost| cost.is_finite() && **cost > 0.0).count()
+    }
+
     /// The map that was walked.
     #[must_use]
     pub fn map(&self) -> &OccupancyGrid {

@@ -75,6 +75,16 @@ fn a_closed_room_has_none_and_the_explorer_is_done() {
 }
 
 #[test]
+fn a_map_that_says_nothing_yet_is_waited_for() {
+    let map = room(&["??????", "??????", "??#???", "??????"]);
+    let mut explorer = Explorer::new(Settings { robot: ROBOT, look_ns: 0, ..Settings::default() });
+    explorer.see(&map, at(4, 0));
+    assert_eq!(explorer.mood(), Mood::Looks);
+    let velocity = explorer.drive(1, at(4, 0), 9.0);
+    assert!(velocity.left_rad_s > 0.0 && velocity.forward_m_s == 0.0, "it turns");
+}
+
+#[test]
 fn nothing_is_reached_through_a_gap_that_is_too_narrow() {
     let map = room(&[
         "###########",

@@ -14,7 +14,9 @@ use periplus_msgs::ros_gz_interfaces::{
     WorldControl, WorldReset, WorldStatistics,
 };
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
-use periplus_msgs::std_srvs::{Empty, EmptyRequest};
+use periplus_msgs::std_srvs::{Empty, EmptyRequest, Trigger, TriggerRequest};
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::{Marker, MarkerArray};
 use periplus_msgs::{Encapsulation, Format, Message, Service, encode};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{Options, Search, Services, ShapeFiles, Simulation, compose};
@@ -492,4 +494,60 @@ fn how_fast_it_goes_is_told_to_who_subscribes() {
     assert_eq!((stats.model_count, stats.paused), (3, false));
     let factor = classic.latest().expect("metrics").real_time_factor;
     assert!(factor > 0.0 && factor < 1.0, "one step of 10 ms in 110 ms is {factor}");
+}
+
+#[test]
+fn who_draws_the_world_is_told_what_is_in_it_and_where() {
+    let mut lab = Lab::new();
+    let nothing = lab.simulation.graph().topics();
+    assert!(nothing.iter().all(|topic| !topic.name.ends_with("/scene")), "nobody asked for it");
+    lab.services.show(&lab.simulation, Vec::new()).unwrap();
+    let scenes = lab.node.mailbox::<MarkerArray>("/world/lab/scene", Qos::latched(1)).unwrap();
+    let poses = lab.node.mailbox::<TFMessage>("/world/lab/poses", Qos::best_effort(1)).unwrap();
+    lab.run(2);
+    let drawn = scenes.latest().expect("a scene");
+    let [all, ball] = drawn.markers.as_slice() else { panic!("{:?}", drawn.markers) };
+    assert_eq!(all.action, Marker::DELETEALL);
+    assert_eq!((ball.ns.as_str(), ball.r#type), ("ball", Marker::SPHERE));
+    assert_eq!((ball.header.frame_id.as_str(), ball.scale.x), ("ball/body", 1.0));
+    let told = poses.latest().expect("where things are");
+    let place = |name: &str| {
+        let one = told.transforms.iter().find(|one| one.child_frame_id == name).expect("a frame");
+        assert_eq!(one.header.frame_id, "world");
+        one.transform.translation.clone()
+    };
+    assert!((place("eye").z - 1.0).abs() < 1e-9 && (place("eye/head").z - 1.0).abs() < 1e-9);
+    assert!((place("ball/body").y - 5.0).abs() < 1e-9);
+
+    assert!(lab.spawn("box", BOX, "", [1.0, 2.0, 0.5]).0);
+    lab.run(1);
+    let drawn = scenes.latest().expect("a new scene");
+    assert!(drawn.markers.iter().any(|one| one.ns == "box" && one.r#type == Marker::CUBE));
+    assert!(scenes.latest().is_none(), "nothing has come or gone since");
+}
+
+#[test]
+fn a_world_that_is_saved_can_be_loaded_again() {
+    let mut lab = Lab::new();
+    lab.services.show(&lab.simulation, Vec::new()).unwrap();
+    assert!(lab.spawn("box", BOX, "", [1.0, 2.0, 0.5]).0);
+    let saved = lab.call::<Trigger>("/world/lab/save", TriggerRequest::default());
+    assert!(saved.success, "{}", saved.message);
+    let host = MemoryHost::new().with_file("/saved.sdf", saved.message.clone());
+    let resolver = Resolver::new(&host, &[]);
+    let setting = Setting {
+        host: &host,
+        resolver: &resolver,
+        working_folder: "/".into(),
+        arguments: Vec::new(),
+        open_meshes: true,
+    };
+    let again = compose(Path::new("/saved.sdf"), &[], &setting);
+    assert!(!again.has_errors(), "{:?}", again.files[0].diagnostics);
+    let names: Vec<&str> = again.members.iter().map(|member| member.name.as_str()).collect();
+    assert_eq!(names, ["ground", "ball", "eye", "box"]);
+    let at = again.members[3].world_from_model.translation;
+    assert!((at.x - 1.0).abs() < 1e-9 && (at.y - 2.0).abs() < 1e-9 && (at.z - 0.5).abs() < 1e-9);
+    let listed = lab.call::<Trigger>("/world/lab/library", TriggerRequest::default());
+    assert!(listed.message.starts_with("{\"models\":["), "{}", listed.message);
 }

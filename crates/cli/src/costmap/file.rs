@@ -25,12 +25,17 @@ pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> 
     let bytes =
         Machine.read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    read_text(&path.display().to_string(), text, compat)
+}
+
+/// As [`read`], of a text that has a name.
+pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Result<File, String> {
     let mut sources = SourceMap::new();
-    let file = sources.add(path.display().to_string(), text);
+    let file = sources.add(name.to_owned(), text);
     let mut diagnostics = Diagnostics::new();
     let tree = match periplus_yaml::parse(file, &sources) {
         Ok(Some(tree)) => tree,
-        Ok(None) => return Err(format!("{} is empty", path.display())),
+        Ok(None) => return Err(format!("{name} is empty")),
         Err(error) => {
             diagnostics.push(*error);
             return Ok(File { configs: Vec::new(), diagnostics, sources });

@@ -1,0 +1,128 @@
+//! `periplus view`.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_graph::NodeSettings;
+use periplus_host::{Stopwatch, sleep};
+use periplus_wire_live::{Far, FarService, FarTopic};
+use periplus_wire_ros2::{Remote, RemoteTopic};
+
+use crate::arguments;
+use crate::demo::browser;
+use crate::live::Live;
+use crate::page::{About, PORT, Page, PageOptions};
+use crate::terminal::{complain, say, stop_on_ctrl_c};
+
+/// How often time is told.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// How often it is looked who came and went on the network.
+const LOOK_AROUND: Duration = Duration::from_millis(200);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(300);
+
+/// Show a running system in the browser: Periplus, or anything that speaks ROS 2
+///
+/// It joins the network as a node and brings only what the page asks for. Where somebody tells `/clock`,
+/// it lives by that.
+#[derive(Debug, Args)]
+pub(crate) struct ViewOptions {
+    #[command(flatten)]
+    page: PageOptions,
+    /// Open no browser
+    #[arg(long)]
+    no_browser: bool,
+    /// A folder to look in for packages with meshes, before those of the environment; may be given
+    /// several times
+    #[arg(long, value_name = "DIR")]
+    resource_path: Vec<PathBuf>,
+}
+
+pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let Some(arguments) = arguments::read(ros)? else {
+        return Ok(ExitCode::from(2));
+    };
+    let stop = stop_on_ctrl_c();
+    let opened = Live::open(arguments).and_then(|live| {
+        let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
+        let resource_path = options.resource_path.clone();
+        let about = About { resource_path, ..About::default() };
+        let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
+        Ok((Page::open(&live.graph, address, token, about)?, live))
+    });
+    let (page, mut live) = match opened {
+        Ok(opened) => opened,
+        Err(why) => {
+            complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let url = page.url();
+    say(&format!("ROS 2, domain {}: the page is at {url}; Ctrl-C ends it", live.domain_id));
+    if !options.no_browser && !browser::open(&url) {
+        say("no browser could be opened; open the page yourself");
+    }
+    let node = live.graph.node(NodeSettings::new("periplus_view").bare());
+    let mut looked: Option<Stopwatch> = None;
+    let mut follows = false;
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        if looked.as_ref().is_none_or(|looked| looked.elapsed() >= LOOK_AROUND) {
+            looked = Some(Stopwatch::start());
+            let remote = live.wire.remote();
+            let tells = |topic: &RemoteTopic| !topic.publishers.is_empty();
+            if !follows
+                && remote.topic("/clock").is_some_and(tells)
+                && let Ok(node) = &node
+            {
+                follows = true;
+                if let Err(error) = live.follow_clock(node) {
+                    complain(&error.to_string());
+                }
+            }
+            page.set_far(far(&remote));
+            live.tell();
+        }
+        sleep(LOOK);
+    }
+    drop(page);
+    live.end(LAST_WORD);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What others have, as the page takes it. Of a topic on which ends do not agree the first type counts.
+fn far(remote: &Remote) -> Far {
+    let topics = remote.topics.iter().filter_map(|topic| {
+        let type_name = topic.type_names.first()?.clone();
+        let same = topic.publishers.iter().filter(|end| end.type_name == type_name);
+        let publishers: Vec<_> = same.collect();
+        let names = |nodes: &mut dyn Iterator<Item = &Option<String>>| -> BTreeSet<String> {
+            nodes.map(|node| node.clone().unwrap_or_else(|| "(no node)".to_owned())).collect()
+        };
+        Some(FarTopic {
+            name: topic.name.clone(),
+            type_hash: publishers.iter().find_map(|end| end.type_hash.clone()),
+            offers: publishers.iter().map(|end| end.qos).collect(),
+            publishers: names(&mut publishers.iter().map(|end| &end.node)),
+            subscriptions: names(&mut topic.subscriptions.iter().map(|end| &end.node)),
+            type_name,
+        })
+    });
+    let services = remote.services.iter().filter(|service| !service.servers.is_empty());
+    let services = services.filter_map(|service| {
+        Some(FarService {
+            name: service.name.clone(),
+            type_name: service.type_names.first()?.clone(),
+            servers: service.servers.iter().cloned().collect(),
+        })
+    });
+    Far { topics: topics.collect(), services: services.collect() }
+}

@@ -1,0 +1,321 @@
+//! Who may not come in, and what nobody may do.
+#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::disallowed_methods, reason = "tests of sockets wait by the wall's clock")]
+
+use std::io::{Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
+use periplus_msgs::std_msgs::{String as Words, UInt8MultiArray};
+use periplus_server::{Hub, Server, ServerSettings};
+use periplus_wire_live::{Limits, Settings};
+use tungstenite::client::IntoClientRequest as _;
+use tungstenite::stream::MaybeTlsStream;
+use tungstenite::{Error, Message, WebSocket};
+
+const LONG: Duration = Duration::from_secs(20);
+
+struct Place {
+    graph: Graph,
+    server: Server,
+    hub: Arc<Hub>,
+}
+
+impl Place {
+    fn open(token: Option<&str>, limits: Limits) -> Self {
+        let graph = Graph::live();
+        let settings = Settings { name: "test".into(), limits, ..Settings::default() };
+        let hub = Arc::new(Hub::open(&graph, settings).unwrap());
+        let settings = ServerSettings {
+            address: "127.0.0.1:0".parse().unwrap(),
+            token: token.map(Into::into),
+        };
+        let server = Server::open(hub.clone(), settings).unwrap();
+        Self { graph, server, hub }
+    }
+
+    fn usual() -> Self {
+        Self::open(Some("secret"), Limits::default())
+    }
+
+    fn address(&self) -> SocketAddr {
+        self.server.address()
+    }
+
+    /// Sends bytes and reads until the other end closes.
+    fn send(&self, bytes: &[u8]) -> String {
+        let mut stream = TcpStream::connect(self.address()).unwrap();
+        stream.set_read_timeout(Some(LONG)).unwrap();
+        let _ = stream.write_all(bytes);
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    /// Asks for a WebSocket; the number of the answer.
+    fn ask(&self, path: &str, origin: Option<&str>) -> u16 {
+        match self.connect(path, origin) {
+            Ok(_) => 101,
+            Err(Error::Http(answer)) => answer.status().as_u16(),
+            Err(other) => panic!("{other}"),
+        }
+    }
+
+    fn connect(
+        &self,
+        path: &str,
+        origin: Option<&str>,
+    ) -> Result<WebSocket<MaybeTlsStream<TcpStream>>, Error> {
+        let mut request = format!("ws://{}{path}", self.address()).into_client_request()?;
+        let headers = request.headers_mut();
+        headers.insert("Sec-WebSocket-Protocol", "foxglove.websocket.v1".parse().unwrap());
+        if let Some(origin) = origin {
+            headers.insert("Origin", origin.parse().unwrap());
+        }
+        let stream = TcpStream::connect(self.address()).unwrap();
+        stream.set_read_timeout(Some(LONG)).unwrap();
+        let stream = MaybeTlsStream::Plain(stream);
+        let made = tungstenite::client(request, stream).map_err(|error| match error {
+            tungstenite::HandshakeError::Failure(error) => error,
+            tungstenite::HandshakeError::Interrupted(_) => panic!("it takes too long"),
+        });
+        made.map(|(socket, _)| socket)
+    }
+
+    /// It still serves others.
+    fn is_well(&self) {
+        let mut socket = self.connect("/", None).unwrap();
+        let hello = socket.read().unwrap();
+        assert!(hello.to_text().unwrap().contains("serverInfo"));
+    }
+}
+
+/// Waits until something holds.
+#[track_caller]
+fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(start.elapsed() < LONG, "{what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn foreign_pages_and_wrong_tokens_stay_out() {
+    let place = Place::usual();
+    assert_eq!(place.ask("/", None), 101);
+    assert_eq!(place.ask("/any/path", Some("http://localhost:5173")), 101);
+    assert_eq!(place.ask("/", Some("https://example.org")), 403);
+    assert_eq!(place.ask("/", Some("null")), 403);
+    assert_eq!(place.ask("/?token=wrong", None), 403);
+    assert_eq!(place.ask("/?token=secret", Some("https://example.org")), 101);
+}
+
+#[test]
+fn an_address_that_others_reach_needs_a_token() {
+    let graph = Graph::live();
+    let hub = Arc::new(Hub::open(&graph, Settings::default()).unwrap());
+    let open = |token: Option<&str>| {
+        let address = "0.0.0.0:0".parse().unwrap();
+        Server::open(hub.clone(), ServerSettings { address, token: token.map(Into::into) })
+    };
+    assert!(open(None).is_err() && open(Some("")).is_err());
+    let server = open(Some("secret")).unwrap();
+    assert!(server.url().ends_with("/?token=secret"), "{}", server.url());
+    let port = server.address().port();
+    let place = Place { graph, server, hub };
+    let ask = |target: &str| {
+        let text = format!(
+            "GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+             Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+             Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n"
+        );
+        let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+        stream.write_all(text.as_bytes()).unwrap();
+        let mut answer = [0; 12];
+        stream.read_exact(&mut answer).unwrap();
+        String::from_utf8_lossy(&answer).into_owned()
+    };
+    assert_eq!(ask("/"), "HTTP/1.1 403");
+    assert_eq!(ask("/?token=secret"), "HTTP/1.1 101");
+    drop(place);
+}
+
+#[test]
+fn requests_that_are_none_are_answered_and_forgotten() {
+    let place = Place::usual();
+    assert!(place.send(b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n").starts_with("HTTP/1.1 400"));
+    let long = [b"GET / HTTP/1.1\r\nX: ".as_slice(), &[b'x'; 40_000]].concat();
+    let answer = place.send(&long);
+    assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 400"), "{answer}");
+    assert!(place.send(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").contains("405"));
+    let answer = place.send(b"GET /../../etc/passwd HTTP/1.1\r\nConnection: close\r\n\r\n");
+    assert!(answer.starts_with("HTTP/1.1 404"), "{answer}");
+    let answer = place.send(b"HEAD / HTTP/1.1\r\nConnection: close\r\n\r\n");
+    assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("\r\n\r\n"), "{answer}");
+    let upgrade = "GET / HTTP/1.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
+    let other = format!("{upgrade}Sec-WebSocket-Protocol: chat\r\n\r\n");
+    assert!(place.send(other.as_bytes()).starts_with("HTTP/1.1 400"));
+    let keyless = format!("{upgrade}Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n");
+    assert!(place.send(keyless.as_bytes()).starts_with("HTTP/1.1 426"));
+    place.is_well();
+}
+
+#[test]
+fn a_frame_of_a_gigabyte_is_refused_before_it_comes() {
+    let place = Place::usual();
+    let mut socket = place.connect("/", None).unwrap();
+    let MaybeTlsStream::Plain(stream) = socket.get_mut() else { panic!("no TLS here") };
+    // Bytes, masked, 2^30 of them: the head alone.
+    let head = [0x82, 0xff, 0, 0, 0, 0, 0x40, 0, 0, 0, 1, 2, 3, 4];
+    stream.write_all(&head).unwrap();
+    let code = loop {
+        match socket.read() {
+            Ok(Message::Close(frame)) => break u16::from(frame.unwrap().code),
+            Ok(_) => {}
+            Err(error) => panic!("{error}"),
+        }
+    };
+    assert_eq!(code, 1009);
+    eventually("the client is gone", || place.hub.clients() == 0);
+    place.is_well();
+}
+
+#[test]
+fn broken_frames_end_only_who_sends_them() {
+    let place = Place::usual();
+    let broken: [&[u8]; 5] = [
+        // Not masked.
+        &[0x82, 0x01, 0x00],
+        // A kind that nobody knows.
+        &[0x83, 0x80, 0, 0, 0, 0],
+        // A ping in parts.
+        &[0x09, 0x80, 0, 0, 0, 0],
+        // The middle of nothing.
+        &[0x80, 0x80, 0, 0, 0, 0],
+        // Text that is none.
+        &[0x81, 0x82, 0, 0, 0, 0, 0xff, 0xfe],
+    ];
+    for bytes in broken {
+        let mut socket = place.connect("/", None).unwrap();
+        let MaybeTlsStream::Plain(stream) = socket.get_mut() else { panic!("no TLS here") };
+        stream.write_all(bytes).unwrap();
+        let code = loop {
+            match socket.read() {
+                Ok(Message::Close(frame)) => break u16::from(frame.unwrap().code),
+                Ok(_) => {}
+                Err(error) => panic!("{bytes:?}: {error}"),
+            }
+        };
+        assert!(code == 1002 || code == 1007, "{bytes:?}: {code}");
+    }
+    eventually("all are gone", || place.hub.clients() == 0);
+    place.is_well();
+}
+
+#[test]
+fn malformed_messages_are_answered_in_words() {
+    let place = Place::usual();
+    let mut socket = place.connect("/", None).unwrap();
+    let wrong: [Message; 5] = [
+        Message::text("{"),
+        Message::text(r#"{"op":"dance"}"#),
+        Message::binary(vec![]),
+        Message::binary(vec![2, 1, 0, 0, 0, 1, 0, 0, 0, 255, 255, 255, 255]),
+        Message::binary(vec![9; 1000]),
+    ];
+    let count = wrong.len();
+    wrong.into_iter().for_each(|message| socket.send(message).unwrap());
+    let mut told = 0;
+    while told < count {
+        if let Ok(text) = socket.read().unwrap().to_text() {
+            told += usize::from(text.contains(r#""op":"status""#));
+        }
+    }
+    socket.send(Message::Ping(vec![1, 2].into())).unwrap();
+    while socket.read().unwrap() != Message::Pong(vec![1, 2].into()) {}
+}
+
+#[test]
+fn nobody_waits_for_who_does_not_read() {
+    let place = Place::usual();
+    let node = place.graph.node(NodeSettings::new("camera")).unwrap();
+    let pictures: Publisher<UInt8MultiArray> =
+        node.publisher("/pictures", Qos::sensor_data()).unwrap();
+    let maps: Publisher<Words> = node.publisher("/maps", Qos::latched(1)).unwrap();
+    let subscribe = |socket: &mut WebSocket<MaybeTlsStream<TcpStream>>| {
+        let channels = loop {
+            let told: serde_json::Value =
+                serde_json::from_str(socket.read().unwrap().to_text().unwrap_or("{}"))
+                    .unwrap_or_default();
+            let channels = told["channels"].as_array().cloned().unwrap_or_default();
+            if channels.iter().any(|one| one["topic"] == "/pictures") {
+                break channels;
+            }
+        };
+        let id =
+            |topic: &str| channels.iter().find(|one| one["topic"] == topic).unwrap()["id"].clone();
+        let wanted = serde_json::json!({"op": "subscribe", "subscriptions": [
+            {"id": 1, "channelId": id("/pictures")}, {"id": 2, "channelId": id("/maps")},
+        ]});
+        socket.send(Message::text(wanted.to_string())).unwrap();
+    };
+    let mut asleep = place.connect("/", None).unwrap();
+    let mut awake = place.connect("/", None).unwrap();
+    subscribe(&mut asleep);
+    subscribe(&mut awake);
+    eventually("both are heard", || pictures.is_heard() && maps.is_heard());
+    // Far more than any buffer of the system holds; who sleeps gets none of it.
+    let start = Instant::now();
+    for number in 0..200_u32 {
+        let data = vec![0; 1 << 20];
+        pictures.publish(UInt8MultiArray { data, ..UInt8MultiArray::default() });
+        maps.publish(Words { data: number.to_string() });
+    }
+    assert!(start.elapsed() < LONG, "the publisher was held up");
+    // Who wakes up gets the last map all the same, and few of the pictures.
+    for socket in [&mut awake, &mut asleep] {
+        let mut seen = 0;
+        loop {
+            let bytes = match socket.read().unwrap() {
+                Message::Binary(bytes) if bytes[0] == 1 => bytes,
+                _ => continue,
+            };
+            seen += usize::from(bytes[1] == 1);
+            if bytes[1] == 2 && bytes.ends_with(b"199\0") {
+                break;
+            }
+        }
+        assert!(seen < 200, "{seen}");
+    }
+}
+
+#[test]
+fn only_so_many_come_in() {
+    let place = Place::open(None, Limits { clients: 2, ..Limits::default() });
+    let first = place.connect("/", None).unwrap();
+    let _second = place.connect("/", None).unwrap();
+    assert_eq!(place.ask("/", None), 503);
+    drop(first);
+    eventually("there is room again", || place.hub.clients() < 2);
+    place.is_well();
+}
+
+#[test]
+fn a_server_that_goes_says_so_and_frees_its_port() {
+    let place = Place::usual();
+    let address = place.address();
+    let mut socket = place.connect("/", None).unwrap();
+    drop(place.server);
+    let last = loop {
+        match socket.read() {
+            Ok(Message::Close(frame)) => break frame,
+            Ok(_) => {}
+            Err(error) => panic!("{error}"),
+        }
+    };
+    assert_eq!(u16::from(last.unwrap().code), 1001);
+    assert!(TcpStream::connect_timeout(&address, Duration::from_secs(1)).is_err());
+}

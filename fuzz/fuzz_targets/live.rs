@@ -1,0 +1,53 @@
+//! Any bytes as what a client says to a hub: several messages, in JSON and in bytes. Nothing panics,
+//! and all that the client is told is well formed.
+#![no_main]
+
+use std::sync::LazyLock;
+use std::time::Duration;
+
+use libfuzzer_sys::fuzz_target;
+use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
+use periplus_msgs::nav_msgs::OccupancyGrid;
+use periplus_wire_live::{Hub, Kind, Settings, Taken};
+
+/// A graph with something to hear, and a hub before it.
+struct Place {
+    graph: Graph,
+    maps: Publisher<OccupancyGrid>,
+    hub: Hub,
+}
+
+static PLACE: LazyLock<Place> = LazyLock::new(|| {
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("mapper")).expect("a name");
+    let maps = node.publisher("/map", Qos::latched(1)).expect("a topic");
+    let hub = Hub::open(&graph, Settings::default()).expect("a name");
+    Place { graph, maps, hub }
+});
+
+fuzz_target!(|bytes: &[u8]| {
+    let place = &*PLACE;
+    let Some(mut session) = place.hub.join() else { return };
+    // Messages end with a byte that JSON does not have.
+    for said in bytes.split(|byte| *byte == 0xff).take(64) {
+        match std::str::from_utf8(said) {
+            Ok(text) if !text.starts_with(['\u{1}', '\u{2}']) => session.text(text),
+            _ => session.binary(said),
+        }
+    }
+    let mut map = OccupancyGrid { data: vec![0; 4], ..OccupancyGrid::default() };
+    (map.info.width, map.info.height) = (2, 2);
+    place.maps.publish(map);
+    place.graph.settle();
+    while let Taken::Frame(frame) = session.outbox().take(Duration::ZERO) {
+        let whole = frame.parts().concat();
+        match frame.kind() {
+            Kind::Text => {
+                let said: serde_json::Value = serde_json::from_slice(&whole).expect("JSON");
+                assert!(said["op"].is_string());
+            }
+            Kind::Binary => assert!((1..=4).contains(&whole[0])),
+            Kind::Raw => {}
+        }
+    }
+});
