@@ -1,6 +1,8 @@
 //! Between messages and what mapping knows.
 
 use periplus_base::{DQuat, DVec3, Pose, Pose2};
+use periplus_grid::OccupancyGrid;
+use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
 use periplus_matching::Symmetric3;
 use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
 use periplus_msgs::sensor_msgs::LaserScan;
@@ -30,6 +32,20 @@ pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool
         range_max_m: message.range_max,
         ranges_m: message.ranges.clone(),
     }
+}
+
+/// From which share of hits on a cell of a published map is a wall \[%\]: when more spoke for it than
+/// against it.
+const WALL: i8 = 50;
+
+/// A map as `slam_toolbox` and `slam_gmapping` publish it: walls, free ground and what nobody has seen.
+/// Nav2's static layer takes only a cell of 100 for a wall, unless told otherwise.
+pub(crate) fn published(map: &OccupancyGrid) -> OccupancyGrid {
+    map.map(|&cell| match cell {
+        UNKNOWN => UNKNOWN,
+        WALL.. => OCCUPIED,
+        _ => FREE,
+    })
 }
 
 /// The pose on the ground of a message; in words why it is none.

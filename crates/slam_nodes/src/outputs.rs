@@ -18,7 +18,7 @@ use periplus_params::Values;
 use periplus_whereabouts::transform;
 
 use crate::Program;
-use crate::messages::pose_with_covariance;
+use crate::messages::{pose_with_covariance, published};
 use crate::values::text;
 
 /// Topics that are published.
@@ -62,7 +62,7 @@ impl Outputs {
     }
 
     pub(crate) fn publish_map(&self, map: &OccupancyGrid, time_ns: i64, frame: &str) {
-        let message = to_message(map, frame, Time::of_ns(time_ns));
+        let message = to_message(&published(map), frame, Time::of_ns(time_ns));
         self.metadata.publish(message.info.clone());
         self.map.publish(message);
     }

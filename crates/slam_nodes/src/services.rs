@@ -20,6 +20,7 @@ use periplus_params::Values;
 
 use crate::Program;
 use crate::engine::{Engine, Start, settings};
+use crate::messages::published;
 use crate::node::State;
 use crate::values::{flag, text};
 
@@ -102,7 +103,8 @@ pub(crate) fn serve(
 impl State {
     fn map_now(&self, node: &Node) -> GetMapResponse {
         let frame = text(&self.values, "map_frame").unwrap_or_default();
-        let map = self.map.as_ref().map(|map| to_message(map, &frame, Time::of_ns(node.now_ns())));
+        let now = Time::of_ns(node.now_ns());
+        let map = self.map.as_ref().map(|map| to_message(&published(map), &frame, now));
         if map.is_none() {
             node.log(Level::Warn, "somebody asks for the map, and there is none yet");
         }

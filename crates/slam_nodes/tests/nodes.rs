@@ -308,7 +308,10 @@ fn a_robot_maps_a_room() {
         let (x, y) = START.inverse().transform_point(x, y);
         map.at(x, y).copied().unwrap_or(-1)
     };
-    assert!((0..20).contains(&at(2.0, 1.0)), "free: {}", at(2.0, 1.0));
+    // Nav2's static layer takes nothing below 100 for a wall.
+    assert!(late.data.iter().all(|cell| matches!(cell, -1 | 0 | 100)));
+    assert!(late.data.contains(&100));
+    assert_eq!(at(2.0, 1.0), 0, "free");
     assert_eq!(at(4.5, -0.7), -1, "behind the cut corner nobody saw");
     let wall = (-2..=2).map(|step| at(2.0, 3.0 + 0.05 * f64::from(step))).max().unwrap();
     assert!(wall > 60, "{wall}");

@@ -211,8 +211,8 @@ pub(super) const IDLE: &[Idle] = &[
     },
     Idle {
         names: &["occupancy_threshold", "min_pass_through"],
-        because: "cells hold log odds of hits and misses; those who read the map choose from which \
-                  share on a cell is occupied",
+        because: "cells hold log odds of hits and misses; a published map has a wall where more spoke \
+                  for it than against it",
     },
     Idle { names: &["stack_size_to_use"], because: "storing a map needs no large stack" },
 ];
