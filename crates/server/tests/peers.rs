@@ -171,7 +171,7 @@ fn the_client_of_npm_hears_publishes_calls_and_asks() {
             "parameters" => assert_eq!(said["id"], "all"),
             "graph" => assert!(said["update"].to_string().contains("/talker"), "{said}"),
             "asset" => {
-                assert_eq!((&said["requestId"], &said["data"]), (&json!(5), &json!("736f6c6964")))
+                assert_eq!((&said["requestId"], &said["data"]), (&json!(5), &json!("736f6c6964")));
             }
             _ => {}
         }
