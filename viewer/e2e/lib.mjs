@@ -12,6 +12,19 @@ const PAGE = join(ROOT, 'crates/server/page');
 export const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
+/** The words that run a world with a robot in it, as fast as the clock, with nobody else listening. */
+export const sim = (world, robot, ...more) => [
+  'sim',
+  world,
+  '--robot',
+  robot,
+  ...more,
+  '--rtf',
+  '1',
+  '--ros2',
+  'off',
+];
+
 /** Runs the program; resolves once its port answers. */
 export async function periplus(args, port) {
   if (!existsSync(PROGRAM))

@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { browser, open, periplus, PROGRAM, ROOT, servePage } from './lib.mjs';
+import { browser, open, periplus, PROGRAM, ROOT, servePage, sim } from './lib.mjs';
 
 const CORPUS = join(ROOT, '../shared/corpus');
 const PORT = 8821;
@@ -229,22 +229,7 @@ async function building(chrome, url) {
     [6, 4, 6, 4],
   );
   await page.close();
-  const run = await periplus(
-    [
-      'sim',
-      world,
-      '--robot',
-      KBOT,
-      '--pose',
-      '2,2,0',
-      '--rtf',
-      '1',
-      '--ros2',
-      'off',
-      `--page=127.0.0.1:${PORT}`,
-    ],
-    PORT,
-  );
+  const run = await periplus(sim(world, KBOT, '--pose', '2,2,0', `--page=127.0.0.1:${PORT}`), PORT);
   try {
     const { page: live } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
     await until(live, 'periplus.tf.has("odom")', 'odometry');
@@ -277,17 +262,7 @@ async function building(chrome, url) {
 /** The camera of the robot shows what stands before it. */
 async function image(chrome, url) {
   const run = await periplus(
-    [
-      'sim',
-      'worlds/cube_and_sphere.sdf',
-      '--robot',
-      SAM_BOT,
-      '--rtf',
-      '1',
-      '--ros2',
-      'off',
-      `--page=127.0.0.1:${PORT}`,
-    ],
+    sim('worlds/cube_and_sphere.sdf', SAM_BOT, `--page=127.0.0.1:${PORT}`),
     PORT,
   );
   try {

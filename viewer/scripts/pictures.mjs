@@ -3,7 +3,7 @@
 //   npm run pictures [FOLDER]     PERIPLUS=path/to/periplus
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { browser, open, periplus, ROOT, servePage } from '../e2e/lib.mjs';
+import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
 
 const OUT = process.argv[2] ?? join(ROOT, 'docs/pictures');
 const PORT = 8841;
@@ -46,8 +46,6 @@ async function part(page, name, kinds, extra = [], view = {}) {
     for (let i = 0; i < count; i++) app.remove(app.displays[app.displays.length - 1]);
   }, extra.length);
 }
-
-const sim = (world, robot) => ['sim', world, '--robot', robot, '--rtf', '1', '--ros2', 'off'];
 
 try {
   await scene(['demo', '--no-browser', '--explore'], async (page) => {

@@ -2,38 +2,19 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait for them")]
 
-use std::path::{Path, PathBuf};
+mod common;
+
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use common::Folder;
 use periplus_bagfiles::{Bag, BagWriter, Storage, WriteSettings};
 use periplus_bags::{BagTopic, Selection, Stamp};
 use periplus_msgs::Message;
 use periplus_msgs::std_msgs::String as Text;
 
 const LONG: Duration = Duration::from_secs(40);
-
-/// A folder that is gone after the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path =
-            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 fn periplus(words: &[&str], domain: u32) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
+mod common;
 #[path = "../../slam/tests/worlds/mod.rs"]
 mod worlds;
 
@@ -10,6 +11,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use common::Folder;
 use periplus_bagfiles::{Bag, BagWriter, Conversion, Storage, WriteSettings, convert};
 use periplus_bags::{BagTopic, Selection, Stamp};
 use periplus_base::Pose2;
@@ -20,28 +22,6 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
 use serde_json::Value;
 use worlds::{Moment, ROBOT, World};
-
-/// A folder that is gone after the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path =
-            Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 /// Where the scanner is on the robot \[m\].
 const AHEAD_M: f64 = 0.1;
@@ -60,16 +40,9 @@ fn drive() -> Vec<Moment> {
     moments
 }
 
-fn stamp(time_ns: i64) -> Time {
-    Time {
-        sec: i32::try_from(time_ns / 1_000_000_000).unwrap(),
-        nanosec: u32::try_from(time_ns % 1_000_000_000).unwrap(),
-    }
-}
-
 fn transform(time_ns: i64, parent: &str, child: &str, pose: Pose2, z_m: f64) -> TFMessage {
     let mut it = TransformStamped::default();
-    it.header.stamp = stamp(time_ns);
+    it.header.stamp = Time::of_ns(time_ns);
     it.header.frame_id = parent.into();
     it.child_frame_id = child.into();
     (it.transform.translation.x, it.transform.translation.y) = (pose.x_m, pose.y_m);
@@ -89,7 +62,7 @@ fn scan(moment: &Moment) -> LaserScan {
         ranges: moment.scan.ranges_m.clone(),
         ..LaserScan::default()
     };
-    scan.header.stamp = stamp(moment.scan.time_ns);
+    scan.header.stamp = Time::of_ns(moment.scan.time_ns);
     scan.header.frame_id = "laser".into();
     scan
 }
@@ -243,10 +216,12 @@ fn a_damaged_log_is_used_as_far_as_it_goes() {
         let mapped = slam(&cut, &folder.path(&format!("out-{name}")));
         let scans = mapped.trajectory.len();
         assert_eq!(mapped.code, Some(1), "{name}");
-        assert!(scans * 3 > moments.len() && scans < moments.len(), "{name}: {scans}");
-        assert!(!mapped.report["faults"].as_array().unwrap().is_empty(), "{name}");
         // Of a database scans in between are lost, too.
-        if name != "cut.db3" {
+        let is_database = name == "cut.db3";
+        let least = moments.len() / if is_database { 3 } else { 2 };
+        assert!(scans > least && scans < moments.len(), "{name}: {scans}");
+        assert!(!mapped.report["faults"].as_array().unwrap().is_empty(), "{name}");
+        if !is_database {
             check(&mapped, &moments);
         }
     }
