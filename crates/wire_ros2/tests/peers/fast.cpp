@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +20,8 @@
 #include <fastcdr/Cdr.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/log/StdoutErrConsumer.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -296,6 +299,12 @@ static void pause(int ms) { std::this_thread::sleep_for(std::chrono::millisecond
 int main(int count, char** words) {
     std::vector<std::string> args(words + 1, words + count);
     if (args.size() < 4) return 2;
+    // What Fast DDS itself complains of (a port of shared memory that another one left locked, say)
+    // must not stand between the lines that the tests read.
+    auto log = std::make_unique<StdoutErrConsumer>();
+    log->stderr_threshold(Log::Kind::Info);
+    Log::ClearConsumers();
+    Log::RegisterConsumer(std::move(log));
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     qos.name("fast");
     participant = DomainParticipantFactory::get_instance()->create_participant(
