@@ -1,6 +1,7 @@
 //! The page: a run or a network in a browser.
 
 mod assets;
+mod far;
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr};
@@ -11,7 +12,8 @@ use clap::Args;
 use periplus_graph::Graph;
 use periplus_host::unix_ns;
 use periplus_server::{Hub, Server, ServerSettings, token};
-use periplus_wire_live::{Far, Settings};
+use periplus_wire_live::Settings;
+use periplus_wire_ros2::Remote;
 
 /// The port that Foxglove's programs look at first.
 pub(crate) const PORT: u16 = 8765;
@@ -107,8 +109,8 @@ impl Page {
     }
 
     /// What others have on a network that the graph is on.
-    pub(crate) fn set_far(&self, far: Far) {
-        self.hub.set_far(far);
+    pub(crate) fn set_remote(&self, remote: &Remote) {
+        self.hub.set_far(far::far(remote));
     }
 
     /// What to type into a browser.

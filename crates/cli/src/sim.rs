@@ -245,6 +245,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         line.show(progress);
         if ros2.is_due(progress.wall) {
             line.aside(|| ros2.tell());
+            if let (Some(page), Some(remote)) = (&page, ros2.remote()) {
+                page.set_remote(&remote);
+            }
         }
     });
     let wall = stopwatch.elapsed();

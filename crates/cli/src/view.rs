@@ -1,6 +1,5 @@
 //! `periplus view`.
 
-use std::collections::BTreeSet;
 use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -11,8 +10,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_graph::NodeSettings;
 use periplus_host::{Stopwatch, sleep};
-use periplus_wire_live::{Far, FarService, FarTopic};
-use periplus_wire_ros2::{Remote, RemoteTopic};
+use periplus_wire_ros2::RemoteTopic;
 
 use crate::arguments;
 use crate::demo::browser;
@@ -88,7 +86,7 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
                     complain(&error.to_string());
                 }
             }
-            page.set_far(far(&remote));
+            page.set_remote(&remote);
             live.tell();
         }
         sleep(LOOK);
@@ -96,33 +94,4 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
     drop(page);
     live.end(LAST_WORD);
     Ok(ExitCode::SUCCESS)
-}
-
-/// What others have, as the page takes it. Of a topic on which ends do not agree the first type counts.
-fn far(remote: &Remote) -> Far {
-    let topics = remote.topics.iter().filter_map(|topic| {
-        let type_name = topic.type_names.first()?.clone();
-        let same = topic.publishers.iter().filter(|end| end.type_name == type_name);
-        let publishers: Vec<_> = same.collect();
-        let names = |nodes: &mut dyn Iterator<Item = &Option<String>>| -> BTreeSet<String> {
-            nodes.map(|node| node.clone().unwrap_or_else(|| "(no node)".to_owned())).collect()
-        };
-        Some(FarTopic {
-            name: topic.name.clone(),
-            type_hash: publishers.iter().find_map(|end| end.type_hash.clone()),
-            offers: publishers.iter().map(|end| end.qos).collect(),
-            publishers: names(&mut publishers.iter().map(|end| &end.node)),
-            subscriptions: names(&mut topic.subscriptions.iter().map(|end| &end.node)),
-            type_name,
-        })
-    });
-    let services = remote.services.iter().filter(|service| !service.servers.is_empty());
-    let services = services.filter_map(|service| {
-        Some(FarService {
-            name: service.name.clone(),
-            type_name: service.type_names.first()?.clone(),
-            servers: service.servers.iter().cloned().collect(),
-        })
-    });
-    Far { topics: topics.collect(), services: services.collect() }
 }

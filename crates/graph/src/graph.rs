@@ -13,7 +13,7 @@ use crate::node::{Node, NodeCore};
 use crate::registry::Registry;
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
-use crate::{GraphError, executor, live};
+use crate::{EndpointId, GraphError, Qos, executor, live};
 
 /// A graph of nodes. This is a handle: clones mean the same graph. There can be several graphs in
 /// one program, and they know nothing of each other.
@@ -185,6 +185,13 @@ impl Graph {
     #[must_use]
     pub fn generation(&self) -> u64 {
         lock(&self.0.registry).changes
+    }
+
+    /// Makes a publisher offer, or a subscription ask for, something else than it was made with: who
+    /// did not fit before may hear from now on. What its node believes of it stays. False where there
+    /// is no such end.
+    pub fn set_qos(&self, end: EndpointId, qos: Qos) -> bool {
+        lock(&self.0.registry).set_qos(end, qos, &self.0.common)
     }
 
     /// The topics that somebody publishes or subscribes to, by name.

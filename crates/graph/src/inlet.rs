@@ -17,7 +17,6 @@ pub(crate) struct Inlet {
     pub(crate) id: EndpointId,
     pub(crate) node: Arc<str>,
     pub(crate) topic: Arc<str>,
-    pub(crate) qos: Qos,
     pub(crate) common: Arc<Common>,
     /// What a message sets off; without it somebody looks from time to time.
     pub(crate) reaction: Option<Reaction>,
@@ -38,6 +37,7 @@ pub(crate) type React = Box<dyn Fn(&Sample) -> Result<(), DecodeError> + Send + 
 
 #[derive(Default)]
 pub(crate) struct Waiting {
+    qos: Qos,
     samples: VecDeque<Sample>,
     last_ns: Option<i64>,
     pub(crate) counts: InletCounts,
@@ -58,13 +58,29 @@ pub struct InletCounts {
     pub missed_deadlines: u64,
 }
 
+impl Waiting {
+    pub(crate) fn new(qos: Qos) -> Self {
+        Self { qos, ..Self::default() }
+    }
+}
+
 impl Inlet {
+    /// What it asks for.
+    pub(crate) fn qos(&self) -> Qos {
+        lock(&self.waiting).qos
+    }
+
+    /// Asks for something else from now on. Whom it hears has to be told again.
+    pub(crate) fn set_qos(&self, qos: Qos) {
+        lock(&self.waiting).qos = qos;
+    }
+
     /// What happened so far; deadlines that pass now count.
     pub(crate) fn counts(&self) -> InletCounts {
         let now_ns = self.common.clock.now_ns();
         let waiting = lock(&self.waiting);
         let since =
-            self.qos.deadline_ns.map(|deadline_ns| missed(waiting.last_ns, now_ns, deadline_ns));
+            waiting.qos.deadline_ns.map(|deadline_ns| missed(waiting.last_ns, now_ns, deadline_ns));
         let missed_deadlines = waiting.counts.missed_deadlines + since.unwrap_or_default();
         InletCounts { missed_deadlines, ..waiting.counts }
     }
@@ -83,13 +99,13 @@ impl Inlet {
     pub(crate) fn push(self: &Arc<Self>, sample: &Sample) {
         let mut waiting = lock(&self.waiting);
         waiting.counts.received += 1;
-        if let Some(deadline_ns) = self.qos.deadline_ns {
+        if let Some(deadline_ns) = waiting.qos.deadline_ns {
             waiting.counts.missed_deadlines += missed(waiting.last_ns, sample.time_ns, deadline_ns);
             waiting.last_ns = Some(sample.time_ns);
         }
-        let oldest = if waiting.samples.len() == self.qos.capacity() {
+        let oldest = if waiting.samples.len() >= waiting.qos.capacity() {
             waiting.counts.dropped += 1;
-            if self.qos.history == History::KeepAll && waiting.counts.dropped == 1 {
+            if waiting.qos.history == History::KeepAll && waiting.counts.dropped == 1 {
                 self.overflows();
             }
             waiting.samples.pop_front()

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use periplus_msgs::Message;
 
+use crate::Qos;
 use crate::inlet::InletCounts;
 use crate::node::OwnInlet;
-use crate::sample::Sample;
+use crate::sample::{EndpointId, Sample};
 
 /// The messages of a topic, as many as the QoS lets wait. It never holds up a publisher.
 pub struct Mailbox<T> {
@@ -73,6 +74,18 @@ impl RawMailbox {
 
     pub(crate) fn own(&self) -> &OwnInlet {
         &self.own
+    }
+
+    /// What it asks for.
+    #[must_use]
+    pub fn qos(&self) -> Qos {
+        self.own.inlet.qos()
+    }
+
+    /// Which end of the topic it is.
+    #[must_use]
+    pub fn id(&self) -> EndpointId {
+        self.own.inlet.id
     }
 
     /// All messages since the last look, oldest first.

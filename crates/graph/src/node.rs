@@ -1,7 +1,7 @@
 //! Nodes: what publishes, subscribes, answers and calls.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock, Weak};
+use std::sync::{Arc, Mutex, OnceLock, Weak};
 
 use periplus_msgs::{Message, Service};
 
@@ -9,7 +9,7 @@ use crate::actor::Actor;
 use crate::agenda::Agenda;
 use crate::common::lock;
 use crate::graph::{Core, Graph};
-use crate::inlet::{Inlet, Reaction};
+use crate::inlet::{Inlet, Reaction, Waiting};
 use crate::mailbox::{Mailbox, RawMailbox};
 use crate::outlet::Outlet;
 use crate::parameters::Store;
@@ -283,10 +283,9 @@ impl NodeCore {
             id,
             node,
             topic,
-            qos,
             common,
             reaction,
-            waiting: Default::default(),
+            waiting: Mutex::new(Waiting::new(qos)),
             told: Default::default(),
         };
         let inlet =

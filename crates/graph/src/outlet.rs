@@ -25,7 +25,6 @@ pub(crate) struct Outlet {
     pub(crate) id: EndpointId,
     pub(crate) node: Arc<str>,
     pub(crate) topic: Arc<Topic>,
-    pub(crate) qos: Qos,
     common: Arc<Common>,
     /// How many listen.
     listeners: AtomicUsize,
@@ -39,6 +38,7 @@ pub(crate) struct Outlet {
 
 #[derive(Default)]
 struct Flow {
+    qos: Qos,
     inlets: Vec<Arc<Inlet>>,
     taps: Arc<[Arc<Tap>]>,
     info: Arc<TopicInfo>,
@@ -62,16 +62,15 @@ impl Outlet {
             id,
             node,
             topic,
-            qos,
             common,
             listeners: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
             published: AtomicU64::new(0),
             told: Mutex::default(),
-            flow: Mutex::default(),
+            flow: Mutex::new(Flow { qos, ..Flow::default() }),
         };
         outlet.assert_liveliness();
-        outlet.is_busy.store(outlet.keeps(), Ordering::Relaxed);
+        outlet.is_busy.store(keeps(&qos), Ordering::Relaxed);
         outlet
     }
 
@@ -79,11 +78,14 @@ impl Outlet {
         self.flow.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether its messages matter even if nobody listens.
-    fn keeps(&self) -> bool {
-        self.qos.durability == Durability::TransientLocal
-            || self.qos.deadline_ns.is_some()
-            || self.qos.lease_ns.is_some()
+    /// What it offers.
+    pub(crate) fn qos(&self) -> Qos {
+        self.lock().qos
+    }
+
+    /// Offers something else from now on. Who listens has to be told again.
+    pub(crate) fn set_qos(&self, qos: Qos) {
+        self.lock().qos = qos;
     }
 
     pub(crate) fn is_heard(&self) -> bool {
@@ -93,7 +95,7 @@ impl Outlet {
     pub(crate) fn missed_deadlines(&self) -> u64 {
         let (flow, now_ns) = (self.lock(), self.common.clock.now_ns());
         let since =
-            self.qos.deadline_ns.map(|deadline_ns| missed(flow.last_ns, now_ns, deadline_ns));
+            flow.qos.deadline_ns.map(|deadline_ns| missed(flow.last_ns, now_ns, deadline_ns));
         flow.missed_deadlines + since.unwrap_or_default()
     }
 
@@ -118,7 +120,7 @@ impl Outlet {
         let mut flow = self.lock();
         let listeners = inlets.len() + taps.len();
         self.listeners.store(listeners, Ordering::Relaxed);
-        self.is_busy.store(listeners > 0 || self.keeps(), Ordering::Release);
+        self.is_busy.store(listeners > 0 || keeps(&flow.qos), Ordering::Release);
         flow.inlets = inlets;
         flow.taps = taps;
         flow.info = info;
@@ -140,10 +142,10 @@ impl Outlet {
         let mut flow = self.lock();
         let time_ns = self.common.clock.now_ns();
         let sequence = self.topic.sequence.fetch_add(1, Ordering::Relaxed) + 1;
-        let stale_ns = self.qos.lifespan_ns.map_or(i64::MAX, |span| time_ns.saturating_add(span));
+        let stale_ns = flow.qos.lifespan_ns.map_or(i64::MAX, |span| time_ns.saturating_add(span));
         flow.asserted_ns = time_ns;
         let sample = Sample { time_ns, sequence, publisher: self.id, stale_ns, payload };
-        if let Some(deadline_ns) = self.qos.deadline_ns {
+        if let Some(deadline_ns) = flow.qos.deadline_ns {
             flow.missed_deadlines += missed(flow.last_ns, time_ns, deadline_ns);
             flow.last_ns = Some(time_ns);
         }
@@ -154,8 +156,8 @@ impl Outlet {
             tap.push(&flow.info, &sample);
         }
         let taps = if flow.taps.is_empty() { None } else { Some(flow.taps.clone()) };
-        if self.qos.durability == Durability::TransientLocal {
-            if flow.kept.len() == self.qos.capacity() {
+        if flow.qos.durability == Durability::TransientLocal {
+            if flow.kept.len() == flow.qos.capacity() {
                 flow.kept.pop_front();
             }
             flow.kept.push_back(sample);
@@ -165,6 +167,13 @@ impl Outlet {
             tap.flush();
         }
     }
+}
+
+/// Whether messages matter even if nobody listens.
+fn keeps(qos: &Qos) -> bool {
+    qos.durability == Durability::TransientLocal
+        || qos.deadline_ns.is_some()
+        || qos.lease_ns.is_some()
 }
 
 /// How many deadlines passed between two messages.

@@ -186,6 +186,32 @@ impl Qos {
         lacks
     }
 
+    /// With as much more on offer as it takes for who asks for this.
+    #[must_use]
+    pub fn offering(self, asked: &Self) -> Self {
+        Self {
+            reliability: self.reliability.max(asked.reliability),
+            durability: self.durability.max(asked.durability),
+            deadline_ns: shorter(self.deadline_ns, asked.deadline_ns),
+            liveliness: self.liveliness.max(asked.liveliness),
+            lease_ns: shorter(self.lease_ns, asked.lease_ns),
+            ..self
+        }
+    }
+
+    /// With as much less asked for as it takes to hear who offers this.
+    #[must_use]
+    pub fn asking(self, offered: &Self) -> Self {
+        Self {
+            reliability: self.reliability.min(offered.reliability),
+            durability: self.durability.min(offered.durability),
+            deadline_ns: longer(self.deadline_ns, offered.deadline_ns),
+            liveliness: self.liveliness.min(offered.liveliness),
+            lease_ns: longer(self.lease_ns, offered.lease_ns),
+            ..self
+        }
+    }
+
     /// What is set for a policy, as ROS spells it.
     #[must_use]
     pub fn spelled(&self, policy: Policy) -> String {
@@ -198,6 +224,16 @@ impl Qos {
             Policy::Lease => span(self.lease_ns),
         }
     }
+}
+
+/// The shorter of two times; none is infinite.
+fn shorter(one: Option<i64>, other: Option<i64>) -> Option<i64> {
+    one.into_iter().chain(other).min()
+}
+
+/// The longer of two times; none is infinite.
+fn longer(one: Option<i64>, other: Option<i64>) -> Option<i64> {
+    one.zip(other).map(|(one, other)| one.max(other))
 }
 
 /// Whether an offered time is longer than the one asked for; none is infinite.
@@ -260,5 +296,38 @@ impl fmt::Display for Liveliness {
             Self::Automatic => "automatic",
             Self::ManualByTopic => "manual_by_topic",
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whoever_gives_way_both_fit() {
+        let manual = Qos {
+            liveliness: Liveliness::ManualByTopic,
+            lease_ns: Some(5),
+            ..Qos::latched(1).with_deadline_ns(10)
+        };
+        let kinds = [
+            Qos::default(),
+            Qos::sensor_data(),
+            Qos::latched(3),
+            manual,
+            Qos::sensor_data().with_deadline_ns(20),
+        ];
+        for offered in kinds {
+            for asked in kinds {
+                assert_eq!(offered.offering(&asked).lacks(&asked), []);
+                assert_eq!(offered.lacks(&asked.asking(&offered)), []);
+                if offered.lacks(&asked).is_empty() {
+                    assert_eq!(
+                        (offered.offering(&asked), asked.asking(&offered)),
+                        (offered, asked)
+                    );
+                }
+            }
+        }
     }
 }

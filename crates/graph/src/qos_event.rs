@@ -70,16 +70,17 @@ impl fmt::Display for Unfit {
     }
 }
 
-/// The policies in which an offer is too weak.
-pub(crate) fn unfit(offered: &Qos, asked: &Qos) -> Vec<Unfit> {
-    let lacks = offered.lacks(asked).into_iter();
-    lacks
-        .map(|policy| Unfit {
+impl Unfit {
+    /// The policies in which an offer is too weak.
+    #[must_use]
+    pub fn between(offered: &Qos, asked: &Qos) -> Vec<Self> {
+        let spelled = |policy| Self {
             policy,
             offered: offered.spelled(policy),
             asked: asked.spelled(policy),
-        })
-        .collect()
+        };
+        offered.lacks(asked).into_iter().map(spelled).collect()
+    }
 }
 
 /// What was told already.
@@ -95,7 +96,8 @@ pub(crate) struct Told {
 impl Outlet {
     /// Whether it says that it lives, as it has promised.
     fn is_alive(&self, now_ns: i64) -> bool {
-        match (self.qos.liveliness, self.qos.lease_ns) {
+        let qos = self.qos();
+        match (qos.liveliness, qos.lease_ns) {
             (Liveliness::ManualByTopic, Some(lease_ns)) => {
                 now_ns.saturating_sub(self.asserted_ns()) <= lease_ns
             }
@@ -106,6 +108,7 @@ impl Outlet {
     fn events(&self, core: &Core) -> Vec<QosEvent> {
         let now_ns = core.common.clock.now_ns();
         let total = self.missed_deadlines();
+        let qos = self.qos();
         let inlets = ends(core, &self.topic.name, |entry| entry.inlets().to_vec());
         let mut told = lock(&self.told);
         let mut events = Vec::new();
@@ -120,7 +123,7 @@ impl Outlet {
                 &mut told,
                 inlet.id,
                 &inlet.node,
-                unfit(&self.qos, &inlet.qos),
+                Unfit::between(&qos, &inlet.qos()),
                 &mut events,
             );
         }
@@ -132,13 +135,14 @@ impl Inlet {
     fn events(&self, core: &Core) -> Vec<QosEvent> {
         let now_ns = core.common.clock.now_ns();
         let counts = self.counts();
+        let qos = self.qos();
         let outlets = ends(core, &self.topic, |entry| entry.outlets().to_vec());
         let mut told = lock(&self.told);
         let mut events = Vec::new();
         deadlines(&mut told, counts.missed_deadlines, &mut events);
         let (mut alive, mut silent) = (0, 0);
         for outlet in outlets {
-            let unfit = unfit(&outlet.qos, &self.qos);
+            let unfit = Unfit::between(&outlet.qos(), &qos);
             if !unfit.is_empty() {
                 incompatible(&mut told, outlet.id, &outlet.node, unfit, &mut events);
             } else if outlet.is_alive(now_ns) {
@@ -152,7 +156,7 @@ impl Inlet {
             events.push(QosEvent::LivelinessChanged { alive, silent });
         }
         // Who keeps only the last ones wants it so.
-        let keeps_all = self.qos.history == History::KeepAll;
+        let keeps_all = qos.history == History::KeepAll;
         let new = if keeps_all { counts.dropped - told.lost } else { 0 };
         if new > 0 {
             told.lost = counts.dropped;

@@ -14,7 +14,7 @@ use crate::node::NodeCore;
 use crate::outlet::{Outlet, Topic};
 use crate::sample::EndpointId;
 use crate::tap::{Sink, Tap, TapId};
-use crate::{Durability, GraphError, Sample};
+use crate::{Durability, GraphError, Qos, Sample};
 
 use service::ServiceEntry;
 pub(crate) use topic::TopicEntry;
@@ -103,14 +103,45 @@ impl Registry {
             entry.ask(&taps);
         }
         let kept = entry.connect(common);
-        if inlet.qos.durability == Durability::TransientLocal {
+        let qos = inlet.qos();
+        if qos.durability == Durability::TransientLocal {
             for (outlet, sample) in kept {
-                if outlet.qos.lacks(&inlet.qos).is_empty() {
+                if outlet.qos().lacks(&qos).is_empty() {
                     inlet.push(&sample);
                 }
             }
         }
         Ok(inlet)
+    }
+
+    /// Gives an end another QoS; false where there is no such end. A subscription gets what those
+    /// publishers keep that did not fit before.
+    pub(crate) fn set_qos(&mut self, id: EndpointId, qos: Qos, common: &Common) -> bool {
+        for entry in self.topics.values_mut() {
+            if let Some(outlet) = entry.outlets.iter().find(|outlet| outlet.id == id) {
+                outlet.set_qos(qos);
+                entry.connect(common);
+                self.changes += 1;
+                return true;
+            }
+            let Some(inlet) = entry.inlets.iter().find(|inlet| inlet.id == id).cloned() else {
+                continue;
+            };
+            let before = inlet.qos();
+            inlet.set_qos(qos);
+            let kept = entry.connect(common);
+            let is_new = |outlet: &Outlet| {
+                let offered = outlet.qos();
+                !offered.lacks(&before).is_empty() && offered.lacks(&qos).is_empty()
+            };
+            if qos.durability == Durability::TransientLocal {
+                let new = kept.iter().filter(|(outlet, _)| is_new(outlet));
+                new.for_each(|(_, sample)| inlet.push(sample));
+            }
+            self.changes += 1;
+            return true;
+        }
+        false
     }
 
     /// Takes an end out. What comes back must be dropped without the lock: it may own others.

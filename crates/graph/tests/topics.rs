@@ -322,3 +322,34 @@ fn node_names_are_unique() {
     assert_eq!(error, GraphError::NodeExists { node: "/a".into() });
     assert!(graph.node(NodeSettings::new("a").namespace("b")).is_ok());
 }
+
+#[test]
+fn an_end_that_is_made_to_fit_is_heard_from_then_on() {
+    let (graph, publisher, mailbox) = pair(Qos::sensor_data(), Qos::latched(1));
+    let ends = &graph.topics()[0];
+    let (offer, asked) = (&ends.publishers[0], &ends.subscriptions[0]);
+    let generation = graph.generation();
+    assert!(graph.set_qos(offer.id, offer.qos.offering(&asked.qos)));
+    assert_ne!(graph.generation(), generation, "wires see it");
+    assert!(publisher.is_heard() && graph.topics()[0].mismatches.is_empty());
+    publisher.publish(number(2));
+    assert_eq!(mailbox.latest().map(|heard| heard.data), Some(2));
+    // And latecomers get it.
+    let late = graph.node(NodeSettings::new("late")).unwrap();
+    let late = late.mailbox::<Int32>("x", Qos::latched(1)).unwrap();
+    assert_eq!(late.latest().map(|heard| heard.data), Some(2));
+}
+
+#[test]
+fn a_subscription_that_asks_for_less_gets_what_is_kept_once() {
+    let asked = Qos::latched(1).with_deadline_ns(1_000);
+    let (graph, publisher, mailbox) = pair(Qos::latched(1), asked);
+    publisher.publish(number(1));
+    let id = graph.topics()[0].subscriptions[0].id;
+    assert!(graph.set_qos(id, asked.asking(&Qos::latched(1))));
+    assert_eq!(mailbox.drain().len(), 1);
+    assert!(graph.set_qos(id, Qos::latched(1)), "once more, with nothing new");
+    assert!(mailbox.drain().is_empty());
+    drop(mailbox);
+    assert!(!graph.set_qos(id, asked), "it is gone");
+}

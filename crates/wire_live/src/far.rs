@@ -23,12 +23,19 @@ pub struct FarTopic {
     pub type_name: String,
     /// The hash of its type, as far as known.
     pub type_hash: Option<String>,
-    /// What its publishers offer.
-    pub offers: Vec<Qos>,
-    /// Full names of the nodes that publish.
-    pub publishers: BTreeSet<String>,
-    /// Full names of the nodes that subscribe.
-    pub subscriptions: BTreeSet<String>,
+    /// Who publishes, and what each offers.
+    pub publishers: Vec<FarEnd>,
+    /// Who subscribes, and what each asks for.
+    pub subscriptions: Vec<FarEnd>,
+}
+
+/// One end of a topic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FarEnd {
+    /// Full name of its node.
+    pub node: String,
+    /// What it offers or asks for.
+    pub qos: Qos,
 }
 
 /// A service that others answer.
@@ -51,7 +58,7 @@ impl FarTopic {
             depth: one.depth.max(other.depth),
             ..one
         };
-        let mut offers = self.offers.iter();
+        let mut offers = self.publishers.iter().map(|end| &end.qos);
         let first = offers.next().copied().unwrap_or_default();
         let depth = first.depth.max(DEPTH);
         let qos = Qos {

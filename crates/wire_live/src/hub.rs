@@ -4,6 +4,7 @@ mod calls;
 mod channels;
 mod clients;
 mod connections;
+mod mismatches;
 mod parameters;
 mod services;
 mod state;

@@ -19,7 +19,7 @@ pub mod protocol;
 mod session;
 mod settings;
 
-pub use far::{Far, FarService, FarTopic};
+pub use far::{Far, FarEnd, FarService, FarTopic};
 pub use frame::{Frame, Kind};
 pub use hub::Hub;
 pub use outbox::{Outbox, Taken};

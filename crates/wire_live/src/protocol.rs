@@ -5,9 +5,10 @@ mod server;
 
 pub use client::{ClientBinary, ClientChannel, ClientText, Malformed, ParameterText, Subscription};
 pub use server::{
-    AssetAnswer, ChannelText, Level, ServiceText, advertise, advertise_services, asset,
-    connection_graph, message_head, parameters, remove_status, schema_of, server_info,
-    service_answer, service_failure, status, time, unadvertise, unadvertise_services,
+    AssetAnswer, ChannelText, ConnectionGraph, Level, MismatchText, PartyText, PolicyText,
+    ServiceText, advertise, advertise_services, asset, connection_graph, message_head, parameters,
+    remove_status, repair_result, schema_of, server_info, service_answer, service_failure, status,
+    time, unadvertise, unadvertise_services,
 };
 
 /// The names of the protocol that a WebSocket may ask for, the best first: that of the protocol's

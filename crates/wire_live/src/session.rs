@@ -79,6 +79,12 @@ impl Session {
                 self.publishing.retain(|id, _| !channel_ids.contains(id));
             }
             ClientText::FetchAsset { uri, request_id } => self.fetch(&uri, request_id),
+            ClientText::RepairQos { id, topic, publisher, subscription } => {
+                let mut state = lock(&self.shared.state);
+                let outcome = state.repair(&self.shared, &topic, &publisher, &subscription);
+                drop(state);
+                self.say(protocol::repair_result(id, &outcome));
+            }
             ClientText::GetParameters { parameter_names, id } => {
                 let mut state = lock(&self.shared.state);
                 state.get_parameters(&self.shared, self.id, &parameter_names, id);

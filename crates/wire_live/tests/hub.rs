@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use periplus_graph::{Graph, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{Durability, Graph, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::Message;
 use periplus_msgs::geometry_msgs::Twist;
 use periplus_msgs::map_msgs::OccupancyGridUpdate;
@@ -10,7 +10,9 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
-use periplus_wire_live::{Frame, Hub, Kind, Limits, Session, Settings, Taken};
+use periplus_wire_live::{
+    Far, FarEnd, FarTopic, Frame, Hub, Kind, Limits, Session, Settings, Taken,
+};
 use serde_json::{Value, json};
 
 /// Long enough for anything that comes, and not waited for where all goes well.
@@ -412,4 +414,142 @@ fn a_hub_that_goes_sends_its_clients_away() {
     assert!(matches!(client.0.outbox().take(SOON), Taken::End(why) if why.contains("over")));
     drop(client);
     assert!(graph.node(NodeSettings::new("viewers")).is_ok(), "its node went too");
+}
+
+#[test]
+fn ends_that_do_not_fit_are_told_and_made_to() {
+    let graph = Graph::new();
+    let (lidar, planner) = (node(&graph, "lidar"), node(&graph, "planner"));
+    let scans: Publisher<LaserScan> =
+        lidar.publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let heard = planner.mailbox::<LaserScan>("/scan", Qos::reliable(1)).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    client.say(&json!({"op": "subscribeConnectionGraph"}));
+    let told = client.hears("connectionGraphUpdate");
+    let expected = json!([{
+        "topic": "/scan",
+        "publisher": {"node": "/lidar", "isOurs": true},
+        "subscription": {"node": "/planner", "isOurs": true},
+        "policies": [{"policy": "reliability", "offered": "best_effort", "asked": "reliable"}],
+        "repair": "publisher",
+        "advice": "let `/lidar` offer reliability reliable",
+    }]);
+    assert_eq!(told["mismatches"], expected);
+    let wish = json!({
+        "op": "repairQos", "id": 3, "topic": "/scan", "publisher": "/lidar", "subscription": "/planner",
+    });
+    client.say(&wish);
+    assert_eq!(client.hears("connectionGraphUpdate")["mismatches"], json!([]));
+    let done = client.hears("repairQosResult");
+    let message = "`/lidar` now offers reliability reliable";
+    assert_eq!(
+        done,
+        json!({"op": "repairQosResult", "id": 3, "isRepaired": true, "message": message})
+    );
+    scans.publish(scan(4.0));
+    assert_eq!(heard.latest().map(|heard| heard.range_max), Some(4.0));
+    // Once more there is nothing to do.
+    client.say(&wish);
+    let done = client.hears("repairQosResult");
+    assert_eq!(done["isRepaired"], false);
+    assert!(done["message"].as_str().expect("words").contains("fit on `/scan`"), "{done}");
+}
+
+#[test]
+fn who_asks_for_times_gives_way() {
+    let graph = Graph::new();
+    let _scans: Publisher<LaserScan> =
+        node(&graph, "lidar").publisher("/scan", Qos::sensor_data()).expect("a topic");
+    let strict = Qos::latched(1).with_deadline_ns(1_000_000);
+    let _heard = node(&graph, "planner").mailbox::<LaserScan>("/scan", strict).expect("a topic");
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    client.say(&json!({"op": "subscribeConnectionGraph"}));
+    let told = client.hears("connectionGraphUpdate");
+    assert_eq!(told["mismatches"][0]["repair"], "subscription");
+    client.say(&json!({
+        "op": "repairQos", "id": 0, "topic": "/scan", "publisher": "/lidar", "subscription": "/planner",
+    }));
+    let done = client.hears("repairQosResult");
+    assert_eq!(
+        done["message"],
+        "`/planner` now asks for reliability best_effort and durability volatile and deadline infinite"
+    );
+    assert!(graph.topics().iter().all(|topic| topic.mismatches.is_empty()));
+}
+
+/// A topic of others, with one end on each side.
+fn far(name: &str, publisher: Option<Qos>, subscription: Option<Qos>) -> Far {
+    let end = |node: &str, qos| FarEnd { node: node.to_owned(), qos };
+    let topic = FarTopic {
+        name: name.to_owned(),
+        type_name: "sensor_msgs/msg/LaserScan".to_owned(),
+        type_hash: None,
+        publishers: publisher.map(|qos| end("/talker", qos)).into_iter().collect(),
+        subscriptions: subscription.map(|qos| end("/listener", qos)).into_iter().collect(),
+    };
+    Far { topics: vec![topic], services: Vec::new() }
+}
+
+#[test]
+fn of_others_it_is_said_what_to_change_there() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    hub.set_far(far("/scan", Some(Qos::sensor_data()), Some(Qos::reliable(1))));
+    let mut client = Client::join(&hub);
+    client.say(&json!({"op": "subscribeConnectionGraph"}));
+    let told = client.hears("connectionGraphUpdate");
+    let one = &told["mismatches"][0];
+    assert_eq!((&one["repair"], &one["publisher"]["isOurs"]), (&json!(null), &json!(false)));
+    let advice = "in `/listener`, ask for reliability best_effort; or in `/talker`, offer reliability \
+                  reliable";
+    assert_eq!(one["advice"], advice);
+    client.say(&json!({
+        "op": "repairQos", "id": 0, "topic": "/scan", "publisher": "/talker", "subscription": "/listener",
+    }));
+    let done = client.hears("repairQosResult");
+    assert_eq!(done["isRepaired"], false);
+    assert!(done["message"].as_str().expect("words").contains(advice), "{done}");
+}
+
+#[test]
+fn what_a_client_publishes_is_made_to_fit_who_listens_elsewhere() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    hub.set_far(far("/scan", None, Some(Qos::latched(1))));
+    let mut client = Client::join(&hub);
+    client.say(&json!({"op": "subscribeConnectionGraph"}));
+    client.hears("connectionGraphUpdate");
+    let channel = json!({"id": 1, "topic": "/scan", "encoding": "cdr", "schemaName": "sensor_msgs/LaserScan"});
+    client.say(&json!({"op": "advertise", "channels": [channel]}));
+    let told = client.hears("connectionGraphUpdate");
+    let one = &told["mismatches"][0];
+    assert_eq!(
+        (&one["publisher"]["node"], &one["repair"]),
+        (&json!("/viewers"), &json!("publisher"))
+    );
+    client.say(&json!({
+        "op": "repairQos", "id": 9, "topic": "/scan", "publisher": "/viewers", "subscription": "/listener",
+    }));
+    let done = client.hears("repairQosResult");
+    let message = "`/viewers` now offers durability transient_local; what it published before was not \
+                   kept";
+    assert_eq!((&done["id"], &done["message"]), (&json!(9), &json!(message)));
+    let offered = graph.topics()[0].publishers[0].qos;
+    assert!(offered.lacks(&Qos::latched(1)).is_empty());
+}
+
+#[test]
+fn what_a_client_hears_of_others_follows_what_they_offer() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    hub.set_far(far("/scan", Some(Qos::latched(1)), None));
+    let mut client = Client::join(&hub);
+    let told = client.hears("advertise");
+    client.subscribe(1, &told, "/scan");
+    let asked = || graph.topics()[0].subscriptions[0].qos;
+    assert_eq!(asked().durability, Durability::TransientLocal);
+    hub.set_far(far("/scan", Some(Qos::sensor_data()), None));
+    assert!(Qos::sensor_data().lacks(&asked()).is_empty());
 }

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_host::Machine;
 use periplus_sim::Simulation;
-use periplus_wire_ros2::{Range, Settings, Wire};
+use periplus_wire_ros2::{Range, Remote, Settings, Wire};
 
 use crate::terminal;
 
@@ -113,6 +113,15 @@ impl Ros2 {
             self.looked = wall;
         }
         is_due
+    }
+
+    /// What others have on the network; none where none of ROS 2's own was joined.
+    pub(crate) fn remote(&self) -> Option<Remote> {
+        match self.wire.as_ref()? {
+            Joined::Dds(wire) => Some(wire.remote()),
+            #[cfg(feature = "zenoh")]
+            Joined::Zenoh(_) => None,
+        }
     }
 
     /// Says what is wrong on the network.

@@ -13,10 +13,9 @@ use crate::info::{
 };
 use crate::inlet::Inlet;
 use crate::outlet::{Outlet, Topic};
-use crate::qos_event::unfit;
 use crate::sample::EndpointId;
 use crate::tap::{Tap, TapId};
-use crate::{Qos, Sample};
+use crate::{Qos, Sample, Unfit};
 
 /// A topic and its ends.
 pub(crate) struct TopicEntry {
@@ -75,7 +74,8 @@ impl TopicEntry {
         let info = if self.taps.is_empty() { Arc::default() } else { Arc::new(self.info()) };
         let mut kept = Vec::new();
         for outlet in &self.outlets {
-            let fits = |inlet: &&Arc<Inlet>| outlet.qos.lacks(&inlet.qos).is_empty();
+            let offered = outlet.qos();
+            let fits = |inlet: &&Arc<Inlet>| offered.lacks(&inlet.qos()).is_empty();
             let inlets = self.inlets.iter().filter(fits).cloned().collect();
             let samples = outlet.connect(inlets, self.taps.clone(), info.clone());
             kept.extend(samples.into_iter().map(|sample| (outlet.clone(), sample)));
@@ -89,7 +89,7 @@ impl TopicEntry {
     fn report_mismatches(&mut self, common: &Common) {
         for outlet in &self.outlets {
             for inlet in &self.inlets {
-                let unfit = unfit(&outlet.qos, &inlet.qos);
+                let unfit = Unfit::between(&outlet.qos(), &inlet.qos());
                 let pair = (outlet.node.clone(), inlet.node.clone());
                 if unfit.is_empty() || !self.reported.insert(pair) {
                     continue;
@@ -111,7 +111,7 @@ impl TopicEntry {
     pub(super) fn info(&self) -> TopicInfo {
         let mismatches = self.outlets.iter().flat_map(|outlet| {
             self.inlets.iter().filter_map(|inlet| {
-                let policies = outlet.qos.lacks(&inlet.qos);
+                let policies = outlet.qos().lacks(&inlet.qos());
                 (!policies.is_empty()).then(|| Mismatch {
                     publisher: outlet.node.to_string(),
                     subscription: inlet.node.to_string(),
@@ -126,12 +126,12 @@ impl TopicEntry {
             publishers: self
                 .outlets
                 .iter()
-                .map(|end| endpoint(end.id, &end.node, end.qos))
+                .map(|end| endpoint(end.id, &end.node, end.qos()))
                 .collect(),
             subscriptions: self
                 .inlets
                 .iter()
-                .map(|end| endpoint(end.id, &end.node, end.qos))
+                .map(|end| endpoint(end.id, &end.node, end.qos()))
                 .collect(),
             mismatches: mismatches.collect(),
             taps: self.taps.len(),

@@ -145,10 +145,17 @@ impl State {
         let wanted = wanted.filter(|topic| !topic.publishers.is_empty() && hears(&topic.name));
         let mut heard = BTreeMap::new();
         for topic in wanted {
-            let mailbox = self.heard.remove(&topic.name).or_else(|| {
-                let hash = topic.type_hash.as_deref();
-                shared.node.raw_mailbox(&topic.name, &topic.type_name, hash, topic.wanted()).ok()
-            });
+            let (hash, qos) = (topic.type_hash.as_deref(), topic.wanted());
+            let mailbox = match self.heard.remove(&topic.name) {
+                // Who publishes now may offer less, or more.
+                Some(mailbox) => {
+                    if mailbox.qos() != qos {
+                        shared.graph.set_qos(mailbox.id(), qos);
+                    }
+                    Some(mailbox)
+                }
+                None => shared.node.raw_mailbox(&topic.name, &topic.type_name, hash, qos).ok(),
+            };
             heard.extend(mailbox.map(|mailbox| (topic.name.clone(), mailbox)));
         }
         self.heard = heard;

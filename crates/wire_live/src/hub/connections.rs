@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::mismatches::{Mismatch, mismatches};
 use super::{Shared, State};
 use crate::frame::Frame;
-use crate::protocol;
+use crate::protocol::{self, ConnectionGraph};
 
 type Names = BTreeMap<String, BTreeSet<String>>;
 
@@ -14,12 +15,15 @@ pub(super) struct Connections {
     published: Names,
     subscribed: Names,
     served: Names,
+    mismatches: Vec<Mismatch>,
 }
 
 impl Connections {
     fn of(shared: &Shared, state: &State) -> Self {
         let mut all = Self::default();
-        for topic in shared.graph.topics() {
+        let topics = shared.graph.topics();
+        all.mismatches = mismatches(&topics, &state.far);
+        for topic in topics {
             let name = &topic.name;
             for end in topic.publishers {
                 all.published.entry(name.clone()).or_default().insert(end.node);
@@ -34,12 +38,13 @@ impl Connections {
             }
         }
         for topic in &state.far.topics {
-            let (publishers, subscriptions) = (&topic.publishers, &topic.subscriptions);
-            if !publishers.is_empty() {
-                all.published.entry(topic.name.clone()).or_default().extend(publishers.clone());
-            }
-            if !subscriptions.is_empty() {
-                all.subscribed.entry(topic.name.clone()).or_default().extend(subscriptions.clone());
+            let sides = [
+                (&mut all.published, &topic.publishers),
+                (&mut all.subscribed, &topic.subscriptions),
+            ];
+            for (names, ends) in sides {
+                let nodes = ends.iter().map(|end| end.node.clone());
+                names.entry(topic.name.clone()).or_default().extend(nodes);
             }
         }
         for service in &state.far.services {
@@ -53,8 +58,11 @@ impl Connections {
         all
     }
 
-    /// What is new or other since then, and what is gone.
-    fn since(&self, before: &Self) -> Frame {
+    /// What is new or other since then, and what is gone; all where nothing was told before.
+    fn since(&self, before: Option<&Self>) -> Frame {
+        let is_first = before.is_none();
+        let nothing = Self::default();
+        let before = before.unwrap_or(&nothing);
         let changed = |now: &Names, before: &Names| -> Names {
             let changed = now.iter().filter(|(name, nodes)| before.get(*name) != Some(nodes));
             changed.map(|(name, nodes)| (name.clone(), nodes.clone())).collect()
@@ -78,7 +86,15 @@ impl Connections {
         let gone = before.served.keys().filter(|name| !self.served.contains_key(*name));
         let gone_services: Vec<String> = gone.cloned().collect();
         let served = changed(&self.served, &before.served);
-        protocol::connection_graph(&published, &subscribed, &served, &gone_topics, &gone_services)
+        let is_new = is_first || self.mismatches != before.mismatches;
+        protocol::connection_graph(&ConnectionGraph {
+            published: &published,
+            subscribed: &subscribed,
+            served: &served,
+            gone_topics: &gone_topics,
+            gone_services: &gone_services,
+            mismatches: is_new.then_some(&self.mismatches),
+        })
     }
 }
 
@@ -92,7 +108,7 @@ impl State {
         }
         let Some(client) = self.clients.get_mut(&client) else { return };
         if wants && !client.wants_connections {
-            client.outbox.push(self.connections.since(&Connections::default()));
+            client.outbox.push(self.connections.since(None));
         }
         client.wants_connections = wants;
     }
@@ -106,7 +122,7 @@ impl State {
         if now == self.connections {
             return;
         }
-        let frame = now.since(&self.connections);
+        let frame = now.since(Some(&self.connections));
         self.connections = now;
         for client in self.clients.values().filter(|client| client.wants_connections) {
             client.outbox.push(frame.clone());
@@ -128,13 +144,14 @@ mod tests {
             published: one("/a", "/n"),
             subscribed: one("/a", "/m"),
             served: one("/s", "/n"),
+            ..Connections::default()
         };
         let now = Connections {
             published: one("/a", "/n"),
             served: one("/t", "/n"),
             ..Connections::default()
         };
-        let frame = now.since(&before);
+        let frame = now.since(Some(&before));
         let said: serde_json::Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
         assert_eq!(said["publishedTopics"], serde_json::json!([]));
         assert_eq!(
@@ -146,7 +163,11 @@ mod tests {
             serde_json::json!([{"name": "/t", "providerIds": ["/n"]}])
         );
         assert_eq!(said["removedServices"], serde_json::json!(["/s"]));
-        let none = Connections::default().since(&before);
+        assert_eq!(said.get("mismatches"), None, "they are as they were");
+        let first = now.since(None);
+        let said: serde_json::Value = serde_json::from_slice(first.parts()[0]).expect("JSON");
+        assert_eq!(said["mismatches"], serde_json::json!([]));
+        let none = Connections::default().since(Some(&before));
         let said: serde_json::Value = serde_json::from_slice(none.parts()[0]).expect("JSON");
         assert_eq!(said["removedTopics"], serde_json::json!(["/a"]));
     }

@@ -59,6 +59,18 @@ pub enum ClientText {
     SubscribeConnectionGraph,
     /// It no longer wants to.
     UnsubscribeConnectionGraph,
+    /// It wants two ends to be made to fit, by making that of this program anew. Not part of
+    /// Foxglove's protocol.
+    RepairQos {
+        /// What the answer is to be called.
+        id: u32,
+        /// The topic.
+        topic: String,
+        /// Full name of the node that publishes.
+        publisher: String,
+        /// Full name of the node that subscribes.
+        subscription: String,
+    },
     /// It wants a file.
     FetchAsset {
         /// Where it is.

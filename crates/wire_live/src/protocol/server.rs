@@ -163,25 +163,91 @@ pub fn parameters(values: &[(String, Value, Option<&'static str>)], id: Option<&
     text(&value)
 }
 
-/// Who publishes, subscribes and serves: what is new or other, and what is gone.
+/// Who publishes, subscribes and serves, by name of the topic or service: what is new or other, and
+/// what is gone.
+#[derive(Clone, Copy, Debug)]
+pub struct ConnectionGraph<'a> {
+    /// Nodes that publish a topic.
+    pub published: &'a BTreeMap<String, BTreeSet<String>>,
+    /// Nodes that subscribe to a topic.
+    pub subscribed: &'a BTreeMap<String, BTreeSet<String>>,
+    /// Nodes that answer a service.
+    pub served: &'a BTreeMap<String, BTreeSet<String>>,
+    /// Topics that are gone.
+    pub gone_topics: &'a [String],
+    /// Services that are gone.
+    pub gone_services: &'a [String],
+    /// All ends that do not fit, where they are others than before. Not part of Foxglove's protocol.
+    pub mismatches: Option<&'a Vec<MismatchText>>,
+}
+
+/// Two ends of a topic between which nothing flows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MismatchText {
+    /// The topic.
+    pub topic: String,
+    /// Who publishes.
+    pub publisher: PartyText,
+    /// Who subscribes.
+    pub subscription: PartyText,
+    /// Where the offer is too weak.
+    pub policies: Vec<PolicyText>,
+    /// Which end can be made anew here: `publisher` or `subscription`.
+    pub repair: Option<&'static str>,
+    /// What to change, in words.
+    pub advice: String,
+}
+
+/// A node with an end that does not fit.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct PartyText {
+    /// Its full name.
+    pub node: String,
+    /// Whether it is part of this program.
+    pub is_ours: bool,
+}
+
+/// A policy in which an offer is too weak, as ROS spells it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PolicyText {
+    /// Which.
+    pub policy: String,
+    /// What the publisher offers.
+    pub offered: String,
+    /// What the subscription asks for.
+    pub asked: String,
+}
+
+/// Who publishes, subscribes and serves.
 #[must_use]
-pub fn connection_graph(
-    published: &BTreeMap<String, BTreeSet<String>>,
-    subscribed: &BTreeMap<String, BTreeSet<String>>,
-    served: &BTreeMap<String, BTreeSet<String>>,
-    gone_topics: &[String],
-    gone_services: &[String],
-) -> Frame {
+pub fn connection_graph(graph: &ConnectionGraph<'_>) -> Frame {
     let list = |map: &BTreeMap<String, BTreeSet<String>>, key: &str| -> Vec<Value> {
         map.iter().map(|(name, ids)| json!({"name": name, key: ids})).collect()
     };
-    text(&json!({
+    let mut value = json!({
         "op": "connectionGraphUpdate",
-        "publishedTopics": list(published, "publisherIds"),
-        "subscribedTopics": list(subscribed, "subscriberIds"),
-        "advertisedServices": list(served, "providerIds"),
-        "removedTopics": gone_topics,
-        "removedServices": gone_services,
+        "publishedTopics": list(graph.published, "publisherIds"),
+        "subscribedTopics": list(graph.subscribed, "subscriberIds"),
+        "advertisedServices": list(graph.served, "providerIds"),
+        "removedTopics": graph.gone_topics,
+        "removedServices": graph.gone_services,
+    });
+    if let Some(mismatches) = graph.mismatches {
+        value["mismatches"] = json!(mismatches);
+    }
+    text(&value)
+}
+
+/// What became of the wish that two ends be made to fit. Not part of Foxglove's protocol; only who
+/// wishes hears it.
+#[must_use]
+pub fn repair_result(id: u32, outcome: &Result<String, String>) -> Frame {
+    let (Ok(message) | Err(message)) = outcome;
+    let is_repaired = outcome.is_ok();
+    text(&json!({
+        "op": "repairQosResult", "id": id, "isRepaired": is_repaired, "message": message,
     }))
 }
 

@@ -93,7 +93,9 @@ impl Topics {
             let subject = Subject { topic: &name, type_name: &type_name, type_hash };
             for end in &topic.publishers {
                 gone.remove(&end.id);
-                if !self.publishing.contains_key(&end.id) {
+                // One that offers something else than before is made anew.
+                if self.publishing.get(&end.id).is_none_or(|one| one.qos != end.qos) {
+                    self.publishing.remove(&end.id);
                     self.publish(net, &subject, topic, end.id, &end.node, end.qos);
                 }
             }

@@ -67,7 +67,7 @@ impl Topics {
         for topic in topics {
             for one in &topic.publishers {
                 gone.remove(&one.id);
-                if !self.publishing.contains_key(&one.id)
+                if self.publishing.get(&one.id).is_none_or(|made| made.end.qos != one.qos)
                     && let Some(made) = self.publish(net, end(topic, one.qos), &one.node)
                 {
                     self.publishing.insert(one.id, made);
