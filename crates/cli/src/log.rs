@@ -1,6 +1,6 @@
 //! A log of either kind as scans with odometry.
 
-mod bag;
+pub(crate) mod bag;
 
 use std::io;
 use std::path::Path;

@@ -136,13 +136,34 @@ impl Default for Buffer {
 }
 
 /// What is kept of a frame that has a parent.
-pub(crate) struct Kept<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) parent: &'a str,
-    pub(crate) authority: &'a str,
-    pub(crate) count: usize,
-    pub(crate) newest_ns: i64,
-    pub(crate) oldest_ns: i64,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kept<'a> {
+    /// The frame.
+    pub name: &'a str,
+    /// Its parent, by the newest sample.
+    pub parent: &'a str,
+    /// Who broadcast it last.
+    pub authority: &'a str,
+    /// Whether it moves.
+    pub kind: Kind,
+    /// How many samples are kept.
+    pub count: usize,
+    /// Stamp of the newest \[ns\]; 0 for a fixed one.
+    pub newest_ns: i64,
+    /// Stamp of the oldest \[ns\]; 0 for a fixed one.
+    pub oldest_ns: i64,
+}
+
+/// Rates are over this span at least \[ns\].
+const SHORTEST_NS: i64 = 100_000;
+
+impl Kept<'_> {
+    /// Samples in a second, as tf2 counts them: so many over the time from the oldest to the newest.
+    /// Of one sample alone it makes 10000.
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        self.count as f64 * 1e9 / (self.newest_ns - self.oldest_ns).max(SHORTEST_NS) as f64
+    }
 }
 
 impl Buffer {
@@ -334,18 +355,20 @@ impl Buffer {
         Some(whole.map(|&frame| self.name(frame)).collect())
     }
 
-    pub(crate) fn kept_frames(&self) -> impl Iterator<Item = Kept<'_>> {
+    /// What is kept of each frame that has a parent, in the order in which frames were first named.
+    pub fn kept_frames(&self) -> impl Iterator<Item = Kept<'_>> {
         self.frames.iter().skip(1).filter_map(|frame| {
             let cache = frame.cache.as_ref()?;
             let (newest_ns, parent) = cache.newest();
-            let (count, oldest_ns) = match cache {
-                Cache::Moving(samples) => (samples.len(), samples.oldest_ns()?),
-                Cache::Fixed(sample) => (1, sample.map(|_| 0)?),
+            let (kind, count, oldest_ns) = match cache {
+                Cache::Moving(samples) => (Kind::Moving, samples.len(), samples.oldest_ns()?),
+                Cache::Fixed(sample) => (Kind::Fixed, 1, sample.map(|_| 0)?),
             };
             Some(Kept {
                 name: &frame.name,
                 parent: self.name(parent),
                 authority: &frame.authority,
+                kind,
                 count,
                 newest_ns,
                 oldest_ns,

@@ -22,10 +22,12 @@
 mod buffer;
 mod cache;
 mod error;
+mod survey;
 mod text;
 mod walk;
 
-pub use buffer::{Buffer, CACHE_NS, Found, Kind, Lookup, Stamped};
+pub use buffer::{Buffer, CACHE_NS, Found, Kept, Kind, Lookup, Stamped};
 pub use cache::{Sample, Samples};
 pub use error::{LookupError, Refused, Unreachable};
+pub use survey::{Parent, Survey};
 pub use text::display_time;

@@ -16,9 +16,6 @@ fn seconds(time_ns: i64) -> f64 {
     ((time_ns - rest) / 1_000_000_000) as f64 + 1e-9 * rest as f64
 }
 
-/// Rates are over this span at least \[ns\].
-const SHORTEST_NS: i64 = 100_000;
-
 impl Buffer {
     /// What the service `tf2_frames` answers: parent, broadcaster, rate, times and length of each
     /// frame. With a current time, also how old the newest sample is.
@@ -32,7 +29,7 @@ impl Buffer {
         let mut text = String::new();
         for frame in self.kept_frames() {
             let span_ns = frame.newest_ns - frame.oldest_ns;
-            let rate_hz = frame.count as f64 * 1e9 / span_ns.max(SHORTEST_NS) as f64;
+            let rate_hz = frame.rate_hz();
             // Writing to a String cannot fail.
             let _ = write!(
                 text,

@@ -1,10 +1,14 @@
-//! `tf`: where frames are, as `tf2_echo`, `tf2_monitor` and `static_transform_publisher` tell it.
+//! `tf`: where frames are, as `view_frames`, `tf2_echo`, `tf2_monitor` and
+//! `static_transform_publisher` tell it.
 
 mod broadcast;
 mod echo;
 mod listen;
 mod monitor;
+mod tree;
 
 pub use broadcast::{Broadcast, broadcast, read_broadcast};
 pub use echo::{Echo, echo};
+pub use listen::stamped;
 pub use monitor::{Monitor, monitor};
+pub use tree::{Pictures, Tree, put_tree, tree};

@@ -130,7 +130,7 @@ fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, St
 }
 
 /// The type by its last word: ROS 1 and ROS 2 spell the rest differently.
-fn has_type(topic: &BagTopic, name: &str) -> bool {
+pub(crate) fn has_type(topic: &BagTopic, name: &str) -> bool {
     topic.type_name.rsplit('/').next() == Some(name)
 }
 
@@ -194,7 +194,7 @@ impl Frames {
 }
 
 /// All messages of some topics, decoded; those that cannot be are faults.
-fn each<M: Message>(
+pub(crate) fn each<M: Message>(
     bag: &Bag,
     names: &[&str],
     mut take: impl FnMut(&str, M),

@@ -1,11 +1,15 @@
 //! `periplus tf`.
 
+mod recorded;
+
 use std::io;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{Args, Subcommand};
-use periplus_verbs::tf::{self, Echo, Monitor, read_broadcast};
+use periplus_host::unix_ns;
+use periplus_verbs::tf::{self, Echo, Monitor, Pictures, Tree, read_broadcast};
 
 use super::common::{Common, rate, seconds};
 use super::with_session;
@@ -22,6 +26,50 @@ enum Verb {
     Echo(EchoOptions),
     Monitor(MonitorOptions),
     Static(StaticOptions),
+    #[command(visible_alias = "view_frames")]
+    Tree(TreeOptions),
+}
+
+/// Draw the tree of frames as `view_frames` does: a .gv for Graphviz and a .pdf
+///
+/// Listens to what is running, or reads a recording. What is wrong with the tree (several trees, a frame
+/// with two parents, circles) is said.
+#[derive(Debug, Args)]
+struct TreeOptions {
+    /// A recording, in place of what is running
+    #[arg(value_name = "BAG")]
+    recording: Option<PathBuf>,
+    /// Listen so long
+    #[arg(long, short = 't', value_name = "SECONDS", default_value_t = 5.0, value_parser = seconds)]
+    wait_time: f64,
+    /// The files' name without ending; `frames_` and the date (UTC) without it
+    #[arg(long, short, value_name = "NAME")]
+    output: Option<PathBuf>,
+    /// Write an .svg too
+    #[arg(long)]
+    svg: bool,
+    /// The topic of frames that move
+    #[arg(long, value_name = "TOPIC", default_value = "/tf", alias = "tf_topic")]
+    tf_topic: String,
+    /// The topic of frames that do not
+    #[arg(long, value_name = "TOPIC", default_value = "/tf_static", alias = "tf_static_topic")]
+    tf_static_topic: String,
+    #[command(flatten)]
+    common: Common,
+}
+
+impl TreeOptions {
+    fn pictures(&self) -> Pictures {
+        let stem = self.output.clone().unwrap_or_else(|| dated(unix_ns()));
+        Pictures { stem, svg: self.svg }
+    }
+}
+
+/// `frames_2026-11-21_15.04.05`, as `view_frames` names files.
+fn dated(time_ns: i64) -> PathBuf {
+    let stamp = periplus_bagfiles::stamp_name(time_ns);
+    let (date, time) = stamp.split_once('-').unwrap_or((&stamp, ""));
+    format!("frames_{}_{}", date.replace('_', "-"), time.replace('_', ".")).into()
 }
 
 /// Print the pose of a frame in another, again and again, as `tf2_echo` does
@@ -95,9 +143,27 @@ impl TfOptions {
                 let monitor = Monitor { between, gather, once: options.once };
                 with_session(&options.common, |session| tf::monitor(session, &monitor))
             }
+            Verb::Tree(options) => match &options.recording {
+                Some(path) => recorded::tree(path, &options.pictures(), &options.common),
+                None => {
+                    let tree = Tree {
+                        wait: Duration::from_secs_f64(options.wait_time),
+                        moving: options.tf_topic.clone(),
+                        fixed: options.tf_static_topic.clone(),
+                        pictures: options.pictures(),
+                    };
+                    with_session(&options.common, |session| tf::tree(session, &tree))
+                }
+            },
             Verb::Static(options) => with_session(&Common::default(), |session| {
                 tf::broadcast(session, &read_broadcast(&options.words)?)
             }),
         }
     }
+}
+
+#[test]
+fn files_are_dated_as_view_frames_dates_them() {
+    let path = dated(1_795_273_445_123_456_789);
+    assert_eq!(path.to_str(), Some("frames_2026-11-21_15.04.05"));
 }

@@ -50,7 +50,7 @@ fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
         frames.hear(session);
         let now = clock.elapsed();
         if now >= due {
-            match frames.buffer.lookup(&echo.source, &echo.target, 0) {
+            match frames.survey.buffer.lookup(&echo.source, &echo.target, 0) {
                 Ok(found) => {
                     show(session, &found)?;
                     if echo.once {

@@ -6,7 +6,7 @@ use periplus_base::{DQuat, DVec3};
 use periplus_graph::{Mailbox, Node, Qos};
 use periplus_msgs::geometry_msgs::TransformStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_tf::{Buffer, Kind, Refused, Stamped};
+use periplus_tf::{Kind, Refused, Stamped, Survey};
 
 use crate::{Outcome, Session};
 
@@ -15,7 +15,7 @@ pub(super) const AUTHORITY: &str = "Authority undetectable";
 
 /// Frames as they are heard.
 pub(super) struct Frames {
-    pub(super) buffer: Buffer,
+    pub(super) survey: Survey,
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     _node: Node,
@@ -29,11 +29,16 @@ pub(super) struct Heard {
 
 impl Frames {
     pub(super) fn open(session: &Session<'_>) -> Outcome<Self> {
+        Self::of(session, ["/tf", "/tf_static"])
+    }
+
+    /// Frames as they are heard on topics of these names.
+    pub(super) fn of(session: &Session<'_>, [moving, fixed]: [&str; 2]) -> Outcome<Self> {
         let node = session.node(None)?;
         Ok(Self {
-            buffer: Buffer::default(),
-            moving: node.mailbox("/tf", Qos::reliable(100))?,
-            fixed: node.mailbox("/tf_static", Qos::latched(100))?,
+            survey: Survey::default(),
+            moving: node.mailbox(moving, Qos::reliable(100))?,
+            fixed: node.mailbox(fixed, Qos::latched(100))?,
             _node: node,
         })
     }
@@ -47,13 +52,10 @@ impl Frames {
             fixed.chain(moving).map(|(message, kind)| Heard { message, kind }).collect();
         for one in &heard {
             for transform in &one.message.transforms {
-                let stamped = stamped(transform);
-                match self.buffer.set(&stamped, AUTHORITY, one.kind) {
+                match self.survey.hear(&stamped(transform), AUTHORITY, one.kind) {
                     Ok(()) => {}
                     Err(Refused::OldData(..)) => {
                         session.say("Detected jump back in time. Clearing TF buffer.");
-                        self.buffer.clear();
-                        let _ = self.buffer.set(&stamped, AUTHORITY, one.kind);
                     }
                     Err(refused) => session.say(&format!("WARNING: {refused}")),
                 }
@@ -67,7 +69,9 @@ pub(super) fn stamp_ns(transform: &TransformStamped) -> i64 {
     transform.header.stamp.ns()
 }
 
-fn stamped(transform: &TransformStamped) -> Stamped {
+/// A message's transform, as buffers take it.
+#[must_use]
+pub fn stamped(transform: &TransformStamped) -> Stamped {
     let (shift, turn) = (&transform.transform.translation, &transform.transform.rotation);
     Stamped {
         parent: transform.header.frame_id.clone(),

@@ -77,7 +77,7 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
                 }
             }
             if let Some((a, b)) = &monitor.between
-                && let Ok(found) = frames.buffer.lookup(a, b, 0)
+                && let Ok(found) = frames.survey.buffer.lookup(a, b, 0)
                 && found.time_ns != 0
             {
                 net.add((unix_ns() - found.time_ns) as f64 * 1e-9);
@@ -101,10 +101,10 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
 
 fn chain(frames: &Frames, a: &str, b: &str) -> Outcome<Vec<String>> {
     // Says why there is none, in the words of tf2.
-    if let Err(error) = frames.buffer.lookup(a, b, 0) {
+    if let Err(error) = frames.survey.buffer.lookup(a, b, 0) {
         return Err(Failure::failed(error.to_string()));
     }
-    let chain = frames.buffer.chain(b, a).unwrap_or_default();
+    let chain = frames.survey.buffer.chain(b, a).unwrap_or_default();
     Ok(chain.into_iter().map(str::to_owned).collect())
 }
 

@@ -1,0 +1,267 @@
+//! The picture of a forest, as shapes that every form of it draws. Lengths are points, y goes down.
+
+use periplus_tf::Kind;
+
+use crate::forest::{Forest, Frame};
+use crate::layout::{Layout, layout};
+use crate::widths::width;
+
+/// Red, green, blue.
+pub(crate) type Colour = [u8; 3];
+
+const INK: Colour = [0x1f, 0x29, 0x37];
+const SOFT: Colour = [0x6b, 0x72, 0x80];
+const LINE: Colour = [0x94, 0xa3, 0xb8];
+const MOVING: Colour = [0x25, 0x63, 0xeb];
+const MOVING_PAPER: Colour = [0xef, 0xf5, 0xff];
+const FIXED_PAPER: Colour = [0xf5, 0xf6, 0xf8];
+const ROOT_PAPER: Colour = [0xe7, 0xf6, 0xec];
+const ROOT: Colour = [0x15, 0x80, 0x3d];
+const WRONG: Colour = [0xdc, 0x26, 0x26];
+const PAPER: Colour = [0xff, 0xff, 0xff];
+
+/// Around everything.
+const MARGIN: f64 = 28.0;
+const NAME: f64 = 12.0;
+const NAME_HEIGHT: f64 = 28.0;
+const LABEL: f64 = 8.5;
+const LABEL_LINE: f64 = 11.5;
+const LABEL_PAD: f64 = 7.0;
+/// From a frame down to the label of its child, room for a curve.
+const CURVE: f64 = 40.0;
+/// From the label to the frame, room for the arrow.
+const ARROW: f64 = 18.0;
+
+/// Something to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    /// A box with round corners.
+    Card { at: [f64; 2], size: [f64; 2], round: f64, fill: Colour, stroke: Colour, is_dashed: bool },
+    /// A Bézier curve.
+    Curve { points: [[f64; 2]; 4], stroke: Colour, is_dashed: bool },
+    /// The head of an arrow that points down to here.
+    Head { tip: [f64; 2], fill: Colour },
+    /// A line of text on this base line; from here, or around here.
+    Text { at: [f64; 2], text: String, size: f64, is_bold: bool, is_centred: bool, fill: Colour },
+}
+
+/// Shapes on a page of this size.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Drawing {
+    pub(crate) size: [f64; 2],
+    pub(crate) shapes: Vec<Shape>,
+}
+
+impl Drawing {
+    /// The picture of a forest that was recorded at this time \[s\].
+    pub(crate) fn of(forest: &Forest, recorded_at: &str) -> Self {
+        let widths: Vec<f64> = forest.frames.iter().map(breadth).collect();
+        let layout = layout(forest, &widths);
+        let mut drawing = Self { size: [0.0, 0.0], shapes: Vec::new() };
+        let (head_width, head_height) = drawing.head(forest, recorded_at);
+        let width = layout.width.max(head_width) + 2.0 * MARGIN;
+        let place = Place {
+            forest,
+            left: 0.5 * (width - layout.width),
+            top: head_height,
+            label_height: 5.0 * LABEL_LINE + 2.0 * LABEL_PAD,
+            layout,
+        };
+        // Lines first, so that cards lie upon them.
+        for &frame in &forest.downward() {
+            drawing.lines(&place, frame);
+        }
+        for &frame in &forest.downward() {
+            drawing.cards(&place, frame);
+        }
+        drawing.size =
+            [width, place.frame_top(place.layout.layers.saturating_sub(1)) + NAME_HEIGHT + MARGIN];
+        if forest.frames.is_empty() {
+            drawing.size[1] = head_height + MARGIN;
+        }
+        drawing
+    }
+
+    /// Title, key and faults; how much room they take.
+    fn head(&mut self, forest: &Forest, recorded_at: &str) -> (f64, f64) {
+        let (mut y, mut widest) = (MARGIN + 16.0, 0.0_f64);
+        let mut line = |shapes: &mut Vec<Shape>, text: String, size: f64, is_bold, fill| {
+            widest = widest.max(width(&text, size, is_bold));
+            shapes.push(Shape::Text {
+                at: [MARGIN, y],
+                text,
+                size,
+                is_bold,
+                is_centred: false,
+                fill,
+            });
+            y += size + 6.0;
+        };
+        let shapes = &mut self.shapes;
+        line(shapes, "view_frames Result".into(), 17.0, true, INK);
+        line(shapes, format!("Recorded at time: {recorded_at}"), 10.0, false, SOFT);
+        if forest.frames.is_empty() {
+            line(shapes, "No tf data received".into(), 12.0, true, WRONG);
+        } else {
+            let roots = forest.roots().count();
+            let counts = format!(
+                "{} frames, {roots} root{}; blue: moving, grey and dashed: static",
+                forest.frames.len(),
+                if roots == 1 { "" } else { "s" }
+            );
+            line(shapes, counts, 10.0, false, SOFT);
+        }
+        for fault in forest.faults() {
+            line(shapes, fault.to_string().replace('`', ""), 11.0, true, WRONG);
+        }
+        (widest, y + 10.0)
+    }
+
+    fn lines(&mut self, place: &Place<'_>, frame: usize) {
+        let from = place.bottom(frame);
+        for child in place.forest.below(frame) {
+            let to = place.label_top(child);
+            let is_dashed = is_fixed(&place.forest.frames[child]);
+            let middle = 0.5 * (from[1] + to[1]);
+            self.shapes.push(Shape::Curve {
+                points: [from, [from[0], middle], [to[0], middle], to],
+                stroke: if is_dashed { LINE } else { MOVING },
+                is_dashed,
+            });
+        }
+        // Whatever leads elsewhere: other parents, and the edge that closes a circle.
+        let it = &place.forest.frames[frame];
+        let closing = it.edge.as_ref().filter(|_| place.forest.tops.contains(&frame));
+        let elsewhere = it.other_parents.iter().chain(closing.map(|edge| &edge.parent));
+        for parent in elsewhere {
+            let found = place.forest.frames.binary_search_by(|frame| frame.name.cmp(parent));
+            let Ok(parent) = found else { continue };
+            let (from, to) = (place.bottom(parent), place.top(frame));
+            let aside = if to[0] < from[0] { -1.0 } else { 1.0 } * (0.5 * breadth(it) + 24.0);
+            self.shapes.push(Shape::Curve {
+                points: [from, [from[0], from[1] + 60.0], [to[0] + aside, to[1] - 70.0], to],
+                stroke: WRONG,
+                is_dashed: true,
+            });
+            self.shapes.push(Shape::Head { tip: to, fill: WRONG });
+        }
+    }
+
+    fn cards(&mut self, place: &Place<'_>, frame: usize) {
+        let it = &place.forest.frames[frame];
+        let middle = place.middle(frame);
+        let (is_fixed, is_root) = (is_fixed(it), it.edge.is_none());
+        if let Some(edge) = &it.edge {
+            let lines = edge.label();
+            let size = [label_width(&lines), place.label_height];
+            let [_, top] = place.label_top(frame);
+            let (fill, stroke) =
+                if is_fixed { (FIXED_PAPER, LINE) } else { (MOVING_PAPER, MOVING) };
+            self.shapes.push(Shape::Card {
+                at: [middle - 0.5 * size[0], top],
+                size,
+                round: 5.0,
+                fill,
+                stroke: fill,
+                is_dashed: false,
+            });
+            for (number, text) in (0_u8..).zip(lines) {
+                let y = top + LABEL_PAD + LABEL_LINE * (f64::from(number) + 0.8);
+                let at = [middle, y];
+                let fill = SOFT;
+                self.shapes.push(Shape::Text {
+                    at,
+                    text,
+                    size: LABEL,
+                    is_bold: false,
+                    is_centred: true,
+                    fill,
+                });
+            }
+            let (from, to) = ([middle, top + size[1]], place.top(frame));
+            let is_dashed = is_fixed;
+            self.shapes.push(Shape::Curve { points: [from, from, to, to], stroke, is_dashed });
+            self.shapes.push(Shape::Head { tip: to, fill: stroke });
+        }
+        let (fill, stroke) = match (is_root, is_fixed) {
+            (true, _) => (ROOT_PAPER, ROOT),
+            (_, true) => (PAPER, LINE),
+            _ => (PAPER, MOVING),
+        };
+        let size = [name_width(it), NAME_HEIGHT];
+        let top = place.top(frame);
+        self.shapes.push(Shape::Card {
+            at: [middle - 0.5 * size[0], top[1]],
+            size,
+            round: 0.5 * NAME_HEIGHT,
+            fill,
+            stroke,
+            is_dashed: is_fixed,
+        });
+        self.shapes.push(Shape::Text {
+            at: [middle, top[1] + 0.5 * NAME_HEIGHT + 0.36 * NAME],
+            text: it.name.clone(),
+            size: NAME,
+            is_bold: true,
+            is_centred: true,
+            fill: INK,
+        });
+    }
+}
+
+/// Where frames are on the page.
+struct Place<'a> {
+    forest: &'a Forest,
+    layout: Layout,
+    left: f64,
+    top: f64,
+    label_height: f64,
+}
+
+impl Place<'_> {
+    fn middle(&self, frame: usize) -> f64 {
+        self.left + self.layout.middle[frame]
+    }
+
+    /// Upper edge of the names on a layer.
+    fn frame_top(&self, layer: usize) -> f64 {
+        // A first frame that has an edge, in a circle, has its label above.
+        let is_closed = self.forest.tops.iter().any(|&top| self.forest.frames[top].edge.is_some());
+        let first = if is_closed { self.label_height + ARROW } else { 0.0 };
+        let step = NAME_HEIGHT + CURVE + self.label_height + ARROW;
+        self.top + first + layer as f64 * step
+    }
+
+    fn top(&self, frame: usize) -> [f64; 2] {
+        [self.middle(frame), self.frame_top(self.layout.layer[frame])]
+    }
+
+    fn bottom(&self, frame: usize) -> [f64; 2] {
+        let [x, y] = self.top(frame);
+        [x, y + NAME_HEIGHT]
+    }
+
+    fn label_top(&self, frame: usize) -> [f64; 2] {
+        let [x, y] = self.top(frame);
+        [x, y - ARROW - self.label_height]
+    }
+}
+
+fn is_fixed(frame: &Frame) -> bool {
+    frame.edge.as_ref().is_some_and(|edge| edge.kind == Kind::Fixed)
+}
+
+fn name_width(frame: &Frame) -> f64 {
+    width(&frame.name, NAME, true) + 26.0
+}
+
+fn label_width(lines: &[String]) -> f64 {
+    let widest = lines.iter().map(|line| width(line, LABEL, false)).fold(0.0, f64::max);
+    widest + 2.0 * LABEL_PAD
+}
+
+/// How much room a frame takes with its label.
+fn breadth(frame: &Frame) -> f64 {
+    let label = frame.edge.as_ref().map_or(0.0, |edge| label_width(&edge.label()));
+    name_width(frame).max(label)
+}
