@@ -12,8 +12,13 @@ use serde_json::Value;
 use crate::step::{Failed, cargo};
 
 /// These know the world only through messages ...
-const ESTIMATORS: [&str; 4] =
-    ["periplus-slam", "periplus-localization", "periplus-costmap", "periplus-explore"];
+const ESTIMATORS: [&str; 5] = [
+    "periplus-slam",
+    "periplus-localization",
+    "periplus-costmap",
+    "periplus-explore",
+    "periplus-fusion",
+];
 /// ... and never through these, not even by way of others.
 const TRUTH: [&str; 4] =
     ["periplus-scene", "periplus-raycast", "periplus-dynamics", "periplus-sensors"];

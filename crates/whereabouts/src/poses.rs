@@ -1,14 +1,14 @@
 //! Poses as messages carry them.
 
-use periplus_base::{DQuat, Pose, Pose2};
+use periplus_base::{DQuat, Pose};
 use periplus_msgs::geometry_msgs::{self, Quaternion};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs;
 
-/// A pose on the ground.
+/// A pose, on the ground or off it.
 #[must_use]
-pub fn pose(pose: Pose2) -> geometry_msgs::Pose {
-    let Pose { translation, rotation } = Pose::from(pose);
+pub fn pose(pose: impl Into<Pose>) -> geometry_msgs::Pose {
+    let Pose { translation, rotation } = pose.into();
     geometry_msgs::Pose {
         position: geometry_msgs::Point { x: translation.x, y: translation.y, z: translation.z },
         orientation: quaternion(rotation),
@@ -24,10 +24,10 @@ fn quaternion(rotation: DQuat) -> Quaternion {
 pub fn transform(
     parent: &str,
     child: &str,
-    parent_from_child: Pose2,
+    parent_from_child: impl Into<Pose>,
     time_ns: i64,
 ) -> tf2_msgs::TFMessage {
-    let Pose { translation, rotation } = Pose::from(parent_from_child);
+    let Pose { translation, rotation } = parent_from_child.into();
     tf2_msgs::TFMessage {
         transforms: vec![geometry_msgs::TransformStamped {
             header: Header::at(time_ns, parent),

@@ -1,0 +1,273 @@
+//! The filter.
+
+use crate::correct::{Outcome, correct};
+use crate::motion::predict;
+use crate::settings::Settings;
+use crate::state::{Covariance, Estimate, Measurement, SIZE, State, Variable};
+
+/// Most measurements that wait; older ones are used first.
+const MOST_WAITING: usize = 10_000;
+/// How sure it is that a robot on flat ground does not leave it.
+const ON_THE_GROUND: f64 = 1e-6;
+/// Over longer gaps the state is not carried in one step \[s\].
+const LONGEST_STEP_S: f64 = 0.1;
+/// After a gap of so many steps the state is not carried at all \[s\].
+const LONGEST_GAP_S: f64 = 100.0;
+
+/// A measurement that was not used, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// It is so many standard deviations off.
+    TooFar {
+        /// Who measured.
+        source: String,
+        /// How far off.
+        deviations: f64,
+    },
+    /// It has numbers that are none, or a covariance that is none.
+    Broken {
+        /// Who measured.
+        source: String,
+    },
+}
+
+/// An extended Kalman filter: measurements go in as they come, and are used in the order of their times.
+#[derive(Clone, Debug)]
+pub struct Ekf {
+    settings: Settings,
+    estimate: Option<Estimate>,
+    /// When something was last measured \[ns\].
+    measured_ns: i64,
+    waiting: Vec<Measurement>,
+    refusals: Vec<Refusal>,
+}
+
+impl Ekf {
+    /// A filter that knows nothing but its settings.
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            estimate: None,
+            measured_ns: i64::MIN,
+            waiting: Vec::new(),
+            refusals: Vec::new(),
+        }
+    }
+
+    /// Its settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes its settings; what it knows stays.
+    pub fn set_settings(&mut self, settings: Settings) {
+        self.settings = settings;
+    }
+
+    /// What it knows; nothing before the first measurement.
+    #[must_use]
+    pub fn estimate(&self) -> Option<&Estimate> {
+        self.estimate.as_ref()
+    }
+
+    /// When something was last measured \[ns\].
+    #[must_use]
+    pub fn measured_ns(&self) -> Option<i64> {
+        self.estimate.as_ref().map(|_| self.measured_ns)
+    }
+
+    /// Forgets all but the settings.
+    pub fn reset(&mut self) {
+        *self = Self::new(self.settings.clone());
+    }
+
+    /// Starts from here; what waits is dropped.
+    pub fn set_estimate(&mut self, estimate: Estimate) {
+        self.waiting.clear();
+        self.measured_ns = estimate.time_ns;
+        self.estimate = Some(estimate);
+    }
+
+    /// A measurement has come; it waits for [`Ekf::run_until`].
+    pub fn push(&mut self, measurement: Measurement) {
+        if !measurement.is_finite() {
+            self.refusals.push(Refusal::Broken { source: measurement.source });
+        } else if !measurement.is_empty() && self.waiting.len() < MOST_WAITING {
+            self.waiting.push(measurement);
+        }
+    }
+
+    /// Uses what was measured up to a time \[ns\]; when nothing was for long, the state goes on by
+    /// itself. Whether there is anything new to tell.
+    pub fn run_until(&mut self, now_ns: i64) -> bool {
+        // Those of one time stay in the order in which they came.
+        self.waiting.sort_by_key(|it| it.time_ns);
+        let due = self.waiting.partition_point(|it| it.time_ns <= now_ns);
+        let due: Vec<Measurement> = self.waiting.drain(..due).collect();
+        let mut is_new = !due.is_empty();
+        for measurement in due {
+            self.take(&measurement);
+        }
+        let timeout_ns = (self.settings.sensor_timeout_s * 1e9) as i64;
+        let is_silent = now_ns.saturating_sub(self.measured_ns) >= timeout_ns;
+        let settings = &self.settings;
+        if is_silent && let Some(estimate) = &mut self.estimate {
+            is_new |= estimate.time_ns < now_ns;
+            carry(estimate, settings, now_ns);
+        }
+        is_new
+    }
+
+    /// The estimate as it will be at a time, if nothing more is measured.
+    #[must_use]
+    pub fn predicted(&self, time_ns: i64) -> Option<Estimate> {
+        let mut estimate = self.estimate.clone()?;
+        carry(&mut estimate, &self.settings, time_ns);
+        Some(estimate)
+    }
+
+    /// What was not used since the last call.
+    pub fn take_refusals(&mut self) -> Vec<Refusal> {
+        std::mem::take(&mut self.refusals)
+    }
+
+    fn take(&mut self, measurement: &Measurement) {
+        self.measured_ns = self.measured_ns.max(measurement.time_ns);
+        let mut measurement = measurement.clone();
+        if self.settings.is_flat {
+            hold_down(&mut measurement);
+        }
+        let Some(estimate) = &mut self.estimate else {
+            self.estimate = Some(first(&self.settings, &measurement));
+            return;
+        };
+        carry(estimate, &self.settings, measurement.time_ns);
+        let outcome = correct(&mut estimate.state, &mut estimate.covariance, &measurement);
+        let source = measurement.source;
+        match outcome {
+            Outcome::Corrected => {}
+            Outcome::TooFar(deviations) => {
+                self.refusals.push(Refusal::TooFar { source, deviations });
+            }
+            Outcome::Singular => self.refusals.push(Refusal::Broken { source }),
+        }
+    }
+}
+
+/// The state of the first measurement; what it does not tell is as the settings have it, or 0.
+fn first(settings: &Settings, measurement: &Measurement) -> Estimate {
+    let mut estimate = Estimate {
+        time_ns: measurement.time_ns,
+        state: settings.start.unwrap_or_else(State::zeros),
+        covariance: settings.start_covariance,
+    };
+    let measured = || (0..SIZE).filter(|at| measurement.mask[*at]);
+    for row in measured() {
+        estimate.state[row] = measurement.state[row];
+        for column in measured() {
+            estimate.covariance[(row, column)] = measurement.covariance[(row, column)];
+        }
+    }
+    estimate
+}
+
+/// Carries the state to a time; one that has passed changes nothing.
+fn carry(estimate: &mut Estimate, settings: &Settings, time_ns: i64) {
+    let mut rest_s = (time_ns - estimate.time_ns) as f64 * 1e-9;
+    if rest_s <= 0.0 {
+        return;
+    }
+    estimate.time_ns = time_ns;
+    if rest_s > LONGEST_GAP_S {
+        // Nobody knows what happened meanwhile.
+        return;
+    }
+    while rest_s > 0.0 {
+        let step_s = rest_s.min(LONGEST_STEP_S);
+        let noise = noise(estimate, settings);
+        (estimate.state, estimate.covariance) =
+            predict(&estimate.state, &estimate.covariance, &noise, step_s);
+        rest_s -= step_s;
+    }
+}
+
+/// The noise of place and attitude, if that is wished, grows with the speed.
+fn noise(estimate: &Estimate, settings: &Settings) -> Covariance {
+    let mut noise = settings.noise_per_s;
+    if settings.scales_noise {
+        let speeds = estimate.state.fixed_rows::<6>(Variable::Vx.at());
+        let speed = libm::sqrt(speeds.dot(&speeds));
+        let mut part = noise.fixed_view_mut::<6, 6>(0, 0);
+        part *= speed;
+    }
+    noise
+}
+
+/// On flat ground everything off it is measured to be nothing.
+fn hold_down(measurement: &mut Measurement) {
+    for variable in Variable::OFF_THE_GROUND {
+        let at = variable.at();
+        measurement.state[at] = 0.0;
+        measurement.covariance.row_mut(at).fill(0.0);
+        measurement.covariance.column_mut(at).fill(0.0);
+        measurement.covariance[(at, at)] = ON_THE_GROUND;
+        measurement.mask[at] = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TICK_NS: i64 = 10_000_000;
+
+    #[test]
+    fn the_order_of_coming_does_not_count() {
+        let measured =
+            |tick: i64| Measurement::of(tick * TICK_NS, &[(Variable::Vx, tick as f64)], 0.1);
+        let run = |order: [i64; 3]| {
+            let mut ekf = Ekf::new(Settings::default());
+            order.into_iter().for_each(|tick| ekf.push(measured(tick)));
+            ekf.run_until(2 * TICK_NS);
+            ekf.estimate().cloned()
+        };
+        assert_eq!(run([0, 1, 2]), run([2, 0, 1]));
+    }
+
+    #[test]
+    fn silence_is_bridged_by_motion() {
+        let mut ekf = Ekf::new(Settings::default());
+        ekf.push(Measurement::of(0, &[(Variable::Vx, 1.0)], 1e-4));
+        assert!(ekf.run_until(0));
+        // Less than the timeout: nothing new.
+        assert!(!ekf.run_until(TICK_NS));
+        assert!(ekf.run_until(500_000_000));
+        let x_m = ekf.estimate().map(|it| it.get(Variable::X));
+        assert!((x_m.unwrap_or_default() - 0.5).abs() < 1e-9, "{x_m:?}");
+    }
+
+    #[test]
+    fn on_flat_ground_it_stays_down() {
+        let mut ekf = Ekf::new(Settings { is_flat: true, ..Settings::default() });
+        for tick in 0..100 {
+            let lifted = [(Variable::Vx, 1.0), (Variable::Vz, 1.0), (Variable::Vpitch, 0.3)];
+            ekf.push(Measurement::of(tick * TICK_NS, &lifted, 1e-3));
+        }
+        ekf.run_until(100 * TICK_NS);
+        let state = ekf.estimate().map(|it| it.state).unwrap_or_default();
+        for variable in Variable::OFF_THE_GROUND {
+            assert!(state[variable.at()].abs() < 1e-6, "{variable:?}: {state}");
+        }
+        assert!(state[0] > 0.9, "{state}");
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_refused() {
+        let mut ekf = Ekf::new(Settings::default());
+        ekf.push(Measurement::of(0, &[(Variable::Vx, f64::NAN)], 1e-4));
+        assert!(!ekf.run_until(TICK_NS) && ekf.estimate().is_none());
+        assert_eq!(ekf.take_refusals(), [Refusal::Broken { source: String::new() }]);
+    }
+}

@@ -1,0 +1,398 @@
+//! Parameters of `ekf_node`.
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_params::{Given, Table, Values, flag, integer, number, numbers, text, texts};
+
+use crate::state::{Covariance, SIZE, State};
+
+/// Parameters of the filter itself.
+pub static EKF: Table = Table {
+    name: "ekf_node",
+    doc: "Joins wheels, IMU and poses to one estimate by an extended Kalman filter.",
+    parameters: &[
+        number("frequency", "Hz", "How often the estimate is published.").or("30").above(0.0),
+        number("sensor_timeout", "s", "Without measurements for so long the state goes on by itself; 1 / frequency unless set.")
+            .above(0.0),
+        flag("two_d_mode", "The robot stays on flat ground: no height, roll or pitch.").or("false"),
+        number("transform_time_offset", "s", "Transforms are stamped so much later.").or("0"),
+        number("transform_timeout", "s", "How long a message waits for its transform.").or("0").min(0.0),
+        flag("print_diagnostics", "Publishes the filter's health on /diagnostics.").or("true"),
+        flag("publish_tf", "Publishes the transform of the estimate.").or("true"),
+        flag("publish_acceleration", "Publishes the acceleration on accel/filtered.").or("false"),
+        flag("permit_corrected_publication", "Publishes a time again when late data changed it.").or("false"),
+        flag("predict_to_current_time", "Moves what is published on to the present.").or("false"),
+        text("map_frame", "The frame of the map.").or("map"),
+        text("odom_frame", "The frame of odometry.").or("odom"),
+        text("base_link_frame", "The frame of the robot.").or("base_link"),
+        text("base_link_frame_output", "The frame of the robot in what is published; base_link_frame unless set."),
+        text("world_frame", "The frame in which the robot is estimated, map_frame or odom_frame; odom_frame unless set."),
+        number("gravitational_acceleration", "m/s^2", "Taken off where an IMU measures it.").or("9.80665"),
+        numbers("initial_state", "", "The 15 numbers at the start."),
+        numbers("process_noise_covariance", "1/s", "How much less sure the state gets in a second: 225 numbers in rows, or the 15 of the diagonal."),
+        numbers("initial_estimate_covariance", "", "How sure the start is: 225 numbers in rows, or the 15 of the diagonal."),
+        flag("dynamic_process_noise_covariance", "Scales the noise of place and attitude by how fast the robot moves.").or("false"),
+        flag("disabled_at_startup", "Waits for the service `enable`.").or("false"),
+        flag("reset_on_time_jump", "Starts anew when time jumps back.").or("false"),
+        flag("use_sim_time", "Time is the simulation's.").or("false"),
+        flag("smooth_lagged_data", "Not there: late measurements are used when they come.").or("false"),
+        number("history_length", "s", "Not there, see smooth_lagged_data.").or("0"),
+        flag("use_control", "Not there: commands are no measurements.").or("false"),
+        flag("stamped_control", "Not there, see use_control.").or("false"),
+        number("control_timeout", "s", "Not there, see use_control.").or("0"),
+        texts("control_config", "Not there, see use_control."),
+        numbers("acceleration_limits", "", "Not there, see use_control."),
+        numbers("deceleration_limits", "", "Not there, see use_control."),
+        numbers("acceleration_gains", "", "Not there, see use_control."),
+        numbers("deceleration_gains", "", "Not there, see use_control."),
+        flag("debug", "Not there.").or("false"),
+        text("debug_out_file", "Not there."),
+    ],
+};
+
+/// Parameters of one input; their names begin with that of the input, as `odom0_config`.
+pub static SOURCE: Table = Table {
+    name: "ekf_node input",
+    doc: "What is heard, and which of its numbers are taken.",
+    parameters: &[
+        text("topic", "Its topic, by the name of the input alone: odom0, pose0, twist0, imu0.")
+            .required(),
+        texts(
+            "config",
+            "Which are taken of x y z, roll pitch yaw, their velocities, and accelerations along x y z.",
+        ),
+        integer("queue_size", "Most messages that wait.").or("10").min(1.0),
+        flag("differential", "Poses are taken as velocities between them.").or("false"),
+        flag("relative", "Poses count from the first one.").or("false"),
+        number(
+            "pose_rejection_threshold",
+            "",
+            "Poses so many deviations (Mahalanobis) off are not believed.",
+        )
+        .above(0.0)
+        .also(&["rejection_threshold"]),
+        number("twist_rejection_threshold", "", "The same of velocities.").above(0.0),
+        number("linear_acceleration_rejection_threshold", "", "The same of accelerations.")
+            .above(0.0),
+        flag("remove_gravitational_acceleration", "Takes gravity off what the IMU measures.")
+            .or("false"),
+        flag("nodelay", "Of TCPROS; says nothing here.").or("false"),
+        flag("pose_use_child_frame", "Not there: poses are of base_link.").or("false"),
+    ],
+};
+
+/// Parameters that are read and do nothing, with what they would do.
+const IDLE: [(&str, &str); 4] = [
+    ("smooth_lagged_data", "late measurements are used when they come, with their own covariance"),
+    ("use_control", "commands are not used; the velocity of the wheels is"),
+    ("debug", "watch /odometry/filtered and /diagnostics instead"),
+    ("permit_corrected_publication", "each time is published once"),
+];
+
+/// What kind of message an input has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// `nav_msgs/Odometry`.
+    Odometry,
+    /// `geometry_msgs/PoseWithCovarianceStamped`.
+    Pose,
+    /// `geometry_msgs/TwistWithCovarianceStamped`.
+    Twist,
+    /// `sensor_msgs/Imu`.
+    Imu,
+}
+
+impl Kind {
+    const ALL: [(Self, &str); 4] = [
+        (Self::Odometry, "odom"),
+        (Self::Pose, "pose"),
+        (Self::Twist, "twist"),
+        (Self::Imu, "imu"),
+    ];
+}
+
+/// An input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// As it is called: `odom0`.
+    pub name: String,
+    /// What kind of message it has.
+    pub kind: Kind,
+    /// Its topic.
+    pub topic: String,
+    /// Which numbers are taken.
+    pub mask: [bool; SIZE],
+    /// Most messages that wait.
+    pub queue: usize,
+    /// Poses are taken as velocities between them.
+    pub is_differential: bool,
+    /// Poses count from the first one.
+    pub is_relative: bool,
+    /// Gravity is taken off.
+    pub removes_gravity: bool,
+    /// From how many deviations on poses, velocities and accelerations are not believed.
+    pub most_deviations: [f64; 3],
+}
+
+/// What a filter is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// How often the estimate is published \[Hz\].
+    pub frequency_hz: f64,
+    /// Without measurements for so long the state goes on by itself \[s\].
+    pub sensor_timeout_s: f64,
+    /// The robot stays on flat ground.
+    pub is_flat: bool,
+    /// How much less sure the state gets in a second.
+    pub noise_per_s: Covariance,
+    /// Whether that of place and attitude is scaled by speed.
+    pub scales_noise: bool,
+    /// The state at the start, if it is told.
+    pub start: Option<State>,
+    /// How sure that is.
+    pub start_covariance: Covariance,
+    /// What an IMU measures upwards when it rests \[m/s²\].
+    pub gravity_mps2: f64,
+    /// The inputs.
+    pub sources: Vec<Source>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self::of(&EKF.check([], None, &mut Diagnostics::new()), Vec::new(), &mut Diagnostics::new())
+    }
+}
+
+impl Settings {
+    /// Reads what a user wrote: the filter's own parameters, and those of its inputs. Of one that is
+    /// given more than once the last counts. What is wrong is told, and the default stands in for it.
+    pub fn read<'a>(
+        given: impl IntoIterator<Item = Given<'a>>,
+        diagnostics: &mut Diagnostics,
+    ) -> (Self, Values) {
+        let mut own = Vec::new();
+        let mut inputs: BTreeMap<(Kind, u32), Vec<Given<'a>>> = BTreeMap::new();
+        let given: Vec<Given<'a>> = given.into_iter().collect();
+        let names: Vec<&str> = given.iter().map(|it| it.name).collect();
+        let is_last = |(at, one): &(usize, Given<'a>)| !names[at + 1..].contains(&one.name);
+        for (_, one) in given.into_iter().enumerate().filter(is_last) {
+            match input(one.name) {
+                Some((key, rest)) => {
+                    inputs.entry(key).or_default().push(Given { name: rest, ..one });
+                }
+                None => own.push(one),
+            }
+        }
+        let values = EKF.check(own, None, diagnostics);
+        let sources = inputs
+            .into_iter()
+            .filter_map(|((kind, number), given)| source(kind, number, given, diagnostics))
+            .collect();
+        for (name, instead) in IDLE.iter().filter(|(name, _)| values.flag(name) == Some(true)) {
+            let idle = Diagnostic::warning("idle-parameter", format!("`{name}` does nothing here"))
+                .at(values.origin(name))
+                .help(*instead);
+            diagnostics.push(idle);
+        }
+        (Self::of(&values, sources, diagnostics), values)
+    }
+
+    /// With the parameters of [`EKF`] and these inputs.
+    pub fn of(values: &Values, sources: Vec<Source>, diagnostics: &mut Diagnostics) -> Self {
+        let number = |name: &str| values.number(name).unwrap_or_default();
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        let frequency_hz = number("frequency");
+        let start = numbers_of(values, "initial_state", &[SIZE], diagnostics);
+        Self {
+            frequency_hz,
+            sensor_timeout_s: values.number("sensor_timeout").unwrap_or(1.0 / frequency_hz),
+            is_flat: flag("two_d_mode"),
+            noise_per_s: matrix(values, "process_noise_covariance", NOISE, diagnostics),
+            scales_noise: flag("dynamic_process_noise_covariance"),
+            start: start.map(|numbers| State::from_row_slice(&numbers)),
+            start_covariance: matrix(
+                values,
+                "initial_estimate_covariance",
+                [1e-9; SIZE],
+                diagnostics,
+            ),
+            gravity_mps2: number("gravitational_acceleration"),
+            sources,
+        }
+    }
+}
+
+/// Defaults of `process_noise_covariance`, its diagonal.
+const NOISE: [f64; SIZE] =
+    [0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015];
+
+/// `odom0_config` is the parameter `config` of an input; `odom0` alone is its topic.
+fn input(name: &str) -> Option<((Kind, u32), &str)> {
+    Kind::ALL.iter().find_map(|(kind, word)| {
+        let rest = name.strip_prefix(word)?;
+        let end = rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len());
+        let (number, rest) = rest.split_at(end);
+        let rest = if rest.is_empty() { "topic" } else { rest.strip_prefix('_')? };
+        Some(((*kind, number.parse().ok()?), rest))
+    })
+}
+
+fn source(
+    kind: Kind,
+    number: u32,
+    given: Vec<Given<'_>>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Source> {
+    let word = Kind::ALL.iter().find(|(it, _)| *it == kind).map_or("", |(_, word)| word);
+    let name = format!("{word}{number}");
+    let at = given.first().map(|it| it.name_origin).unwrap_or_default();
+    let has_topic = given.iter().any(|it| it.name == "topic");
+    if !has_topic {
+        let lost = Diagnostic::error(
+            "input-without-topic",
+            format!("`{name}` has parameters, but no topic"),
+        )
+        .at(at)
+        .help(format!("say `{name}: TOPIC`"));
+        diagnostics.push(lost);
+        return None;
+    }
+    let values = SOURCE.check(given, None, diagnostics);
+    let flag = |name: &str| values.flag(name).unwrap_or_default();
+    let threshold = |name: &str| values.number(name).unwrap_or(f64::INFINITY);
+    let config = values.texts("config");
+    let mut mask = [false; SIZE];
+    let truths: Option<Vec<bool>> = config.iter().map(|word| truth(word)).collect();
+    match truths {
+        Some(truths) if truths.len() == SIZE => mask.copy_from_slice(&truths),
+        Some(truths) if truths.is_empty() => {
+            let none = Diagnostic::warning(
+                "input-without-config",
+                format!("nothing of `{name}` is taken: `{name}_config` is not set"),
+            )
+            .at(at)
+            .help(
+                "list for x y z, roll pitch yaw, their velocities and accelerations: true or false",
+            );
+            diagnostics.push(none);
+        }
+        found => {
+            let count =
+                found.map_or_else(|| "other words".to_owned(), |it| format!("{} values", it.len()));
+            let bad = Diagnostic::error(
+                "bad-config",
+                format!("`{name}_config` has to be 15 times true or false, and has {count}"),
+            )
+            .at(values.origin("config"))
+            .help("x y z, roll pitch yaw, vx vy vz, vroll vpitch vyaw, ax ay az");
+            diagnostics.push(bad);
+        }
+    }
+    let pose = threshold("pose_rejection_threshold");
+    Some(Source {
+        kind,
+        topic: values.text("topic").unwrap_or_default(),
+        mask,
+        queue: values.integer("queue_size").and_then(|it| usize::try_from(it).ok()).unwrap_or(10),
+        is_differential: flag("differential"),
+        is_relative: flag("relative"),
+        removes_gravity: flag("remove_gravitational_acceleration"),
+        most_deviations: [
+            pose,
+            // `twist0_rejection_threshold` has no "twist" in its middle.
+            if kind == Kind::Twist { pose } else { threshold("twist_rejection_threshold") },
+            threshold("linear_acceleration_rejection_threshold"),
+        ],
+        name,
+    })
+}
+
+fn truth(word: &str) -> Option<bool> {
+    match word.to_ascii_lowercase().as_str() {
+        "true" | "1" => Some(true),
+        "false" | "0" => Some(false),
+        _ => None,
+    }
+}
+
+fn numbers_of(
+    values: &Values,
+    name: &str,
+    counts: &[usize],
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<f64>> {
+    let numbers = values.numbers(name);
+    if numbers.is_empty() || counts.contains(&numbers.len()) {
+        return (!numbers.is_empty()).then_some(numbers);
+    }
+    let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
+    let bad = Diagnostic::error(
+        "bad-count",
+        format!("`{name}` has {} numbers; it takes {}", numbers.len(), counts.join(" or ")),
+    )
+    .at(values.origin(name))
+    .help("the default stands in for it");
+    diagnostics.push(bad);
+    None
+}
+
+fn matrix(
+    values: &Values,
+    name: &str,
+    usual: [f64; SIZE],
+    diagnostics: &mut Diagnostics,
+) -> Covariance {
+    match numbers_of(values, name, &[SIZE, SIZE * SIZE], diagnostics) {
+        Some(numbers) if numbers.len() == SIZE => {
+            Covariance::from_diagonal(&State::from_row_slice(&numbers))
+        }
+        Some(numbers) => Covariance::from_row_slice(&numbers),
+        None => Covariance::from_diagonal(&State::from(usual)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(given: &[(&str, &str)]) -> (Settings, Vec<&'static str>) {
+        let mut diagnostics = Diagnostics::new();
+        let given = given.iter().map(|(name, text)| Given::new(name, *text));
+        let (settings, _) = Settings::read(given, &mut diagnostics);
+        (settings, diagnostics.iter().map(|it| it.code).collect())
+    }
+
+    const YAW: &str = "0 0 0 0 0 0 0 0 0 0 0 true false false false";
+
+    #[test]
+    fn inputs_by_their_names() {
+        let (settings, codes) = read(&[
+            ("imu0", "demo/imu"),
+            ("imu0_config", YAW),
+            ("imu0_twist_rejection_threshold", "3"),
+            ("odom0", "demo/odom"),
+            ("odom0_config", YAW),
+            ("odom0_queue_size", "2"),
+            ("frequency", "50"),
+        ]);
+        assert!(codes.is_empty(), "{codes:?}");
+        let names: Vec<&str> = settings.sources.iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["odom0", "imu0"]);
+        let imu = &settings.sources[1];
+        assert_eq!((imu.topic.as_str(), imu.most_deviations[1]), ("demo/imu", 3.0));
+        assert_eq!((0..SIZE).filter(|at| imu.mask[*at]).collect::<Vec<_>>(), [11]);
+        assert_eq!((settings.frequency_hz, settings.sensor_timeout_s), (50.0, 0.02));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told() {
+        let code = |given: &[(&str, &str)]| read(given).1;
+        assert_eq!(code(&[("odom0_config", YAW)]), ["input-without-topic"]);
+        assert_eq!(code(&[("odom0", "odom")]), ["input-without-config"]);
+        assert_eq!(code(&[("odom0", "odom"), ("odom0_config", "true false")]), ["bad-config"]);
+        assert_eq!(code(&[("process_noise_covariance", "1 2 3")]), ["bad-count"]);
+        assert_eq!(code(&[("use_control", "true")]), ["idle-parameter"]);
+        assert_eq!(code(&[("frequenzy", "3")]), ["unknown-parameter"]);
+    }
+}
