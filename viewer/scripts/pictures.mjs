@@ -1,9 +1,11 @@
-// Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png.
+// Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png, and docs/displays.md
+// with its own.
 //
 //   npm run pictures [FOLDER]     PERIPLUS=path/to/periplus
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
+import { displays } from './show.mjs';
 
 const OUT = process.argv[2] ?? join(ROOT, 'docs/pictures');
 const PORT = 8841;
@@ -28,49 +30,10 @@ async function scene(args, look, options = {}) {
 }
 
 const whole = (page, name) => page.screenshot({ path: join(OUT, `viewer-${name}.png`) });
-/** Only the stage, and of the displays only some; `extra` are put there for the picture. */
-async function part(page, name, kinds, extra = [], view = {}) {
-  await page.evaluate(
-    ([wanted, added, look]) => {
-      const app = window.periplus;
-      for (const entry of app.displays) app.setEnabled(entry, wanted.includes(entry.kind.title));
-      for (const [kind, values] of added) app.add(kind, '', values);
-      app.setView({ kind: 'Orbit', ...look });
-    },
-    [kinds, extra, view],
-  );
-  await page.waitForTimeout(1800);
-  await page.locator('section.stage').screenshot({ path: join(OUT, `viewer-${name}.png`) });
-  await page.evaluate((count) => {
-    const app = window.periplus;
-    for (let i = 0; i < count; i++) app.remove(app.displays[app.displays.length - 1]);
-  }, extra.length);
-}
-
 try {
   await scene(['demo', '--no-browser', '--explore'], async (page) => {
     await page.waitForTimeout(Number(process.env.DEMO_MS ?? 12_000));
     await whole(page, 'demo');
-  });
-  await scene(sim('worlds/cube_and_sphere.sdf', SAM_BOT), async (page) => {
-    const near = { distance: 5.5, yaw: 3.9, pitch: 0.6, focal: [0.6, 0, 0.2] };
-    const base = ['Grid', 'RobotModel', 'World'];
-    await part(page, 'lidar', base, [['periplus/VisualizeLidar', { Topic: '/scan' }]], near);
-    await part(page, 'scan', [...base, 'LaserScan'], [], near);
-    const cloud = { Topic: '/depth_camera/points', 'Color Transformer': 'RGB8', 'Size (m)': 0.015 };
-    await part(
-      page,
-      'points',
-      ['Grid', 'RobotModel'],
-      [['rviz_default_plugins/PointCloud2', cloud]],
-      near,
-    );
-    await part(page, 'frames', ['Grid', 'RobotModel', 'TF'], [], {
-      ...near,
-      distance: 1.6,
-      focal: [0, 0, 0.1],
-    });
-    await part(page, 'image', [...base, 'Image'], [], near);
   });
   await scene(
     [...sim('worlds/house.sdf', SAM_BOT), '--pose', '3,2.5,0.4'],
@@ -115,6 +78,7 @@ try {
   await press(3, 2.6);
   await page.waitForTimeout(800);
   await whole(page, 'building');
+  await displays(chrome, pages.url, OUT);
 } finally {
   await chrome.close();
   pages.stop();

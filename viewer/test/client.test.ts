@@ -3,7 +3,7 @@ import { FoxgloveServer } from '@foxglove/ws-protocol';
 import { WebSocketServer, WebSocket } from 'ws';
 import { encoder } from '../src/core/cdr';
 import { Client, type Socket } from '../src/core/client';
-import type { Parameter } from '../src/core/protocol';
+import type { Mismatch, Parameter } from '../src/core/protocol';
 import { parseSchema } from '../src/core/schema';
 
 /** The protocol's own server, as peer. */
@@ -155,4 +155,43 @@ test('connects again after the server was away, and hears what it heard', async 
   await vi.waitFor(() => expect(subscribed).toHaveBeenCalled(), { timeout: 5000 });
   client.stop();
   second.sockets.close();
+});
+
+test('tells of ends that do not fit, and has them repaired', async () => {
+  const sockets = new WebSocketServer({ port: 0 });
+  await new Promise((resolve) => sockets.once('listening', resolve));
+  const mismatch: Mismatch = {
+    topic: '/map',
+    publisher: { node: '/map_server', isOurs: false },
+    subscription: { node: '/planner', isOurs: true },
+    policies: [{ policy: 'durability', offered: 'volatile', asked: 'transient_local' }],
+    repair: 'subscription',
+    advice: 'let `/planner` ask for durability volatile',
+  };
+  const update = {
+    op: 'connectionGraphUpdate',
+    ...{ publishedTopics: [], subscribedTopics: [], advertisedServices: [] },
+    ...{ removedTopics: [], removedServices: [] },
+  };
+  sockets.on('connection', (socket) => {
+    socket.send(JSON.stringify({ ...update, mismatches: [mismatch] }));
+    let asked = 0;
+    socket.on('message', (data) => {
+      const { op, id, topic, publisher, subscription } = JSON.parse(String(data));
+      if (op !== 'repairQos') return;
+      expect([topic, publisher, subscription]).toEqual(['/map', '/map_server', '/planner']);
+      const isRepaired = asked++ === 0;
+      const message = isRepaired ? 'it fits now' : 'there is no such mismatch';
+      socket.send(JSON.stringify({ op: 'repairQosResult', id, isRepaired, message }));
+      socket.send(JSON.stringify({ ...update, mismatches: [] }));
+    });
+  });
+  const client = clientOf(`ws://127.0.0.1:${(sockets.address() as { port: number }).port}`);
+  client.start();
+  await vi.waitFor(() => expect(client.mismatches).toEqual([mismatch]));
+  expect(await client.repair(mismatch)).toBe('it fits now');
+  await vi.waitFor(() => expect(client.mismatches).toEqual([]));
+  await expect(client.repair(mismatch)).rejects.toThrow('no such mismatch');
+  client.stop();
+  sockets.close();
 });

@@ -1,13 +1,16 @@
 import { describe, expect, test } from 'vitest';
 import { rowsOfCloud, rowsOfScan } from '../src/displays/cloud_rows';
 import { fansOf } from '../src/displays/lidar';
-import { toPixels } from '../src/displays/pixels';
+import { extentOf, isDepth, toPixels } from '../src/displays/pixels';
+import { boxOf, leadRadius, principal } from '../src/displays/inertia';
+import { ellipsoidOf } from '../src/displays/covariance';
 import { KINDS, kindOf } from '../src/displays/registry';
 import { thinned } from '../src/scene/cloud';
 import { voxels } from '../src/displays/voxels';
 import { numberAt, numericPaths, show } from '../src/app/fields';
 import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
 import { wishFor } from '../src/app/auto';
+import { mapTruths, percent } from '../src/app/truth';
 import { Clock } from '../src/app/clock';
 import type { ImageMessage, LaserScan, PointCloud2 } from '../src/core/types';
 
@@ -121,7 +124,7 @@ describe('pictures', () => {
   });
   const pixels = (message: ImageMessage) => {
     const out = new Uint8ClampedArray(message.width * 4);
-    toPixels(message, out, { isNormalized: true, min: 0, max: 1 });
+    toPixels(message, out, isDepth(message.encoding) ? extentOf(message) : { min: 0, max: 1 });
     return [...out];
   };
 
@@ -140,6 +143,38 @@ describe('pictures', () => {
 
   test('an encoding that nobody knows is named', () => {
     expect(() => pixels(image('nv21', [1]))).toThrow('nv21');
+  });
+});
+
+describe('shapes of numbers', () => {
+  test('the box of an inertia has the edges of the body, however its axes are turned', () => {
+    // 2 kg, 1 x 2 x 3 m: 2/12 (4 + 9), 2/12 (1 + 9), 2/12 (1 + 4).
+    const plain = principal([13 / 6, 0, 0, 10 / 6, 0, 5 / 6]);
+    expect(
+      boxOf(2, plain.moments)!
+        .toArray()
+        .map((v) => +v.toFixed(6)),
+    ).toEqual([1, 2, 3]);
+    // The same, turned by 45 degrees around z.
+    const [sum, half] = [23 / 12, 3 / 12];
+    const turned = principal([sum, half, 0, sum, 0, 5 / 6]);
+    const edges = boxOf(2, turned.moments)!
+      .toArray()
+      .sort((a, b) => a - b);
+    expect(edges.map((v) => +v.toFixed(6))).toEqual([1, 2, 3]);
+    expect(boxOf(1, [1, 1, 3])).toBeUndefined();
+    expect(leadRadius(11_340 * (4 / 3) * Math.PI)).toBeCloseTo(1, 12);
+  });
+
+  test('an ellipse of a covariance; what nobody measured is not drawn', () => {
+    const covariance = new Float64Array(36);
+    expect(ellipsoidOf(covariance)).toBeUndefined();
+    covariance[0] = 0.25;
+    covariance[7] = 0.04;
+    covariance[14] = 1e12;
+    expect(ellipsoidOf(covariance)!.radii.toArray()).toEqual([0.5, 0.2, 0.002]);
+    covariance[0] = 1e9;
+    expect(ellipsoidOf(covariance)).toBeUndefined();
   });
 });
 
@@ -215,4 +250,18 @@ test('a clock knows its pace, when it stands, and when time went back', () => {
   expect(clock.isStill(1100)).toBe(false);
   expect(clock.isStill(2000)).toBe(true);
   expect(clock.set(0, 2100)).toBe(true);
+});
+
+test('maps beside the truth', () => {
+  const values = { free_iou: '0.962', walls_iou: '0.9', wall_mean_m: '0.021', explored: '0.5' };
+  const status = {
+    level: 0,
+    name: '/map',
+    message: 'the map agrees',
+    values: Object.entries(values).map(([key, value]) => ({ key, value })),
+  };
+  const [map] = mapTruths({ status: [status] } as never);
+  expect(map).toMatchObject({ topic: '/map', isGood: true, freeIou: 0.962, wallMeanM: 0.021 });
+  expect(percent(map!.freeIou)).toBe('96 %');
+  expect(percent(NaN)).toBe('–');
 });

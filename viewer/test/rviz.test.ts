@@ -1,7 +1,8 @@
 import { describe, expect, test } from 'vitest';
-import { nest, readRviz, writeRviz } from '../src/rviz/file';
+import { nest, partOf, readRviz, writeRviz } from '../src/rviz/file';
 import { viewFrom, viewTo } from '../src/rviz/view';
 import { palette } from '../src/displays/palette';
+import { kindOf } from '../src/displays/registry';
 
 const FILE = `
 Panels:
@@ -167,4 +168,46 @@ describe('palettes', () => {
       [0, 0, 0, 255],
     ]);
   });
+});
+
+test('links, frames and namespaces are switched by their names, whatever these hold', () => {
+  const file = readRviz(`
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Links:
+        All Links Enabled: true
+        base_link: {Alpha: 0.5, Show Axes: true, Value: false}
+    - Class: rviz_default_plugins/TF
+      Frames:
+        All Enabled: false
+        robot/base: {Value: true}
+    - Class: rviz_default_plugins/MarkerArray
+      Namespaces: {a/b: false}
+`);
+  const [robot, tf, markers] = file.displays;
+  expect(robot!.values['Links/base_link']).toBe(false);
+  expect(tf!.values['Frames/robot/base']).toBe(true);
+  expect(partOf('Links/base_link/Show Axes')).toBeUndefined();
+  expect(partOf('Frames/robot/base')).toEqual({ group: 'Frames', name: 'robot/base' });
+  tf!.values['Frames/robot/base'] = false;
+  const displays = [robot, tf, markers].map((d) => ({ ...d!, options: [] }));
+  const view = { class: 'rviz_default_plugins/Orbit', values: {} };
+  const again = readRviz(writeRviz({ fixedFrame: 'map', background: '0; 0; 0', displays, view }));
+  expect(again.displays.map((d) => d.original)).toMatchObject([
+    { Links: { base_link: { Alpha: 0.5, 'Show Axes': true, Value: false } } },
+    { Frames: { 'All Enabled': false, 'robot/base': { Value: false } } },
+    { Namespaces: { 'a/b': false } },
+  ]);
+});
+
+test('what RViz nests below a switch reaches the option', () => {
+  const cloud = kindOf('rviz_default_plugins/PointCloud2')!;
+  const names = new Set(cloud.options.map((option) => option.path));
+  const { values } = readRviz(FILE).displays[0]!;
+  expect(values['Autocompute Value Bounds']).toBe(false);
+  expect(values['Autocompute Value Bounds/Max Value']).toBe(3);
+  for (const path of ['Autocompute Value Bounds', 'Autocompute Value Bounds/Max Value']) {
+    expect(names.has(path)).toBe(true);
+  }
 });

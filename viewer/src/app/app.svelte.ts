@@ -1,7 +1,7 @@
 /** What all panels share: the connection, time, frames, displays, words for the user. */
 import { Client, type Handler, type Socket, type State } from '../core/client';
 import type { Message } from '../core/cdr';
-import { SUBPROTOCOL, type Parameter } from '../core/protocol';
+import { SUBPROTOCOL, type Mismatch, type Parameter } from '../core/protocol';
 import { longName } from '../core/schema';
 import { TfBuffer } from '../core/tf';
 import { seconds, stampOf, type TransformStamped } from '../core/types';
@@ -17,6 +17,7 @@ import { bestFrame, wishFor } from './auto';
 import { Clock } from './clock';
 import { Entry } from './entry.svelte';
 import { TEXTS } from './texts';
+import { mapTruths, type MapTruth } from './truth';
 
 export interface Notice {
   id: number;
@@ -56,6 +57,7 @@ export class App {
   isFrameChosen = $state(false);
   frames: string[] = $state([]);
   topics: TopicRow[] = $state.raw([]);
+  mismatches: Mismatch[] = $state.raw([]);
   services: { name: string; type: string }[] = $state.raw([]);
   parameters: Record<string, Parameter> = $state({});
   displays: Entry[] = $state([]);
@@ -69,6 +71,7 @@ export class App {
   models: string[] = $state([]);
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
+  maps: MapTruth[] = $state.raw([]);
   rvizTools: RvizTool[] = $state([]);
   fileName = $state('');
 
@@ -76,6 +79,7 @@ export class App {
   readonly clock = new Clock();
   readonly client: Client;
   stage?: Stage;
+  private leaveTruth?: () => void;
   private rvizOriginal?: Tree;
   private seen = new Set<string>();
   private publishers = new Map<string, (message: Message) => void>();
@@ -99,7 +103,11 @@ export class App {
       },
       TEXTS,
     );
-    this.client.subscribe('/clock', (message) => this.time(seconds(message.clock as never)));
+    // Both tell the same, but one may come later than the other: time would seem to go back.
+    this.client.subscribe('/clock', (message) => {
+      const isToldAnyhow = this.client.capabilities.includes('time');
+      if (!isToldAnyhow) this.time(seconds(message.clock as never));
+    });
     for (const isStatic of [false, true]) {
       this.client.subscribe(isStatic ? '/tf_static' : '/tf', (message) => {
         const now = performance.now();
@@ -262,11 +270,34 @@ export class App {
     this.services = [...client.services.values()]
       .map(({ name, type }) => ({ name, type }))
       .sort((a, b) => (a.name < b.name ? -1 : 1));
+    this.mismatches = [...client.mismatches];
     const world = this.services
       .map((service) => /^\/world\/(.+)\/control$/.exec(service.name)?.[1])
       .find(Boolean);
-    this.worldName = world ?? '';
+    this.setWorld(world ?? '');
     if (this.isAutomatic) this.addWished();
+  }
+
+  /** A simulation knows how well maps agree with its world. */
+  private setWorld(name: string): void {
+    if (name === this.worldName) return;
+    this.worldName = name;
+    this.leaveTruth?.();
+    this.leaveTruth = undefined;
+    this.maps = [];
+    if (!name) return;
+    this.leaveTruth = this.client.subscribe(`/world/${name}/truth`, (message) => {
+      this.maps = mapTruths(message);
+    });
+  }
+
+  /** Makes two ends of a topic fit. */
+  async repair(mismatch: Mismatch): Promise<void> {
+    try {
+      this.notice('info', `${mismatch.topic}: ${await this.client.repair(mismatch)}`);
+    } catch (error) {
+      this.notice('error', `${mismatch.topic}: ${(error as Error).message}`);
+    }
   }
 
   topicsOf(types: readonly string[]): string[] {

@@ -66,6 +66,9 @@ export function wishFor(topic: string, type: string): Wish | undefined {
       return wish(kind.class, values, !/(^|\/)depth\/|depth_image|label|segment/.test(topic));
     case 'geometry_msgs/msg/PolygonStamped':
       return wish(kind.class, values, !/raw/.test(topic));
+    case 'geometry_msgs/msg/PoseArray':
+      // Beside Nav2's particles AMCL tells ROS 1's: the same once more.
+      return wish(kind.class, values, !/particlecloud$/.test(topic));
     default:
       return wish(kind.class, values, !HIDDEN.has(type));
   }

@@ -34,6 +34,8 @@ const PINK = new Color('#ff5ad2');
 /** A shorter drag gives no direction [m]. */
 const LEAST_DRAG_M = 0.05;
 
+type InspectMore = (uv: Vector2, tell: (more: Record<string, string>) => void) => void;
+
 export class Tools {
   active: ToolName = $state('move');
   /** What was found under the mouse. */
@@ -215,14 +217,12 @@ export class Tools {
     const screen = new Vector2(event.clientX, event.clientY);
     content.traverseVisible((object) => {
       const inspect = object.userData.inspect as unknown;
+      if (object.userData.isMark) return;
       if (object instanceof Points && inspect) {
         const found = this.nearestPoint(object, screen);
         if (found && (!best || found.distance < best.distance)) best = found;
-      } else if (
-        'isMesh' in object &&
-        !(object as { frustumCulled: boolean } & Object3D).userData.isMark
-      ) {
-        if ((object as Mesh).geometry?.getAttribute('position')) solid.push(object);
+      } else if ('isMesh' in object && (object as Mesh).geometry?.getAttribute('position')) {
+        solid.push(object);
       }
     });
     if (best) return best.hit;
@@ -279,10 +279,19 @@ export class Tools {
     const inspect = object?.userData.inspect as
       ((index: number, uv?: Vector2) => Record<string, string>) | undefined;
     const { point: p } = hit;
-    this.found = {
+    const found: Record<string, string> = {
       ...(inspect?.(hit.index ?? 0, hit.uv) ?? {}),
       [`In ${this.app.fixedFrame}`]: `${p.x.toFixed(3)}, ${p.y.toFixed(3)}, ${p.z.toFixed(3)} m`,
     };
+    this.found = found;
+    const current = this.found;
+    // What has to be asked for comes a little later.
+    const inspectMore = object?.userData.inspectMore as InspectMore | undefined;
+    if (hit.uv) {
+      inspectMore?.(hit.uv, (more) => {
+        if (this.found === current) Object.assign(current, more);
+      });
+    }
     this.pick(hit.object);
   }
 

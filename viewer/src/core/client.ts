@@ -10,6 +10,7 @@ import {
   SUBPROTOCOL,
   type Channel,
   type Ends,
+  type Mismatch,
   type Parameter,
   type ServerFrame,
   type ServerText,
@@ -66,6 +67,8 @@ export class Client {
   readonly channels = new Map<string, Channel>();
   readonly services = new Map<string, ServiceOffer>();
   ends: Ends = { publishedTopics: [], subscribedTopics: [], advertisedServices: [] };
+  /** Ends of topics that do not fit. */
+  mismatches: Mismatch[] = [];
   serverName = '';
   capabilities: string[] = [];
   state: State = 'connecting';
@@ -77,6 +80,7 @@ export class Client {
   private ours = new Map<string, { id: number; schema: string }>();
   private calls = new Map<number, Pending<Message> & { offer: ServiceOffer }>();
   private assets = new Map<number, Pending<Uint8Array>>();
+  private repairs = new Map<number, Pending<string>>();
   private lastId = 0;
   private retryMs = FIRST_RETRY_MS;
   private retry?: ReturnType<typeof setTimeout>;
@@ -142,12 +146,15 @@ export class Client {
       topic.decode = undefined;
       topic.isBroken = false;
     }
-    for (const pending of [...this.calls.values(), ...this.assets.values()]) {
+    this.mismatches = [];
+    const { calls, assets, repairs } = this;
+    for (const pending of [...calls.values(), ...assets.values(), ...repairs.values()]) {
       clearTimeout(pending.timer);
       pending.reject(new Error(why));
     }
     this.calls.clear();
     this.assets.clear();
+    this.repairs.clear();
     this.events.offers();
   }
 
@@ -274,6 +281,20 @@ export class Client {
     });
   }
 
+  /** Has the server make both ends fit; gives its words, or fails with them. */
+  repair({ topic, publisher, subscription }: Mismatch): Promise<string> {
+    const id = ++this.lastId;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => {
+        this.repairs.delete(id);
+        reject(new Error(`The server did not say whether it repaired ${topic}`));
+      }, CALL_TIMEOUT_MS);
+      this.repairs.set(id, { resolve, reject, timer });
+      const ends = { publisher: publisher.node, subscription: subscription.node };
+      this.send({ op: 'repairQos', id, topic, ...ends });
+    });
+  }
+
   getParameters(names: string[] = []): void {
     this.send({ op: 'getParameters', parameterNames: names, id: `get${++this.lastId}` });
   }
@@ -336,8 +357,17 @@ export class Client {
         break;
       case 'connectionGraphUpdate':
         this.graphChanged(text);
+        if (text.mismatches) this.mismatches = text.mismatches;
         this.events.offers();
         break;
+      case 'repairQosResult': {
+        const repair = this.repairs.get(text.id);
+        this.repairs.delete(text.id);
+        clearTimeout(repair?.timer);
+        if (text.isRepaired) repair?.resolve(text.message);
+        else repair?.reject(new Error(text.message));
+        break;
+      }
       case 'serviceCallFailure': {
         const call = this.calls.get(text.callId);
         this.calls.delete(text.callId);

@@ -44,6 +44,17 @@ export interface Ends {
   advertisedServices: { name: string; providerIds: string[] }[];
 }
 
+/** Two ends of a topic between which nothing flows; our server's own key, see docs/live.md. */
+export interface Mismatch {
+  topic: string;
+  publisher: { node: string; isOurs: boolean };
+  subscription: { node: string; isOurs: boolean };
+  policies: { policy: string; offered: string; asked: string }[];
+  /** Which end the server can make to fit. */
+  repair: 'publisher' | 'subscription' | null;
+  advice: string;
+}
+
 export type ServerText =
   | {
       op: 'serverInfo';
@@ -60,7 +71,13 @@ export type ServerText =
   | { op: 'parameterValues'; parameters: Parameter[]; id?: string }
   | { op: 'advertiseServices'; services: ServiceOffer[] }
   | { op: 'unadvertiseServices'; serviceIds: number[] }
-  | ({ op: 'connectionGraphUpdate'; removedTopics: string[]; removedServices: string[] } & Ends)
+  | ({
+      op: 'connectionGraphUpdate';
+      removedTopics: string[];
+      removedServices: string[];
+      mismatches?: Mismatch[];
+    } & Ends)
+  | { op: 'repairQosResult'; id: number; isRepaired: boolean; message: string }
   | { op: 'serviceCallFailure'; serviceId: number; callId: number; message: string };
 
 export type ServerFrame =

@@ -35,7 +35,7 @@ export function cloudOptions(transformer: string): Option[] {
     number('Min Intensity', 0, { when: intensity }),
     number('Max Intensity', 4096, { when: intensity }),
     choice('Axis', 'Z', ['X', 'Y', 'Z'], { when: axis }),
-    bool('Autocompute Value Bounds/Value', true, { when: axis }),
+    bool('Autocompute Value Bounds', true, { when: axis }),
     number('Autocompute Value Bounds/Min Value', -10, { when: axis }),
     number('Autocompute Value Bounds/Max Value', 10, { when: axis }),
     bool('Use Fixed Frame', true, { when: axis }),
@@ -63,7 +63,7 @@ export function lookOf(values: Values, rows: Rows, fixedFromCloud: Pose): Look {
     axis: new Vector3(0, 0, 1),
     axisOffset: 0,
   };
-  if (transformer === 'RGB8' && rows.rgb !== undefined) look.coloring = 'rgb';
+  if (/^RGB/.test(transformer) && rows.rgb !== undefined) look.coloring = 'rgb';
   if (transformer === 'Intensity' && rows.value !== undefined) {
     look.coloring = 'value';
     if (get('Autocompute Intensity Bounds')) [look.low, look.high] = bounds(rows, 'value', look);
@@ -79,7 +79,7 @@ export function lookOf(values: Values, rows: Rows, fixedFromCloud: Pose): Look {
     }
     look.low = get('Autocompute Value Bounds/Min Value');
     look.high = get('Autocompute Value Bounds/Max Value');
-    if (get('Autocompute Value Bounds/Value')) [look.low, look.high] = bounds(rows, 'axis', look);
+    if (get('Autocompute Value Bounds')) [look.low, look.high] = bounds(rows, 'axis', look);
   }
   return look;
 }

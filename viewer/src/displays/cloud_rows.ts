@@ -24,9 +24,9 @@ export function rowsOfScan(scan: LaserScan): Rows {
 
 /**
  * A cloud's own bytes where they are whole words, which most are; else a copy of what is needed.
- * `channel` names the field that tells the colour.
+ * `channel` names the field that tells the colour; `isFloats` asks for colours in three fields of their own.
  */
-export function rowsOfCloud(cloud: PointCloud2, channel: string): Rows {
+export function rowsOfCloud(cloud: PointCloud2, channel: string, isFloats = false): Rows {
   const field = (name: string) => cloud.fields.find((f) => f.name === name);
   const [x, y, z] = [field('x'), field('y'), field('z')];
   if (!x || !y || !z) throw new Error('The cloud has no fields x, y and z');
@@ -38,6 +38,8 @@ export function rowsOfCloud(cloud: PointCloud2, channel: string): Rows {
   );
   const value = field(channel);
   const rgb = field('rgb') ?? field('rgba');
+  const floats = isFloats ? ['r', 'g', 'b'].flatMap((name) => field(name) ?? []) : [];
+  if (floats.length === 3) return converted(cloud, [x, y, z], value, rgb, floats);
   const isWord = (f: PointField) => f.datatype === FLOAT32 && f.offset % 4 === 0;
   const fits =
     tight &&
@@ -65,9 +67,11 @@ function converted(
   xyz: [PointField, PointField, PointField],
   value?: PointField,
   rgb?: PointField,
+  floats?: PointField[],
 ): Rows {
   const { data, point_step: step, width, height } = cloud;
   const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const little = !cloud.is_bigendian;
   const out = new Float32Array(width * height * 5);
   const words = new Uint32Array(out.buffer);
   let count = 0;
@@ -76,12 +80,20 @@ function converted(
       const at = row * cloud.row_step + column * step;
       if (at + step > data.length) break;
       const to = count++ * 5;
-      xyz.forEach((field, i) => (out[to + i] = read(view, at, field, !cloud.is_bigendian)));
-      if (value) out[to + 3] = read(view, at, value, !cloud.is_bigendian);
-      if (rgb) words[to + 4] = view.getUint32(at + rgb.offset, !cloud.is_bigendian);
+      xyz.forEach((field, i) => (out[to + i] = read(view, at, field, little)));
+      if (value) out[to + 3] = read(view, at, value, little);
+      if (floats) words[to + 4] = packed(floats.map((f) => read(view, at, f, little)));
+      else if (rgb) words[to + 4] = view.getUint32(at + rgb.offset, little);
     }
   }
-  return { words, stride: 5, count, xyz: 0, value: value && 3, rgb: rgb && 4 };
+  const isColored = !!(rgb ?? floats);
+  return { words, stride: 5, count, xyz: 0, value: value && 3, rgb: isColored ? 4 : undefined };
+}
+
+/** Colours from 0 to 1 as 0x00rrggbb. */
+function packed(parts: number[]): number {
+  const [r, g, b] = parts.map((v) => Math.max(0, Math.min(255, Math.round(v * 255))));
+  return (r! << 16) | (g! << 8) | b!;
 }
 
 function read(view: DataView, at: number, field: PointField, isLittle: boolean): number {

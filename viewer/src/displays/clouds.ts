@@ -15,7 +15,7 @@ import { cloudOptions, lookOf } from './cloud_look';
 import { rowsOfCloud, rowsOfScan } from './cloud_rows';
 import { depthRows } from './depth';
 import { FramedDisplay, type Kind } from './display';
-import { alpha, bool, int, number, text, topic, type Values } from './options';
+import { alpha, number, topic, type Values } from './options';
 
 /** So many points are drawn without a GPU. */
 const MOST_WITHOUT_GPU = 60_000;
@@ -49,6 +49,7 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     entry.stampS = stampS;
     entry.cloud.show(rows);
     entry.cloud.look(lookOf(this.values, rows, fixedFromFrame));
+    entry.cloud.object.userData.isMark = !this.get('Selectable');
     this.put(entry.cloud.object, fixedFromFrame);
     const thin = rows.every > 1 ? `; without a GPU, one in ${rows.every} is drawn` : '';
     this.host.status('Points', 'ok', `${all.count.toLocaleString('en')} points${thin}`);
@@ -94,7 +95,8 @@ class LaserScanDisplay extends PointsDisplay<LaserScan> {
 
 class PointCloud2Display extends PointsDisplay<PointCloud2> {
   protected override rows(message: PointCloud2): Rows {
-    return rowsOfCloud(message, this.get('Channel Name'));
+    const isFloats = this.get('Color Transformer') === 'RGBF32';
+    return rowsOfCloud(message, this.get('Channel Name'), isFloats);
   }
 }
 
@@ -174,23 +176,8 @@ export const depthCloud: Kind = {
   options: [
     { path: 'Depth Map Topic', kind: 'topic', default: '', types: IMAGE },
     { path: 'Color Image Topic', kind: 'topic', default: '', types: IMAGE },
-    text('Depth Map Transport Hint', 'raw'),
-    text('Color Transport Hint', 'raw'),
-    choiceOfReliability(),
-    int('Queue Size', 5, { min: 1 }),
-    bool('Occlusion Compensation/Value', false),
-    number('Occlusion Compensation/Occlusion Time-Out', 30),
     ...depthOptions.map((option) => (option.path === 'Alpha' ? alpha('Alpha', 1) : option)),
     number('Decay Time', 0, { min: 0 }),
   ],
   make: (context, values: Values, host) => new DepthCloudDisplay(context, values, host),
 };
-
-function choiceOfReliability() {
-  return {
-    path: 'Reliability Policy',
-    kind: 'choice' as const,
-    default: 'Best effort',
-    choices: ['Best effort', 'Reliable', 'System Default'],
-  };
-}

@@ -115,6 +115,14 @@ export abstract class Display {
     this.context.stage.invalidate();
   }
 
+  /** Turns all parts on or off whose names begin so; `all` is what was just set. */
+  protected toggleAll(prefix: string, all: string): void {
+    for (const path of Object.keys(this.values)) {
+      const isPart = path.startsWith(prefix) && path !== all;
+      if (isPart && typeof this.values[path] === 'boolean') this.host.note(path, this.get(all));
+    }
+  }
+
   protected empty(): void {
     for (const child of [...this.root.children]) dispose(child);
   }
@@ -128,7 +136,6 @@ export abstract class Display {
 }
 
 const PATIENCE_MS = 700;
-const MOST_PENDING = 10;
 
 /**
  * Waits for the transform of each message, as RViz does. What nobody can transform is shown where its
@@ -140,7 +147,8 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
 
   protected override receive(message: Message): void {
     this.pending.push({ message: message as never, sinceMs: performance.now() });
-    if (this.pending.length > MOST_PENDING) this.pending.shift();
+    const most = (this.values['Topic/Filter size'] as number | undefined) ?? 10;
+    if (this.pending.length > most) this.pending.shift();
   }
 
   override tick(nowMs: number): void {

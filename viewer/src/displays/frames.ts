@@ -35,6 +35,7 @@ class TfDisplay extends Display {
   protected override receive(_message: Message): void {}
 
   override changed(path: string): void {
+    if (path === 'Frames/All Enabled') this.toggleAll('Frames/', path);
     this.clear();
     super.changed(path);
   }
@@ -55,7 +56,7 @@ class TfDisplay extends Display {
   }
 
   private wanted(name: string): boolean {
-    if (this.values[`Frames/${name}/Value`] === false) return false;
+    if (this.values[`Frames/${name}`] === false) return false;
     const allowed = pattern(this.get('Filter (whitelist)'));
     const denied = pattern(this.get('Filter (blacklist)'));
     return (!allowed || allowed.test(name)) && !denied?.test(name);
@@ -70,7 +71,13 @@ class TfDisplay extends Display {
     this.fixed = fixed;
     this.lookedMs = nowMs;
     const timeoutMs = this.get<number>('Frame Timeout') * 1000;
-    const names = tf.names().filter((name) => this.wanted(name));
+    const all = tf.names();
+    for (const name of all) {
+      if (!(`Frames/${name}` in this.values)) {
+        this.host.note(`Frames/${name}`, this.get('Frames/All Enabled'));
+      }
+    }
+    const names = all.filter((name) => this.wanted(name));
     for (const name of this.shown.keys()) if (!names.includes(name)) this.drop(name);
     let lost = 0;
     for (const name of names) {
@@ -102,7 +109,10 @@ class TfDisplay extends Display {
       });
       this.root.add(entry.axes);
       if (this.get('Show Names')) {
-        entry.name = label(name, 0.09 * scale);
+        entry.name = label(name, 0.075 * scale);
+        // Frames are inside of what they belong to.
+        entry.name.material.depthTest = false;
+        entry.name.renderOrder = 40;
         this.root.add(entry.name);
       }
       this.shown.set(name, entry);
@@ -308,7 +318,6 @@ export const axes: Kind = {
     frame('Reference Frame', '<Fixed Frame>'),
     number('Length', 1, { min: 0.01, step: 0.1 }),
     number('Radius', 0.1, { min: 0.001, step: 0.01 }),
-    bool('Show Trail', false),
     alpha('Alpha', 1),
   ],
   make: (...all) => new AxesDisplay(...all),

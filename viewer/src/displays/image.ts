@@ -1,15 +1,19 @@
 /** Image and Camera: pictures beside the scene; through a camera's eyes the scene lies over them. */
-import { PerspectiveCamera, WebGLRenderTarget } from 'three';
+import { Matrix4, PerspectiveCamera, WebGLRenderTarget } from 'three';
 import type { Message } from '../core/cdr';
 import { seconds, type CameraInfo, type ImageMessage } from '../core/types';
 import { matrixOf } from '../scene/shapes';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, int, number, topic } from './options';
-import { toPixels } from './pixels';
+import { extentOf, isDepth, toPixels, type Extent } from './pixels';
+
+const NONE: Extent = { min: 0, max: 1 };
 
 class ImageDisplay extends Display {
   readonly canvas = document.createElement('canvas');
   protected image?: ImageMessage;
+  private screen?: ImageData;
+  private extents: Extent[] = [];
 
   override start(): void {
     super.start();
@@ -24,18 +28,36 @@ class ImageDisplay extends Display {
     const image = message as unknown as ImageMessage;
     const { width, height } = image;
     if (!(width > 0 && height > 0)) throw new Error('The picture has no pixels');
-    const pixels = new ImageData(width, height);
-    toPixels(image, pixels.data, {
-      isNormalized: this.get('Normalize Range'),
-      min: this.get('Min Value'),
-      max: this.get('Max Value'),
-    });
+    if (this.screen?.width !== width || this.screen.height !== height) {
+      this.screen = new ImageData(width, height);
+      this.extents = [];
+    }
+    const pixels = this.screen;
+    toPixels(image, pixels.data, this.range(image));
     this.image = image;
     if (this.canvas.width !== width) this.canvas.width = width;
     if (this.canvas.height !== height) this.canvas.height = height;
     this.canvas.getContext('2d')!.putImageData(pixels, 0, 0);
     this.painted();
     this.host.status('Image', 'ok', `${width} x ${height}, ${image.encoding}`);
+  }
+
+  /** Between which numbers a depth picture is grey: given ones, or the median of the last ones found. */
+  private range(image: ImageMessage): Extent {
+    if (!isDepth(image.encoding)) return NONE;
+    if (!this.get('Normalize Range')) {
+      return { min: this.get('Min Value'), max: this.get('Max Value') };
+    }
+    const found = extentOf(image);
+    if (found.min <= found.max) this.extents.push(found);
+    const most = Math.max(1, this.get<number>('Median window'));
+    while (this.extents.length > most) this.extents.shift();
+    return { min: this.median('min'), max: this.median('max') };
+  }
+
+  private median(of: keyof Extent): number {
+    const all = this.extents.map((extent) => extent[of]).sort((a, b) => a - b);
+    return all[all.length >> 1] ?? 0;
   }
 
   private async compressed(message: {
@@ -56,6 +78,12 @@ class ImageDisplay extends Display {
   protected painted(): void {}
 }
 
+/** Linear light as bytes of sRGB. */
+const SRGB = Uint8Array.from({ length: 256 }, (_, i) => {
+  const v = i / 255;
+  return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.pow(v, 1 / 2.4) - 0.055));
+});
+
 /** At most so often the scene is drawn through a camera's eyes [ms]. */
 const LEAST_MS = 150;
 
@@ -65,6 +93,9 @@ class CameraDisplay extends ImageDisplay {
   private target?: WebGLRenderTarget;
   private camera = new PerspectiveCamera();
   private drawnMs = 0;
+  private pixels?: ImageData;
+  private bytes = new Uint8Array(0);
+  private layer = document.createElement('canvas');
 
   override start(): void {
     super.start();
@@ -77,9 +108,12 @@ class CameraDisplay extends ImageDisplay {
 
   protected override painted(): void {
     const { info, image } = this;
-    const rendering = this.get<string>('Image Rendering');
     const now = performance.now();
-    if (!image || rendering === 'background' || now - this.drawnMs < LEAST_MS) return;
+    if (!image) return;
+    if (now - this.drawnMs < LEAST_MS) {
+      this.compose();
+      return;
+    }
     if (!info) {
       this.host.status('Camera', 'warn', 'No camera_info came beside the picture yet');
       return;
@@ -105,13 +139,28 @@ class CameraDisplay extends ImageDisplay {
     this.aim(info, matrixOf(newest.pose));
     this.target ??= new WebGLRenderTarget(w, h, { samples: 2 });
     this.target.setSize(w, h);
-    const { renderer } = stage;
+    const { renderer, scene } = stage;
+    const { background } = scene;
+    // Where nothing is, nothing is drawn.
+    scene.background = null;
+    renderer.setClearColor(0x000000, 0);
     renderer.setRenderTarget(this.target);
-    renderer.render(stage.scene, this.camera);
-    const bytes = new Uint8Array(w * h * 4);
-    renderer.readRenderTargetPixels(this.target, 0, 0, w, h, bytes);
+    renderer.render(scene, this.camera);
+    if (this.pixels?.width !== w || this.pixels.height !== h) {
+      this.pixels = new ImageData(w, h);
+      this.bytes = new Uint8Array(w * h * 4);
+    }
+    renderer.readRenderTargetPixels(this.target, 0, 0, w, h, this.bytes);
     renderer.setRenderTarget(null);
-    this.overlay(bytes, w, h);
+    scene.background = background;
+    this.overlay(this.pixels, w, h);
+  }
+
+  private zoom(factor: number): void {
+    if (factor === 1) return;
+    const { width: w, height: h } = this.canvas;
+    const [dx, dy] = [(w * (1 - factor)) / 2, (h * (1 - factor)) / 2];
+    this.canvas.getContext('2d')!.drawImage(this.canvas, dx, dy, w * factor, h * factor);
   }
 
   /** ROS's optical frames look along z with y down; three.js looks along -z with y up. */
@@ -126,6 +175,8 @@ class CameraDisplay extends ImageDisplay {
       ...([0, 0, -(far + near) / (far - near), (-2 * far * near) / (far - near)] as const),
       ...([0, 0, -1, 0] as const),
     );
+    const zoom = this.get<number>('Zoom Factor');
+    camera.projectionMatrix.premultiply(new Matrix4().makeScale(zoom, zoom, 1));
     camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
     camera.matrixAutoUpdate = false;
     camera.matrix.copy(fixedFromOptical);
@@ -134,22 +185,46 @@ class CameraDisplay extends ImageDisplay {
     camera.updateMatrixWorld(true);
   }
 
-  private overlay(bytes: Uint8Array, w: number, h: number): void {
-    const rows = new ImageData(w, h);
+  /** Takes over what was drawn. */
+  private overlay(pixels: ImageData, w: number, h: number): void {
+    const { bytes } = this;
     for (let v = 0; v < h; v++) {
-      rows.data.set(bytes.subarray((h - 1 - v) * w * 4, (h - v) * w * 4), v * w * 4);
+      for (let u = 0; u < w; u++) {
+        const from = ((h - 1 - v) * w + u) * 4;
+        const to = (v * w + u) * 4;
+        const alpha = bytes[from + 3]!;
+        pixels.data[to + 3] = alpha;
+        // A render target holds linear light, times what covers it; the screen wants sRGB.
+        for (let k = 0; alpha > 0 && k < 3; k++) {
+          const linear = Math.round((bytes[from + k]! * 255) / alpha);
+          pixels.data[to + k] = SRGB[Math.min(255, linear)]!;
+        }
+      }
     }
-    // A render target holds linear light; the screen wants sRGB.
-    for (let i = 0; i < rows.data.length; i++) {
-      if ((i & 3) !== 3) rows.data[i] = 255 * Math.pow(rows.data[i]! / 255, 1 / 2.2);
+    const { layer } = this;
+    if (layer.width !== w || layer.height !== h) [layer.width, layer.height] = [w, h];
+    const ink = layer.getContext('2d')!;
+    ink.putImageData(pixels, 0, 0);
+    const rendering = this.get<string>('Image Rendering');
+    if (rendering === 'overlay') {
+      ink.globalCompositeOperation = 'destination-over';
+      ink.fillStyle = '#303030';
+      ink.fillRect(0, 0, w, h);
+      ink.globalCompositeOperation = 'source-over';
     }
-    const layer = document.createElement('canvas');
-    layer.width = w;
-    layer.height = h;
-    layer.getContext('2d')!.putImageData(rows, 0, 0);
+    this.compose();
+  }
+
+  /** Scene and picture together, as RViz has it: the picture behind the scene, over it, or both. */
+  private compose(): void {
+    this.zoom(this.get('Zoom Factor'));
     const context = this.canvas.getContext('2d')!;
-    context.globalAlpha = this.get('Overlay Alpha');
-    context.drawImage(layer, 0, 0, this.canvas.width, this.canvas.height);
+    const { width, height } = this.canvas;
+    const rendering = this.get<string>('Image Rendering');
+    // A veil of so much picture lies over the scene.
+    const veil = rendering === 'background' ? 0 : this.get<number>('Overlay Alpha');
+    context.globalAlpha = 1 - veil;
+    if (this.drawnMs > 0) context.drawImage(this.layer, 0, 0, width, height);
     context.globalAlpha = 1;
   }
 

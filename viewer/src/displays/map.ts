@@ -110,6 +110,8 @@ class MapDisplay extends Display {
     this.mesh = new Mesh<BufferGeometry>(plane, material);
     this.mesh.frustumCulled = false;
     this.mesh.userData.inspect = (_i: number, uv?: Vector2) => this.inspect(uv);
+    this.mesh.userData.inspectMore = (uv: Vector2, tell: (more: Record<string, string>) => void) =>
+      this.layers(uv, tell);
     this.root.add(this.mesh);
     this.look();
   }
@@ -203,10 +205,9 @@ class MapDisplay extends Display {
   private inspect(uv?: Vector2): Record<string, string> {
     const { grid } = this;
     if (!grid || !uv) return {};
-    const { width, height, resolution, origin } = grid.info;
-    const i = Math.min(width - 1, Math.floor(uv.x * width));
-    const j = Math.min(height - 1, Math.floor(uv.y * height));
-    const value = (this.cells!.image as unknown as { data: Uint8Array }).data[j * width + i]!;
+    const { resolution, origin } = grid.info;
+    const { i, j } = cellOf(grid, uv);
+    const value = this.valueAt(uv);
     return {
       Map: this.get('Topic'),
       Cell: `${i}, ${j}`,
@@ -214,6 +215,47 @@ class MapDisplay extends Display {
       Value: value === 255 ? '-1 (unknown)' : String(value),
       Meaning: meaning(value, this.get<Scheme>('Color Scheme')),
     };
+  }
+
+  /** What each layer of a costmap has in the cell: Nav2 tells them beside the sum. */
+  private layers(uv: Vector2, tell: (more: Record<string, string>) => void): void {
+    const { grid } = this;
+    if (!grid || this.get('Color Scheme') !== 'costmap') return;
+    const topic = this.get<string>('Topic');
+    const base = topic.slice(0, topic.lastIndexOf('/') + 1);
+    const isLayer = (name: string) => name.startsWith(base) && /_layer$/.test(name);
+    const names = this.context.topicsOfType(MAP).filter(isLayer);
+    const sum = this.valueAt(uv);
+    const values = new Map<string, number>();
+    for (const name of names) {
+      const leave = this.context.subscribe(name, (message) => {
+        leave();
+        const layer = message as unknown as OccupancyGrid;
+        if (layer.info.width !== grid.info.width || layer.info.height !== grid.info.height) return;
+        const value = layer.data[cellOf(grid, uv).at];
+        if (value === undefined) return;
+        values.set(name.slice(base.length), value);
+        const most = Math.max(...values.values());
+        const makers = [...values].filter(([, v]) => v === most && v >= 99).map(([n]) => n);
+        const why =
+          values.size < names.length
+            ? 'asking the layers'
+            : makers.length > 0 && sum >= 99 && sum !== 255
+              ? `marked by ${makers.join(', ')}`
+              : sum > 0 && sum !== 255
+                ? 'by inflation: no layer itself marks it'
+                : 'no layer marks it';
+        const all = [...values].map(([n, v]) => [`Layer ${n}`, v < 0 ? 'unknown' : String(v)]);
+        tell({ ...Object.fromEntries(all), Why: why });
+      });
+      // A layer that says nothing is not waited for.
+      setTimeout(leave, 3000);
+    }
+  }
+
+  private valueAt(uv: Vector2): number {
+    const { data } = this.cells!.image as unknown as { data: Uint8Array };
+    return data[cellOf(this.grid!, uv).at]!;
   }
 
   override clear(): void {
@@ -229,6 +271,12 @@ class MapDisplay extends Display {
     this.colors.dispose();
     super.stop();
   }
+}
+
+function cellOf({ info: { width, height } }: OccupancyGrid, uv: Vector2) {
+  const i = Math.min(width - 1, Math.floor(uv.x * width));
+  const j = Math.min(height - 1, Math.floor(uv.y * height));
+  return { i, j, at: j * width + i };
 }
 
 /** What a cell of an OccupancyGrid says. Costs are published by Nav2 scaled to 0..100. */

@@ -1,8 +1,8 @@
 /** Pictures of every raw encoding of sensor_msgs as pixels of the screen. */
 import type { ImageMessage } from '../core/types';
 
-export interface Range {
-  isNormalized: boolean;
+/** The numbers that are black and white. */
+export interface Extent {
   min: number;
   max: number;
 }
@@ -74,15 +74,28 @@ export function pixelReader(image: ImageMessage): Reader {
   throw new Error(`Pictures in the encoding "${encoding}" cannot be shown`);
 }
 
-/** Numbers of a depth picture, metres or whatever it holds. */
-export function numberReader(image: ImageMessage): Reader {
-  const { data, step, encoding } = image;
-  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-  const little = !image.is_bigendian;
+type Numbers = ArrayLike<number>;
+
+/** Numbers of a depth picture, metres or whatever it holds; as they lie in memory where that fits. */
+function numbersOf(image: ImageMessage): { numbers: Numbers; perRow: number } {
+  const { data, step, encoding, height, width } = image;
   const size =
     encoding.startsWith('16') || encoding === 'mono16' ? 2 : encoding === '64FC1' ? 8 : 4;
-  return (u, v) => {
-    const at = v * step + u * size;
+  const usable = Math.min(data.length, step * height);
+  if (!image.is_bigendian && step % size === 0) {
+    const bytes = data.byteOffset % size === 0 ? data : data.slice();
+    const [at, count] = [bytes.byteOffset, Math.floor(usable / size)];
+    const { buffer } = bytes;
+    const perRow = step / size;
+    if (encoding === '32FC1') return { numbers: new Float32Array(buffer, at, count), perRow };
+    if (encoding === '64FC1') return { numbers: new Float64Array(buffer, at, count), perRow };
+    if (encoding === '16SC1') return { numbers: new Int16Array(buffer, at, count), perRow };
+    if (encoding === '32SC1') return { numbers: new Int32Array(buffer, at, count), perRow };
+    return { numbers: new Uint16Array(buffer, at, count), perRow };
+  }
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const little = !image.is_bigendian;
+  const read = (at: number): number => {
     if (at + size > data.length) return NaN;
     if (encoding === '32FC1') return view.getFloat32(at, little);
     if (encoding === '64FC1') return view.getFloat64(at, little);
@@ -90,40 +103,61 @@ export function numberReader(image: ImageMessage): Reader {
     if (encoding === '32SC1') return view.getInt32(at, little);
     return view.getUint16(at, little);
   };
+  const numbers = new Float64Array(width * height);
+  for (let i = 0; i < numbers.length; i++) {
+    numbers[i] = read(Math.floor(i / width) * step + (i % width) * size);
+  }
+  return { numbers, perRow: width };
 }
 
-/** Fills RGBA pixels. Depth is grey between its least and its greatest, or between given numbers. */
-export function toPixels(image: ImageMessage, out: Uint8ClampedArray, range: Range): void {
-  const { width, height, encoding } = image;
+/** The least and the greatest number of a depth picture; what nothing was seen of does not count. */
+export function extentOf(image: ImageMessage): Extent {
+  const { numbers, perRow } = numbersOf(image);
+  let [min, max] = [Infinity, -Infinity];
+  for (let v = 0; v < image.height; v++) {
+    for (let at = v * perRow, end = at + image.width; at < end; at++) {
+      const n = numbers[at]!;
+      if (n < min && n > -Infinity) min = n;
+      if (n > max && n < Infinity) max = n;
+    }
+  }
+  return { min, max };
+}
+
+/** Fills RGBA pixels. Depth is grey between two numbers. */
+export function toPixels(image: ImageMessage, out: Uint8ClampedArray, extent: Extent): void {
+  const { width, height, encoding, data, step } = image;
   const words = new Uint32Array(out.buffer, out.byteOffset, width * height);
-  if (!isDepth(encoding)) {
-    const read = pixelReader(image);
-    for (let v = 0, at = 0; v < height; v++) {
-      for (let u = 0; u < width; u++, at++) {
-        const c = read(u, v);
-        words[at] = 0xff000000 | ((c & 0xff) << 16) | (c & 0xff00) | (c >> 16);
+  const known = CHANNELS[encoding];
+  let to = 0;
+  if (known && data.length >= step * (height - 1) + width * known[0]) {
+    const [size, r, g, b] = known;
+    for (let v = 0; v < height; v++) {
+      for (let u = 0, at = v * step; u < width; u++, at += size) {
+        words[to++] = 0xff000000 | (data[at + b]! << 16) | (data[at + g]! << 8) | data[at + r]!;
       }
     }
     return;
   }
-  const read = numberReader(image);
-  let { min, max } = range;
-  if (range.isNormalized) {
-    [min, max] = [Infinity, -Infinity];
+  if (!isDepth(encoding)) {
+    const read = pixelReader(image);
     for (let v = 0; v < height; v++) {
       for (let u = 0; u < width; u++) {
-        const n = read(u, v);
-        if (n < min && n > -Infinity) min = n;
-        if (n > max && n < Infinity) max = n;
+        const c = read(u, v);
+        words[to++] = 0xff000000 | ((c & 0xff) << 16) | (c & 0xff00) | (c >> 16);
       }
     }
+    return;
   }
+  const { numbers, perRow } = numbersOf(image);
+  const { min, max } = extent;
   const scale = max > min ? 255 / (max - min) : 0;
-  for (let v = 0, at = 0; v < height; v++) {
-    for (let u = 0; u < width; u++, at++) {
-      const n = read(u, v);
-      const grey = Number.isNaN(n) ? 0 : Math.max(0, Math.min(255, (n - min) * scale)) | 0;
-      words[at] = 0xff000000 | (grey << 16) | (grey << 8) | grey;
+  for (let v = 0; v < height; v++) {
+    for (let at = v * perRow, end = at + width; at < end; at++) {
+      const grey = (numbers[at]! - min) * scale;
+      // What is no number is black.
+      const byte = grey > 255 ? 255 : grey > 0 ? grey | 0 : 0;
+      words[to++] = 0xff000000 | (byte << 16) | (byte << 8) | byte;
     }
   }
 }

@@ -8,7 +8,6 @@ import {
   Matrix4,
   Mesh,
   MeshBasicMaterial,
-  SphereGeometry,
 } from 'three';
 import type { Message } from '../core/cdr';
 import { multiply, type Pose } from '../core/pose';
@@ -26,6 +25,7 @@ import {
   surface,
 } from '../scene/shapes';
 import { dispose } from '../scene/stage';
+import { covarianceOf, covarianceOptions, type Get } from './covariance';
 import { type Display, FramedDisplay, type Kind } from './display';
 import {
   alpha,
@@ -37,11 +37,9 @@ import {
   topic,
   vector,
   type Option,
-  type Value,
   type Values,
 } from './options';
 
-type Get = <T extends Value>(path: string) => T;
 const SHAPES = ['Arrow', 'Axes'];
 
 /** One shape that stands for a pose. RViz names the options alike with and without "Shape/". */
@@ -77,58 +75,10 @@ function shapeOf(get: Get, prefix: string): { geometry: BufferGeometry; material
   return { geometry, material: surface(colorOf(get(`${prefix}Color`)), opacity) };
 }
 
-function covarianceOptions(): Option[] {
-  return [
-    bool('Covariance', false),
-    bool('Covariance/Position', true),
-    color('Covariance/Position/Color', '204; 51; 204'),
-    alpha('Covariance/Position/Alpha', 0.3),
-    bool('Covariance/Orientation', true),
-    color('Covariance/Orientation/Color', '255; 255; 127'),
-    alpha('Covariance/Orientation/Alpha', 0.5),
-    number('Covariance/Orientation/Offset', 1),
-  ];
-}
-
-/** The ellipse of one standard deviation on the ground, and the cone of the heading's. */
-function covarianceOf(get: Get, covariance: ArrayLike<number>): Group {
-  const group = new Group();
-  const [xx, xy, yy] = [covariance[0] ?? 0, covariance[1] ?? 0, covariance[7] ?? 0];
-  const middle = (xx + yy) / 2;
-  const spread = Math.hypot((xx - yy) / 2, xy);
-  const radii = [middle + spread, middle - spread].map((v) => Math.sqrt(Math.max(0, v)));
-  if (get('Covariance/Position') && radii[0]! > 0) {
-    const paint = colorOf(get('Covariance/Position/Color'));
-    const ellipse = new Mesh(
-      new SphereGeometry(1, 24, 12),
-      surface(paint, get<number>('Covariance/Position/Alpha')),
-    );
-    ellipse.scale.set(
-      radii[0]!,
-      Math.max(radii[1]!, 1e-3),
-      Math.max(1e-3, Math.sqrt(covariance[14] ?? 0)),
-    );
-    ellipse.rotation.z = Math.atan2(2 * xy, xx - yy) / 2;
-    group.add(ellipse);
-  }
-  const yaw = Math.sqrt(Math.max(0, covariance[35] ?? 0));
-  if (get('Covariance/Orientation') && yaw > 0) {
-    const length = get<number>('Covariance/Orientation/Offset');
-    const points: number[] = [];
-    const wide = Math.min(yaw, Math.PI);
-    for (let i = -8; i <= 8; i++) {
-      const a = (i / 8) * wide;
-      points.push(Math.cos(a) * length, Math.sin(a) * length, 0);
-    }
-    const fan = polyline(
-      [0, 0, 0, ...points, 0, 0, 0],
-      colorOf(get('Covariance/Orientation/Color')),
-      get<number>('Covariance/Orientation/Alpha'),
-    );
-    fan.userData.turnsWithPose = true;
-    group.add(fan);
-  }
-  return group;
+function placed(mesh: Mesh, frameFromMesh: Matrix4): Mesh {
+  mesh.matrixAutoUpdate = false;
+  mesh.matrix.copy(frameFromMesh);
+  return mesh;
 }
 
 class OdometryDisplay extends FramedDisplay<Odometry> {
@@ -141,10 +91,13 @@ class OdometryDisplay extends FramedDisplay<Odometry> {
     const get: Get = (path) => this.get(path);
     const { geometry, material } = shapeOf(get, 'Shape/');
     const object = new Group();
-    object.add(new Mesh(geometry, material));
-    if (this.get('Covariance')) object.add(covarianceOf(get, message.pose.covariance));
+    const frameFromPose = matrixOf(poseOf(message.pose.pose));
+    object.add(placed(new Mesh(geometry, material), frameFromPose));
+    if (this.get('Covariance')) {
+      object.add(covarianceOf(get, message.pose.covariance, frameFromPose));
+    }
     this.root.add(object);
-    this.put(object, pose);
+    this.put(object, fixedFromFrame);
     this.kept.push({ object, pose });
     const most = this.get<number>('Keep');
     while (most > 0 && this.kept.length > most) dispose(this.kept.shift()!.object);
@@ -232,13 +185,14 @@ class PoseDisplay extends FramedDisplay<PoseMessageStamped> {
     const inner = 'pose' in message.pose ? message.pose.pose : message.pose;
     const get: Get = (path) => this.get(path);
     const { geometry, material } = shapeOf(get, '');
+    const frameFromPose = matrixOf(poseOf(inner));
     const group = new Group();
-    group.add(new Mesh(geometry, material));
+    group.add(placed(new Mesh(geometry, material), frameFromPose));
     if ('covariance' in message.pose && this.values.Covariance) {
-      group.add(covarianceOf(get, message.pose.covariance));
+      group.add(covarianceOf(get, message.pose.covariance, frameFromPose));
     }
     this.root.add(group);
-    this.put(group, multiply(fixedFromFrame, poseOf(inner)));
+    this.put(group, fixedFromFrame);
   }
 }
 
@@ -460,7 +414,7 @@ export const poseWithCovariance = kind(
   [
     ...topic('Topic', '', WITH_COVARIANCE, { isFiltered: true }),
     ...shapeOptions(''),
-    ...covarianceOptions().map((o) => (o.path === 'Covariance' ? { ...o, default: true } : o)),
+    ...covarianceOptions(),
   ],
   PoseDisplay,
 );

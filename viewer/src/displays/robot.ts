@@ -5,10 +5,13 @@ import { copyOf, MeshLibrary } from '../scene/meshes';
 import { matrixOf, surface, UNIT_BOX, UNIT_CYLINDER, UNIT_SPHERE } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
+import { boxOf, leadRadius, principal } from './inertia';
 import { alpha, bool, choice, number, text, topic } from './options';
 import { readUrdf, type Link, type Part, type Robot } from './urdf';
 
 const PLAIN = '#9fb3c8';
+const MASS = new Color('#e5383b');
+const INERTIA = new Color('#2fb344');
 
 class RobotModelDisplay extends Display {
   private robot?: Robot;
@@ -52,6 +55,7 @@ class RobotModelDisplay extends Display {
     this.links.clear();
     this.missing.clear();
     this.host.status('Meshes', 'ok');
+    this.host.status('Inertia', 'ok');
     for (const link of this.robot?.links ?? []) {
       const group = new Group();
       group.matrixAutoUpdate = false;
@@ -70,9 +74,38 @@ class RobotModelDisplay extends Display {
   }
 
   private fill(group: Group, link: Link): void {
-    if (this.values[`Links/${link.name}/Value`] === false) return;
+    if (!(`Links/${link.name}` in this.values)) this.host.note(`Links/${link.name}`, true);
+    if (this.values[`Links/${link.name}`] === false) return;
     if (this.get('Visual Enabled')) for (const part of link.visuals) this.part(group, part, false);
     if (this.get('Collision Enabled')) for (const p of link.collisions) this.part(group, p, true);
+    if (link.mass > 0) this.masses(group, link);
+  }
+
+  /** As RViz: the mass as a red ball of lead, the inertia as the green box that has it. */
+  private masses(group: Group, link: Link): void {
+    const middle = matrixOf(link.linkFromMass);
+    const put = (mesh: Mesh) => {
+      const holder = new Group();
+      holder.matrixAutoUpdate = false;
+      holder.matrix.copy(middle);
+      group.add(holder.add(mesh));
+    };
+    if (this.get('Mass Properties/Mass')) {
+      const ball = new Mesh(UNIT_SPHERE, surface(MASS));
+      ball.scale.setScalar(2 * leadRadius(link.mass));
+      put(ball);
+    }
+    if (!this.get('Mass Properties/Inertia')) return;
+    const { moments, turn } = principal(link.inertia);
+    const size = boxOf(link.mass, moments);
+    if (!size) {
+      this.host.status('Inertia', 'warn', `The inertia of ${link.name} is that of no solid body`);
+      return;
+    }
+    const box = new Mesh(UNIT_BOX, surface(INERTIA, 0.5));
+    box.scale.copy(size);
+    box.quaternion.copy(turn);
+    put(box);
   }
 
   private part(group: Group, part: Part, isCollision: boolean): void {
@@ -120,6 +153,7 @@ class RobotModelDisplay extends Display {
   }
 
   override changed(path: string): void {
+    if (path === 'Links/All Links Enabled') this.toggleAll('Links/', path);
     if (path.startsWith('Description')) this.start();
     else if (path !== 'TF Prefix' && path !== 'Update Interval') this.rebuild();
     this.version = -1;
@@ -182,6 +216,7 @@ export const robotModel: Kind = {
     text('Description File', '', { when: (v) => v['Description Source'] === 'File' }),
     ...topic('Description Topic', '/robot_description', TEXT, { durability: 'Transient Local' }),
     text('TF Prefix', ''),
+    bool('Links/All Links Enabled', true),
     bool('Mass Properties/Inertia', false),
     bool('Mass Properties/Mass', false),
   ],

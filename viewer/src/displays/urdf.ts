@@ -19,6 +19,9 @@ export interface Link {
   visuals: Part[];
   collisions: Part[];
   mass: number;
+  /** Where its middle of mass is, and its moments there [kg m²]: ixx, ixy, ixz, iyy, iyz, izz. */
+  linkFromMass: Pose;
+  inertia: number[];
 }
 
 export interface Robot {
@@ -51,12 +54,18 @@ export function readUrdf(text: string, parser: DOMParser = new DOMParser()): Rob
   const links = children(root, 'link').map((link): Link => {
     const parts = (name: string) =>
       children(link, name).flatMap((part) => readPart(part, colors) ?? []);
-    const mass = child(child(link, 'inertial'), 'mass')?.getAttribute('value');
+    const inertial = child(link, 'inertial');
+    const mass = child(inertial, 'mass')?.getAttribute('value');
+    const moments = child(inertial, 'inertia');
     return {
       name: link.getAttribute('name') ?? '',
       visuals: parts('visual'),
       collisions: parts('collision'),
       mass: Number(mass ?? 0),
+      linkFromMass: originOf(inertial),
+      inertia: ['ixx', 'ixy', 'ixz', 'iyy', 'iyz', 'izz'].map((name) =>
+        Number(moments?.getAttribute(name) ?? 0),
+      ),
     };
   });
   const joints = children(root, 'joint').map((joint) => ({
@@ -73,13 +82,14 @@ function rgbaOf(material: Element): Part['rgba'] {
   return all.length === 4 ? (all as Part['rgba']) : undefined;
 }
 
-function readPart(element: Element, colors: Map<string, Part['rgba']>): Part | undefined {
+function originOf(element: Element | undefined): Pose {
   const origin = child(element, 'origin');
   const [roll, pitch, yaw] = vec(origin?.getAttribute('rpy'), [0, 0, 0]);
-  const linkFromPart: Pose = {
-    t: vec(origin?.getAttribute('xyz'), [0, 0, 0]),
-    q: fromRpy(roll, pitch, yaw),
-  };
+  return { t: vec(origin?.getAttribute('xyz'), [0, 0, 0]), q: fromRpy(roll, pitch, yaw) };
+}
+
+function readPart(element: Element, colors: Map<string, Part['rgba']>): Part | undefined {
+  const linkFromPart = originOf(element);
   const shape = readShape(child(element, 'geometry'));
   if (!shape) return undefined;
   const material = child(element, 'material');

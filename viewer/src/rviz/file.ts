@@ -36,6 +36,17 @@ export interface RvizFile {
 const isTree = (value: unknown): value is Tree =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 
+/** RViz's own words between the names of parts. */
+const NO_PARTS =
+  /^(All (Links )?Enabled|Expand .*|Link Tree Style)$|\/(Alpha|Show Axes|Show Trail)$/;
+
+/** The part of a display that a path is the switch of: `Links/base_link`. */
+export function partOf(path: string): { group: string; name: string } | undefined {
+  const [, group, name] = /^(Namespaces|Links|Frames)\/(.+)$/.exec(path) ?? [];
+  if (!group || !name || (group !== 'Namespaces' && NO_PARTS.test(name))) return undefined;
+  return { group, name };
+}
+
 /** RViz's own keys of a display, which are no options. */
 const FRAME_KEYS = ['Class', 'Name', 'Enabled', 'Value'];
 
@@ -189,17 +200,26 @@ function topicTree(topic: string): Tree {
   };
 }
 
+/** What came by itself, with names that may hold anything: namespaces, links, frames. */
+function partsOf(values: Values): Tree {
+  const out: Tree = {};
+  for (const [path, value] of Object.entries(values)) {
+    const { group, name } = partOf(path) ?? {};
+    if (!group || !name || typeof value !== 'boolean') continue;
+    const tree = (out[group] ??= {}) as Tree;
+    tree[name] = group === 'Namespaces' ? value : { Value: value };
+  }
+  return out;
+}
+
 export function writeRviz(saved: Saved): string {
   const displays = saved.displays.map((display) => {
     const paths = new Set(display.options.filter((o) => o.kind !== 'note').map((o) => o.path));
-    // Also what came by itself: namespaces, links, frames.
     const values = Object.fromEntries(
-      Object.entries(display.values).filter(
-        ([path]) => paths.has(path) || /^(Namespaces|Links|Frames)\//.test(path),
-      ),
+      Object.entries(display.values).filter(([path]) => paths.has(path)),
     );
     return merge(display.original ?? {}, {
-      ...nest(values),
+      ...merge(nest(values), partsOf(display.values)),
       Class: display.class,
       Name: display.name,
       Enabled: display.isEnabled,

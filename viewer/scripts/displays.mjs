@@ -1,0 +1,420 @@
+// What each display is shown with in docs/displays.md: pictures of running examples, and a few words.
+//
+// `showroom` runs a robot that has every sensor, which finds itself on a map of the demo's room; `demo`
+// is `periplus demo --explore`. The last display of a shot is the one that the shot is of.
+
+const SEEN = { kind: 'Orbit', distance: 4.4, yaw: 3.75, pitch: 0.62, focal: [0.7, 0, 0.15] };
+const NEAR = { ...SEEN, distance: 1.9, focal: [0.1, 0, 0.2] };
+const FAR = { ...SEEN, distance: 6 };
+const ROOM = { ...SEEN, distance: 9, focal: [2, 0, 0] };
+const ABOVE = { kind: 'TopDownOrtho', scale: 42, angle: 0, x: 2, y: 0 };
+const rviz = (name) => `rviz_default_plugins/${name}`;
+const GRID = [rviz('Grid'), { 'Plane Cell Count': 20, Alpha: 0.35 }];
+const ROBOT = [rviz('RobotModel'), { 'Description Topic': '/robot_description' }];
+const WORLD = ['periplus/World', { Topic: '/world/demo_room/scene' }];
+const MAP = [rviz('Map'), { Topic: '/map', Alpha: 1 }];
+const scan = (more) => [rviz('LaserScan'), { Topic: '/scan', ...more }];
+const RED = { 'Color Transformer': 'FlatColor', Color: '255; 70; 60' };
+const rows = (more) => [
+  rviz('PointCloud2'),
+  { Topic: '/rows/points', 'Color Transformer': 'AxisColor', ...more },
+];
+const colored = (more) => [
+  rviz('PointCloud2'),
+  { Topic: '/depth_camera/points', 'Color Transformer': 'RGB8', ...more },
+];
+const costs = (more) => [
+  rviz('Map'),
+  { Topic: '/global_costmap/costmap', 'Color Scheme': 'costmap', Alpha: 1, ...more },
+];
+const goal = {
+  'Shaft Length': 0.35,
+  'Head Length': 0.12,
+  'Shaft Radius': 0.025,
+  'Head Radius': 0.06,
+};
+const lidar = (more) => ['periplus/VisualizeLidar', { Topic: '/scan', ...more }];
+
+export const DISPLAYS = [
+  {
+    kind: rviz('RobotModel'),
+    text: 'A robot from its URDF, where its frames are; meshes come from the packages of the robot. Besides what it looks like: what it collides with, its masses as balls of lead, and its inertias as the boxes that have them.',
+    shots: {
+      robot: { with: [GRID, ROBOT], view: { ...NEAR, distance: 1.6 } },
+      robot_inertia: {
+        with: [
+          GRID,
+          [
+            rviz('RobotModel'),
+            {
+              ...ROBOT[1],
+              Alpha: 0.4,
+              'Mass Properties/Mass': true,
+              'Mass Properties/Inertia': true,
+            },
+          ],
+        ],
+        view: { ...NEAR, distance: 1.6 },
+      },
+    },
+  },
+  {
+    kind: rviz('TF'),
+    text: 'All frames: axes, names, and arrows to their parents. What nobody told of for a while pales, and then goes.',
+    shots: {
+      tf: {
+        with: [
+          GRID,
+          ROBOT,
+          [
+            rviz('TF'),
+            {
+              'Show Names': true,
+              'Marker Scale': 0.7,
+              'Filter (whitelist)': 'base_link|lidar|camera_link|drivewhl|rows|sonar_l',
+            },
+          ],
+        ],
+        view: { ...NEAR, distance: 1.5 },
+      },
+    },
+  },
+  {
+    kind: rviz('LaserScan'),
+    text: 'What a laser scanner met, in any style and colour of a cloud. By REP 117 only beams that met something are drawn.',
+    shots: {
+      laserscan: {
+        with: [GRID, ROBOT, WORLD, scan({ ...RED, Style: 'Points', 'Size (Pixels)': 4 })],
+        view: SEEN,
+      },
+      laserscan_axis: {
+        with: [
+          GRID,
+          ROBOT,
+          scan({ Style: 'Boxes', 'Size (m)': 0.05, 'Color Transformer': 'AxisColor', Axis: 'X' }),
+        ],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: 'periplus/VisualizeLidar',
+    text: "Gazebo's Visualize Lidar: triangles, rays or points, in its colours; what meets nothing is drawn to the greatest range, and the dead zone below the least one is black.",
+    shots: {
+      visualize_lidar: { with: [GRID, ROBOT, WORLD, lidar()], view: SEEN },
+      visualize_lidar_points: {
+        with: [GRID, ROBOT, WORLD, lidar({ 'Visual Type': 'Points', 'Point Size': 4 })],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: rviz('PointCloud2'),
+    text: 'Clouds in all six styles, coloured by height or any other axis, by any field, by the colours that come with them, or flat. The bytes of a message go to the GPU as they are.',
+    shots: {
+      cloud_axis: {
+        isDense: true,
+        with: [ROBOT, rows({ Style: 'Points', 'Size (Pixels)': 2 })],
+        view: FAR,
+      },
+      cloud_rgb: { with: [ROBOT, colored({ 'Size (m)': 0.012 })], view: SEEN },
+      cloud_field: {
+        isDense: true,
+        with: [
+          ROBOT,
+          rows({
+            Style: 'Points',
+            'Size (Pixels)': 2,
+            'Color Transformer': 'Intensity',
+            'Channel Name': 'x',
+          }),
+        ],
+        view: FAR,
+      },
+      cloud_spheres: {
+        isDense: true,
+        with: [ROBOT, rows({ Style: 'Spheres', 'Size (m)': 0.07, Axis: 'X' })],
+        view: FAR,
+      },
+      cloud_boxes: {
+        isDense: true,
+        with: [ROBOT, rows({ Style: 'Boxes', 'Size (m)': 0.06 })],
+        view: FAR,
+      },
+      cloud_tiles: {
+        with: [ROBOT, rows({ ...RED, Style: 'Tiles', 'Size (m)': 0.06, Color: '120; 190; 255' })],
+        view: FAR,
+      },
+    },
+  },
+  {
+    kind: rviz('DepthCloud'),
+    text: 'A depth picture as points (REP 118: metres or millimetres), with the colours of another picture.',
+    shots: {
+      depthcloud: {
+        with: [
+          ROBOT,
+          [
+            rviz('DepthCloud'),
+            {
+              'Depth Map Topic': '/depth_camera/depth/image_raw',
+              'Color Image Topic': '/depth_camera/image_raw',
+              'Size (m)': 0.012,
+            },
+          ],
+        ],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: rviz('Image'),
+    text: 'Pictures beside the scene, of every raw encoding and whatever the browser unpacks. Depth is grey between the least and the greatest number, by the median of the last pictures, or between yours.',
+    shots: {
+      image: { with: [[rviz('Image'), { Topic: '/depth_camera/image_raw' }]], isPicture: true },
+      image_depth: {
+        with: [[rviz('Image'), { Topic: '/depth_camera/depth/image_raw' }]],
+        isPicture: true,
+      },
+    },
+  },
+  {
+    kind: rviz('Camera'),
+    text: "A camera's picture with the scene over it, through the camera's eyes: the scan, the costmap and the frames lie where they are.",
+    shots: {
+      camera: {
+        with: [
+          costs(),
+          scan({ ...RED, Style: 'Points', 'Size (Pixels)': 6, Color: '255; 255; 0' }),
+          [rviz('Camera'), { Topic: '/depth_camera/image_raw', 'Overlay Alpha': 0.35 }],
+        ],
+        isPicture: true,
+      },
+    },
+  },
+  {
+    kind: rviz('Map'),
+    text: "Maps and costmaps in RViz's three palettes, or in two colours. Only the cells that changed come over the wire, and only they are drawn anew. Select (`s`) tells of a cell its value, what that means, and which layer of a costmap marked it.",
+    shots: {
+      map: { with: [ROBOT, MAP], view: ABOVE },
+      map_costmap: { with: [ROBOT, costs()], view: ABOVE },
+      map_raw: { with: [ROBOT, costs({ 'Color Scheme': 'raw' })], view: ABOVE },
+      map_over: {
+        with: [
+          ROBOT,
+          MAP,
+          costs({ Alpha: 0.35 }),
+          costs({ Topic: '/local_costmap/costmap', Alpha: 0.7 }),
+        ],
+        view: FAR,
+      },
+    },
+  },
+  {
+    kind: 'periplus/VoxelGrid',
+    text: "What Nav2's voxel layer has marked, or does not know.",
+    shots: {
+      voxelgrid: {
+        with: [MAP, ROBOT, ['periplus/VoxelGrid', { Topic: '/local_costmap/voxel_grid' }]],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: rviz('Marker'),
+    text: 'All twelve shapes that a node can draw; here the voxels as `nav2_costmap_2d_markers` tells them.',
+    shots: {
+      marker: {
+        with: [MAP, ROBOT, [rviz('Marker'), { Topic: '/local_costmap/visualization_marker' }]],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: rviz('MarkerArray'),
+    text: "Many of them at once, switched by their namespaces; here the graph of `slam_toolbox`'s poses.",
+    run: 'demo',
+    shots: {
+      markerarray: {
+        with: [MAP, [rviz('MarkerArray'), { Topic: '/slam_toolbox/graph_visualization' }]],
+        view: ROOM,
+      },
+    },
+  },
+  {
+    kind: rviz('Odometry'),
+    text: 'Where a robot says it was, with how sure it is.',
+    run: 'demo',
+    shots: {
+      odometry: {
+        with: [
+          ROBOT,
+          MAP,
+          [
+            rviz('Odometry'),
+            {
+              Topic: '/demo/odom',
+              'Position Tolerance': 0.15,
+              Keep: 400,
+              'Shape/Shaft Length': 0.12,
+              'Shape/Shaft Radius': 0.015,
+              'Shape/Head Length': 0.06,
+              'Shape/Head Radius': 0.04,
+              Covariance: false,
+            },
+          ],
+        ],
+        view: ROOM,
+        isEarly: true,
+      },
+    },
+  },
+  {
+    kind: rviz('Path'),
+    text: 'A line through poses, with axes or arrows at each if wanted; here the way to what the robot has not seen yet.',
+    run: 'demo',
+    shots: {
+      path: {
+        with: [
+          ROBOT,
+          MAP,
+          [
+            rviz('Path'),
+            {
+              Topic: '/plan',
+              'Line Style': 'Billboards',
+              'Line Width': 0.06,
+              Color: '255; 0; 160',
+            },
+          ],
+        ],
+        view: { ...ROOM, distance: 7 },
+        waitsFor: 'parseInt(periplus.displays.at(-1).statuses.Path?.text) > 20',
+      },
+    },
+  },
+  {
+    kind: rviz('Pose'),
+    text: 'One pose: a goal.',
+    shots: {
+      pose: {
+        with: [MAP, ROBOT, [rviz('Pose'), { Topic: '/goal_pose', ...goal, Color: '255; 85; 255' }]],
+        view: NEAR,
+        says: 'goal',
+      },
+    },
+  },
+  {
+    kind: rviz('PoseWithCovariance'),
+    text: 'A pose and how sure it is: an ellipse of one standard deviation, and a sector for the heading. What nobody measured is not drawn, though a driver may call it a million square metres.',
+    shots: {
+      covariance: {
+        with: [MAP, [rviz('PoseWithCovariance'), { Topic: '/amcl_pose', ...goal }]],
+        view: NEAR,
+        says: 'estimate',
+      },
+    },
+  },
+  {
+    kind: 'nav2_rviz_plugins/ParticleCloud',
+    text: 'What AMCL believes: the heavier a particle, the longer its arrow.',
+    shots: {
+      particles: {
+        with: [MAP, ROBOT, ['nav2_rviz_plugins/ParticleCloud', { Topic: '/particle_cloud' }]],
+        view: NEAR,
+        says: 'estimate',
+      },
+    },
+  },
+  {
+    kind: rviz('PoseArray'),
+    text: 'Many poses, as flat arrows, solid ones or axes.',
+    shots: {
+      posearray: {
+        with: [
+          MAP,
+          ROBOT,
+          [
+            rviz('PoseArray'),
+            {
+              Topic: '/particlecloud',
+              Shape: 'Arrow (3D)',
+              'Shaft Length': 0.1,
+              'Head Length': 0.04,
+            },
+          ],
+        ],
+        view: NEAR,
+        says: 'estimate',
+      },
+    },
+  },
+  {
+    kind: rviz('Polygon'),
+    text: 'A closed line: the footprint of a robot.',
+    shots: {
+      polygon: {
+        with: [MAP, ROBOT, [rviz('Polygon'), { Topic: '/local_costmap/published_footprint' }]],
+        view: NEAR,
+      },
+    },
+  },
+  {
+    kind: rviz('Range'),
+    text: 'The cone of a sonar or an infrared sensor, as far as it sees.',
+    shots: {
+      range: {
+        with: [
+          GRID,
+          ROBOT,
+          WORLD,
+          [rviz('Range'), { Topic: '/sonar/right', Color: '90; 200; 255' }],
+          [rviz('Range'), { Topic: '/sonar/left' }],
+        ],
+        view: SEEN,
+      },
+    },
+  },
+  {
+    kind: 'periplus/World',
+    text: 'The simulated world as it truly is. It is laid where the robot believed to be at first; from there on the page tells how far belief and truth are apart. Walls in front of what one looks at become glass.',
+    shots: { world: { with: [ROBOT, WORLD], view: ROOM } },
+  },
+  {
+    kind: rviz('Grid'),
+    text: 'Lines on the ground, or through space.',
+    shots: {
+      grid: {
+        with: [
+          ROBOT,
+          [
+            rviz('Grid'),
+            { 'Plane Cell Count': 6, Color: '47; 196; 178', 'Cell Size': 0.5, Alpha: 0.8 },
+          ],
+        ],
+        view: { ...NEAR, distance: 3 },
+      },
+    },
+  },
+  {
+    kind: rviz('Axes'),
+    text: 'Red, green and blue along x, y and z of one frame.',
+    shots: {
+      axes: {
+        with: [
+          GRID,
+          ROBOT,
+          [rviz('Axes'), { 'Reference Frame': 'base_link', Length: 0.6, Radius: 0.015 }],
+        ],
+        view: NEAR,
+      },
+    },
+  },
+];
+
+/** What runs, and in which program; the map is one that the demo made. */
+export const SHOWROOM = (map) => [
+  ...['sim', 'worlds/demo_room.sdf', '--robot', 'viewer/e2e/show/showbot.urdf.xacro'],
+  ...['--resource-path', 'robots', '--localize', map, '--costmap', 'viewer/e2e/show/costmaps.yaml'],
+  ...['--rtf', '1', '--ros2', 'off'],
+];
