@@ -1,0 +1,212 @@
+//! What a message is, and how one is declared.
+
+use std::fmt::Debug;
+
+use crate::protobuf::{DecodeError, Reader, Wire, memory_for};
+use crate::text::{Parser, Printer, TextError};
+
+/// The parts of a message that only this crate walks through.
+pub(crate) mod walk {
+    use super::{DecodeError, Parser, Printer, Reader, TextError, Wire};
+
+    /// A message, field by field.
+    pub trait Walk {
+        #[doc(hidden)]
+        fn write_fields(&self, out: &mut Vec<u8>);
+        #[doc(hidden)]
+        fn read_field(
+            &mut self,
+            number: u32,
+            wire: Wire,
+            reader: &mut Reader<'_>,
+        ) -> Result<(), DecodeError>;
+        #[doc(hidden)]
+        fn print_fields(&self, out: &mut Printer);
+        #[doc(hidden)]
+        fn parse_field(&mut self, name: &str, parser: &mut Parser<'_>) -> Result<(), TextError>;
+
+        #[doc(hidden)]
+        fn read_fields(&mut self, reader: &mut Reader<'_>) -> Result<(), DecodeError> {
+            while !reader.is_empty() {
+                let (number, wire) = reader.key()?;
+                self.read_field(number, wire, reader)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// A message of Gazebo.
+pub trait Message:
+    walk::Walk + Clone + Debug + Default + PartialEq + Send + Sync + 'static
+{
+    /// Its name, such as `LaserScan`; the release puts something in front, see [`crate::Dialect`].
+    const NAME: &'static str;
+
+    /// Appends it to `out` as protobuf.
+    fn encode_into(&self, out: &mut Vec<u8>) {
+        self.write_fields(out);
+    }
+
+    /// As protobuf.
+    #[must_use]
+    fn encode(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        self.write_fields(&mut out);
+        out
+    }
+
+    /// From protobuf. Fields that it does not have are passed over.
+    ///
+    /// # Errors
+    /// When the bytes are no message.
+    fn decode(bytes: &[u8]) -> Result<Self, DecodeError> {
+        let memory = memory_for(bytes);
+        let mut message = Self::default();
+        message.read_fields(&mut Reader::new(bytes, &memory))?;
+        Ok(message)
+    }
+
+    /// As the text of protobuf, a field a line.
+    #[must_use]
+    fn text(&self) -> String {
+        let mut out = Printer::default();
+        self.print_fields(&mut out);
+        out.into_text()
+    }
+
+    /// From the text of protobuf.
+    ///
+    /// # Errors
+    /// Where it is wrong, and why.
+    fn from_text(text: &str) -> Result<Self, TextError> {
+        let mut message = Self::default();
+        Parser::new(text).whole(|name, parser| message.parse_field(name, parser))?;
+        Ok(message)
+    }
+}
+
+/// Declares messages: the name in Rust, that of Gazebo where it is another, fields with their numbers.
+macro_rules! messages {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident $(= $gz:literal)? {
+            $($(#[$field_doc:meta])* $number:literal $field:ident: $ty:ty),* $(,)?
+        }
+    )*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Debug, Default, PartialEq)]
+        #[allow(missing_docs, reason = "Gazebo documents its fields")]
+        pub struct $name {
+            $($(#[$field_doc])* pub $field: $ty),*
+        }
+
+        impl $crate::message::walk::Walk for $name {
+            fn write_fields(&self, out: &mut Vec<u8>) {
+                $($crate::field::Field::write(&self.$field, $number, out);)*
+                let _ = out;
+            }
+
+            fn read_field(
+                &mut self,
+                number: u32,
+                wire: $crate::protobuf::Wire,
+                reader: &mut $crate::protobuf::Reader<'_>,
+            ) -> Result<(), $crate::DecodeError> {
+                match number {
+                    $($number => $crate::field::Field::read(&mut self.$field, wire, reader),)*
+                    _ => reader.skip(wire),
+                }
+            }
+
+            fn print_fields(&self, out: &mut $crate::text::Printer) {
+                $($crate::field::Field::print(
+                    &self.$field,
+                    stringify!($field).trim_start_matches("r#"),
+                    out,
+                );)*
+                let _ = out;
+            }
+
+            fn parse_field(
+                &mut self,
+                name: &str,
+                parser: &mut $crate::text::Parser<'_>,
+            ) -> Result<(), $crate::TextError> {
+                const NAMES: &[&str] = &[$(stringify!($field)),*];
+                $(if name == stringify!($field).trim_start_matches("r#") {
+                    return $crate::field::Field::parse(&mut self.$field, parser);
+                })*
+                Err(parser.unknown(name, NAMES))
+            }
+        }
+
+        impl $crate::Message for $name {
+            const NAME: &'static str = $crate::message::first!($($gz,)? stringify!($name));
+        }
+    )*};
+}
+pub(crate) use messages;
+
+/// The first of what is given.
+macro_rules! first {
+    ($first:expr $(, $rest:expr)?) => {
+        $first
+    };
+}
+pub(crate) use first;
+
+/// Declares kinds of things: numbers with names. A number without a name is kept as it is.
+macro_rules! kinds {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident { $($kind:ident = $number:literal),* $(,)? }
+    )*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name(pub i32);
+
+        #[allow(missing_docs, reason = "names say it")]
+        impl $name {
+            $(pub const $kind: Self = Self($number);)*
+
+            /// Its name, if it has one.
+            #[must_use]
+            pub fn name(self) -> Option<&'static str> {
+                match self.0 {
+                    $($number => Some(stringify!($kind)),)*
+                    _ => None,
+                }
+            }
+        }
+
+        impl $crate::field::Field for $name {
+            fn write(&self, number: u32, out: &mut Vec<u8>) {
+                $crate::field::Field::write(&self.0, number, out);
+            }
+
+            fn read(
+                &mut self,
+                wire: $crate::protobuf::Wire,
+                reader: &mut $crate::protobuf::Reader<'_>,
+            ) -> Result<(), $crate::DecodeError> {
+                $crate::field::Field::read(&mut self.0, wire, reader)
+            }
+
+            fn print(&self, name: &str, out: &mut $crate::text::Printer) {
+                match self.name() {
+                    _ if self.0 == 0 => {}
+                    Some(kind) => out.value(name, kind),
+                    None => out.value(name, &self.0),
+                }
+            }
+
+            fn parse(&mut self, parser: &mut $crate::text::Parser<'_>) -> Result<(), $crate::TextError> {
+                const KINDS: &[(&str, i32)] = &[$((stringify!($kind), $number)),*];
+                self.0 = parser.kind(KINDS)?;
+                Ok(())
+            }
+        }
+    )*};
+}
+pub(crate) use kinds;

@@ -1,0 +1,87 @@
+//! Where things are and how they move.
+
+use super::{FloatV, Header};
+use crate::message::messages;
+
+messages! {
+    /// Two numbers.
+    Vector2d { 1 header: Option<Header>, 2 x: f64, 3 y: f64 }
+    /// Three numbers.
+    Vector3d { 1 header: Option<Header>, 2 x: f64, 3 y: f64, 4 z: f64 }
+    /// A rotation.
+    Quaternion { 1 header: Option<Header>, 2 x: f64, 3 y: f64, 4 z: f64, 5 w: f64 }
+    /// A place and a rotation, of something with a name.
+    Pose {
+        1 header: Option<Header>,
+        2 name: String,
+        3 id: u32,
+        4 position: Option<Vector3d>,
+        5 orientation: Option<Quaternion>,
+    }
+    /// Poses.
+    PoseV = "Pose_V" { 1 header: Option<Header>, 2 pose: Vec<Pose> }
+    /// Velocities.
+    Twist { 1 header: Option<Header>, 2 linear: Option<Vector3d>, 3 angular: Option<Vector3d> }
+    /// Forces.
+    Wrench {
+        1 header: Option<Header>,
+        2 force: Option<Vector3d>,
+        3 torque: Option<Vector3d>,
+        4 force_offset: Option<Vector3d>,
+    }
+    /// A force on something.
+    EntityWrench {
+        1 header: Option<Header>,
+        2 entity: Option<super::Entity>,
+        3 wrench: Option<Wrench>,
+    }
+    /// Where a robot says it is.
+    Odometry { 1 header: Option<Header>, 2 pose: Option<Pose>, 3 twist: Option<Twist> }
+    /// A pose, and how sure it is: 36 numbers, row by row.
+    PoseWithCovariance { 1 pose: Option<Pose>, 2 covariance: Option<FloatV> }
+    /// A velocity, and how sure it is: 36 numbers, row by row.
+    TwistWithCovariance { 1 twist: Option<Twist>, 2 covariance: Option<FloatV> }
+    /// Where a robot says it is, and how sure it is.
+    OdometryWithCovariance {
+        1 header: Option<Header>,
+        2 pose_with_covariance: Option<PoseWithCovariance>,
+        3 twist_with_covariance: Option<TwistWithCovariance>,
+    }
+    /// Commands for joints over time.
+    JointTrajectory {
+        1 header: Option<Header>,
+        2 joint_names: Vec<String>,
+        3 points: Vec<JointTrajectoryPoint>,
+    }
+    /// Where joints are to be at a time.
+    JointTrajectoryPoint {
+        1 positions: Vec<f64>,
+        2 velocities: Vec<f64>,
+        3 accelerations: Vec<f64>,
+        4 effort: Vec<f64>,
+        5 time_from_start: Option<super::Duration>,
+    }
+    /// Commands for motors.
+    Actuators {
+        1 header: Option<Header>,
+        2 position: Vec<f64>,
+        3 velocity: Vec<f64>,
+        4 normalized: Vec<f64>,
+    }
+}
+
+impl Vector3d {
+    /// Of three numbers.
+    #[must_use]
+    pub fn new(x: f64, y: f64, z: f64) -> Self {
+        Self { header: None, x, y, z }
+    }
+}
+
+impl Quaternion {
+    /// Of four numbers.
+    #[must_use]
+    pub fn new(x: f64, y: f64, z: f64, w: f64) -> Self {
+        Self { header: None, x, y, z, w }
+    }
+}

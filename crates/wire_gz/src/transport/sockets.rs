@@ -1,0 +1,131 @@
+//! Addresses of this machine, and sockets for packets to all.
+
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
+use std::time::Duration;
+
+use socket2::{Domain, Protocol, Socket, Type};
+
+use crate::{Reach, Settings};
+
+/// A thread that waits for packets looks around this often.
+pub(super) const LOOK: Duration = Duration::from_millis(100);
+
+/// By which addresses this machine is on the network.
+#[derive(Clone, Debug)]
+pub(super) struct Ways {
+    reach: Reach,
+    /// Packets go out and come in by these.
+    own: Vec<Ipv4Addr>,
+    /// The one that others are told.
+    pub(super) told: Ipv4Addr,
+}
+
+impl Ways {
+    pub(super) fn of(settings: &Settings) -> Self {
+        let reach = settings.reach;
+        if let Some(address) = settings.address {
+            return Self { reach, own: vec![address], told: address };
+        }
+        let outs = [settings.group, Ipv4Addr::new(8, 8, 8, 8)];
+        let mut own: Vec<Ipv4Addr> = outs.into_iter().filter_map(way_to).collect();
+        own.dedup();
+        own.retain(|address| !address.is_loopback());
+        let told = match (reach, own.first()) {
+            (Reach::Network, Some(first)) => *first,
+            _ => Ipv4Addr::LOCALHOST,
+        };
+        // Programs of Gazebo that were told nothing speak by the first way out, also to each other.
+        own.push(Ipv4Addr::LOCALHOST);
+        Self { reach, own, told }
+    }
+
+    /// Whether one at this address may be heard and spoken to.
+    pub(super) fn is_for(&self, address: SocketAddr) -> bool {
+        match (self.reach, address) {
+            (Reach::Network, _) => true,
+            (Reach::Machine, SocketAddr::V4(address)) => {
+                address.ip().is_loopback() || self.own.contains(address.ip())
+            }
+            (Reach::Machine, SocketAddr::V6(address)) => address.ip().is_loopback(),
+        }
+    }
+
+    /// Hears the group, beside all others on this machine that do.
+    pub(super) fn receiver(&self, group: Ipv4Addr, port: u16) -> io::Result<UdpSocket> {
+        let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
+        socket.set_reuse_address(true)?;
+        #[cfg(unix)]
+        socket.set_reuse_port(true)?;
+        socket.bind(&SocketAddr::from((Ipv4Addr::UNSPECIFIED, port)).into())?;
+        let mut joined = Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
+        for own in &self.own {
+            let result = socket.join_multicast_v4(&group, own);
+            // One is enough, and the same network may be there twice.
+            if joined.is_err() {
+                joined = result;
+            }
+        }
+        joined?;
+        socket.set_read_timeout(Some(LOOK))?;
+        Ok(socket.into())
+    }
+
+    /// Speaks to the group. What is for this machine alone is sent so that no router and no wire
+    /// takes it.
+    pub(super) fn senders(&self) -> io::Result<Vec<UdpSocket>> {
+        let mut senders = Vec::new();
+        let mut failed = None;
+        for own in &self.own {
+            match self.sender(*own) {
+                Ok(sender) => senders.push(sender),
+                Err(error) => failed = Some(error),
+            }
+        }
+        match failed {
+            Some(error) if senders.is_empty() => Err(error),
+            _ => Ok(senders),
+        }
+    }
+
+    fn sender(&self, own: Ipv4Addr) -> io::Result<UdpSocket> {
+        let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
+        socket.bind(&SocketAddr::from((own, 0)).into())?;
+        socket.set_multicast_if_v4(&own)?;
+        socket.set_multicast_loop_v4(true)?;
+        socket.set_multicast_ttl_v4(u32::from(self.reach == Reach::Network))?;
+        Ok(socket.into())
+    }
+}
+
+/// Our address on the way to another; nothing is sent.
+fn way_to(other: Ipv4Addr) -> Option<Ipv4Addr> {
+    let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
+    socket.connect(SocketAddrV4::new(other, 9)).ok()?;
+    match socket.local_addr().ok()? {
+        SocketAddr::V4(own) if !own.ip().is_unspecified() => Some(*own.ip()),
+        _ => None,
+    }
+}
+
+/// `tcp://127.0.0.1:4000`.
+pub(super) fn address(text: &str) -> Option<SocketAddr> {
+    text.strip_prefix("tcp://")?.parse().ok()
+}
+
+#[test]
+fn addresses_are_numbers() {
+    assert!(address("tcp://127.0.0.1:4000").is_some());
+    for wrong in ["127.0.0.1:4000", "tcp://localhost:4000", "tcp://127.0.0.1", "inproc://a", ""] {
+        assert_eq!(address(wrong), None, "{wrong}");
+    }
+}
+
+#[test]
+fn what_is_for_this_machine_does_not_hear_others() {
+    let ways = Ways::of(&Settings::default());
+    assert!(ways.is_for(([127, 0, 0, 1], 1).into()));
+    assert!(!ways.is_for(([192, 0, 2, 7], 1).into()));
+    let ways = Ways::of(&Settings { reach: Reach::Network, ..Settings::default() });
+    assert!(ways.is_for(([192, 0, 2, 7], 1).into()));
+}

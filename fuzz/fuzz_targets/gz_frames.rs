@@ -1,0 +1,8 @@
+//! What comes over a connection of ZeroMQ: any bytes are survived, and messages come back as they are.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    periplus_wire_gz::fuzz_frames(bytes);
+});
