@@ -12,6 +12,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
+use periplus_base::Pose2;
 use periplus_graph::NodeSettings;
 use periplus_host::Stopwatch;
 use periplus_sim::{Driver, Options, Recorder, Run, Search, Services, ShapeFiles, Simulation};
@@ -151,13 +152,15 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let Some(out) = out else { return Ok(ExitCode::SUCCESS) };
     let recording = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
     let recording = recording.map_err(|error| format!("the bag is not whole: {error}"))?;
+    let map = mapping.node.map();
+    let truth = map.and_then(|map| simulation.beside_truth(&map, Pose2::IDENTITY));
     let run = crate::sim::Report {
         simulation: &simulation,
         start_up,
         wall,
         recording: recording.as_ref(),
     };
-    let told = report::of(&run, &mapping, explorer.as_ref());
+    let told = report::of(&run, &mapping, truth.as_ref(), explorer.as_ref());
     mapping.write()?;
     costmaps.write()?;
     if let Some(eyes) = &eyes {
@@ -168,6 +171,14 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         .map_err(|why| format!("cannot write the report: {why}"))?;
     let mut err = anstream::stderr().lock();
     let said = run.tell(&mut err).and_then(|()| mapping.tell(&mut err));
+    let said = said.and_then(|()| match &truth {
+        None => Ok(()),
+        Some(truth) => writeln!(
+            err,
+            "the map's walls are {:.3} m from true ones on average",
+            truth.comparison.other_to_first.mean_m
+        ),
+    });
     said.and_then(|()| writeln!(err, "all is in {}", out.display()))
         .map_err(|error| words(&error))?;
     Ok(ExitCode::SUCCESS)

@@ -28,6 +28,7 @@ mod number;
 pub mod palette;
 mod rule;
 mod save;
+mod truth;
 mod words;
 
 pub use align::{Alignment, align};
@@ -38,4 +39,5 @@ pub use load::{Loaded, Map, Status, expand_home, grid_of, load, load_image};
 pub use message::{BadMap, from_message, to_message};
 pub use rule::Rule;
 pub use save::{BadThresholds, Format, MapFiles, Saving, Wish, render};
+pub use truth::{BesideTruth, beside_truth};
 pub use words::{Words, WrongWords, read_words, usage};

@@ -31,14 +31,17 @@ fn here() -> PathBuf {
 fn node_modules() -> Option<PathBuf> {
     let given = std::env::var_os("PERIPLUS_NODE_MODULES").map(PathBuf::from);
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let places = [root.join("viewer/node_modules"), root.join("node_modules")];
+    let folders = ["target/peers/node_modules", "viewer/node_modules", "node_modules"];
+    let places = folders.map(|folder| root.join(folder));
     let has = |folder: &PathBuf| {
         folder.join("@foxglove/ws-protocol").is_dir() && folder.join("ws").is_dir()
     };
     let found = given.into_iter().chain(places).find(has);
     let runs = Command::new("node").arg("--version").stdout(Stdio::null()).status();
     if found.is_none() || !runs.is_ok_and(|status| status.success()) {
-        eprintln!("SKIPPED: no client to test with; npm install @foxglove/ws-protocol@0.8 ws@8");
+        eprintln!(
+            "SKIPPED: no client to test with; npm install --prefix target/peers @foxglove/ws-protocol@0.8 ws@8"
+        );
         return None;
     }
     found

@@ -15,6 +15,7 @@ mod run;
 mod services;
 mod shares;
 mod simulation;
+mod slice;
 
 pub use compose::{Composition, Member, Placement, Standing, compose};
 pub use drive::{Driver, ScriptFindings};

@@ -189,8 +189,10 @@ impl Services {
         self.last_ns = simulation.time_ns();
         self.forces.serve(simulation);
         self.publish(simulation);
-        if let Some(stage) = &mut self.stage {
-            stage.serve(simulation);
+        if let Some(stage) = &mut self.stage
+            && let Err(error) = stage.serve(simulation)
+        {
+            self.log.refused("truth", &error.to_string());
         }
         if self.tempo.may_step() {
             self.forces.push(simulation);

@@ -4,7 +4,7 @@ mod change;
 
 use std::sync::Arc;
 
-use periplus_base::Pose;
+use periplus_base::{Pose, Pose2};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_dynamics::{Diverged, Mode, ModelId};
 use periplus_graph::{Arguments, Graph, Node, NodeSettings};
@@ -82,7 +82,7 @@ pub struct Simulation {
     pub(crate) motion: periplus_dynamics::World,
     pub(crate) running: Vec<Running>,
     world_devices: Vec<Box<dyn Device>>,
-    views: Views,
+    pub(crate) views: Views,
     files: Arc<ShapeFiles>,
     options: Options,
     /// Whether the seed is another than that with which devices were made.
@@ -90,7 +90,7 @@ pub struct Simulation {
     /// How often models came or went.
     changes: u64,
     step_ns: i64,
-    time_ns: i64,
+    pub(crate) time_ns: i64,
     shares: Shares,
     /// Whose log says what is found wrong.
     journal: Option<Node>,
@@ -232,10 +232,23 @@ impl Simulation {
     /// move.
     #[must_use]
     pub fn robot_pose(&self) -> Option<Pose> {
+        self.motion.model_pose(self.robot()?.model)
+    }
+
+    pub(crate) fn robot(&self) -> Option<&Running> {
         let described = |running: &&Running| running.member.description.is_some();
         let moves = |running: &&Running| !running.member.model.is_static;
-        let running = self.running.iter().find(described).or(self.running.iter().find(moves))?;
-        self.motion.model_pose(running.model)
+        self.running.iter().find(described).or(self.running.iter().find(moves))
+    }
+
+    /// Names of the first robot's links, and where they are on the plane of the world.
+    pub(crate) fn robot_links(&self) -> Vec<(String, Pose2)> {
+        let Some(robot) = self.robot() else { return Vec::new() };
+        let links = self.motion.links(robot.model).filter_map(|link| {
+            let name = self.motion.link_name(link)?.to_owned();
+            Some((name, Pose2::from(self.motion.link_state(link)?.world_from_link)))
+        });
+        links.collect()
     }
 
     /// The names of all devices, in the order in which they act.

@@ -1,6 +1,7 @@
 //! What the demo came to, for a program.
 
 use periplus_base::Pose2;
+use periplus_maps::BesideTruth;
 use serde_json::{Value, json};
 
 use super::explorer::Explorer;
@@ -9,7 +10,12 @@ use crate::sim::Report;
 
 /// The report of the run, with what became of map and robot. The robot began at the origin of the world,
 /// where the map has its own, so that estimate and truth can be compared.
-pub(super) fn of(run: &Report<'_>, mapping: &Mapping, explorer: Option<&Explorer>) -> Value {
+pub(super) fn of(
+    run: &Report<'_>,
+    mapping: &Mapping,
+    truth: Option<&BesideTruth>,
+    explorer: Option<&Explorer>,
+) -> Value {
     let mut report = run.to_json();
     let status = mapping.node.status();
     if let Some(map) = mapping.node.map() {
@@ -25,6 +31,11 @@ pub(super) fn of(run: &Report<'_>, mapping: &Mapping, explorer: Option<&Explorer
             "scans": status.counts.scans,
             "kept": status.counts.kept,
         });
+    }
+    if let Some(truth) = truth {
+        let numbers = truth.numbers().into_iter();
+        let numbers = numbers.map(|(name, value)| (name.to_owned(), json!(value)));
+        report["truth"] = Value::Object(numbers.collect());
     }
     let truth = run.simulation.robot_pose().map(Pose2::from);
     if let (Some(explorer), Some(truth)) = (explorer, truth) {

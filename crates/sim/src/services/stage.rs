@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `/world/<world>/scene` | `visualization_msgs/MarkerArray`, latched | every visual, after a marker that deletes all |
 //! | `/world/<world>/poses` | `tf2_msgs/TFMessage` | models and links in the frame `world`, 30 times a second |
+//! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | how well maps agree with the world, now and then |
 //! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
 //! | `/world/<world>/library` | `std_srvs/Trigger` | models that could be put into it, as JSON |
 //!
@@ -13,6 +14,7 @@
 mod library;
 mod markers;
 mod save;
+mod truth;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -25,6 +27,7 @@ use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::MarkerArray;
 
+use self::truth::Truth;
 use super::convert::{pose_message, vector_message};
 use super::harmonic::name_of;
 use super::offer::Offer;
@@ -40,6 +43,7 @@ const WORLD: &str = "world";
 pub(super) struct Stage {
     scene: Publisher<MarkerArray>,
     poses: Publisher<TFMessage>,
+    truth: Truth,
     save: Offer<Trigger>,
     library: Offer<Trigger>,
     /// Where models are looked for that could be put into it.
@@ -55,6 +59,7 @@ impl Stage {
         Ok(Self {
             scene: node.publisher(&name("scene"), Qos::latched(1))?,
             poses: node.publisher(&name("poses"), Qos::best_effort(1))?,
+            truth: Truth::new(node, &name("truth"))?,
             save: Offer::new(node, [name("save").as_str()])?,
             library: Offer::new(node, [name("library").as_str()])?,
             folders,
@@ -64,7 +69,7 @@ impl Stage {
     }
 
     /// Answers, and publishes what is due.
-    pub(super) fn serve(&mut self, simulation: &Simulation) {
+    pub(super) fn serve(&mut self, simulation: &mut Simulation) -> Result<(), GraphError> {
         self.save.answer(|_| match save::text(simulation) {
             Ok(message) => TriggerResponse { success: true, message },
             Err(message) => TriggerResponse { success: false, message },
@@ -82,6 +87,7 @@ impl Stage {
             self.since = Some(Stopwatch::start());
             self.poses.publish(poses(simulation));
         }
+        self.truth.serve(simulation)
     }
 }
 
