@@ -106,3 +106,31 @@ export async function open(chrome, url, options = {}) {
   await page.goto(url);
   return { page, complaints };
 }
+
+/** Waits until an expression in the page is true. */
+export const until = (page, expression, what, timeout = 30_000) =>
+  page.waitForFunction(expression, undefined, { timeout }).catch(async () => {
+    const now = await page.evaluate(() => ({
+      displays: window.periplus.displays.map((d) => [
+        d.name,
+        ...Object.values(d.statuses).map((s) => s.text),
+      ]),
+      notices: window.periplus.notices.map((n) => n.text),
+      frames: window.periplus.frames,
+    }));
+    throw new Error(`${what} did not happen; the page says ${JSON.stringify(now)}`);
+  });
+
+/** Numbers of a message of a topic, taken in the page. */
+export const next = (page, topic, pick) =>
+  page.evaluate(
+    ([name, text]) =>
+      new Promise((resolve, reject) => {
+        setTimeout(() => reject(new Error(`nothing came on ${name}`)), 8000);
+        const leave = window.periplus.client.subscribe(name, (message) => {
+          leave();
+          resolve(new Function('message', `return ${text}`)(message));
+        });
+      }),
+    [topic, pick],
+  );

@@ -2,45 +2,17 @@
 //
 //   npm run e2e [NAME...]     PERIPLUS=path/to/periplus
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { browser, open, periplus, PROGRAM, ROOT, servePage, sim } from './lib.mjs';
+import { building, foreignBuildings } from './building.mjs';
+import { demo } from './demo.mjs';
+import { keyboard } from './keyboard.mjs';
+import { browser, next, open, periplus, servePage, until } from './lib.mjs';
 
-const CORPUS = join(ROOT, '../shared/corpus');
 const PORT = 8821;
 const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
-const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 const out = mkdtempSync(join(tmpdir(), 'periplus-e2e-'));
-
-/** Waits until an expression in the page is true. */
-const until = (page, expression, what, timeout = 20_000) =>
-  page.waitForFunction(expression, undefined, { timeout }).catch(async () => {
-    const now = await page.evaluate(() => ({
-      displays: window.periplus.displays.map((d) => [
-        d.name,
-        ...Object.values(d.statuses).map((s) => s.text),
-      ]),
-      notices: window.periplus.notices.map((n) => n.text),
-      frames: window.periplus.frames,
-    }));
-    throw new Error(`${what} did not happen; the page says ${JSON.stringify(now)}`);
-  });
-
-/** Numbers of a message of a topic, taken in the page. */
-const next = (page, topic, pick) =>
-  page.evaluate(
-    ([name, text]) =>
-      new Promise((resolve, reject) => {
-        setTimeout(() => reject(new Error(`nothing came on ${name}`)), 8000);
-        const leave = window.periplus.client.subscribe(name, (message) => {
-          leave();
-          resolve(new Function('message', `return ${text}`)(message));
-        });
-      }),
-    [topic, pick],
-  );
 
 const where = (page) =>
   page.evaluate(() => {
@@ -152,148 +124,10 @@ const tests = {
     await panel.getByLabel('Search parameters').fill('resolution');
     await panel.locator('.parameter').first().waitFor();
   },
-
-  /** RViz's files give the displays they name. */
-  async rviz(page) {
-    const files = {
-      'navigation2_tutorials@humble/sam_bot_description/rviz/urdf_config.rviz': [
-        'Grid',
-        'RobotModel',
-        'TF',
-        'Map',
-      ],
-      'andino/andino_navigation/rviz/nav2_default_view.rviz': [
-        ...['Grid', 'RobotModel', 'TF', 'LaserScan', 'PointCloud2', 'Map', 'ParticleCloud'],
-        ...['Map', 'Map', 'Path', 'PointCloud2', 'Polygon', 'Map', 'Path', 'MarkerArray'],
-        ...['Polygon', 'PointCloud2', 'Image', 'PointCloud2', 'MarkerArray'],
-      ],
-    };
-    for (const [name, kinds] of Object.entries(files)) {
-      const file = join(CORPUS, name);
-      if (!existsSync(file)) {
-        console.log(`SKIPPED: ${name} is not there`);
-        continue;
-      }
-      await page.getByTestId('rviz-file').setInputFiles(file);
-      await until(page, `periplus.fileName === ${JSON.stringify(name.split('/').pop())}`, name);
-      const shown = await page.evaluate('periplus.displays.map((d) => d.kind.title)');
-      assert.deepEqual(shown, kinds);
-      const text = await page.evaluate('periplus.rvizText()');
-      assert.match(text, /Visualization Manager/);
-    }
-  },
 };
 
-/** A room is drawn, saved, checked, simulated, and seen by a scanner where it was drawn. */
-async function building(chrome, url) {
-  const { page } = await open(chrome, `${url}#building`);
-  const plan = page.getByRole('application');
-  const box = await plan.boundingBox();
-  const press = async (x, y) => {
-    const zoom = await page.evaluate('building.zoom');
-    const [px, py] = [box.width / 2 + (x - 3) * zoom, box.height / 2 - (y - 2) * zoom];
-    await page.mouse.click(box.x + px, box.y + py);
-  };
-  for (const [x, y] of [
-    [0, 0],
-    [6, 0],
-    [6, 4],
-    [0, 4],
-    [0, 0],
-  ]) {
-    await press(x, y);
-  }
-  await page.keyboard.press('n');
-  await press(3, 4);
-  await page.keyboard.press('Control+z');
-  await page.keyboard.press('Control+y');
-  assert.equal(await page.evaluate('building.plan.openings.length'), 1);
-  const dialog = page.getByRole('dialog');
-  const [download] = await Promise.all([
-    page.waitForEvent('download'),
-    dialog.getByRole('button', { name: 'World' }).click(),
-  ]);
-  const world = join(out, 'room.world');
-  await download.saveAs(world);
-  const said = execFileSync(PROGRAM, ['check', world], { encoding: 'utf8' });
-  assert.match(said, /no findings/);
-  await page.getByTestId('building-file').setInputFiles(world);
-  await page.waitForFunction(
-    'building.plan.name === "building" && building.plan.walls.length === 4',
-  );
-  const lengths = await page.evaluate(
-    'building.plan.walls.map((w) => Math.hypot(w.to.x - w.from.x, w.to.y - w.from.y))',
-  );
-  assert.deepEqual(
-    lengths.map((l) => +l.toFixed(3)),
-    [6, 4, 6, 4],
-  );
-  await page.close();
-  const run = await periplus(sim(world, KBOT, '--pose', '2,2,0', `--page=127.0.0.1:${PORT}`), PORT);
-  try {
-    const { page: live } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
-    await until(live, 'periplus.tf.has("odom")', 'odometry');
-    const found = await next(
-      live,
-      '/kbot/sensor_laser/scan',
-      `(() => {
-        const { pose } = periplus.tf.lookup('base_footprint', message.header.frame_id);
-        const xs = [], ys = [];
-        message.ranges.forEach((r, i) => {
-          if (!(r < message.range_max)) return;
-          const a = message.angle_min + i * message.angle_increment + 2 * Math.atan2(pose.q[2], pose.q[3]);
-          xs.push(pose.t[0] + r * Math.cos(a)); ys.push(pose.t[1] + r * Math.sin(a));
-        });
-        const middle = (all, side) => { const near = all.filter(side).sort((a, b) => a - b); return near[near.length >> 1]; };
-        return { right: middle(xs, (x) => x > 3.7), left: middle(xs, (x) => x < -1.8), up: middle(ys, (y) => y > 1.8), down: middle(ys, (y) => y < -1.8) };
-      })()`,
-    );
-    // Walls are 0.15 m thick, and drawn by their middles.
-    const drawn = { right: 3.925, left: -1.925, up: 1.925, down: -1.925 };
-    for (const [side, m] of Object.entries(drawn)) {
-      assert.ok(Math.abs(found[side] - m) < 0.02, `${side}: ${found[side]} m instead of ${m} m`);
-    }
-    await live.close();
-  } finally {
-    await run.stop();
-  }
-}
-
-/** The camera of the robot shows what stands before it. */
-async function image(chrome, url) {
-  const run = await periplus(
-    sim('worlds/cube_and_sphere.sdf', SAM_BOT, `--page=127.0.0.1:${PORT}`),
-    PORT,
-  );
-  try {
-    const { page } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
-    await until(
-      page,
-      'periplus.displays.some((d) => d.canvas && d.canvas.width > 300)',
-      'a picture',
-      30_000,
-    );
-    await page.waitForTimeout(500);
-    const share = await page.evaluate(() => {
-      const { canvas } = window.periplus.displays.find((d) => d.canvas && d.canvas.width > 300);
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      const colors = new Map();
-      for (let i = 0; i < data.length; i += 4) {
-        const key = (data[i] >> 5) * 64 + (data[i + 1] >> 5) * 8 + (data[i + 2] >> 5);
-        colors.set(key, (colors.get(key) ?? 0) + 1);
-      }
-      return [...colors.values()].sort((a, b) => b - a).map((n) => (n * 4) / data.length);
-    });
-    assert.ok(share.length >= 3, 'the picture has the cube, the ground and the sky');
-    assert.ok(share[0] < 0.9, `one colour fills ${(share[0] * 100).toFixed(0)} % of the picture`);
-    await page.close();
-  } finally {
-    await run.stop();
-  }
-}
-
 const wanted = process.argv.slice(2);
-const isWanted = (name) => wanted.length === 0 || wanted.includes(name);
+const isWanted = (name) => wanted.length === 0 || wanted.some((one) => name.startsWith(one));
 const pages = await servePage();
 const chrome = await browser();
 let failed = 0;
@@ -308,6 +142,7 @@ async function attempt(name, test) {
     console.log(`FAIL ${name}: ${error.stack ?? error}`);
   }
 }
+attempt.isWanted = (name) => wanted.length === 0 || wanted.some((one) => one.startsWith(name));
 try {
   if (Object.keys(tests).some(isWanted)) {
     const run = await periplus(
@@ -331,8 +166,10 @@ try {
     await page.close();
     await run.stop();
   }
-  await attempt('image', () => image(chrome, pages.url));
-  await attempt('building', () => building(chrome, pages.url));
+  await attempt('building', () => building(chrome, pages.url, out));
+  await attempt('foreign buildings', () => foreignBuildings(chrome, pages.url, out));
+  await attempt('keyboard', () => keyboard(chrome, pages.url));
+  await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();
   pages.stop();

@@ -34,6 +34,20 @@ const PINK = new Color('#ff5ad2');
 /** A shorter drag gives no direction [m]. */
 const LEAST_DRAG_M = 0.05;
 
+/** A point of the page. */
+interface Place {
+  clientX: number;
+  clientY: number;
+}
+
+const STEP_PX = 12;
+const ARROWS: Record<string, [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
 type InspectMore = (uv: Vector2, tell: (more: Record<string, string>) => void) => void;
 
 export class Tools {
@@ -41,10 +55,13 @@ export class Tools {
   /** What was found under the mouse. */
   found: Record<string, string> | undefined = $state();
   measured = $state('');
+  /** Where the keys point, while they do. */
+  cross: Place | undefined = $state();
   /** SDF that waits for a place. */
   toInsert?: { name: string; sdf: string; file: string };
   private marks = new Group();
   private start?: Vector3;
+  private fading?: ReturnType<typeof setTimeout>;
   private points: Vector3[] = [];
 
   constructor(private app: App) {}
@@ -53,19 +70,58 @@ export class Tools {
     const { stage } = this.app;
     stage!.scene.add(this.marks);
     // Before the view hears of it.
-    canvas.addEventListener('pointerdown', (event) => this.down(event), true);
+    canvas.addEventListener(
+      'pointerdown',
+      (event) => {
+        this.cross = undefined;
+        if (event.button === 0) this.down(event);
+      },
+      true,
+    );
     canvas.addEventListener('pointermove', (event) => this.moved(event), true);
     canvas.addEventListener('pointerup', (event) => this.up(event), true);
+    canvas.addEventListener('keydown', (event) => this.key(event, canvas), true);
+  }
+
+  /** What a mouse does, by keys: arrows move a cross, Enter presses there, and lets go after a drag. */
+  private key(event: KeyboardEvent, canvas: HTMLCanvasElement): void {
+    if (this.active === 'move' || event.ctrlKey || event.metaKey || event.altKey) return;
+    const box = canvas.getBoundingClientRect();
+    const middle = { clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 };
+    const at = this.cross ?? middle;
+    const by = event.shiftKey ? 1 : STEP_PX;
+    const way = ARROWS[event.key];
+    if (way) {
+      this.cross = {
+        clientX: Math.min(box.right - 1, Math.max(box.left, at.clientX + way[0] * by)),
+        clientY: Math.min(box.bottom - 1, Math.max(box.top, at.clientY + way[1] * by)),
+      };
+      this.moved(this.cross);
+    } else if (event.key === 'Enter') {
+      this.cross = at;
+      const wasHeld = !!this.start;
+      if (wasHeld) this.up(at);
+      else {
+        this.down(at);
+        // A drag goes on until the next Enter; all else is done.
+        if (!this.start) this.up(at);
+      }
+      if ((this.active as ToolName) === 'move') this.cross = undefined;
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
   }
 
   choose(name: ToolName): void {
     this.active = this.active === name ? 'move' : name;
     this.clear();
+    this.cross = undefined;
     if (this.active !== 'select') this.found = undefined;
     this.app.stage!.view.isHeld = this.active !== 'move';
   }
 
   private clear(): void {
+    clearTimeout(this.fading);
     for (const child of [...this.marks.children]) dispose(child);
     this.start = undefined;
     this.points = [];
@@ -76,11 +132,11 @@ export class Tools {
   private done(): void {
     this.active = 'move';
     this.app.stage!.view.isHeld = false;
-    setTimeout(() => this.clear(), 600);
+    this.fading = setTimeout(() => this.clear(), 600);
   }
 
-  private down(event: PointerEvent): void {
-    if (this.active === 'move' || event.button !== 0) return;
+  private down(event: Place): void {
+    if (this.active === 'move') return;
     const { view } = this.app.stage!;
     view.isHeld = true;
     const ground = view.ground(event.clientX, event.clientY);
@@ -115,14 +171,14 @@ export class Tools {
     }
   }
 
-  private moved(event: PointerEvent): void {
+  private moved(event: Place): void {
     const now = this.start && this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!this.start || !now) return;
     if (this.active === 'pose' || this.active === 'goal') this.arrow(this.start, now);
     if (this.active === 'carry' || this.active === 'turn') this.ghost(now);
   }
 
-  private up(event: PointerEvent): void {
+  private up(event: Place): void {
     const { start } = this;
     const now = this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!start || !now) return;
@@ -208,7 +264,7 @@ export class Tools {
   }
 
   /** The first thing under the mouse; points count if they are near. */
-  private hit(event: PointerEvent): Intersection | undefined {
+  private hit(event: Place): Intersection | undefined {
     const { view, content } = this.app.stage!;
     const caster: Raycaster = view.ray(event.clientX, event.clientY);
     caster.params.Line.threshold = 0.02;

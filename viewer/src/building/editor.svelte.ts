@@ -46,7 +46,11 @@ export class Editor {
   private history = History.of(emptyPlan());
   private chainStart?: Point;
 
+  /** How often a plan was opened: the view then shows all of it. */
+  opened = $state(0);
+
   open(plan: Plan): void {
+    this.opened++;
     this.plan = plan;
     this.level = 0;
     this.choose(0);

@@ -129,6 +129,9 @@ export function nearestWall(
   return best;
 }
 
+/** Files of others are as exact [m]. */
+const CLOSE_M = 1e-3;
+
 /** What is wrong with a plan, in words; nothing if it can be built. */
 export function problems(plan: Plan): string[] {
   const out: string[] = [];
@@ -140,9 +143,11 @@ export function problems(plan: Plan): string[] {
     if (!wall) continue;
     const length = lengthOf(wall);
     const what = opening.kind === 'door' ? 'A door' : 'A window';
+    // A wall goes on beyond its line by half of its thickness.
+    const end = wall.thicknessM / 2 + CLOSE_M;
     if (
-      opening.atM - opening.widthM / 2 < -1e-6 ||
-      opening.atM + opening.widthM / 2 > length + 1e-6
+      opening.atM - opening.widthM / 2 < -end ||
+      opening.atM + opening.widthM / 2 > length + end
     ) {
       out.push(`${what} reaches beyond its wall of ${length.toFixed(2)} m`);
     }

@@ -102,7 +102,7 @@ export class View {
 
   /** Arrow keys turn, with shift they pan; + and - zoom. */
   private key(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (this.isHeld || event.ctrlKey || event.metaKey || event.altKey) return;
     const move = event.shiftKey ? this.pan.bind(this) : this.turn.bind(this);
     if (event.key === 'ArrowLeft') move(20, 0);
     else if (event.key === 'ArrowRight') move(-20, 0);

@@ -1,0 +1,152 @@
+// The page without a mouse: every control is reached by Tab, is seen when it is, and has a name.
+import assert from 'node:assert/strict';
+import { next, open, periplus, sim, until } from './lib.mjs';
+
+const PORT = 8824;
+const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
+
+/** What can be reached now, and what has the focus. Runs in the page. */
+function look() {
+  const name = (element) =>
+    (
+      element.getAttribute('aria-label') ??
+      [...(element.labels ?? [])].map((l) => l.textContent).join(' ') ??
+      ''
+    ).trim() ||
+    element.textContent.trim() ||
+    element.getAttribute('title') ||
+    element.getAttribute('placeholder') ||
+    '';
+  const selector = 'a[href], button, input, select, textarea, summary, canvas, svg, [tabindex]';
+  const isSeen = (e) => e.checkVisibility({ visibilityProperty: true }) && !e.closest('[inert]');
+  const reachable = [...document.querySelectorAll(selector)].filter(
+    (e) => e.tabIndex >= 0 && !e.disabled && isSeen(e),
+  );
+  reachable.forEach((e, i) => (e.dataset.reach ??= String(i)));
+  const { activeElement: now } = document;
+  const style = getComputedStyle(now);
+  const label = now.closest('label.file');
+  const outline = getComputedStyle(label ?? now);
+  return {
+    all: reachable.map((e) => [e.dataset.reach, `${e.tagName} ${name(e)}`, name(e)]),
+    at: now.dataset?.reach,
+    isOutlined: [style, outline].some(
+      (s) => s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0,
+    ),
+  };
+}
+
+/** Goes once around by Tab; tells what was not reached, not seen or not named. */
+async function around(page) {
+  await page.evaluate(() => {
+    for (const e of document.querySelectorAll('[data-reach]')) delete e.dataset.reach;
+    document.activeElement?.blur();
+  });
+  const first = await page.evaluate(look);
+  const reached = new Set();
+  const unseen = [];
+  for (let i = 0; i < first.all.length + 10; i++) {
+    await page.keyboard.press('Tab');
+    const { at, isOutlined, all } = await page.evaluate(look);
+    if (at === undefined) continue;
+    if (!reached.has(at) && !isOutlined) unseen.push(all.find(([id]) => id === at)?.[1]);
+    reached.add(at);
+  }
+  const last = await page.evaluate(look);
+  return {
+    count: reached.size,
+    unreached: last.all.filter(([id]) => !reached.has(id)).map(([, text]) => text),
+    unseen,
+    nameless: last.all.filter(([, , name]) => !name).map(([, text]) => text),
+  };
+}
+
+async function holds(page, where) {
+  const { count, unreached, unseen, nameless } = await around(page);
+  assert.ok(count > 5, `${where}: only ${count} controls were reached`);
+  assert.deepEqual(unreached, [], `${where}: not reached by Tab`);
+  assert.deepEqual(unseen, [], `${where}: has the focus, and nobody sees it`);
+  assert.deepEqual(nameless, [], `${where}: has no name`);
+}
+
+export async function keyboard(chrome, url) {
+  const run = await periplus(
+    sim(
+      'worlds/cube_and_sphere.sdf',
+      SAM_BOT,
+      '-p',
+      'publish_odom_tf:=true',
+      `--page=127.0.0.1:${PORT}`,
+    ),
+    PORT,
+  );
+  try {
+    const { page } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
+    await until(page, 'periplus.displays.length > 4', 'displays');
+    await until(page, 'periplus.displays.some((d) => d.statuses.Description)', 'a robot');
+    // From now on the list stays as it is.
+    await page.evaluate(() => (window.periplus.isAutomatic = false));
+    // Each panel by arrow keys.
+    await page.getByRole('tab', { name: 'Drive' }).focus();
+    for (const tab of [
+      'World',
+      'Topics',
+      'Nodes',
+      'Parameters',
+      'Services',
+      'Plot',
+      'Log',
+      'Drive',
+    ]) {
+      await page.keyboard.press('ArrowRight');
+      await page.locator(`#panel-${tab}`).waitFor();
+      if (['World', 'Plot', 'Log', 'Drive'].includes(tab)) await holds(page, tab);
+      await page.locator(`#tab-${tab}`).focus();
+    }
+    // A display is opened and turned off by keys.
+    const shown = page.getByRole('checkbox', { name: /^Show (Scan|scan)/ });
+    await shown.focus();
+    await page.keyboard.press('Space');
+    await until(page, 'periplus.displays.some((d) => /scan/i.test(d.name) && !d.isEnabled)', 'off');
+    await page.keyboard.press('Space');
+    await page.getByRole('button', { name: /^Options of (Scan|scan)/ }).focus();
+    await page.keyboard.press('Enter');
+    await holds(page, 'the options of a display');
+    // A goal: the tool by its letter, the place by arrows, the heading by more of them.
+    await page.evaluate(
+      'periplus.setView({ kind: "TopDownOrtho", x: 0, y: 0, scale: 60, angle: 0 })',
+    );
+    const aim = async () => {
+      await page.locator('canvas').first().focus();
+      for (const key of ['g', 'Enter', ...Array(5).fill('ArrowUp'), 'Enter']) {
+        await page.keyboard.press(key);
+      }
+    };
+    // Nobody spoke of goals before: the first one makes the topic.
+    await aim();
+    await until(page, 'periplus.topics.some((t) => t.name === "/goal_pose" && t.type)', 'a goal');
+    const goal = next(page, '/goal_pose', 'message.pose');
+    await aim();
+    const { position, orientation } = await goal;
+    assert.ok(Math.hypot(position.x, position.y) < 0.05, 'it is in the middle of the view');
+    assert.ok(
+      Math.abs(2 * Math.atan2(orientation.z, orientation.w) - Math.PI / 2) < 0.05,
+      'it looks up',
+    );
+    // The editor holds the focus while it is open, and gives it back.
+    await page.getByRole('button', { name: 'Building Editor' }).focus();
+    await page.keyboard.press('Enter');
+    await page.getByRole('application').waitFor();
+    await holds(page, 'the Building Editor');
+    await page.getByRole('button', { name: 'Close the editor' }).focus();
+    await page.keyboard.press('Enter');
+    await until(
+      page,
+      'document.activeElement?.ariaLabel === "Building Editor"',
+      'the focus came back',
+    );
+    await page.close();
+  } finally {
+    await run.stop();
+  }
+}
