@@ -1,5 +1,10 @@
 // How fast the page draws what is large: 2,000,000 points ten times a second, and a map of 4000 x 4000
-// cells of which a part changes. The server is the protocol's own, in Node.
+// cells of which a part changes; and a camera. The server is the protocol's own, in Node.
+//
+//   npm run bench:frames [PICTURE.png]
+//
+// Beside frames a second it counts what a frame asks of the GPU, which is the same on every machine: draw
+// calls, points, and bytes that are sent to it.
 import protocol from '@foxglove/ws-protocol';
 import { WebSocketServer } from 'ws';
 import { browser, open, servePage } from '../e2e/lib.mjs';
@@ -18,6 +23,9 @@ const ORIGIN =
   '================\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n' +
   '================\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n' +
   '================\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n';
+const IMAGE =
+  'std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data\n' +
+  HEADER;
 const GRID =
   'std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n' +
   '================\nMSG: nav_msgs/MapMetaData\nbuiltin_interfaces/Time map_load_time\nfloat32 resolution\n' +
@@ -77,6 +85,36 @@ const grid = new Cdr().header().u32(0).u32(0).f32(0.05).u32(CELLS).u32(CELLS);
 for (const v of [-100, -100, 0, 0, 0, 0, 1]) grid.f64(v);
 const gridBytes = grid.bytes(cells).done();
 
+/** Counts what is asked of the GPU. Runs in the page. */
+function count() {
+  const counted = (window.counted = { draws: 0, vertices: 0, bytes: 0 });
+  const { prototype: gl } = WebGL2RenderingContext;
+  const watch = (name, note) => {
+    const own = gl[name];
+    gl[name] = function (...all) {
+      note(...all);
+      return own.apply(this, all);
+    };
+  };
+  const drawn = (vertices) => {
+    counted.draws++;
+    counted.vertices += vertices;
+  };
+  watch('drawArrays', (_mode, _first, vertices) => drawn(vertices));
+  watch('drawElements', (_mode, vertices) => drawn(vertices));
+  watch('drawArraysInstanced', (_mode, _first, vertices, many) => drawn(vertices * many));
+  watch('drawElementsInstanced', (_mode, vertices, _type, _at, many) => drawn(vertices * many));
+  const sent = (data, length) => {
+    if (ArrayBuffer.isView(data)) {
+      counted.bytes += length ? length * data.BYTES_PER_ELEMENT : data.byteLength;
+    }
+  };
+  watch('bufferData', (_target, data) => sent(data));
+  watch('bufferSubData', (_target, _to, data, _from, length) => sent(data, length));
+  const pixels = (...all) => sent(all.find((one) => ArrayBuffer.isView(one)));
+  for (const name of ['texImage2D', 'texSubImage2D', 'texStorage2D']) watch(name, pixels);
+}
+
 const server = new protocol.FoxgloveServer({
   name: 'speed',
   capabilities: [],
@@ -90,6 +128,7 @@ const channel = (topic, schemaName, schema) =>
 const ids = {
   cloud: channel('/points', 'sensor_msgs/msg/PointCloud2', CLOUD),
   map: channel('/map', 'nav_msgs/msg/OccupancyGrid', GRID),
+  image: channel('/image', 'sensor_msgs/msg/Image', IMAGE),
   updates: channel('/map_updates', 'map_msgs/msg/OccupancyGridUpdate', UPDATE),
 };
 server.on('subscribe', (id) => {
@@ -103,27 +142,46 @@ try {
     chrome,
     `${pages.url}?ws=ws://127.0.0.1:${sockets.address().port}/`,
   );
-  await page.waitForFunction('periplus.topics.length >= 3');
+  await page.waitForFunction('periplus.topics.length >= 4');
+  await page.evaluate(count);
   const measure = async (what, send, everyMs) => {
     const timer = setInterval(send, everyMs);
     await page.waitForTimeout(3000);
-    const fps = await page.evaluate(
+    const found = await page.evaluate(
       () =>
         new Promise((resolve) => {
-          let frames = 0;
+          const { stage } = window.periplus;
           const from = performance.now();
-          const count = () => {
+          const before = { ...window.counted };
+          let [frames, slowestMs, lastMs] = [0, 0, from];
+          const step = () => {
+            const now = performance.now();
+            slowestMs = Math.max(slowestMs, now - lastMs);
+            lastMs = now;
             frames++;
-            window.periplus.stage.view.turn(2, 0);
-            const ms = performance.now() - from;
-            if (ms > 4000) resolve((frames * 1000) / ms);
-            else requestAnimationFrame(count);
+            stage.view.turn(2, 0);
+            if (now - from < 4000) {
+              requestAnimationFrame(step);
+              return;
+            }
+            const each = (name) => (window.counted[name] - before[name]) / frames;
+            resolve({
+              fps: (frames * 1000) / (now - from),
+              slowestMs,
+              draws: each('draws'),
+              vertices: each('vertices'),
+              bytes: each('bytes'),
+            });
           };
-          requestAnimationFrame(count);
+          requestAnimationFrame(step);
         }),
     );
     clearInterval(timer);
-    console.log(`${what}: ${fps.toFixed(1)} frames a second`);
+    const { fps, slowestMs, draws, vertices, bytes } = found;
+    console.log(
+      `${what}: ${fps.toFixed(1)} frames/s (slowest ${slowestMs.toFixed(0)} ms); a frame: ` +
+        `${draws.toFixed(1)} draw calls, ${Math.round(vertices)} vertices, ${Math.round(bytes)} bytes sent`,
+    );
   };
   await page.evaluate(() => {
     const app = window.periplus;
@@ -142,6 +200,26 @@ try {
       server.sendMessage(ids.updates, 0n, update.bytes(Buffer.alloc(40_000, 50)).done());
     },
     100,
+  );
+  await page.evaluate(() => {
+    const app = window.periplus;
+    app.clear();
+    app.add('rviz_default_plugins/Image', 'image', { Topic: '/image' });
+  });
+  const pixels = Buffer.alloc(640 * 480 * 3, 99);
+  const image = new Cdr()
+    .header()
+    .u32(480)
+    .u32(640)
+    .text('rgb8')
+    .u8(0)
+    .u32(1920)
+    .bytes(pixels)
+    .done();
+  await measure(
+    'a camera of 640 x 480 at 30 Hz',
+    () => server.sendMessage(ids.image, 0n, image),
+    33,
   );
   await page.evaluate(() => {
     const app = window.periplus;

@@ -19,7 +19,7 @@ export function rowsOfScan(scan: LaserScan): Rows {
     out[at + 1] = range * Math.sin(angle);
     out[at + 3] = intensities[i] ?? 0;
   }
-  return { words: new Uint32Array(out.buffer), stride: 4, count, xyz: 0, value: 3 };
+  return { words: new Uint32Array(out.buffer), stride: 4, count, xyz: 0, value: 3, isOwn: true };
 }
 
 /**
@@ -59,6 +59,7 @@ export function rowsOfCloud(cloud: PointCloud2, channel: string, isFloats = fals
     xyz: x.offset / 4,
     value: value && value.offset / 4,
     rgb: rgb && rgb.offset / 4,
+    isOwn: bytes !== cloud.data,
   };
 }
 
@@ -87,7 +88,15 @@ function converted(
     }
   }
   const isColored = !!(rgb ?? floats);
-  return { words, stride: 5, count, xyz: 0, value: value && 3, rgb: isColored ? 4 : undefined };
+  return {
+    words,
+    stride: 5,
+    count,
+    xyz: 0,
+    value: value && 3,
+    rgb: isColored ? 4 : undefined,
+    isOwn: true,
+  };
 }
 
 /** Colours from 0 to 1 as 0x00rrggbb. */

@@ -36,5 +36,5 @@ export function depthRows(depth: ImageMessage, info: CameraInfo, color?: ImageMe
         : 0xc8d0da;
     }
   }
-  return { words, stride: 5, count, xyz: 0, value: 3, rgb: 4 };
+  return { words, stride: 5, count, xyz: 0, value: 3, rgb: 4, isOwn: true };
 }

@@ -46,7 +46,7 @@ class MapDisplay extends Display {
   private colors = new DataTexture(new Uint8Array(1024), 256, 1, RGBAFormat);
   private mesh?: Mesh;
   private leaveUpdates?: () => void;
-  private placed = '';
+  private placed?: Pose;
 
   override start(): void {
     super.start();
@@ -84,7 +84,7 @@ class MapDisplay extends Display {
     }
     this.mesh!.scale.set(width * resolution, height * resolution, 1);
     this.describe();
-    this.placed = '';
+    this.placed = undefined;
     this.context.stage.invalidate();
   }
 
@@ -139,7 +139,7 @@ class MapDisplay extends Display {
     if (!known.__webglTexture || cells.version === 0) {
       cells.needsUpdate = true;
     } else {
-      const part = new DataTexture(patch.slice(), w, h, RedFormat);
+      const part = new DataTexture(patch, w, h, RedFormat);
       part.needsUpdate = true;
       this.context.stage.renderer.copyTextureToTexture(part, cells, null, new Vector2(x, y));
       part.dispose();
@@ -192,9 +192,8 @@ class MapDisplay extends Display {
       return;
     }
     const fixedFromMap: Pose = multiply(found.pose, poseOf(grid.info.origin));
-    const key = JSON.stringify(fixedFromMap);
-    if (key === this.placed) return;
-    this.placed = key;
+    if (this.placed && isSame(this.placed, fixedFromMap)) return;
+    this.placed = fixedFromMap;
     this.host.status('Transform', 'ok');
     const [x, y, z] = fixedFromMap.t;
     mesh.position.set(x, y, z - UNDER_M);
@@ -272,6 +271,9 @@ class MapDisplay extends Display {
     super.stop();
   }
 }
+
+const isSame = (a: Pose, b: Pose) =>
+  a.t.every((v, i) => v === b.t[i]) && a.q.every((v, i) => v === b.q[i]);
 
 function cellOf({ info: { width, height } }: OccupancyGrid, uv: Vector2) {
   const i = Math.min(width - 1, Math.floor(uv.x * width));

@@ -35,6 +35,8 @@ export interface Rows {
   value?: number;
   /** Where colours are: 0x00rrggbb. */
   rgb?: number;
+  /** Nobody else has the words: they need not be copied. */
+  isOwn?: boolean;
 }
 
 /** Every so-many-th row, so that no more than `most` are left: a drawing without a GPU stays usable. */
@@ -48,7 +50,7 @@ export function thinned(rows: Rows, most: number): Rows & { every: number } {
     const from = i * every * stride;
     for (let k = 0; k < stride; k++) words[i * stride + k] = rows.words[from + k]!;
   }
-  return { ...rows, words, count, every };
+  return { ...rows, words, count, every, isOwn: true };
 }
 
 export const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles'] as const;
@@ -198,12 +200,14 @@ export class Cloud {
     const usable = words.subarray(0, rows.count * stride);
     if (this.buffer && this.buffer.stride === stride && this.buffer.array.length >= usable.length) {
       // The place on the GPU is kept: scans come often.
-      (this.buffer.array as Uint32Array).set(usable);
+      const isWhole = rows.isOwn && this.buffer.array.length === usable.length;
+      if (isWhole) this.buffer.array = usable;
+      else (this.buffer.array as Uint32Array).set(usable);
       this.buffer.clearUpdateRanges();
       this.buffer.addUpdateRange(0, usable.length);
       this.buffer.needsUpdate = true;
     } else {
-      this.allocate(usable, stride);
+      this.allocate(rows.isOwn ? usable : usable.slice(), stride);
     }
     const { geometry } = this.object;
     this.attach('words', 3, rows.xyz);
@@ -213,9 +217,8 @@ export class Cloud {
     else geometry.setDrawRange(0, rows.count);
   }
 
-  private allocate(words: Uint32Array, stride: number): void {
+  private allocate(array: Uint32Array, stride: number): void {
     this.object.geometry.dispose();
-    const array = words.slice();
     if (this.isSolid) {
       this.buffer = new InstancedInterleavedBuffer(array, stride);
       const geometry = new InstancedBufferGeometry();
