@@ -1,6 +1,7 @@
 //! `periplus launch`.
 
 mod outside;
+mod play;
 mod python;
 mod show;
 
@@ -9,18 +10,23 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, closest};
-use periplus_host::Machine;
-use periplus_launch::{Plan, Request, plan};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap, closest};
+use periplus_host::{Machine, Stopwatch};
+use periplus_launch::{Plan, Request, Step, What, dialect, plan};
 use periplus_resources::{Host as _, Kind, Resolver};
 
+use crate::arguments;
 use crate::options::{SearchOptions, split};
 use crate::terminal::{self, working_folder};
 
-/// Read a launch file of ROS 1 or ROS 2 and say what it starts
+/// Run a launch file of ROS 1 or ROS 2
 ///
 /// Takes XML of roslaunch, and XML, YAML and Python of ROS 2, with no ROS on the machine; files in Python
-/// are evaluated by the python3 that is found on the PATH.
+/// are evaluated by the python3 that is found on the PATH. Gazebo becomes the simulation, and nodes that
+/// are known become built-in ones; other programs run if the machine has them, and what is missing is
+/// told. With `--duration` it runs as fast as the machine can, and the same files, options and seed give
+/// the same bag, byte for byte; without it at the world's own pace until Ctrl-C, with ROS 2 on this
+/// machine.
 #[derive(Debug, Args)]
 pub(crate) struct LaunchOptions {
     /// A launch file, or a package and the name of one in it; then `name:=value`
@@ -33,10 +39,16 @@ pub(crate) struct LaunchOptions {
     #[arg(short, long, conflicts_with = "show_args")]
     print: bool,
     #[command(flatten)]
+    play: play::PlayOptions,
+    #[command(flatten)]
     search: SearchOptions,
 }
 
-pub(crate) fn run(options: &LaunchOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let start = Stopwatch::start();
+    let Some(to_nodes) = arguments::read(ros)? else {
+        return Ok(ExitCode::from(2));
+    };
     let (words, arguments) = split(&options.words);
     let host = Machine;
     let here = working_folder();
@@ -44,8 +56,23 @@ pub(crate) fn run(options: &LaunchOptions) -> io::Result<ExitCode> {
         options.search.resource_path.iter().map(|folder| here.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
-    let file = match file(&words, &resolver, &here) {
-        Ok(file) => file,
+    // Files that it makes last as long as it runs.
+    let mut outside = outside::Programs::new(&resolver, &here, options.print);
+    let (plan, found, file) = match file(&words, &resolver, &here) {
+        Ok(Found::File(file)) => {
+            let request = Request {
+                file: file.clone(),
+                arguments,
+                host: &host,
+                resolver: &resolver,
+                outside: &mut outside,
+            };
+            let (plan, found) = plan(request, &mut sources);
+            (plan, found, file)
+        }
+        Ok(Found::StandIn(file)) => {
+            (only(&file, arguments), Diagnostics::new(), PathBuf::from(file))
+        }
         Err(wrong) => {
             let mut found = Diagnostics::new();
             found.push(*wrong);
@@ -53,11 +80,15 @@ pub(crate) fn run(options: &LaunchOptions) -> io::Result<ExitCode> {
             return Ok(ExitCode::FAILURE);
         }
     };
-    let mut outside = outside::Programs::new(&resolver, &here, options.print);
-    let request =
-        Request { file, arguments, host: &host, resolver: &resolver, outside: &mut outside };
-    let (plan, found) = plan(request, &mut sources);
-    terminal::diagnostics(&mut anstream::stderr().lock(), &found, &sources)?;
+    // That packages are not here matters to who reads a plan; who runs it is told what became of it.
+    let mut told = Diagnostics::new();
+    let is_read = options.print || options.show_args;
+    for finding in found.iter().filter(|one| is_read || one.severity != Severity::Hint) {
+        told.push(finding.clone());
+    }
+    if !options.play.quiet || found.has_errors() {
+        terminal::diagnostics(&mut anstream::stderr().lock(), &told, &sources)?;
+    }
     let mut out = anstream::AutoStream::auto(io::stdout().lock());
     if options.show_args {
         // A file whose arguments are not all given has told of them up to there.
@@ -75,8 +106,24 @@ pub(crate) fn run(options: &LaunchOptions) -> io::Result<ExitCode> {
         print(&mut out, &plan)?;
         return Ok(ExitCode::SUCCESS);
     }
-    show::steps(&mut out, &plan)?;
-    Ok(ExitCode::SUCCESS)
+    drop(out);
+    let launched =
+        play::Launched { plan, dialect: dialect(&host, &file), arguments: to_nodes, start };
+    play::play(launched, &options.play, &options.search)
+}
+
+/// A plan of one launch file that is not here.
+fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
+    let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
+    Plan { steps: vec![Step { id: 0, after: Vec::new(), what, written: None }], ..Plan::default() }
+}
+
+/// What words mean.
+enum Found {
+    /// A launch file.
+    File(PathBuf),
+    /// One of a package that is not here, for which something stands.
+    StandIn(String),
 }
 
 fn print(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
@@ -85,16 +132,12 @@ fn print(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
 }
 
 /// The file that is meant: one by its path, or by the name of a package and its own.
-fn file(
-    words: &[PathBuf],
-    resolver: &Resolver<'_>,
-    here: &Path,
-) -> Result<PathBuf, Box<Diagnostic>> {
+fn file(words: &[PathBuf], resolver: &Resolver<'_>, here: &Path) -> Result<Found, Box<Diagnostic>> {
     match words {
         [file] => {
             let path = here.join(file);
             if Machine.kind(&path) == Some(Kind::File) {
-                return Ok(path);
+                return Ok(Found::File(path));
             }
             Err(Diagnostic::error("launch-file", format!("there is no file {}", file.display()))
                 .help("give the path of a launch file, or a package and the name of a file in it")
@@ -102,13 +145,20 @@ fn file(
         }
         [package, name] => {
             let package = package.display().to_string();
-            let folder = resolver
-                .find_package(&package, &here.join("launch"))
-                .map_err(|miss| miss.into_diagnostic(periplus_diagnostics::Origin::default()))?;
+            let file = name.display().to_string();
+            let folder = match resolver.find_package(&package, &here.join("launch")) {
+                Ok(folder) => folder,
+                Err(_) if periplus_bringup::stands_for(&package, &file) => {
+                    return Ok(Found::StandIn(format!("package://{package}/launch/{file}")));
+                }
+                Err(miss) => {
+                    return Err(miss.into_diagnostic(Origin::default()).into());
+                }
+            };
             let mut files = Vec::new();
             collect(&folder, name, 0, &mut files);
             match files.as_slice() {
-                [file] => Ok(file.clone()),
+                [file] => Ok(Found::File(file.clone())),
                 [] => Err(missing(&folder, &package, name).into()),
                 several => {
                     let shown: Vec<_> =

@@ -67,6 +67,7 @@ fn main() -> ExitCode {
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
     let outcome = match command {
         Command::Sim(options) => sim::run(&options, ros),
+        Command::Launch(options) => launch::run(&options, ros),
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::View(options) => view::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),
@@ -75,14 +76,13 @@ fn main() -> ExitCode {
         Command::Costmap(options) => costmap::serve::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
-                "`--ros-args` are for commands that run nodes: `periplus sim`, `localize`, `teleop`, \
+                "`--ros-args` are for commands that run nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
                  `view`, `map`, `costmap` and `slam --live`",
             );
             return ExitCode::from(2);
         }
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
-        Command::Launch(options) => launch::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Demo(options) => demo::run(&options),
         Command::Convert(options) => convert::run(&options),

@@ -1,9 +1,9 @@
 //! `periplus sim`.
 
-mod progress;
+pub(crate) mod progress;
 mod report;
 mod robots;
-mod ros2;
+pub(crate) mod ros2;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -125,7 +125,7 @@ enum Dynamics {
 
 /// Simulated seconds per second of the wall.
 #[derive(Clone, Copy, Debug)]
-enum Factor {
+pub(crate) enum Factor {
     /// As many as the machine can.
     Max,
     /// So many.
@@ -366,7 +366,7 @@ impl SimOptions {
 }
 
 /// Tells what is wrong with the files. False when something is missing that was asked for.
-fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
+pub(crate) fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
     let mut err = anstream::stderr().lock();
     let mut whole = true;
     for loaded in &composition.files {
@@ -385,7 +385,7 @@ pub(crate) fn positive(word: &str) -> Result<f64, String> {
     }
 }
 
-fn factor(word: &str) -> Result<Factor, String> {
+pub(crate) fn factor(word: &str) -> Result<Factor, String> {
     if word == "max" {
         return Ok(Factor::Max);
     }

@@ -3,7 +3,7 @@
 //! Source: `nav2_costmap_2d/src/costmap_2d_markers.cpp`, `costmap_2d_cloud.cpp`.
 
 use periplus_costmap::MOST_VOXELS;
-use periplus_graph::{Actor, Graph, GraphError, NodeSettings, Publisher, Qos};
+use periplus_graph::{Actor, Graph, GraphError, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 use periplus_msgs::std_msgs::{ColorRGBA, Header};
 use periplus_msgs::visualization_msgs::Marker;
@@ -42,7 +42,14 @@ impl VoxelMarkers {
     /// # Errors
     /// When a topic of that name has another type.
     pub fn new(graph: &Graph, namespace: &str) -> Result<Self, GraphError> {
-        let node = graph.node(NodeSettings::new("costmap_2d_marker").namespace(namespace))?;
+        Self::at(graph.node(NodeSettings::new("costmap_2d_marker").namespace(namespace))?)
+    }
+
+    /// As this node.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type.
+    pub fn at(node: Node) -> Result<Self, GraphError> {
         let markers = node.publisher("visualization_marker", Qos::reliable(1))?;
         let mut actor = node.actor(markers);
         let namespace = node.names().namespace().to_owned();
@@ -90,7 +97,14 @@ impl VoxelCloud {
     /// # Errors
     /// When a topic of that name has another type.
     pub fn new(graph: &Graph, namespace: &str) -> Result<Self, GraphError> {
-        let node = graph.node(NodeSettings::new("costmap_2d_cloud").namespace(namespace))?;
+        Self::at(graph.node(NodeSettings::new("costmap_2d_cloud").namespace(namespace))?)
+    }
+
+    /// As this node.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type.
+    pub fn at(node: Node) -> Result<Self, GraphError> {
         let marked = node.publisher("voxel_marked_cloud", Qos::reliable(1))?;
         let unknown = node.publisher("voxel_unknown_cloud", Qos::reliable(1))?;
         let mut actor = node.actor([marked, unknown]);

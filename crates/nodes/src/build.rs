@@ -27,7 +27,7 @@ pub fn devices(
     }
     devices.extend(sensors::build(setting, &sites, diagnostics));
     let tells_joints = joint_state_publishers(setting) > others;
-    if !tells_joints {
+    if setting.tells_joints && !tells_joints {
         match JointStatePublisher::usual(setting) {
             Ok(Some(publisher)) => devices.push(Box::new(publisher)),
             Ok(None) => {}

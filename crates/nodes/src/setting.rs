@@ -33,6 +33,8 @@ pub struct Setting<'a> {
     pub rolling_scans: bool,
     /// The time at which it begins \[ns\].
     pub start_ns: i64,
+    /// Whether the joints of a robot are told where no plugin does so.
+    pub tells_joints: bool,
 }
 
 impl Setting<'_> {

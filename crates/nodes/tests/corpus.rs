@@ -94,6 +94,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         quirks: Quirks::NONE,
         rolling_scans: false,
         start_ns: 0,
+        tells_joints: true,
     };
     let mut diagnostics = Diagnostics::new();
     let mut devices: Vec<Box<dyn Device>> = Vec::new();

@@ -95,7 +95,16 @@ impl Composition {
 /// Findings are in [`Composition::files`]; what could not be read is missing.
 #[must_use]
 pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Composition {
-    let mut first = load(world, setting);
+    compose_loaded(load(world, setting), robots, setting)
+}
+
+/// A plane in the sun with nothing on it.
+#[must_use]
+pub fn compose_plain(setting: &Setting<'_>) -> Composition {
+    compose_loaded(plain_world(setting), &[], setting)
+}
+
+fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>) -> Composition {
     settle(&mut first, setting);
     if first.scene.is_none() && !first.diagnostics.has_errors() {
         let what = first.language.name();

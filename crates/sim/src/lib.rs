@@ -17,7 +17,7 @@ mod shares;
 mod simulation;
 mod slice;
 
-pub use compose::{Composition, Member, Placement, Standing, compose};
+pub use compose::{Composition, Member, Placement, Standing, compose, compose_plain};
 pub use drive::{Driver, ScriptFindings};
 pub use files::ShapeFiles;
 pub use hear::hear;
@@ -25,7 +25,7 @@ pub use pace::Pace;
 pub use periplus_dynamics::{Diverged, Mode};
 pub use periplus_sensors::Quirks;
 pub use record::{RecordError, Recorder, Recording, Wanted};
-pub use run::{Progress, Run};
-pub use services::{Search, Services};
+pub use run::{Progress, Run, Tick};
+pub use services::{Arrival, ArrivalFrom, Arrived, Search, Services};
 pub use shares::{Shares, Work};
 pub use simulation::{Options, Simulation};

@@ -36,6 +36,15 @@ pub struct Progress {
     pub real_time_factor: f64,
 }
 
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tick {
+    /// It does.
+    Go,
+    /// It ends.
+    End,
+}
+
 impl Run<'_> {
     /// Runs. `watch` is told how far it is after each step.
     ///
@@ -46,6 +55,22 @@ impl Run<'_> {
         simulation: &mut Simulation,
         services: &mut Services,
         driver: &mut Driver,
+        watch: &mut dyn FnMut(Progress),
+    ) -> Result<(), Diverged> {
+        self.go_with(simulation, services, driver, &mut |_| Tick::Go, watch)
+    }
+
+    /// As [`Run::go`]; `work` is done before each step, and from time to time while the world stands
+    /// still.
+    ///
+    /// # Errors
+    /// When a body's motion is no longer one; what was recorded until then is whole.
+    pub fn go_with(
+        &self,
+        simulation: &mut Simulation,
+        services: &mut Services,
+        driver: &mut Driver,
+        work: &mut dyn FnMut(&mut Simulation) -> Tick,
         watch: &mut dyn FnMut(Progress),
     ) -> Result<(), Diverged> {
         services.set_paused(self.paused);
@@ -60,6 +85,9 @@ impl Run<'_> {
             if simulation.time_ns() < before_ns {
                 driver.restart();
                 pace.restart(simulation.time_ns());
+            }
+            if work(simulation) == Tick::End {
+                break;
             }
             if let Some(factor) = services.take_factor() {
                 pace = Pace::new(factor, simulation.time_ns());

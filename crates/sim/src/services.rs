@@ -10,6 +10,7 @@
 //! What cannot be done is answered with `success = false` and the reason; where an answer has no
 //! place for a reason, it is among the [findings](Services::take_findings).
 
+mod arrival;
 mod convert;
 mod entity;
 mod factory;
@@ -48,6 +49,7 @@ use self::tempo::Tempo;
 use self::topics::StateTopics;
 use crate::Simulation;
 
+pub use self::arrival::{Arrival, ArrivalFrom, Arrived};
 pub(crate) use self::entity::Entity;
 pub use self::reading::Search;
 

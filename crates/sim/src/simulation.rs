@@ -46,6 +46,8 @@ pub struct Options {
     pub arguments: Arguments,
     /// Messages on `/clock` per simulated second \[Hz\].
     pub clock_rate_hz: f64,
+    /// Whether the joints of robots are told where no plugin does so.
+    pub tells_joints: bool,
 }
 
 impl Default for Options {
@@ -60,6 +62,7 @@ impl Default for Options {
             remaps: Vec::new(),
             arguments: Arguments::default(),
             clock_rate_hz: 100.0,
+            tells_joints: true,
         }
     }
 }
@@ -290,6 +293,7 @@ impl Simulation {
             quirks: self.options.quirks,
             rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,
+            tells_joints: self.options.tells_joints,
         };
         periplus_nodes::devices(&setting, member.description.as_deref(), findings)
     }

@@ -106,6 +106,11 @@ impl Ros2 {
         Ok(Some(joined))
     }
 
+    /// Whether others can see the run.
+    pub(crate) fn is_joined(&self) -> bool {
+        self.wire.is_some()
+    }
+
     /// Whether it is time to say what is wrong on the network.
     pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
         let is_due = self.wire.is_some() && wall >= self.looked + LOOK;

@@ -205,6 +205,7 @@ fn setting<'a>(
         quirks: Quirks::NONE,
         rolling_scans: false,
         start_ns: 0,
+        tells_joints: true,
     }
 }
 

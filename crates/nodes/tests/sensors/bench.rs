@@ -85,6 +85,7 @@ impl Bench {
             quirks: Quirks::NONE,
             rolling_scans: false,
             start_ns: 0,
+            tells_joints: true,
         };
         let mut diagnostics = Diagnostics::new();
         let devices = devices(&setting, None, &mut diagnostics);

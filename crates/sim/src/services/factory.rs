@@ -116,6 +116,7 @@ impl Order<'_> {
             may_rename: false,
             namespace: self.namespace,
             standing: Standing::AsSeenFrom(world_from_frame * frame_from_here),
+            with_frames: true,
         };
         spawn(simulation, search, &wish)
     }

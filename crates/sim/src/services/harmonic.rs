@@ -137,6 +137,7 @@ fn create(
         name: &asked.name,
         may_rename: asked.allow_renaming,
         namespace: "",
+        with_frames: true,
         standing: Standing::At(world_from_model),
     };
     if asked.clone_name.is_empty() {

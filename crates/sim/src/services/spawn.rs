@@ -17,6 +17,8 @@ pub(super) struct Wish<'a> {
     /// Of all its topics; empty is none.
     pub(super) namespace: &'a str,
     pub(super) standing: Standing,
+    /// Whether a robot of a URDF tells where its links are.
+    pub(super) with_frames: bool,
 }
 
 /// Where it is to stand.
@@ -68,7 +70,7 @@ pub(super) fn spawn(
                 name: name.clone(),
                 namespace: format!("/{namespace}"),
                 world_from_model,
-                description,
+                description: description.filter(|_| wish.with_frames),
                 file: 0,
             }));
             let notes = told(&findings, &sources);

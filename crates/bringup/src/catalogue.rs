@@ -1,0 +1,483 @@
+//! What the programs of ROS become here: one table, which the documentation is made from.
+
+use std::fmt::Write as _;
+
+use periplus_maps::Distro;
+use periplus_slam_nodes::Program;
+
+/// What a program becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Tells where the links of a robot are.
+    RobotStatePublisher,
+    /// Tells where joints are that nobody else tells of.
+    JointStatePublisher,
+    /// A frame that does not move.
+    StaticTransform,
+    /// The simulation.
+    Gazebo,
+    /// Puts a robot into it.
+    Spawn,
+    /// Topics of Gazebo as topics of ROS.
+    Bridge,
+    /// The page.
+    Viewer,
+    /// A mapper.
+    Slam(Program),
+    /// Serves a map; whether it waits for a lifecycle manager.
+    MapServer { is_managed: bool },
+    /// Saves maps when asked.
+    MapSaverServer,
+    /// Saves one map.
+    MapSaver(Distro),
+    /// Finds the robot on a map; whether it waits for a lifecycle manager.
+    Amcl { is_managed: bool },
+    /// A server of Nav2 whose costmap is here and whose algorithms are not.
+    CostmapHost { costmap: &'static str, lacks: &'static str },
+    /// A costmap by itself.
+    Costmap,
+    /// Voxels as cubes.
+    VoxelMarkers,
+    /// Voxels as points.
+    VoxelCloud,
+    /// Brings managed nodes up.
+    LifecycleManager,
+    /// Odometry and other sources made one.
+    Ekf,
+    /// A topic under another name.
+    Relay,
+    /// A process for components; each of them is looked at by itself.
+    Container,
+    /// Nothing: what it does is done already.
+    Needless,
+    /// Nothing: Periplus has none.
+    Lacking,
+}
+
+/// A row of the table.
+#[derive(Debug)]
+pub(crate) struct Entry {
+    pub(crate) packages: &'static [&'static str],
+    /// Names of programs; `*` is all of the package.
+    pub(crate) executables: &'static [&'static str],
+    /// Classes of components.
+    pub(crate) plugins: &'static [&'static str],
+    /// The name of its node, where nobody gives another.
+    pub(crate) node: &'static str,
+    pub(crate) role: Role,
+    /// In words, for the summary and the documentation.
+    pub(crate) becomes: &'static str,
+}
+
+/// Shortens the rows below.
+const fn entry(
+    packages: &'static [&'static str],
+    executables: &'static [&'static str],
+    plugins: &'static [&'static str],
+    node: &'static str,
+    role: Role,
+    becomes: &'static str,
+) -> Entry {
+    Entry { packages, executables, plugins, node, role, becomes }
+}
+
+/// No classes.
+const NONE: &[&str] = &[];
+
+/// The table. Earlier rows win.
+pub(crate) static CATALOGUE: &[Entry] = &[
+    entry(
+        &["robot_state_publisher"],
+        &["robot_state_publisher", "state_publisher"],
+        &["robot_state_publisher::RobotStatePublisher"],
+        "robot_state_publisher",
+        Role::RobotStatePublisher,
+        "the built-in node: `/tf`, `/tf_static`, `robot_description`",
+    ),
+    entry(
+        &["joint_state_publisher"],
+        &["joint_state_publisher", "joint_state_publisher.py"],
+        NONE,
+        "joint_state_publisher",
+        Role::JointStatePublisher,
+        "the built-in node: `joint_states` of the robot that is described",
+    ),
+    entry(
+        &["joint_state_publisher_gui"],
+        &["joint_state_publisher_gui", "joint_state_publisher_gui.py"],
+        NONE,
+        "joint_state_publisher_gui",
+        Role::JointStatePublisher,
+        "the built-in node, without sliders: joints stay where they are at the start",
+    ),
+    entry(
+        &["tf2_ros", "tf"],
+        &["static_transform_publisher", "static_transform_publisher_node"],
+        &["tf2_ros::StaticTransformBroadcasterNode"],
+        "static_transform_publisher",
+        Role::StaticTransform,
+        "a frame on `/tf_static`; of ROS 1's `tf` on `/tf`, as often as it says",
+    ),
+    entry(
+        &["gazebo_ros", "gazebo"],
+        &["gazebo", "gzserver", "debug", "gdbrun", "libcommon.sh"],
+        NONE,
+        "gazebo",
+        Role::Gazebo,
+        "the simulation of this world",
+    ),
+    entry(
+        &["ros_gz_sim", "ros_ign_gazebo"],
+        &["gzserver", "gz_server"],
+        &["ros_gz_sim::GzServer"],
+        "gz_server",
+        Role::Gazebo,
+        "the simulation of this world",
+    ),
+    entry(
+        &["gazebo_ros"],
+        &["gzclient", "gzclient_gui"],
+        NONE,
+        "gazebo_gui",
+        Role::Viewer,
+        "the page (`--page`)",
+    ),
+    entry(
+        &["gazebo_ros"],
+        &["spawn_entity.py", "spawn_entity", "spawn_model", "spawn_gazebo_model"],
+        NONE,
+        "spawn_entity",
+        Role::Spawn,
+        "a robot or model in the simulation, there when the program would end",
+    ),
+    entry(
+        &["ros_gz_sim", "ros_ign_gazebo"],
+        &["create"],
+        NONE,
+        "ros_gz_sim",
+        Role::Spawn,
+        "a robot or model in the simulation, there when the program would end",
+    ),
+    entry(
+        &["ros_gz_bridge", "ros_ign_bridge"],
+        &["parameter_bridge", "bridge_node", "static_bridge"],
+        &["ros_gz_bridge::RosGzBridge"],
+        "ros_gz_bridge",
+        Role::Bridge,
+        "topics of the simulation are topics of ROS already: those that get another name are passed on",
+    ),
+    entry(
+        &["ros_gz_image", "ros_ign_image"],
+        &["image_bridge"],
+        NONE,
+        "ros_gz_image",
+        Role::Bridge,
+        "pictures of the simulation are topics of ROS already",
+    ),
+    entry(
+        &["rviz2", "rviz"],
+        &["rviz2", "rviz"],
+        NONE,
+        "rviz2",
+        Role::Viewer,
+        "the page (`--page`), which opens files of RViz",
+    ),
+    entry(
+        &["slam_toolbox"],
+        &["async_slam_toolbox_node"],
+        &["slam_toolbox::AsynchronousSlamToolbox"],
+        "slam_toolbox",
+        Role::Slam(Program::Async),
+        "the built-in mapper",
+    ),
+    entry(
+        &["slam_toolbox"],
+        &["sync_slam_toolbox_node"],
+        &["slam_toolbox::SynchronousSlamToolbox"],
+        "slam_toolbox",
+        Role::Slam(Program::Sync),
+        "the built-in mapper; no scan is left out",
+    ),
+    entry(
+        &["slam_toolbox"],
+        &["localization_slam_toolbox_node"],
+        &["slam_toolbox::LocalizationSlamToolbox"],
+        "slam_toolbox",
+        Role::Slam(Program::Localization),
+        "the built-in mapper, on a stored graph",
+    ),
+    entry(
+        &["slam_toolbox"],
+        &["lifelong_slam_toolbox_node"],
+        &["slam_toolbox::LifelongSlamToolbox"],
+        "slam_toolbox",
+        Role::Slam(Program::Lifelong),
+        "the built-in mapper; old scans go",
+    ),
+    entry(
+        &["gmapping", "slam_gmapping"],
+        &["slam_gmapping"],
+        NONE,
+        "slam_gmapping",
+        Role::Slam(Program::Gmapping),
+        "the built-in mapper with particles",
+    ),
+    entry(
+        &["nav2_map_server"],
+        &["map_server"],
+        &["nav2_map_server::MapServer"],
+        "map_server",
+        Role::MapServer { is_managed: true },
+        "the built-in node, once a lifecycle manager activates it",
+    ),
+    entry(
+        &["map_server"],
+        &["map_server"],
+        NONE,
+        "map_server",
+        Role::MapServer { is_managed: false },
+        "the built-in node; `-f NAME`, a slip of a tutorial, saves the map as `map_saver` does",
+    ),
+    entry(
+        &["nav2_map_server"],
+        &["map_saver_server"],
+        &["nav2_map_server::MapSaver"],
+        "map_saver",
+        Role::MapSaverServer,
+        "the built-in node, once a lifecycle manager activates it",
+    ),
+    entry(
+        &["nav2_map_server"],
+        &["map_saver_cli"],
+        NONE,
+        "map_saver",
+        Role::MapSaver(Distro::Jazzy),
+        "saves the map of its topic, and ends",
+    ),
+    entry(
+        &["map_server"],
+        &["map_saver"],
+        NONE,
+        "map_saver",
+        Role::MapSaver(Distro::Noetic),
+        "saves the map of its topic, and ends",
+    ),
+    entry(
+        &["nav2_amcl"],
+        &["amcl"],
+        &["nav2_amcl::AmclNode"],
+        "amcl",
+        Role::Amcl { is_managed: true },
+        "the built-in node, once a lifecycle manager activates it",
+    ),
+    entry(
+        &["amcl"],
+        &["amcl"],
+        NONE,
+        "amcl",
+        Role::Amcl { is_managed: false },
+        "the built-in node",
+    ),
+    entry(
+        &["nav2_controller"],
+        &["controller_server"],
+        &["nav2_controller::ControllerServer"],
+        "controller_server",
+        Role::CostmapHost { costmap: "local_costmap", lacks: "controllers" },
+        "its `local_costmap`, configured and activated with it; there are no controllers",
+    ),
+    entry(
+        &["nav2_planner"],
+        &["planner_server"],
+        &["nav2_planner::PlannerServer"],
+        "planner_server",
+        Role::CostmapHost { costmap: "global_costmap", lacks: "planners" },
+        "its `global_costmap`, configured and activated with it; there are no planners",
+    ),
+    entry(
+        &["nav2_costmap_2d"],
+        &["nav2_costmap_2d"],
+        NONE,
+        "costmap",
+        Role::Costmap,
+        "a costmap by itself",
+    ),
+    entry(
+        &["nav2_costmap_2d"],
+        &["nav2_costmap_2d_markers"],
+        NONE,
+        "costmap_2d_marker",
+        Role::VoxelMarkers,
+        "voxels as cubes on `visualization_marker`",
+    ),
+    entry(
+        &["nav2_costmap_2d"],
+        &["nav2_costmap_2d_cloud"],
+        NONE,
+        "costmap_2d_cloud",
+        Role::VoxelCloud,
+        "voxels as points on `voxel_marked_cloud` and `voxel_unknown_cloud`",
+    ),
+    entry(
+        &["nav2_lifecycle_manager"],
+        &["lifecycle_manager"],
+        &["nav2_lifecycle_manager::LifecycleManager"],
+        "lifecycle_manager",
+        Role::LifecycleManager,
+        "configures and activates the nodes that it is told, in order; those that nobody has are left out",
+    ),
+    entry(
+        &["robot_localization"],
+        &["ekf_node", "ekf_localization_node"],
+        NONE,
+        "ekf_filter_node",
+        Role::Ekf,
+        "the built-in filter of wheels, IMU and poses",
+    ),
+    entry(
+        &["topic_tools"],
+        &["relay"],
+        &["topic_tools::RelayNode"],
+        "relay",
+        Role::Relay,
+        "what comes on one topic goes out on another",
+    ),
+    entry(
+        &["rclcpp_components"],
+        &[
+            "component_container",
+            "component_container_mt",
+            "component_container_isolated",
+            "component_container_event",
+        ],
+        NONE,
+        "component_container",
+        Role::Container,
+        "nothing by itself: its components are looked at one by one",
+    ),
+    entry(
+        &["teleop_twist_keyboard"],
+        &["teleop_twist_keyboard", "teleop_twist_keyboard.py"],
+        NONE,
+        "teleop_twist_keyboard",
+        Role::Lacking,
+        "nothing, since it wants a terminal of its own: type `periplus teleop` in one",
+    ),
+    entry(
+        &[
+            "nav2_bt_navigator",
+            "nav2_behaviors",
+            "nav2_smoother",
+            "nav2_velocity_smoother",
+            "nav2_waypoint_follower",
+            "nav2_collision_monitor",
+            "opennav_docking",
+            "nav2_route",
+            "nav2_bringup",
+            "nav2_recoveries",
+        ],
+        &["*"],
+        NONE,
+        "nav2",
+        Role::Lacking,
+        "nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways",
+    ),
+    entry(
+        &["move_base"],
+        &["*"],
+        NONE,
+        "move_base",
+        Role::Lacking,
+        "nothing: Periplus plans no ways; its costmaps run with `periplus costmap FILE`",
+    ),
+    entry(
+        &["controller_manager", "gazebo_ros2_control", "gz_ros2_control"],
+        &["*"],
+        NONE,
+        "controller_manager",
+        Role::Lacking,
+        "nothing: the simulation drives robots by Gazebo's own plugins, not by ros2_control",
+    ),
+    entry(
+        &["rqt_gui", "rqt_graph", "rqt_image_view", "rqt_reconfigure", "rqt_robot_steering"],
+        &["*"],
+        NONE,
+        "rqt",
+        Role::Viewer,
+        "the page (`--page`)",
+    ),
+    entry(
+        &["tf2_ros"],
+        &["buffer_server"],
+        NONE,
+        "buffer_server",
+        Role::Needless,
+        "nothing: each node keeps its own transforms",
+    ),
+    entry(
+        &["diagnostic_aggregator", "robot_pose_publisher"],
+        &["*"],
+        NONE,
+        "diagnostic_aggregator",
+        Role::Needless,
+        "nothing: `/diagnostics` is there without it",
+    ),
+];
+
+/// What a program of a package becomes; none when it is not known.
+pub(crate) fn of_program(package: Option<&str>, executable: &str) -> Option<&'static Entry> {
+    let name = executable.rsplit('/').next().unwrap_or(executable);
+    CATALOGUE.iter().find(|entry| {
+        let is_package = package.is_none_or(|package| entry.packages.contains(&package));
+        // Without a package a name that stands for all of one says nothing.
+        let is_program =
+            entry.executables.contains(&name) || package.is_some() && entry.executables == ["*"];
+        is_package && is_program
+    })
+}
+
+/// What a component becomes.
+pub(crate) fn of_plugin(package: &str, plugin: &str) -> Option<&'static Entry> {
+    let by_class = CATALOGUE.iter().find(|entry| entry.plugins.contains(&plugin));
+    by_class.or_else(|| {
+        CATALOGUE
+            .iter()
+            .find(|entry| entry.packages.contains(&package) && entry.executables == ["*"])
+    })
+}
+
+/// The table as a page of the documentation has it.
+#[must_use]
+pub fn table() -> String {
+    let mut text =
+        String::from("| package | program | component | what it becomes |\n|---|---|---|---|\n");
+    let join = |words: &[&str]| {
+        let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        words.join(", ").replace("`*`", "all")
+    };
+    for entry in CATALOGUE {
+        let (packages, programs) = (join(entry.packages), join(entry.executables));
+        let plugins = join(entry.plugins);
+        let _ = writeln!(text, "| {packages} | {programs} | {plugins} | {} |", entry.becomes);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_and_components_are_found() {
+        let role = |package, executable| of_program(package, executable).map(|entry| entry.role);
+        assert_eq!(role(Some("gazebo_ros"), "spawn_entity.py"), Some(Role::Spawn));
+        assert_eq!(role(None, "/opt/ros/lib/gazebo_ros/gzserver"), Some(Role::Gazebo));
+        assert_eq!(role(Some("nav2_amcl"), "amcl"), Some(Role::Amcl { is_managed: true }));
+        assert_eq!(role(Some("amcl"), "amcl"), Some(Role::Amcl { is_managed: false }));
+        assert_eq!(role(Some("nav2_behaviors"), "behavior_server"), Some(Role::Lacking));
+        assert_eq!(role(None, "behavior_server"), None);
+        assert_eq!(role(Some("mine"), "amcl"), None);
+        let class = of_plugin("nav2_map_server", "nav2_map_server::MapServer");
+        assert_eq!(class.map(|entry| entry.role), Some(Role::MapServer { is_managed: true }));
+    }
+}

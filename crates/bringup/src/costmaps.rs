@@ -1,0 +1,97 @@
+//! The servers of Nav2 whose costmaps are here and whose algorithms are not.
+
+use periplus_costmap::Config;
+use periplus_costmap_nodes::CostmapNode;
+use periplus_diagnostics::Diagnostics;
+use periplus_graph::{
+    Actor, Graph, GraphError, Level, Lifecycle, LifecycleState, Node, NodeSettings, Step,
+    StepOutcome, Transition,
+};
+
+use crate::make::{self, Written};
+use crate::parts::Ask;
+
+/// A managed node in the place of a server, and the costmap that lives as it does.
+pub(crate) struct Host {
+    _actor: Actor<CostmapNode>,
+    life: Lifecycle,
+}
+
+impl Host {
+    /// As this node; the costmap gets its own node, in the server's namespace.
+    ///
+    /// # Errors
+    /// In words.
+    pub(crate) fn new(
+        ask: &Ask,
+        node: &Node,
+        graph: &Graph,
+        (costmap, lacks): (&'static str, &'static str),
+        notes: &mut Vec<String>,
+    ) -> Result<Self, String> {
+        let around = node.names().namespace().trim_end_matches('/');
+        let namespace = format!("{around}/{costmap}");
+        let named = make::parameters_as(ask, &format!("{namespace}/{costmap}"), notes);
+        let written = Written::new(&named, &format!("{namespace}/{costmap}"))?;
+        let config = written.read(notes, |tree, found| match tree {
+            Some(tree) => Config::read_yaml(tree, costmap, None, found),
+            None => Config::read([], None, found),
+        });
+        let settings = make::remapped(NodeSettings::new(costmap).namespace(&namespace), ask);
+        let failed = |error: GraphError| error.to_string();
+        let inner = graph.node(settings).map_err(failed)?;
+        let costmap = CostmapNode::at(inner, config).map_err(failed)?;
+        costmap.name_lines_of(written.sources);
+        let mut actor = node.actor(costmap);
+        let life = actor
+            .managed(move |costmap, step, io| {
+                let outcome = follow(costmap, step);
+                if step == Step::Activate {
+                    let text =
+                        format!("its costmap is active; Periplus has no {lacks} to go with it");
+                    io.node().log(Level::Warn, text);
+                }
+                outcome
+            })
+            .map_err(failed)?;
+        Ok(Self { _actor: actor, life })
+    }
+
+    pub(crate) fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+}
+
+/// The costmap goes where its server goes.
+fn follow(costmap: &CostmapNode, step: Step) -> StepOutcome {
+    let life = costmap.life();
+    let transition = match step {
+        Step::Configure => Transition::Configure,
+        Step::Activate => Transition::Activate,
+        Step::Deactivate => Transition::Deactivate,
+        Step::Cleanup | Step::Error => Transition::Cleanup,
+        Step::Shutdown => Transition::Shutdown,
+    };
+    if life.state() == LifecycleState::Finalized {
+        return StepOutcome::Failure;
+    }
+    life.change(transition);
+    StepOutcome::Success
+}
+
+/// A costmap by itself.
+///
+/// # Errors
+/// In words.
+pub(crate) fn alone(ask: &Ask, node: Node, notes: &mut Vec<String>) -> Result<CostmapNode, String> {
+    let name = node.names().name().to_owned();
+    let named = make::parameters_as(ask, node.full_name(), notes);
+    let written = Written::new(&named, node.full_name())?;
+    let config = written.read(notes, |tree, found: &mut Diagnostics| match tree {
+        Some(tree) => Config::read_yaml(tree, &name, None, found),
+        None => Config::read([], None, found),
+    });
+    let costmap = CostmapNode::at(node, config).map_err(|error| error.to_string())?;
+    costmap.name_lines_of(written.sources);
+    Ok(costmap)
+}

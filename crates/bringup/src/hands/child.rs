@@ -1,0 +1,275 @@
+//! Programs of the machine's.
+
+use std::io::{BufRead as _, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child as Running_, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use periplus_host::{Machine, Stopwatch, sleep};
+use periplus_launch::{Dialect, Parameters, Running};
+use periplus_resources::{Host as _, Kind, Resolver};
+
+use super::{Done, Hand, Stage};
+use crate::crew::Settings;
+use crate::parameters::parameter;
+use crate::parts::Program;
+use crate::told::Said;
+
+/// How long a program may take to end when it is asked to.
+const LAST_WORDS: Duration = Duration::from_secs(5);
+
+/// Folders of a package's sources in which programs lie.
+const FOLDERS: [&str; 5] = ["scripts", "nodes", "bin", "src", ""];
+
+/// A program that runs.
+pub(crate) struct Child {
+    name: String,
+    words: Vec<String>,
+    running: Running,
+    process: Option<Running_>,
+    printed: Option<Receiver<String>>,
+    respawn_ns: Option<i64>,
+}
+
+impl Child {
+    /// Starts a program.
+    ///
+    /// # Errors
+    /// Why it cannot be, and what to do.
+    pub(crate) fn start(
+        program: &Program,
+        settings: &Settings,
+        _now_ns: i64,
+        running: &Running,
+    ) -> Result<Self, String> {
+        let is_node = program.package.is_some();
+        let mut words = if program.is_shell {
+            vec!["sh".to_owned(), "-c".into(), program.words.join(" ")]
+        } else {
+            program.words.clone()
+        };
+        if is_node {
+            if settings.dialect == Dialect::Ros1 {
+                return Err(
+                    "it is a program of ROS 1, which speaks to a master that is not here; \
+                            nothing built in stands for it"
+                        .into(),
+                );
+            }
+            if !settings.is_wired {
+                return Err("it is a program of ROS 2, and this run is on no network; \
+                            `--ros2 loopback` puts it on one"
+                    .into());
+            }
+            let package = program.package.as_deref().unwrap_or_default();
+            let (first, rest) = words.split_first().ok_or("it has no name")?;
+            let path = find(package, first, settings)?;
+            let mut found = by_path(&path);
+            found.extend(rest.iter().cloned());
+            found.extend(ros_words(program));
+            words = found;
+        }
+        if let Some(prefix) = running.prefix.as_deref() {
+            let mut before: Vec<String> = prefix.split_whitespace().map(str::to_owned).collect();
+            before.append(&mut words);
+            words = before;
+        }
+        let name = program.identity.name.clone().unwrap_or_else(|| program.words[0].clone());
+        let mut child = Self {
+            name,
+            words,
+            running: running.clone(),
+            process: None,
+            printed: None,
+            respawn_ns: None,
+        };
+        child.spawn()?;
+        Ok(child)
+    }
+
+    /// In words.
+    pub(crate) fn told(&self) -> String {
+        format!("the program {}", self.words[0])
+    }
+
+    fn spawn(&mut self) -> Result<(), String> {
+        let mut command = Command::new(&self.words[0]);
+        command.args(&self.words[1..]).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        if let Some(folder) = &self.running.folder {
+            command.current_dir(folder);
+        }
+        for (name, value) in &self.running.environment {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+        let mut process = command.spawn().map_err(|error| {
+            let missing = error.kind() == std::io::ErrorKind::NotFound;
+            let program = &self.words[0];
+            if missing {
+                format!("there is no program `{program}` on the PATH, and nothing built in stands for it")
+            } else {
+                format!("`{program}` cannot be started: {error}")
+            }
+        })?;
+        let (send, printed) = channel();
+        let pipes: [Option<Box<dyn Read + Send>>; 2] = [
+            process.stdout.take().map(|pipe| Box::new(pipe) as _),
+            process.stderr.take().map(|pipe| Box::new(pipe) as _),
+        ];
+        for pipe in pipes.into_iter().flatten() {
+            let send = send.clone();
+            // Ends with the pipe.
+            std::thread::spawn(move || {
+                for line in BufReader::new(pipe).lines().map_while(Result::ok) {
+                    if send.send(line).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        self.process = Some(process);
+        self.printed = Some(printed);
+        Ok(())
+    }
+
+    /// What it has written since the last time.
+    fn pass_on(&self, stage: &mut Stage<'_>) {
+        let Some(printed) = &self.printed else { return };
+        for line in printed.try_iter() {
+            stage.has_printed = true;
+            stage.said.push(Said::info(format!("[{}] {line}", self.name)));
+        }
+    }
+}
+
+impl Hand for Child {
+    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+        self.pass_on(stage);
+        let Some(process) = &mut self.process else {
+            if self.respawn_ns.is_some_and(|at_ns| stage.now_ns >= at_ns) {
+                self.respawn_ns = None;
+                if let Err(why) = self.spawn() {
+                    stage.said.push(Said::error(why));
+                    return Done::Yes;
+                }
+            }
+            return Done::No;
+        };
+        let status = match process.try_wait() {
+            Ok(None) => return Done::No,
+            Ok(Some(status)) => status,
+            Err(error) => {
+                stage.said.push(Said::error(format!("[{}] {error}", self.name)));
+                return Done::Yes;
+            }
+        };
+        // Its last words are in the pipe still.
+        sleep(Duration::from_millis(5));
+        self.pass_on(stage);
+        let text = format!("[{}] has ended: {status}", self.name);
+        stage.said.push(if status.success() { Said::info(text) } else { Said::error(text) });
+        self.process = None;
+        match self.running.respawn_after_s {
+            Some(delay_s) => {
+                #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+                let delay_ns = (delay_s * 1e9) as i64;
+                self.respawn_ns = Some(stage.now_ns.saturating_add(delay_ns));
+                Done::No
+            }
+            None => Done::Yes,
+        }
+    }
+
+    fn stop(&mut self) {
+        let Some(process) = &mut self.process else { return };
+        // As Ctrl-C does, then harder.
+        for signal in ["-INT", "-TERM"] {
+            let asked = Command::new("kill").args([signal, &process.id().to_string()]).status();
+            let since = Stopwatch::start();
+            while asked.is_ok() && since.elapsed() < LAST_WORDS {
+                if !matches!(process.try_wait(), Ok(None)) {
+                    return;
+                }
+                sleep(Duration::from_millis(10));
+            }
+        }
+        let _ = process.kill();
+        let _ = process.wait();
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        if let Some(process) = &mut self.process {
+            let _ = process.kill();
+            let _ = process.wait();
+        }
+    }
+}
+
+/// What is to be typed for a program: Python needs its interpreter where nobody made it executable.
+fn by_path(path: &Path) -> Vec<String> {
+    let is_python = path.extension().is_some_and(|extension| extension == "py");
+    let word = path.display().to_string();
+    if is_python { vec!["python3".into(), word] } else { vec![word] }
+}
+
+/// A program of a package: installed, or in its sources.
+fn find(package: &str, name: &str, settings: &Settings) -> Result<PathBuf, String> {
+    let resolver = Resolver::new(&Machine, &settings.search.folders);
+    let from = settings.search.working_folder.join("launch");
+    let mut tried = Vec::new();
+    if let Ok(folder) = resolver.find_package(package, &from) {
+        let prefix = folder.parent().filter(|above| above.ends_with("share"));
+        if let Some(prefix) = prefix.and_then(Path::parent) {
+            tried.push(prefix.join("lib").join(package).join(name));
+        }
+        let inner = [package];
+        for inside in FOLDERS.iter().chain(&inner) {
+            tried.push(folder.join(inside).join(name));
+            tried.push(folder.join(inside).join(format!("{name}.py")));
+        }
+    }
+    for prefix in Machine.variable("AMENT_PREFIX_PATH").unwrap_or_default().split(':') {
+        tried.push(Path::new(prefix).join("lib").join(package).join(name));
+    }
+    let found = tried.into_iter().find(|path| Machine.kind(path) == Some(Kind::File));
+    found.ok_or_else(|| {
+        format!(
+            "nothing built in stands for `{name}` of the package `{package}`, and the package has no \
+             such program on this machine"
+        )
+    })
+}
+
+/// What a node of ROS 2 is given, as words.
+fn ros_words(program: &Program) -> Vec<String> {
+    let identity = &program.identity;
+    let mut words = vec!["--ros-args".to_owned()];
+    let mut add = |flag: &str, word: String| words.extend([flag.to_owned(), word]);
+    if let Some(name) = &identity.name {
+        add("-r", format!("__node:={name}"));
+    }
+    if let Some(namespace) = &identity.namespace {
+        add("-r", format!("__ns:={namespace}"));
+    }
+    for (from, to) in &identity.remaps {
+        add("-r", format!("{from}:={to}"));
+    }
+    for parameters in &identity.parameters {
+        match parameters {
+            Parameters::File(file) => add("--params-file", file.clone()),
+            Parameters::Values(values) => {
+                for (name, value) in values.iter().filter(|(_, value)| parameter(value).is_some()) {
+                    // JSON is YAML.
+                    add("-p", format!("{name}:={value}"));
+                }
+            }
+        }
+    }
+    words
+}

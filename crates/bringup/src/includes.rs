@@ -1,0 +1,267 @@
+//! Launch files of packages that are not here, by what they start.
+//!
+//! Sources of names and defaults: `gazebo_ros/launch` (noetic, ros2), `ros_gz_sim/launch` (jazzy),
+//! `slam_toolbox/launch`, `nav2_bringup/launch` (humble to main).
+
+use std::collections::BTreeMap;
+
+use periplus_launch::{Identity, Node, Parameters, Process, What};
+use serde_json::json;
+
+use crate::parts::{truth, values};
+use crate::world::{self, WorldWish};
+
+/// What stands for a launch file.
+pub(crate) enum StandIn {
+    /// A simulation.
+    World(WorldWish),
+    /// These steps.
+    Steps(Vec<What>),
+}
+
+/// Whether something stands for a launch file of a package that is not here.
+#[must_use]
+pub fn stands_for(package: &str, file: &str) -> bool {
+    stand_in(&format!("package://{package}/launch/{file}"), &BTreeMap::new()).is_some()
+}
+
+/// What stands for a file; none when it is not known.
+pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<StandIn> {
+    let (package, path) = file.strip_prefix("package://")?.split_once('/')?;
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let arguments = Arguments(given);
+    Some(match (package, name) {
+        ("gazebo_ros", "gzclient.launch.py") => {
+            StandIn::Steps(vec![node("gazebo_ros", "gzclient")])
+        }
+        ("gazebo_ros", "gazebo.launch.py" | "gzserver.launch.py") => {
+            StandIn::World(gazebo(&arguments, "world", "pause"))
+        }
+        ("gazebo_ros", "empty_world.launch") => {
+            StandIn::World(gazebo(&arguments, "world_name", "paused"))
+        }
+        // `rubble_world.launch` and its like show the world of that name.
+        ("gazebo_ros", name) if name.ends_with("_world.launch") => {
+            let world = name.trim_end_matches("_world.launch");
+            let wish = gazebo(&arguments, "world_name", "paused");
+            StandIn::World(WorldWish { file: Some(format!("worlds/{world}.world")), ..wish })
+        }
+        ("ros_gz_sim", "gz_sim.launch.py") => StandIn::World(gz(&arguments, "gz_args")),
+        ("ros_ign_gazebo" | "ros_gz_sim", "ign_gazebo.launch.py") => {
+            StandIn::World(gz(&arguments, "ign_args"))
+        }
+        ("ros_gz_sim", "gz_server.launch.py" | "ros_gz_sim.launch.py") => {
+            let file = arguments.get("world_sdf_file").filter(|file| !file.is_empty());
+            StandIn::World(WorldWish { file: file.map(str::to_owned), ..WorldWish::default() })
+        }
+        ("ros_gz_sim", "gz_spawn_model.launch.py" | "ros_gz_spawn_model.launch.py") => {
+            StandIn::Steps(vec![spawn(&arguments)])
+        }
+        ("ros_gz_bridge", "ros_gz_bridge.launch.py") => StandIn::Steps(vec![bridge(&arguments)]),
+        ("slam_toolbox", name) => StandIn::Steps(vec![slam(slam_program(name)?, &arguments)]),
+        ("nav2_bringup", "navigation_launch.py") => StandIn::Steps(navigation(&arguments)),
+        ("nav2_bringup", "localization_launch.py") => StandIn::Steps(localization(&arguments)),
+        ("nav2_bringup", "slam_launch.py") => StandIn::Steps(mapping(&arguments)),
+        ("nav2_bringup", "bringup_launch.py") => {
+            let mut steps = if arguments.is("slam", false) {
+                mapping(&arguments)
+            } else {
+                localization(&arguments)
+            };
+            steps.extend(navigation(&arguments));
+            StandIn::Steps(steps)
+        }
+        ("nav2_bringup", "rviz_launch.py") => StandIn::Steps(vec![node("rviz2", "rviz2")]),
+        _ => return None,
+    })
+}
+
+/// Arguments that were given.
+struct Arguments<'a>(&'a BTreeMap<String, String>);
+
+impl Arguments<'_> {
+    fn get(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    fn is(&self, name: &str, usual: bool) -> bool {
+        self.get(name).map_or(usual, |text| truth(text) == json!(true))
+    }
+}
+
+fn gazebo(arguments: &Arguments<'_>, world: &str, paused: &str) -> WorldWish {
+    let extra = arguments.get("extra_gazebo_args").unwrap_or_default();
+    let extra: Vec<String> = extra.split_whitespace().map(str::to_owned).collect();
+    let seed = arguments.get("seed").and_then(|seed| seed.parse().ok());
+    WorldWish {
+        file: arguments.get(world).filter(|file| !file.is_empty()).map(str::to_owned),
+        is_paused: arguments.is(paused, false),
+        seed: seed.or(world::classic(&extra).seed),
+        has_window: arguments.is("gui", true),
+        ..WorldWish::default()
+    }
+}
+
+fn gz(arguments: &Arguments<'_>, name: &str) -> WorldWish {
+    let line = arguments.get(name).unwrap_or_default();
+    let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+    world::gz(&words)
+}
+
+fn node(package: &str, executable: &str) -> What {
+    What::Node(Box::new(Node {
+        package: Some(package.to_owned()),
+        executable: executable.to_owned(),
+        ..Node::default()
+    }))
+}
+
+/// A node by name with parameters.
+fn named(package: &str, executable: &str, name: &str, around: &Around) -> What {
+    let identity = Identity {
+        name: Some(name.to_owned()),
+        namespace: around.namespace.clone(),
+        parameters: around.parameters.clone(),
+        remaps: around.remaps.clone(),
+    };
+    What::Node(Box::new(Node {
+        package: Some(package.to_owned()),
+        executable: executable.to_owned(),
+        identity,
+        ..Node::default()
+    }))
+}
+
+/// What all nodes of a file get.
+#[derive(Clone, Debug, Default)]
+struct Around {
+    namespace: Option<String>,
+    parameters: Vec<Parameters>,
+    remaps: Vec<(String, String)>,
+}
+
+impl Around {
+    fn of_nav2(arguments: &Arguments<'_>) -> Self {
+        let mut parameters = Vec::new();
+        parameters.extend(arguments.get("params_file").map(|file| Parameters::File(file.into())));
+        if let Some(time) = arguments.get("use_sim_time") {
+            parameters.push(values(&json!({ "use_sim_time": truth(time) })));
+        }
+        let namespace =
+            arguments.get("namespace").filter(|name| !name.trim_matches('/').is_empty());
+        let remaps = ["tf", "tf_static"].map(|name| (format!("/{name}"), name.to_owned()));
+        Self {
+            namespace: namespace.map(|name| format!("/{}", name.trim_matches('/'))),
+            parameters,
+            // Robots with namespaces have transforms of their own.
+            remaps: if namespace.is_some() { remaps.to_vec() } else { Vec::new() },
+        }
+    }
+
+    fn with(&self, value: &serde_json::Value) -> Self {
+        let mut with = self.clone();
+        with.parameters.push(values(value));
+        with
+    }
+}
+
+/// The manager of these nodes.
+fn manager(name: &str, nodes: &[&str], arguments: &Arguments<'_>, around: &Around) -> What {
+    let autostart = arguments.is("autostart", true);
+    let around = around.with(&json!({ "autostart": autostart, "node_names": nodes }));
+    named("nav2_lifecycle_manager", "lifecycle_manager", name, &around)
+}
+
+fn navigation(arguments: &Arguments<'_>) -> Vec<What> {
+    const NODES: [(&str, &str); 7] = [
+        ("nav2_controller", "controller_server"),
+        ("nav2_smoother", "smoother_server"),
+        ("nav2_planner", "planner_server"),
+        ("nav2_behaviors", "behavior_server"),
+        ("nav2_velocity_smoother", "velocity_smoother"),
+        ("nav2_bt_navigator", "bt_navigator"),
+        ("nav2_waypoint_follower", "waypoint_follower"),
+    ];
+    let around = Around::of_nav2(arguments);
+    let mut steps: Vec<What> =
+        NODES.iter().map(|(package, name)| named(package, name, name, &around)).collect();
+    let names = NODES.map(|(_, name)| name);
+    steps.push(manager("lifecycle_manager_navigation", &names, arguments, &around));
+    steps
+}
+
+fn localization(arguments: &Arguments<'_>) -> Vec<What> {
+    let around = Around::of_nav2(arguments);
+    let map = arguments.get("map").filter(|map| !map.is_empty());
+    let with_map = match map {
+        Some(map) => around.with(&json!({ "yaml_filename": map })),
+        None => around.clone(),
+    };
+    vec![
+        named("nav2_map_server", "map_server", "map_server", &with_map),
+        named("nav2_amcl", "amcl", "amcl", &around),
+        manager("lifecycle_manager_localization", &["map_server", "amcl"], arguments, &around),
+    ]
+}
+
+fn mapping(arguments: &Arguments<'_>) -> Vec<What> {
+    let around = Around::of_nav2(arguments);
+    vec![
+        named("nav2_map_server", "map_saver_server", "map_saver", &around),
+        manager("lifecycle_manager_slam", &["map_saver"], arguments, &around),
+        named("slam_toolbox", "sync_slam_toolbox_node", "slam_toolbox", &around),
+    ]
+}
+
+fn slam_program(name: &str) -> Option<&'static str> {
+    Some(match name.strip_suffix("_launch.py")? {
+        "online_async" => "async_slam_toolbox_node",
+        "online_sync" | "offline" => "sync_slam_toolbox_node",
+        "localization" => "localization_slam_toolbox_node",
+        "lifelong" => "lifelong_slam_toolbox_node",
+        _ => return None,
+    })
+}
+
+fn slam(program: &str, arguments: &Arguments<'_>) -> What {
+    let mut around = Around {
+        parameters: vec![values(&json!({ "use_sim_time": arguments.is("use_sim_time", true) }))],
+        ..Around::default()
+    };
+    if let Some(file) = arguments.get("slam_params_file").or(arguments.get("params_file")) {
+        around.parameters.insert(0, Parameters::File(file.to_owned()));
+    }
+    named("slam_toolbox", program, "slam_toolbox", &around)
+}
+
+/// `create`, with the arguments of the file as its words.
+fn spawn(arguments: &Arguments<'_>) -> What {
+    let names = [
+        ("world", "world"),
+        ("file", "file"),
+        ("topic", "topic"),
+        ("entity_name", "name"),
+        ("model_string", "string"),
+        ("x", "x"),
+        ("y", "y"),
+        ("z", "z"),
+        ("roll", "R"),
+        ("pitch", "P"),
+        ("yaw", "Y"),
+    ];
+    let mut command = vec!["ros2".to_owned(), "run".into(), "ros_gz_sim".into(), "create".into()];
+    for (name, word) in names {
+        if let Some(value) = arguments.get(name).filter(|value| !value.is_empty()) {
+            command.extend([format!("-{word}"), value.to_owned()]);
+        }
+    }
+    What::Process(Process { command, ..Process::default() })
+}
+
+fn bridge(arguments: &Arguments<'_>) -> What {
+    let file = arguments.get("config_file").unwrap_or_default();
+    let around =
+        Around { parameters: vec![values(&json!({ "config_file": file }))], ..Around::default() };
+    let name = arguments.get("bridge_name").unwrap_or("ros_gz_bridge");
+    named("ros_gz_bridge", "parameter_bridge", name, &around)
+}

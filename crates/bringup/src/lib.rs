@@ -1,0 +1,26 @@
+//! Plans of launch files, run.
+//!
+//! [`Bringup`] takes a [`periplus_launch::Plan`] and does step by step what it says. Programs of ROS
+//! that are known here become nodes of ours on one graph ([`table`] lists them); Gazebo becomes a
+//! [`periplus_sim::Simulation`] that whoever runs the plan has made from [`Bringup::world`]. Other
+//! programs run if the machine has them. What is left is told, and the rest runs.
+
+mod bridge;
+mod catalogue;
+mod costmaps;
+mod crew;
+mod hands;
+mod includes;
+mod make;
+mod parameters;
+mod parts;
+mod told;
+mod transform;
+mod words;
+mod world;
+
+pub use catalogue::table;
+pub use crew::{Bringup, Settings};
+pub use includes::stands_for;
+pub use told::{Became, Kind, Line, Said};
+pub use world::WorldWish;

@@ -1,0 +1,316 @@
+//! A plan, part by part: each step with what stands for it here.
+
+use std::collections::BTreeMap;
+
+use periplus_launch::{Component, Identity, Node, Plan, Process, Running, Step, Trigger, What};
+use serde_json::{Value, json};
+
+use crate::catalogue::{Entry, Role, of_plugin, of_program};
+use crate::includes;
+use crate::words::{self, Told};
+use crate::world::{self, WorldWish};
+
+/// What is to be done, and when.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// The step of the plan that it belongs to.
+    pub(crate) step: usize,
+    /// What must have happened before, one after the other.
+    pub(crate) after: Vec<Trigger>,
+    /// What it is.
+    pub(crate) work: Work,
+    /// As the launch file calls it: `gazebo_ros spawn_entity.py`.
+    pub(crate) asked: String,
+    /// Whether everything ends with it.
+    pub(crate) is_required: bool,
+}
+
+/// What is to be done.
+#[derive(Clone, Debug)]
+pub(crate) enum Work {
+    /// There is a simulation.
+    World(WorldWish),
+    /// A node or a deed of ours takes the place of a program.
+    Ours(Box<Ask>),
+    /// A program of the machine's.
+    Program(Box<Program>),
+    /// A managed node is asked for a transition.
+    Transition { step: Option<usize>, transition: String },
+    /// Something is said.
+    Log { level: String, text: String },
+    /// Everything ends.
+    Shutdown { reason: String },
+    /// Nothing; why.
+    Nothing(String),
+}
+
+/// What one of ours is asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Ask {
+    pub(crate) entry: &'static Entry,
+    pub(crate) identity: Identity,
+    pub(crate) told: Told,
+    /// Whether it waits for somebody who configures and activates it.
+    pub(crate) is_managed: bool,
+    /// ROS 1's parameter server.
+    pub(crate) server: BTreeMap<String, Value>,
+}
+
+impl Ask {
+    /// The name that its node has.
+    pub(crate) fn full_name(&self) -> String {
+        words::full_name(&self.identity, &self.told, self.entry.node)
+    }
+}
+
+/// A program of the machine's.
+#[derive(Clone, Debug)]
+pub(crate) struct Program {
+    /// The package; none for a command.
+    pub(crate) package: Option<String>,
+    /// Its words, the program first.
+    pub(crate) words: Vec<String>,
+    pub(crate) is_shell: bool,
+    /// What it is given, if it is a node.
+    pub(crate) identity: Identity,
+    pub(crate) running: Running,
+}
+
+/// The parts of a plan, in its order.
+pub(crate) fn of_plan(plan: &Plan) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for step in &plan.steps {
+        of_step(step, &step.what, &plan.parameters, &mut parts);
+    }
+    parts
+}
+
+fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &mut Vec<Part>) {
+    let mut add = |asked: String, is_required: bool, work: Work| {
+        let after = step.after.clone();
+        parts.push(Part { step: step.id, after, work, asked, is_required });
+    };
+    match what {
+        What::Node(node) => {
+            let asked = match &node.package {
+                Some(package) => format!("{package} {}", node.executable),
+                None => node.executable.clone(),
+            };
+            add(asked, node.running.is_required, of_node(step.id, node, server));
+            for component in &node.components {
+                add(component.plugin.clone(), false, of_component(component, server));
+            }
+        }
+        What::Load { components, .. } => {
+            for component in components {
+                add(component.plugin.clone(), false, of_component(component, server));
+            }
+        }
+        What::Process(process) => {
+            let is_required = process.running.is_required;
+            add(shortly(&process.command), is_required, of_process(step.id, process));
+        }
+        What::Transition { step, transition } => add(
+            transition.clone(),
+            false,
+            Work::Transition { step: *step, transition: transition.clone() },
+        ),
+        What::Log { level, text } => {
+            add(text.clone(), false, Work::Log { level: level.clone(), text: text.clone() });
+        }
+        What::Shutdown { reason } => {
+            add(reason.clone(), false, Work::Shutdown { reason: reason.clone() });
+        }
+        What::Include { file, arguments } => match includes::stand_in(file, arguments) {
+            Some(includes::StandIn::World(wish)) => {
+                add(file.clone(), false, Work::World(WorldWish { step: step.id, ..wish }));
+            }
+            Some(includes::StandIn::Steps(steps)) => {
+                for what in &steps {
+                    of_step(step, what, server, parts);
+                }
+            }
+            None => add(
+                file.clone(),
+                false,
+                Work::Nothing(format!(
+                    "{file} is in a package that is not on this machine, and nothing here stands for \
+                     it; `--resource-path FOLDER` names where the package is"
+                )),
+            ),
+        },
+    }
+}
+
+fn of_node(step: usize, node: &Node, server: &BTreeMap<String, Value>) -> Work {
+    let told = words::read(&node.arguments, &node.ros_arguments);
+    let Some(entry) = of_program(node.package.as_deref(), &node.executable) else {
+        let mut words = vec![node.executable.clone()];
+        words.extend(node.arguments.iter().cloned());
+        words.extend(node.ros_arguments.iter().cloned());
+        return Work::Program(Box::new(Program {
+            package: node.package.clone(),
+            words,
+            is_shell: false,
+            identity: node.identity.clone(),
+            running: node.running.clone(),
+        }));
+    };
+    if entry.role == Role::Gazebo {
+        let is_gz = node.package.as_deref().is_some_and(|package| package.starts_with("ros_"));
+        let wish = if is_gz { server_wish(&node.identity) } else { world::classic(&told.own) };
+        let has_window = wish.has_window && !node.executable.contains("server");
+        return Work::World(WorldWish { step, has_window, ..wish });
+    }
+    let starts_itself = told.own.iter().any(|word| word == "--autostart")
+        || node.ros_arguments.iter().any(|word| word == "--autostart");
+    ours(entry, &node.identity, told, node.is_lifecycle && !starts_itself, server)
+}
+
+fn of_component(component: &Component, server: &BTreeMap<String, Value>) -> Work {
+    match of_plugin(&component.package, &component.plugin) {
+        Some(entry) if entry.role == Role::Gazebo => Work::World(server_wish(&component.identity)),
+        Some(entry) => ours(entry, &component.identity, Told::default(), false, server),
+        None => Work::Nothing(format!(
+            "the component {} of the package {} is compiled code for ROS; nothing here stands for it",
+            component.plugin, component.package
+        )),
+    }
+}
+
+fn ours(
+    entry: &'static Entry,
+    identity: &Identity,
+    told: Told,
+    is_lifecycle: bool,
+    server: &BTreeMap<String, Value>,
+) -> Work {
+    let is_managed = is_lifecycle
+        || matches!(
+            entry.role,
+            Role::MapServer { is_managed: true }
+                | Role::Amcl { is_managed: true }
+                | Role::MapSaverServer
+                | Role::CostmapHost { .. }
+                | Role::Costmap
+        );
+    let server = server.clone();
+    Work::Ours(Box::new(Ask { entry, identity: identity.clone(), told, is_managed, server }))
+}
+
+/// What `gzserver` of `ros_gz_sim` is asked for by its parameters.
+fn server_wish(identity: &Identity) -> WorldWish {
+    let mut wish = WorldWish::default();
+    for values in &identity.parameters {
+        if let periplus_launch::Parameters::Values(values) = values
+            && let Some(Value::String(file)) = values.get("world_sdf_file")
+        {
+            wish.file = Some(file.clone()).filter(|file| !file.is_empty());
+        }
+    }
+    wish
+}
+
+fn of_process(step: usize, process: &Process) -> Work {
+    let split;
+    let words = if process.is_shell {
+        split = process.command.join(" ").split_whitespace().map(str::to_owned).collect();
+        &split
+    } else {
+        &process.command
+    };
+    if let Some(wish) = world::of_command(words) {
+        return Work::World(WorldWish { step, ..wish });
+    }
+    let run = match words.as_slice() {
+        [ros, run, package, program, rest @ ..] if (is_program(ros, "ros2") && run == "run") => {
+            Some((package, program, rest))
+        }
+        [rosrun, package, program, rest @ ..] if is_program(rosrun, "rosrun") => {
+            Some((package, program, rest))
+        }
+        _ => None,
+    };
+    if let Some((package, program, rest)) = run
+        && of_program(Some(package), program).is_some()
+    {
+        let node = Node {
+            package: Some(package.clone()),
+            executable: program.clone(),
+            arguments: rest.to_vec(),
+            running: process.running.clone(),
+            ..Node::default()
+        };
+        return of_node(step, &node, &BTreeMap::new());
+    }
+    let window =
+        if world::is_window(words) { of_program(Some("gazebo_ros"), "gzclient") } else { None };
+    // A program that a path or a command line names, such as `rviz2 -d a.rviz`.
+    let named = window.or_else(|| {
+        let program = words.first()?;
+        let entry = of_program(None, program)?;
+        matches!(entry.role, Role::Viewer | Role::RobotStatePublisher).then_some(entry)
+    });
+    if let Some(entry) = named {
+        let told = words::read(&words[1..], &[]);
+        return ours(entry, &Identity::default(), told, false, &BTreeMap::new());
+    }
+    Work::Program(Box::new(Program {
+        package: None,
+        words: process.command.clone(),
+        is_shell: process.is_shell,
+        identity: Identity { name: process.name.clone(), ..Identity::default() },
+        running: process.running.clone(),
+    }))
+}
+
+/// The beginning of a command: its program, and what that is to do.
+fn shortly(command: &[String]) -> String {
+    let mut words = command.iter().flat_map(|word| word.split_whitespace());
+    let program = words.next().unwrap_or_default();
+    let rest: Vec<&str> = words.collect();
+    let is_deed = |word: &&&str| word.chars().all(|letter| letter.is_ascii_lowercase());
+    match rest.first().filter(is_deed) {
+        Some(deed) if rest.len() > 1 => format!("{program} {deed} ..."),
+        Some(deed) => format!("{program} {deed}"),
+        None if rest.is_empty() => program.to_owned(),
+        None => format!("{program} ..."),
+    }
+}
+
+/// Whether a word names a program, with or without its path.
+fn is_program(word: &str, name: &str) -> bool {
+    word.rsplit('/').next() == Some(name)
+}
+
+/// A value of ROS 1's parameter server by a name as a node writes it: in its namespace, or in one
+/// around it.
+pub(crate) fn searched<'a>(
+    server: &'a BTreeMap<String, Value>,
+    namespace: &str,
+    name: &str,
+) -> Option<&'a Value> {
+    if name.starts_with('/') {
+        return server.get(name);
+    }
+    let mut namespace = namespace.trim_end_matches('/');
+    loop {
+        if let Some(value) = server.get(&format!("{namespace}/{name}")) {
+            return Some(value);
+        }
+        namespace = &namespace[..namespace.rfind('/')?];
+    }
+}
+
+/// Parameters of one node by itself, for stand-ins.
+pub(crate) fn values(value: &Value) -> periplus_launch::Parameters {
+    let values = value.as_object().into_iter().flatten();
+    periplus_launch::Parameters::Values(
+        values.map(|(name, value)| (name.clone(), value.clone())).collect(),
+    )
+}
+
+/// A truth as launch files write it.
+pub(crate) fn truth(text: &str) -> Value {
+    json!(matches!(text.trim().to_lowercase().as_str(), "true" | "1"))
+}
