@@ -7,15 +7,18 @@ mod conformance;
 mod convert;
 mod costmap;
 mod demo;
+mod doctor;
 mod launch;
 mod live;
 mod localize;
 mod log;
 mod map;
 mod mapping;
+mod old_words;
 mod options;
 mod page;
 mod picture;
+mod program;
 mod sim;
 mod slam;
 mod spent;
@@ -33,7 +36,7 @@ use clap::{CommandFactory as _, Parser as _};
 use periplus_graph::split_arguments;
 
 use demo::DemoOptions;
-use options::{Command, DoctorCommand, Options};
+use options::{Command, Options};
 
 /// All at once, so that a reader that has seen enough is an error that [`main`] knows.
 fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
@@ -60,8 +63,13 @@ fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
 }
 
 fn main() -> ExitCode {
+    let words = match old_words::translate(std::env::args().collect()) {
+        Ok(Ok(words)) => words,
+        Ok(Err(code)) => return code,
+        Err(error) => return ended(Err(error)),
+    };
     // A usage error ends here with exit code 2, and a message of clap's.
-    let (words, ros) = split_arguments(std::env::args());
+    let (words, ros) = split_arguments(words);
     let options = Options::parse_from(words);
     options.colour.apply();
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
@@ -74,6 +82,7 @@ fn main() -> ExitCode {
         Command::Map(command) => map::run(&command, ros),
         Command::Slam(options) => slam::run(&options, ros),
         Command::Costmap(options) => costmap::serve::run(&options, ros),
+        Command::Run(options) => program::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
                 "`--ros-args` are for commands that run nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
@@ -86,7 +95,7 @@ fn main() -> ExitCode {
         Command::Conformance(options) => conformance::run(&options),
         Command::Demo(options) => demo::run(&options),
         Command::Convert(options) => convert::run(&options),
-        Command::Doctor(DoctorCommand::Costmap(options)) => costmap::doctor::run(&options),
+        Command::Doctor(options) => doctor::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),
@@ -98,6 +107,11 @@ fn main() -> ExitCode {
         Command::Completions { shell } => completions(shell),
         Command::Man { folder } => manual(folder.as_deref()),
     };
+    ended(outcome)
+}
+
+/// How a command ends.
+fn ended(outcome: std::io::Result<ExitCode>) -> ExitCode {
     match outcome {
         Ok(code) => code,
         // Whoever read our output has seen enough.

@@ -7,12 +7,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::conformance::ConformanceOptions;
-use crate::costmap::doctor::DoctorCostmapOptions;
 use crate::costmap::serve::CostmapServeOptions;
 use crate::demo::DemoOptions;
+use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
+use crate::program::RunOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
 use crate::teleop::TeleopOptions;
@@ -44,6 +45,7 @@ pub(crate) enum Command {
     Convert(ConvertOptions),
     Demo(DemoOptions),
     Launch(LaunchOptions),
+    Run(RunOptions),
     Sim(Box<SimOptions>),
     Slam(SlamOptions),
     Localize(LocalizeOptions),
@@ -71,14 +73,7 @@ pub(crate) enum Command {
     Map(MapCommand),
     Costmap(CostmapServeOptions),
     Conformance(ConformanceOptions),
-    #[command(subcommand)]
-    Doctor(DoctorCommand),
-}
-
-/// Tell what is wrong with what somebody set up, and what to do about it
-#[derive(Debug, Subcommand)]
-pub(crate) enum DoctorCommand {
-    Costmap(DoctorCostmapOptions),
+    Doctor(Box<DoctorOptions>),
 }
 
 /// Tell what files hold and what is wrong with them

@@ -11,6 +11,7 @@
 pub mod action;
 mod ask;
 pub mod clock;
+pub mod doctor;
 mod failure;
 mod filter;
 pub mod interface;

@@ -41,6 +41,24 @@ fn parametric(seen: &Seen) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
+/// What each node says of `use_sim_time`; those that do not answer are left out.
+pub(crate) fn simulated_time(
+    session: &Session<'_>,
+    node: &Node,
+    seen: &Seen,
+) -> BTreeMap<String, bool> {
+    let asked = parametric(seen).into_iter().filter(|name| !is_hidden(name));
+    asked
+        .filter_map(|name| {
+            let names = ["use_sim_time".to_owned()];
+            let values = values_of(session, node, &name, &names).ok()?;
+            let value =
+                values.first().filter(|value| value.r#type == ParameterType::PARAMETER_BOOL)?;
+            Some((name, value.bool_value))
+        })
+        .collect()
+}
+
 /// A node by its name.
 fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let name = full_name(name);

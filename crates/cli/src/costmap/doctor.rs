@@ -1,13 +1,14 @@
 //! `periplus doctor costmap`.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 use periplus_costmap::Compat;
+use periplus_diagnostics::{Diagnostics, SourceMap};
 
-use super::file::read;
+use super::file::{File, read, read_text};
 use crate::terminal;
 
 /// Tell what is wrong with a file of Nav2's parameters for its costmaps
@@ -25,6 +26,23 @@ pub(crate) struct DoctorCostmapOptions {
     compat: Option<Compat>,
 }
 
+/// What is wrong with the costmaps of a text that has a name; in words why it cannot be read.
+pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, SourceMap), String> {
+    let mut file = read_text(&path.display().to_string(), text, None)?;
+    add_complaints(&mut file);
+    Ok((file.diagnostics, file.sources))
+}
+
+/// Some things only layers themselves know.
+fn add_complaints(file: &mut File) {
+    for (_, config) in &file.configs {
+        let mut costmap = config.build();
+        for finding in costmap.all_mut().flat_map(|layer| layer.complaints()) {
+            file.diagnostics.push(finding);
+        }
+    }
+}
+
 pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
     let mut file = match read(&options.file, options.compat) {
         Ok(file) => file,
@@ -33,13 +51,7 @@ pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
             return Ok(ExitCode::from(2));
         }
     };
-    // Some things only layers themselves know.
-    for (_, config) in &file.configs {
-        let mut costmap = config.build();
-        for finding in costmap.all_mut().flat_map(|layer| layer.complaints()) {
-            file.diagnostics.push(finding);
-        }
-    }
+    add_complaints(&mut file);
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
     for (name, config) in &file.configs {

@@ -1,0 +1,100 @@
+//! Files, examined before anything runs.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::NodeSettings;
+use periplus_sim::{Options, ShapeFiles, Simulation, compose};
+use periplus_verbs::doctor::{Ears, examine};
+use periplus_verbs::{Failure, Seen};
+
+use super::{DoctorOptions, parameters, tell};
+use crate::options::split;
+use crate::terminal;
+
+/// So long a world is listened to, in its own time \[s\].
+const SPAN_S: u64 = 2;
+
+/// How often what came is taken in \[ns\].
+const LOOK_NS: i64 = 50_000_000;
+
+/// The doctor's own node.
+const OWN: &str = "_periplus_doctor";
+
+pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
+    let (files, arguments) = split(&options.words);
+    let is_yaml =
+        |path: &Path| path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+    let mut found = Vec::new();
+    let mut what: Vec<String> = Vec::new();
+    for path in files.iter().filter(|path| is_yaml(path)) {
+        match parameters::examine(path) {
+            Ok(findings) => found.extend(findings),
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::from(2));
+            }
+        }
+        what.push(path.display().to_string());
+    }
+    let worlds: Vec<_> = files.iter().filter(|path| !is_yaml(path)).collect();
+    match worlds.as_slice() {
+        [] => {}
+        [world] => {
+            match simulated(world, arguments, options) {
+                Ok(findings) => found.extend(findings),
+                Err(why) => {
+                    terminal::complain(&why);
+                    return Ok(ExitCode::from(2));
+                }
+            }
+            what.push(world.display().to_string());
+        }
+        _ => {
+            terminal::complain("the doctor takes one world; robots come with --robot");
+            return Ok(ExitCode::from(2));
+        }
+    }
+    tell(&found, &what.join(", "), options.common.json)
+}
+
+/// Runs a world in its own time and listens to it.
+fn simulated(
+    world: &Path,
+    arguments: Vec<(String, String)>,
+    options: &DoctorOptions,
+) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
+    let search = &options.search.resource_path;
+    let mut composition = terminal::with_setting(search, arguments, |setting| {
+        compose(world, &options.robots.0, setting)
+    });
+    let threads = terminal::processors();
+    let settings = Options { threads, ..Options::default() };
+    let mut simulation =
+        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), settings);
+    if let Some(missing) = composition.missing() {
+        return Err(format!("{} holds nothing to simulate", missing.display()));
+    }
+    let graph = simulation.graph().clone();
+    let node = graph.node(NodeSettings::new(OWN).bare()).map_err(|error| error.to_string())?;
+    let look = || Seen::of_graph(&graph, |name| name.ends_with(OWN));
+    let told = |failure: Failure| failure.to_string();
+    let mut ears = Ears::open(&node, &look()).map_err(told)?;
+    let span_ns = i64::try_from(SPAN_S).unwrap_or(0) * 1_000_000_000;
+    while simulation.time_ns() < span_ns {
+        let until_ns = simulation.time_ns() + LOOK_NS;
+        simulation.step_until(until_ns).map_err(|diverged| diverged.to_string())?;
+        ears.hear();
+    }
+    let picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
+    let mut found: Vec<_> =
+        composition.files.into_iter().map(|file| (file.diagnostics, file.sources)).collect();
+    found.push((simulation.take_findings(), SourceMap::new()));
+    found.push((examine(&picture), SourceMap::new()));
+    Ok(found)
+}

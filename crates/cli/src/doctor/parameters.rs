@@ -1,0 +1,71 @@
+//! Files with parameters of nodes.
+
+use std::path::Path;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_host::Machine;
+use periplus_resources::Host as _;
+use periplus_yaml::Node;
+
+/// What is wrong with a file; in words why it cannot be read.
+pub(super) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
+    let bytes =
+        Machine.read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    let mut sources = SourceMap::new();
+    let mut found = Diagnostics::new();
+    let file = sources.add(path.display().to_string(), text.clone());
+    let mut all = Vec::new();
+    match periplus_yaml::parse(file, &sources) {
+        Ok(Some(tree)) => {
+            times(&tree, &mut found);
+            let has_costmap = text.contains("costmap");
+            all.push((found, sources));
+            if has_costmap {
+                all.push(crate::costmap::doctor::findings(path, text)?);
+            }
+        }
+        Ok(None) => return Err(format!("{} is empty", path.display())),
+        Err(error) => {
+            found.push(*error);
+            all.push((found, sources));
+        }
+    }
+    Ok(all)
+}
+
+/// Nodes of one file that live by different clocks.
+fn times(tree: &Node, found: &mut Diagnostics) {
+    let mut said = Vec::new();
+    collect(tree, "", &mut said);
+    let (yes, no): (Vec<_>, Vec<_>) = said.into_iter().partition(|(_, value, _)| *value);
+    let (Some((simulated, _, _)), false) = (yes.first(), no.is_empty()) else { return };
+    for (name, _, node) in no {
+        found.push(
+            Diagnostic::error(
+                "wall-time",
+                format!("`{name}` lives by the wall's clock, and `{simulated}` by simulated time"),
+            )
+            .at(node.span)
+            .note("their stamps are decades apart: transforms are not found")
+            .help("set `use_sim_time` to the same value for all nodes of the file"),
+        );
+    }
+}
+
+fn collect<'t>(node: &'t Node, name: &str, said: &mut Vec<(String, bool, &'t Node)>) {
+    let Some(entries) = node.entries() else { return };
+    for (key, value) in entries {
+        let Some(key) = key.text() else { continue };
+        if key == "use_sim_time" {
+            if let Some(value_of) = value.truth() {
+                said.push((name.to_owned(), value_of, value));
+            }
+        } else if key == "ros__parameters" {
+            collect(value, name, said);
+        } else {
+            // The tree is no deeper than the reader lets it be.
+            collect(value, &format!("{name}/{key}"), said);
+        }
+    }
+}

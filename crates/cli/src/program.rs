@@ -1,0 +1,84 @@
+//! `periplus run`.
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Args, Parser as _};
+use periplus_host::Machine;
+use periplus_resources::Store as _;
+
+use crate::options::{Command, Options};
+use crate::{launch, terminal};
+
+/// Run one program of a package, as `ros2 run` does: a node that is built in, or one of the machine's
+///
+/// It is a launch of one node, so the same programs are known.
+#[derive(Debug, Args)]
+pub(crate) struct RunOptions {
+    /// The package, such as nav2_costmap_2d
+    package: String,
+    /// The program, such as nav2_costmap_2d_markers
+    program: String,
+    /// Its own words; names and parameters stand behind `--ros-args`
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "WORD")]
+    words: Vec<String>,
+}
+
+pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
+    let file = folder.join("run.launch.xml");
+    let written = std::fs::create_dir_all(&folder).map_err(|error| error.to_string());
+    let written = written.and_then(|()| Machine.replace(&file, text(options, &ros).as_bytes()));
+    if let Err(why) = written {
+        terminal::complain(&format!("cannot write {}: {why}", file.display()));
+        return Ok(ExitCode::FAILURE);
+    }
+    let words = ["periplus".into(), "launch".into(), file.into_os_string()];
+    let outcome = match Options::try_parse_from(words).map(|options| options.command) {
+        Ok(Some(Command::Launch(options))) => launch::run(&options, Vec::new()),
+        _ => Ok(ExitCode::FAILURE),
+    };
+    let _ = std::fs::remove_dir_all(folder);
+    outcome
+}
+
+/// A launch file with this node alone.
+fn text(options: &RunOptions, ros: &[String]) -> String {
+    let line =
+        |words: &[String]| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+    let attribute = |text: &str| {
+        let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        // Nothing is to be filled in here.
+        text.replace("$(", "\\$(")
+    };
+    format!(
+        "<launch>\n  <node pkg=\"{}\" exec=\"{}\" output=\"screen\" args=\"{}\" ros_args=\"{}\"/>\n\
+         </launch>\n",
+        attribute(&options.package),
+        attribute(&options.program),
+        attribute(&line(&options.words)),
+        attribute(&line(ros)),
+    )
+}
+
+/// As a shell takes it for one word.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[test]
+fn a_node_is_written_as_a_launch_file() {
+    let options = RunOptions {
+        package: "nav2_costmap_2d".into(),
+        program: "nav2_costmap_2d_markers".into(),
+        words: vec!["a \"b\"".into()],
+    };
+    let ros = ["-r".to_owned(), "voxel_grid:=/local_costmap/voxel_grid".to_owned()];
+    let text = text(&options, &ros);
+    assert!(text.contains("args=\"'a &quot;b&quot;'\""), "{text}");
+    assert!(text.contains("ros_args=\"-r voxel_grid:=/local_costmap/voxel_grid\""), "{text}");
+}

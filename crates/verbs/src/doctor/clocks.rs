@@ -1,0 +1,98 @@
+//! Whose time it is.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use super::Picture;
+
+/// So far apart, stamps are from different clocks \[ns\].
+const OTHER_CLOCK_NS: i64 = 60_000_000_000;
+
+pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
+    let publishers = picture.seen.topic("/clock").map_or(&[][..], |topic| &topic.publishers);
+    let tellers: Vec<&str> =
+        publishers.iter().map(|end| end.node.as_deref().unwrap_or("somebody")).collect();
+    let with = |wanted: bool| -> Vec<&str> {
+        let nodes = picture.simulated.iter().filter(|(node, is_simulated)| {
+            **is_simulated == wanted && !tellers.contains(&node.as_str())
+        });
+        nodes.map(|(node, _)| node.as_str()).collect()
+    };
+    let (simulated, real) = (with(true), with(false));
+    if tellers.is_empty() && !simulated.is_empty() {
+        found.push(
+            Diagnostic::error(
+                "no-clock",
+                format!(
+                    "nobody tells the time on `/clock`, and {} wait for it: their time stands still at 0",
+                    list(&simulated)
+                ),
+            )
+            .help(
+                "start the simulation (or `periplus bag play BAG --clock`), or set `use_sim_time` of \
+                 these nodes to false",
+            ),
+        );
+    }
+    if tellers.len() > 1 {
+        found.push(
+            Diagnostic::error(
+                "two-clocks",
+                format!(
+                    "{} tell the time on `/clock`, and time jumps between them",
+                    list(&tellers)
+                ),
+            )
+            .help("end all but one of them, or give them domains of their own (ROS_DOMAIN_ID)"),
+        );
+    } else if picture.clock_jumps > 0 {
+        found.push(
+            Diagnostic::warning(
+                "clock-jumps",
+                format!("the time on `/clock` went back {} times", picture.clock_jumps),
+            )
+            .help("a simulation was reset or a bag begins again: nodes forget what they know then"),
+        );
+    }
+    if !tellers.is_empty() && !real.is_empty() {
+        found.push(
+            Diagnostic::warning(
+                "wall-time",
+                format!(
+                    "{} tells simulated time on `/clock`, and {} live by the wall's clock",
+                    list(&tellers),
+                    list(&real)
+                ),
+            )
+            .note("their stamps are decades away from those of the simulation: transforms are not found")
+            .help("set `use_sim_time` of these nodes to true: `-p use_sim_time:=true`"),
+        );
+    }
+    if let Some((_, now_ns)) = picture.clock {
+        for (topic, heard) in &picture.heard {
+            if heard.count > 0 && (heard.stamp_ns - now_ns).abs() > OTHER_CLOCK_NS {
+                let node = publisher(picture, topic);
+                found.push(
+                    Diagnostic::error(
+                        "other-clock",
+                        format!(
+                            "stamps on `{topic}` are {:.0} s away from the time on `/clock`",
+                            (heard.stamp_ns - now_ns).abs() as f64 * 1e-9
+                        ),
+                    )
+                    .help(format!("set `use_sim_time` of `{node}` to true")),
+                );
+            }
+        }
+    }
+}
+
+fn publisher(picture: &Picture, topic: &str) -> String {
+    let topic = picture.seen.topic(topic);
+    let first = topic.and_then(|topic| topic.publishers.first());
+    first.and_then(|end| end.node.clone()).unwrap_or_else(|| "its publisher".into())
+}
+
+pub(super) fn list(names: &[&str]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}

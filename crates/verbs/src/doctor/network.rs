@@ -1,0 +1,104 @@
+//! The machine's network, and who can be there at all.
+
+use std::collections::BTreeSet;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use super::Picture;
+
+/// What the machine and its settings say.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Surroundings {
+    /// The domain.
+    pub domain_id: u32,
+    /// Whether only this machine is looked at.
+    pub is_loopback: bool,
+    /// Whether packets to all arrive; none when it was not tried.
+    pub has_multicast: Option<bool>,
+    /// Domains in which programs on this machine take part.
+    pub domains: BTreeSet<u32>,
+    /// The most that a socket may hold \[bytes\].
+    pub most_held: Option<u64>,
+}
+
+/// What clouds and maps need \[bytes\].
+const HELD: u64 = 2_000_000;
+
+pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
+    let Some(around) = &picture.surroundings else { return };
+    let is_alone = picture.seen.nodes.is_empty() && picture.seen.topics.is_empty();
+    if is_alone {
+        let others: Vec<String> = around
+            .domains
+            .iter()
+            .filter(|domain| **domain != around.domain_id)
+            .map(u32::to_string)
+            .collect();
+        let domain = around.domain_id;
+        let finding = Diagnostic::error("nobody", format!("nobody is in domain {domain}"));
+        found.push(if !others.is_empty() {
+            finding
+                .note(format!("programs on this machine are in domain {}", others.join(", ")))
+                .help(format!("set ROS_DOMAIN_ID={}", others.join(" or ")))
+        } else if around.is_loopback {
+            finding.help(
+                "start something; programs on other machines are seen with \
+                 ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET and without ROS_LOCALHOST_ONLY",
+            )
+        } else {
+            finding.help("start something, or set ROS_DOMAIN_ID to the domain of the others")
+        });
+    }
+    if around.has_multicast == Some(false) && !around.is_loopback {
+        found.push(
+            Diagnostic::warning(
+                "multicast",
+                "packets to 239.255.0.1 do not come back: multicast is blocked",
+            )
+            .note("programs on other machines are found by it")
+            .help(
+                "let UDP to 239.255.0.1 through the firewall, or name the others: ROS_STATIC_PEERS",
+            ),
+        );
+    }
+    let carries_much = picture.seen.topics.iter().any(|topic| {
+        topic.types.iter().any(|name| {
+            matches!(name.as_str(), "sensor_msgs/msg/PointCloud2" | "sensor_msgs/msg/Image")
+        })
+    });
+    if let Some(held) = around.most_held.filter(|held| *held < HELD && carries_much) {
+        found.push(
+            Diagnostic::hint(
+                "socket-buffers",
+                format!("sockets hold {held} bytes at most: pictures and clouds lose packets"),
+            )
+            .help("sudo sysctl -w net.core.rmem_max=4194304"),
+        );
+    }
+}
+
+/// Domains whose ports are open, from a table as `/proc/net/udp` has it. Discovery by multicast listens at
+/// 7400 + 250 x domain (DDSI-RTPS 2.5, section 9.6.2).
+#[must_use]
+pub fn domains_in(table: &str) -> BTreeSet<u32> {
+    let port = |line: &str| {
+        let local = line.split_whitespace().nth(1)?;
+        u32::from_str_radix(local.rsplit(':').next()?, 16).ok()
+    };
+    let ports = table.lines().skip(1).filter_map(port);
+    let domains = ports.filter_map(|port| port.checked_sub(7400));
+    domains
+        .filter(|above| above % 250 == 0)
+        .map(|above| above / 250)
+        .filter(|id| *id < 233)
+        .collect()
+}
+
+#[test]
+fn ports_tell_domains() {
+    let table = "  sl  local_address rem_address\n\
+                 1: 00000000:1CE8 00000000:0000 07\n\
+                 2: 0100007F:3A0C 00000000:0000 07\n\
+                 3: 0100007F:1CF2 00000000:0000 07\n";
+    assert_eq!(domains_in(table).into_iter().collect::<Vec<_>>(), [0, 30]);
+}

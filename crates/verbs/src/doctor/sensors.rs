@@ -1,0 +1,87 @@
+//! Sensors that say nothing, or nothing of use.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use super::Picture;
+use super::picture::{Heard, ScanFacts};
+
+/// A rate that is lower than this part of what it should be is told.
+const SLOW: f64 = 0.7;
+
+/// So many readings without an exception are no accident.
+const ENOUGH: usize = 20;
+
+pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
+    for (topic, heard) in &picture.heard {
+        if heard.count == 0 {
+            found.push(silent(picture, topic));
+            continue;
+        }
+        if let Some(finding) = heard.scans.and_then(|scans| useless(topic, &scans)) {
+            found.push(finding);
+        }
+        if let Some(finding) = slow(topic, heard) {
+            found.push(finding);
+        }
+    }
+}
+
+fn silent(picture: &Picture, topic: &str) -> Diagnostic {
+    let ends = picture.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
+    let node = ends.first().and_then(|end| end.node.as_deref()).unwrap_or("somebody");
+    let finding = Diagnostic::warning(
+        "sensor-silent",
+        format!(
+            "`{node}` publishes `{topic}`, and nothing came in {:.1} s",
+            picture.time.as_secs_f64()
+        ),
+    );
+    if picture.clock.is_none() && picture.simulated.values().any(|simulated| *simulated) {
+        return finding.help("simulated time stands still: see what is said of `/clock`");
+    }
+    finding.help(
+        "the sensor is off (`<always_on>`, `<update_rate>`), the simulation is paused, a driver waits \
+         for its device, or packets are lost: large messages need `net.core.rmem_max`",
+    )
+}
+
+fn useless(topic: &str, scans: &ScanFacts) -> Option<Diagnostic> {
+    if scans.readings < ENOUGH || scans.good > 0 {
+        return None;
+    }
+    let all = scans.readings;
+    let (what, help) = if scans.nan + scans.zero == all {
+        (
+            "says NaN or 0 in every reading",
+            "it measures nothing: a GPU lidar without a GPU, or a driver without its device; in a world \
+             file `type=\"ray\"` instead of `gpu_ray`",
+        )
+    } else if scans.near + scans.nan + scans.zero == all {
+        (
+            "sees only what is nearer than its `range_min`",
+            "it looks at the robot itself, or inside of a shape: move the sensor's link out of the \
+             collision shape, or set `range/min` above it",
+        )
+    } else {
+        (
+            "sees nothing within its `range_max`",
+            "nothing is that near at its height: look at the pose of the sensor, set `range/max` higher, \
+             or put something into the world",
+        )
+    };
+    Some(Diagnostic::warning("scan-useless", format!("`{topic}` {what} ({all})")).help(help))
+}
+
+fn slow(topic: &str, heard: &Heard) -> Option<Diagnostic> {
+    let (rate_hz, wanted_hz) = (heard.rate_hz()?, heard.wanted_hz?);
+    (rate_hz < SLOW * wanted_hz).then(|| {
+        Diagnostic::warning(
+            "sensor-slow",
+            format!("`{topic}` comes {rate_hz:.1} times in a second, and should {wanted_hz:.1} times"),
+        )
+        .help(
+            "the machine is too slow for `<update_rate>` (a lower one, fewer samples), the simulation runs \
+             below real time, or messages are lost on the way (reliability, `net.core.rmem_max`)",
+        )
+    })
+}
