@@ -5,59 +5,51 @@ import { next, open, periplus, sim, until } from './lib.mjs';
 const PORT = 8824;
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 
-/** What can be reached now, and what has the focus. Runs in the page. */
-function look() {
-  const name = (element) =>
-    (
-      element.getAttribute('aria-label') ??
-      [...(element.labels ?? [])].map((l) => l.textContent).join(' ') ??
-      ''
-    ).trim() ||
-    element.textContent.trim() ||
-    element.getAttribute('title') ||
-    element.getAttribute('placeholder') ||
-    '';
+/** What can be reached now: numbered, with names. Notes from now on what gets the focus. Runs in the page. */
+function watch() {
+  const nameOf = (element) =>
+    [
+      element.getAttribute('aria-label'),
+      [...(element.labels ?? [])].map((l) => l.textContent).join(' '),
+      element.textContent,
+      element.getAttribute('title'),
+      element.getAttribute('placeholder'),
+    ].find((text) => text?.trim()) ?? '';
   const selector = 'a[href], button, input, select, textarea, summary, canvas, svg, [tabindex]';
   const isSeen = (e) => e.checkVisibility({ visibilityProperty: true }) && !e.closest('[inert]');
-  const reachable = [...document.querySelectorAll(selector)].filter(
+  const all = [...document.querySelectorAll(selector)].filter(
     (e) => e.tabIndex >= 0 && !e.disabled && isSeen(e),
   );
-  reachable.forEach((e, i) => (e.dataset.reach ??= String(i)));
-  const { activeElement: now } = document;
-  const style = getComputedStyle(now);
-  const label = now.closest('label.file');
-  const outline = getComputedStyle(label ?? now);
-  return {
-    all: reachable.map((e) => [e.dataset.reach, `${e.tagName} ${name(e)}`, name(e)]),
-    at: now.dataset?.reach,
-    isOutlined: [style, outline].some(
-      (s) => s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0,
-    ),
+  const texts = all.map((e) => `${e.tagName} ${nameOf(e).trim()}`);
+  const gone = () => all.flatMap((e, i) => (e.isConnected && isSeen(e) ? [] : [i]));
+  const seen = (window.seen = { reached: [], unseen: [], gone: [] });
+  window.leaveWatch?.();
+  const note = ({ target }) => {
+    const i = all.indexOf(target);
+    if (i >= 0 && !seen.reached.includes(i)) seen.reached.push(i);
+    seen.gone = gone();
+    const isOutlined = [target, target.closest('label.file') ?? target]
+      .map((e) => getComputedStyle(e))
+      .some((s) => s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0);
+    if (!isOutlined) seen.unseen.push(`${target.tagName} ${nameOf(target).trim()}`);
   };
+  document.addEventListener('focusin', note);
+  window.leaveWatch = () => document.removeEventListener('focusin', note);
+  document.activeElement?.blur();
+  return { texts, nameless: all.filter((e) => !nameOf(e).trim()).map((e) => e.outerHTML) };
 }
 
 /** Goes once around by Tab; tells what was not reached, not seen or not named. */
 async function around(page) {
-  await page.evaluate(() => {
-    for (const e of document.querySelectorAll('[data-reach]')) delete e.dataset.reach;
-    document.activeElement?.blur();
-  });
-  const first = await page.evaluate(look);
-  const reached = new Set();
-  const unseen = [];
-  for (let i = 0; i < first.all.length + 10; i++) {
-    await page.keyboard.press('Tab');
-    const { at, isOutlined, all } = await page.evaluate(look);
-    if (at === undefined) continue;
-    if (!reached.has(at) && !isOutlined) unseen.push(all.find(([id]) => id === at)?.[1]);
-    reached.add(at);
-  }
-  const last = await page.evaluate(look);
+  const { texts, nameless } = await page.evaluate(watch);
+  for (let i = 0; i < texts.length + 10; i++) await page.keyboard.press('Tab');
+  const { reached, unseen, gone } = await page.evaluate('seen');
   return {
-    count: reached.size,
-    unreached: last.all.filter(([id]) => !reached.has(id)).map(([, text]) => text),
+    count: reached.length,
+    // What went away meanwhile cannot be reached.
+    unreached: texts.filter((_, i) => !reached.includes(i) && !gone.includes(i)),
     unseen,
-    nameless: last.all.filter(([, , name]) => !name).map(([, text]) => text),
+    nameless,
   };
 }
 
@@ -86,6 +78,9 @@ export async function keyboard(chrome, url) {
     await until(page, 'periplus.displays.some((d) => d.statuses.Description)', 'a robot');
     // From now on the list stays as it is.
     await page.evaluate(() => (window.periplus.isAutomatic = false));
+    // A run that stands has the same buttons all the time.
+    await page.getByRole('button', { name: 'Pause' }).first().click();
+    await until(page, 'periplus.isStill', 'standing still');
     // Each panel by arrow keys.
     await page.getByRole('tab', { name: 'Drive' }).focus();
     for (const tab of [
