@@ -1,13 +1,13 @@
 // Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png, and docs/displays.md
 // with its own.
 //
-//   npm run pictures [FOLDER]     PERIPLUS=path/to/periplus
+//   npm run pictures [demo] [house] [building] [displays]     PERIPLUS=path/to/periplus
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
 import { displays } from './show.mjs';
 
-const OUT = process.argv[2] ?? join(ROOT, 'docs/pictures');
+const OUT = join(ROOT, 'docs/pictures');
 const PORT = 8841;
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 mkdirSync(OUT, { recursive: true });
@@ -30,20 +30,28 @@ async function scene(args, look, options = {}) {
 }
 
 const whole = (page, name) => page.screenshot({ path: join(OUT, `viewer-${name}.png`) });
-try {
-  await scene(['demo', '--no-browser', '--explore'], async (page) => {
-    await page.waitForTimeout(Number(process.env.DEMO_MS ?? 12_000));
-    await whole(page, 'demo');
-  });
-  await scene(
-    [...sim('worlds/house.sdf', SAM_BOT), '--pose', '3,2.5,0.4'],
-    async (page) => {
-      await page.getByRole('tab', { name: 'World' }).click();
-      await page.waitForTimeout(2500);
-      await whole(page, 'house');
-    },
-    { colorScheme: 'light' },
-  );
+/** What is taken, by name. */
+const PICTURES = {
+  demo: () =>
+    scene(['demo', '--no-browser', '--explore'], async (page) => {
+      await page.waitForTimeout(Number(process.env.DEMO_MS ?? 12_000));
+      await whole(page, 'demo');
+    }),
+  house: () =>
+    scene(
+      [...sim('worlds/house.sdf', SAM_BOT), '--pose', '3,2.5,0.4'],
+      async (page) => {
+        await page.getByRole('tab', { name: 'World' }).click();
+        await page.waitForTimeout(2500);
+        await whole(page, 'house');
+      },
+      { colorScheme: 'light' },
+    ),
+  building,
+  displays: () => displays(chrome, pages.url, OUT),
+};
+
+async function building() {
   const { page } = await open(chrome, `${pages.url}#building`);
   const plan = page.getByRole('application');
   const box = await plan.boundingBox();
@@ -78,7 +86,14 @@ try {
   await press(3, 2.6);
   await page.waitForTimeout(800);
   await whole(page, 'building');
-  await displays(chrome, pages.url, OUT);
+  await page.close();
+}
+
+const wanted = process.argv.slice(2);
+try {
+  for (const [name, take] of Object.entries(PICTURES)) {
+    if (wanted.length === 0 || wanted.includes(name)) await take();
+  }
 } finally {
   await chrome.close();
   pages.stop();
