@@ -12,6 +12,7 @@ use periplus_host::Machine;
 use periplus_localization_nodes::AmclNode;
 use periplus_map_nodes::{MapSaver, MapServer, MapServerSettings};
 use periplus_maps::Distro;
+use periplus_nodes::gz_topic;
 use periplus_nodes::states::{
     JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource, RobotStateOptions,
     RobotStatePublisher,
@@ -126,7 +127,7 @@ pub(crate) fn make(
             made.hand(spawner);
             drop(node);
         }
-        Role::Bridge => bridged(ask, node, &named, &mut made)?,
+        Role::Bridge => bridged(ask, graph, node, &named, &mut made)?,
         Role::Slam(program) => slam(ask, node, program, &named, settings, &mut made)?,
         Role::MapServer { .. } | Role::MapSaver(_) => maps(ask, node, &named, &mut made)?,
         Role::MapSaverServer => {
@@ -194,7 +195,7 @@ pub(crate) fn make(
             let resolve = |name: &str| node.names().topic(name).map_err(failed);
             let ways = vec![(resolve(&from)?, resolve(&to)?)];
             made.told = format!("{from} goes out on {to}");
-            made.hand(Relay::new(node, ways));
+            made.hand(Relay::new(graph, node, ways)?);
         }
         Role::Gazebo | Role::Viewer | Role::Container | Role::Needless | Role::Lacking => {}
     }
@@ -347,7 +348,13 @@ fn maps(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), Str
 
 /// Topics of Gazebo have their names in the simulation already; those that get another one are passed
 /// on.
-fn bridged(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), String> {
+fn bridged(
+    ask: &Ask,
+    graph: &Graph,
+    node: Node,
+    named: &Named,
+    made: &mut Made,
+) -> Result<(), String> {
     let is_image = ask.entry.executables == ["image_bridge"];
     let mut pairs = if is_image {
         let topics = ask.told.own.iter().filter(|word| !word.starts_with('-'));
@@ -365,7 +372,7 @@ fn bridged(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), 
     }
     let mut passed_on = Vec::new();
     for pair in &pairs {
-        let gz = format!("/{}", pair.gz.trim_start_matches('/'));
+        let gz = gz_topic(&pair.gz);
         let ros = node.names().topic(&pair.ros).map_err(|error| error.to_string())?;
         // The simulation tells the time itself.
         if gz == ros || ros == "/clock" {
@@ -378,7 +385,7 @@ fn bridged(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), 
             Direction::Both => vec![there, back],
         };
         passed_on.push(format!("{gz} is {ros}"));
-        made.hand(Relay::new(node.clone(), ways));
+        made.hand(Relay::new(graph, node.clone(), ways)?);
     }
     if !passed_on.is_empty() {
         made.told = passed_on.join(", ");

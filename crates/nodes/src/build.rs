@@ -1,10 +1,11 @@
 //! From a model to its devices.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_graph::GraphError;
-use periplus_plugins::{interpret, model_sites};
+use periplus_graph::{Graph, GraphError};
+use periplus_plugins::{interpret, model_sites, world_sites};
+use periplus_scene::World;
 
-use crate::states::{JointStatePublisher, RobotFrames};
+use crate::states::{JointStatePublisher, RobotFrames, triggered};
 use crate::{Device, Setting, drives, sensors};
 
 /// The devices of a model: first what drives it, then what measures, then who tells of its joints
@@ -38,6 +39,25 @@ pub fn devices(
         match RobotFrames::new(setting, description) {
             Ok(frames) => devices.push(Box::new(frames)),
             Err(error) => diagnostics.push(refused(setting, &error)),
+        }
+    }
+    devices
+}
+
+/// The devices of a world itself, beside those of its models.
+#[must_use]
+pub fn world_devices(
+    graph: &Graph,
+    world: &World,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Box<dyn Device>> {
+    let mut devices: Vec<Box<dyn Device>> = Vec::new();
+    for site in world_sites(world) {
+        let plugin = interpret(site.plugin, &site.context, &mut Diagnostics::new());
+        if plugin.is_some_and(|plugin| plugin.known.id == "gz-sim-triggered-publisher-system")
+            && let Some(device) = triggered(graph, site.plugin, diagnostics)
+        {
+            devices.push(Box::new(device));
         }
     }
     devices

@@ -11,6 +11,7 @@ mod odometry;
 mod p3d;
 mod robot_state_publisher;
 mod tree;
+mod triggered;
 
 pub use clock::ClockPublisher;
 pub(crate) use geometry::{from_vector, planar_twist, transform, vector};
@@ -20,6 +21,7 @@ pub(crate) use joint_states::JointStates;
 pub(crate) use odometry::{TF_QOS, Teller, planar_covariance};
 pub(crate) use robot_state_publisher::RobotFrames;
 pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateOptions, RobotStatePublisher};
+pub(crate) use triggered::build as triggered;
 
 use periplus_diagnostics::Diagnostics;
 
@@ -41,6 +43,9 @@ pub(crate) fn build(
         "gazebo_ros_p3d" => boxed(p3d::build(order, diagnostics)),
         "gz-sim-odometry-publisher-system" => boxed(gz_odometry::build(order, diagnostics)),
         "gz-sim-pose-publisher-system" => boxed(gz_poses::build(order, diagnostics)),
+        "gz-sim-triggered-publisher-system" => {
+            boxed(triggered::build(order.setting.graph, order.site.plugin, diagnostics))
+        }
         _ => return Err(()),
     })
 }

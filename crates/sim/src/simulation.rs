@@ -135,6 +135,12 @@ impl Simulation {
                 .diagnostics
                 .push(Diagnostic::error("no-clock", error.to_string())),
         }
+        let mut of_world = Diagnostics::new();
+        let devices =
+            periplus_nodes::world_devices(&simulation.graph, &simulation.scene, &mut of_world);
+        simulation.world_devices.extend(devices);
+        // A world in its own file is the first; a plane for a robot has no plugins.
+        composition.files[0].diagnostics.append(of_world);
         for member in composition.members.clone() {
             let file = member.file;
             let findings = simulation.spawn(member);

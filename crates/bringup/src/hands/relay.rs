@@ -1,21 +1,49 @@
 //! Passes on what comes on one topic under another name.
 
-use periplus_graph::{Node, RawMailbox, RawPublisher};
+use periplus_graph::{Graph, Node, NodeSettings, RawMailbox, RawPublisher};
 
 use super::{Done, Hand, Stage};
 
 /// Two names of which one is to say what the other says.
 pub(crate) struct Relay {
     node: Node,
+    /// For names that the node's own rules would replace.
+    plain: Node,
     /// Full names that may be the source, the likelier first, each with the other end.
     ways: Vec<(String, String)>,
     open: Option<(RawMailbox, RawPublisher)>,
 }
 
 impl Relay {
-    /// From one name to another; the first of these ways on which somebody publishes is taken.
-    pub(crate) fn new(node: Node, ways: Vec<(String, String)>) -> Self {
-        Self { node, ways, open: None }
+    /// From one full name to another; the first of these ways on which somebody publishes is taken.
+    ///
+    /// # Errors
+    /// In words.
+    pub(crate) fn new(
+        graph: &Graph,
+        node: Node,
+        ways: Vec<(String, String)>,
+    ) -> Result<Self, String> {
+        let beside = format!("{}_names", node.names().name());
+        let namespace = node.names().namespace().to_owned();
+        let mut number = 1;
+        let plain = loop {
+            // A bridge has many of these.
+            let name = format!("{beside}_{number}");
+            let settings = NodeSettings::new(name).namespace(&namespace).bare().keep_names();
+            match graph.node(settings) {
+                Ok(plain) => break plain,
+                Err(error) if number > 1000 => return Err(error.to_string()),
+                Err(_) => number += 1,
+            }
+        };
+        Ok(Self { node, plain, ways, open: None })
+    }
+
+    /// The node that means this name by it.
+    fn meaning(&self, name: &str) -> &Node {
+        let is_kept = self.node.names().topic(name).is_ok_and(|meant| meant == name);
+        if is_kept { &self.node } else { &self.plain }
     }
 
     /// Finds out what there is to pass on: who publishes says of which type it is and how it is kept.
@@ -23,13 +51,14 @@ impl Relay {
         let topics = stage.graph.topics();
         for (from, to) in &self.ways {
             let Some(topic) = topics.iter().find(|topic| topic.name == *from) else { continue };
-            let own = self.node.full_name();
-            let Some(source) = topic.publishers.iter().find(|end| end.node != own) else {
+            let own = [self.node.full_name(), self.plain.full_name()];
+            let is_other = |node: &str| !own.contains(&node);
+            let Some(source) = topic.publishers.iter().find(|end| is_other(&end.node)) else {
                 continue;
             };
             let (name, hash) = (topic.type_name.as_str(), topic.type_hash.as_deref());
-            let mailbox = self.node.raw_mailbox(from, name, hash, source.qos);
-            let publisher = self.node.raw_publisher(to, name, hash, source.qos);
+            let mailbox = self.meaning(from).raw_mailbox(from, name, hash, source.qos);
+            let publisher = self.meaning(to).raw_publisher(to, name, hash, source.qos);
             self.open = mailbox.ok().zip(publisher.ok());
             return;
         }

@@ -33,6 +33,9 @@ use crate::terminal;
 /// How often it is looked whether something is due, where no world sets the pace.
 const LOOK: Duration = Duration::from_millis(5);
 
+/// How long it may take to find who is on the network.
+const DISCOVERY: Duration = Duration::from_millis(1500);
+
 /// How long the last words may take to arrive.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
@@ -296,7 +299,10 @@ fn among_others(
         terminal::say(&format!("ROS 2: domain {}", live.domain_id));
     }
     let node = live.graph.node(periplus_graph::NodeSettings::new("periplus_launch").bare());
-    if bringup.follows_clock()
+    // In ROS 1 all nodes live by `/clock` once somebody has set `/use_sim_time`; that is known to a
+    // master that is not here, so it is looked whether somebody tells the time.
+    let is_told = launched.dialect == Dialect::Ros1 && tells_time(&live);
+    if (bringup.follows_clock() || is_told)
         && let Ok(node) = &node
     {
         match live.follow_clock(node) {
@@ -352,6 +358,19 @@ fn among_others(
         return Ok(ExitCode::FAILURE);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Whether somebody on the network tells the time; they have a moment to be found.
+fn tells_time(live: &Live) -> bool {
+    let since = Stopwatch::start();
+    while since.elapsed() < DISCOVERY {
+        let remote = live.wire.remote();
+        if remote.topic("/clock").is_some_and(|topic| !topic.publishers.is_empty()) {
+            return true;
+        }
+        sleep(LOOK);
+    }
+    false
 }
 
 /// Tells what becomes of a plan.
