@@ -28,14 +28,14 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
     let written = std::fs::create_dir_all(&folder).map_err(|error| error.to_string());
-    let written = written.and_then(|()| Machine.replace(&file, text(options, &ros).as_bytes()));
+    let written = written.and_then(|()| Machine.replace(&file, text(options).as_bytes()));
     if let Err(why) = written {
         terminal::complain(&format!("cannot write {}: {why}", file.display()));
         return Ok(ExitCode::FAILURE);
     }
     let words = ["periplus".into(), "launch".into(), file.into_os_string()];
     let outcome = match Options::try_parse_from(words).map(|options| options.command) {
-        Ok(Some(Command::Launch(options))) => launch::run(&options, Vec::new()),
+        Ok(Some(Command::Launch(options))) => launch::run(&options, ros),
         _ => Ok(ExitCode::FAILURE),
     };
     let _ = std::fs::remove_dir_all(folder);
@@ -43,7 +43,7 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
 }
 
 /// A launch file with this node alone.
-fn text(options: &RunOptions, ros: &[String]) -> String {
+fn text(options: &RunOptions) -> String {
     let line =
         |words: &[String]| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
     let attribute = |text: &str| {
@@ -52,12 +52,11 @@ fn text(options: &RunOptions, ros: &[String]) -> String {
         text.replace("$(", "\\$(")
     };
     format!(
-        "<launch>\n  <node pkg=\"{}\" exec=\"{}\" output=\"screen\" args=\"{}\" ros_args=\"{}\"/>\n\
+        "<launch>\n  <node pkg=\"{}\" exec=\"{}\" output=\"screen\" args=\"{}\"/>\n\
          </launch>\n",
         attribute(&options.package),
         attribute(&options.program),
         attribute(&line(&options.words)),
-        attribute(&line(ros)),
     )
 }
 
@@ -77,8 +76,6 @@ fn a_node_is_written_as_a_launch_file() {
         program: "nav2_costmap_2d_markers".into(),
         words: vec!["a \"b\"".into()],
     };
-    let ros = ["-r".to_owned(), "voxel_grid:=/local_costmap/voxel_grid".to_owned()];
-    let text = text(&options, &ros);
+    let text = text(&options);
     assert!(text.contains("args=\"'a &quot;b&quot;'\""), "{text}");
-    assert!(text.contains("ros_args=\"-r voxel_grid:=/local_costmap/voxel_grid\""), "{text}");
 }
