@@ -1,5 +1,5 @@
-//! Localization: worlds with known truth, speed, and logs of real robots whose first half makes the
-//! map for their second.
+//! Localization: worlds with known truth, speed beside MRPT, and logs of real robots whose first half
+//! makes the map for their second.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,34 +10,55 @@ use crate::step::{Failed, cargo, root, run};
 /// Logs whose second half goes where the first was.
 const LOGS: [&str; 2] = ["csail-full", "seattle"];
 
-/// Prints all tables; maps and pictures of the logs go to `target/localization`.
+/// The head of the table of logs: agreement with SLAM where the robot was sure, as it is, after one
+/// motion and after that of the poses nearby.
+const HEAD: &str = "| log | scans on the map | sure of | as it is: most m | one motion: RMS, most m \
+| nearby: RMS, most m | most degrees | more than 0.1 m nearby | sure off the map: scans, most m |\n\
+|---|---|---|---|---|---|---|---|---|";
+
+/// Prints all tables; maps, figures of every scan and pictures of the logs go to `target/localization`.
 pub(crate) fn bench() -> Result<(), Failed> {
-    for example in ["worlds", "speed"] {
-        let mut command = cargo();
-        command.args(["run", "--quiet", "--release", "--package", "periplus-localization"]);
-        run(command.args(["--example", example]), "a world with known truth failed")?;
+    for name in ["worlds", "speed"] {
+        run(&mut example(name), "a world with known truth failed")?;
     }
+    let mut command = cargo();
+    command.args(["build", "--quiet", "--release", "--package", "periplus-cli"]);
+    run(&mut command, "the command cannot be built")?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let target = target.unwrap_or_else(|| root().join("target"));
+    let (periplus, out) = (target.join("release/periplus"), target.join("localization"));
+    println!();
+    let mut peer = Command::new("python3");
+    peer.arg(root().join("benches/oracles/localization_mrpt.py"));
+    run(peer.arg(&periplus).arg(out.join("mrpt")), "see above")?;
     let Ok(logs) = root().join("../shared/datasets").canonicalize() else {
         println!("SKIPPED: there is no ../shared/datasets to localize in");
         return Ok(());
     };
-    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
-    let out = target.unwrap_or_else(|| root().join("target")).join("localization");
-    let mut table = String::from(
-        "| log | second half | scans | against SLAM: RMS m | 99 % m | most m | most degrees |\n\
-         |---|---|---|---|---|---|---|\n",
-    );
     for name in LOGS {
-        halves(&logs.join(name).join("raw.clf"), &out.join(name), name, &mut table)?;
+        halves(&periplus, &logs.join(name).join("raw.clf"), &out.join(name))?;
     }
-    println!("\n{table}\nmaps, trajectories and pictures are in {}", out.display());
+    println!("\n{HEAD}");
+    for name in LOGS {
+        run(example("halves").arg("--").arg(out.join(name)), "see above")?;
+    }
+    println!(
+        "\nIn {}, of each log: `map.png` (SLAM's way blue; localization's green where it was sure, orange \
+         where not, red where it was sure and wrong), `errors.png`, `scans.csv`",
+        out.display()
+    );
     Ok(())
 }
 
-/// A stamp, x, y and yaw.
-type Line = (String, [f64; 3]);
+fn example(name: &str) -> Command {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--release", "--package", "periplus-localization"]);
+    command.args(["--example", name]);
+    command
+}
 
-fn halves(log: &Path, out: &Path, name: &str, table: &mut String) -> Result<(), Failed> {
+/// Runs SLAM on the whole log and on its first half, and localization on the second.
+fn halves(periplus: &Path, log: &Path, out: &Path) -> Result<(), Failed> {
     let failed = |what: &Path| {
         let what = what.display().to_string();
         move |error: std::io::Error| Failed(format!("{what}: {error}"))
@@ -55,60 +76,15 @@ fn halves(log: &Path, out: &Path, name: &str, table: &mut String) -> Result<(), 
     for (half, text) in [("first.clf", &first), ("second.clf", &second)] {
         std::fs::write(out.join(half), text).map_err(failed(out))?;
     }
-    let (whole, map, found) = (out.join("whole"), out.join("map"), out.join("localized"));
-    let slam = |log: &Path, out: &Path| {
-        run(periplus().arg("slam").arg(log).arg("--out").arg(out), "see above")
+    let slam = |log: &Path, name: &str| {
+        let mut slam = Command::new(periplus);
+        run(slam.arg("slam").arg(log).arg("--quiet").arg("--out").arg(out.join(name)), "see above")
     };
-    slam(log, &whole)?;
-    slam(&out.join("first.clf"), &map)?;
-    let mut localize = periplus();
-    localize.arg("localize").arg(out.join("second.clf")).arg("--map").arg(map.join("map.yaml"));
+    slam(log, "whole")?;
+    slam(&out.join("first.clf"), "map")?;
+    let mut localize = Command::new(periplus);
+    localize.arg("localize").arg(out.join("second.clf")).arg("--map").arg(out.join("map/map.yaml"));
     // Every scan counts, as it does in SLAM.
-    localize.args(["-p", "update_min_d:=0.1", "-p", "update_min_a:=0.1"]);
-    run(localize.arg("--out").arg(&found), "see above")?;
-    let read = |folder: &Path| lines(&folder.join("trajectory.txt"));
-    let (truth, found) = (read(&whole)?, read(&found)?);
-    let mut off: Vec<(f64, f64)> = Vec::new();
-    for (stamp, [x, y, yaw]) in &found {
-        if let Some((_, it)) = truth.iter().find(|(other, _)| other == stamp) {
-            let turn = (yaw - it[2]).sin().atan2((yaw - it[2]).cos()).abs();
-            off.push(((x - it[0]).hypot(y - it[1]), turn.to_degrees()));
-        }
-    }
-    let mut metres: Vec<f64> = off.iter().map(|it| it.0).collect();
-    metres.sort_by(f64::total_cmp);
-    let squares: f64 = metres.iter().map(|it| it * it).sum();
-    let at = |part: f64| {
-        let place = (part * metres.len().saturating_sub(1) as f64) as usize;
-        metres.get(place).copied().unwrap_or(f64::NAN)
-    };
-    let _ = writeln!(
-        table,
-        "| {name} | {} scans | {} | {:.3} | {:.3} | {:.3} | {:.2} |",
-        scans - scans / 2,
-        metres.len(),
-        (squares / metres.len() as f64).sqrt(),
-        at(0.99),
-        at(1.0),
-        off.iter().map(|it| it.1).fold(0.0, f64::max),
-    );
-    Ok(())
-}
-
-fn periplus() -> Command {
-    let mut command = cargo();
-    command.args(["run", "--quiet", "--release", "--package", "periplus-cli", "--"]);
-    command
-}
-
-fn lines(path: &Path) -> Result<Vec<Line>, Failed> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| Failed(format!("{}: {error}", path.display())))?;
-    let line = |line: &str| {
-        let mut words = line.split_whitespace();
-        let stamp = words.next()?.to_owned();
-        let mut number = || words.next()?.parse().ok();
-        Some((stamp, [number()?, number()?, number()?]))
-    };
-    Ok(text.lines().filter_map(line).collect())
+    localize.args(["-p", "update_min_d:=0.1", "-p", "update_min_a:=0.1", "--quiet"]);
+    run(localize.arg("--out").arg(out.join("localized")), "see above")
 }

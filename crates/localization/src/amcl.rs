@@ -90,6 +90,14 @@ pub struct Amcl {
     rivals: Option<Rivals>,
     /// The refined pose, and where odometry had the robot then.
     fine: Option<(Known, Pose2)>,
+    /// Where scans have the robot while odometry stands still.
+    ahead: Option<Known>,
+    /// The last step of the refined pose, from scan to scan.
+    stride: Option<Pose2>,
+    /// How far a scan contradicts odometry: \[m\], \[rad\].
+    jump: Option<(f64, f64)>,
+    /// What the status was before that.
+    undoubted: Option<Status>,
     /// The same from before other places came into question.
     home: Option<(Known, Pose2)>,
     /// How often a lost robot was looked for in vain.
@@ -123,6 +131,10 @@ impl Amcl {
             everywhere: None,
             rivals: None,
             fine: None,
+            ahead: None,
+            stride: None,
+            jump: None,
+            undoubted: None,
             vain: 0,
             astray_m: 0.0,
             home: None,
@@ -331,6 +343,10 @@ impl Amcl {
         self.is_settled = false;
         self.rivals = None;
         self.fine = None;
+        self.ahead = None;
+        self.stride = None;
+        self.jump = None;
+        self.undoubted = None;
         self.home = None;
         self.astray_m = 0.0;
         self.estimate = Some(self.sum_up());
@@ -387,6 +403,7 @@ impl Amcl {
         let Some(map) = &self.map else { return Err(no_map()) };
         let settings = &self.settings;
         let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
+        self.jump = None;
         let range_max_m = beams.range_max_m;
         let terms = self.terms.take();
         let terms = terms_for(terms, map, settings, range_max_m);
@@ -436,6 +453,8 @@ impl Amcl {
             self.is_settled = true;
             self.vain = 0;
         }
+        self.undoubted = None;
+        self.doubt();
         let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
         self.map_from_odom = Some(map_from_odom);
         self.estimate = Some(estimate.clone());

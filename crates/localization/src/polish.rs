@@ -101,6 +101,12 @@ pub(crate) fn moved(known: &Known, old_from_new: Pose2) -> Known {
     }
 }
 
+/// As if the robot had gone on somewhere near by.
+pub(crate) fn loosened(known: &Known) -> Known {
+    let covariance = known.information.inverse().unwrap_or_default() + unknown(0.1, 0.1);
+    Known { information: covariance.inverse().unwrap_or(known.information), ..*known }
+}
+
 fn unknown(place_m: f64, turn_rad: f64) -> Symmetric3 {
     Symmetric3::diagonal(place_m * place_m, place_m * place_m, turn_rad * turn_rad)
 }

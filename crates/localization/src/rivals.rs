@@ -25,6 +25,9 @@ const NEWS_M: f64 = 0.5;
 /// What a scan says, as a logarithm, for a robot that is nowhere on the map: less than for any place
 /// where three quarters of it are on walls.
 const NOWHERE: f64 = -9.0;
+/// Where odometry and the scan say something else, squared and in standard deviations, it counts up to
+/// this: wheels have their bad moments.
+const MOST_DRAWN: f64 = 4.0;
 
 /// A place where the robot may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +84,9 @@ impl Rivals {
         for place in &mut self.places {
             let known = moved(&place.known, old_from_new);
             let seen = refined(map, beams, ends, &known, 0.0);
-            *place = Place { evidence: place.evidence + news * seen.evidence, ..seen };
+            let drawn = drawn(&known, seen.known.pose).min(MOST_DRAWN);
+            let said = seen.evidence - 0.5 * drawn;
+            *place = Place { evidence: place.evidence + news * said, ..seen };
         }
         self.sort();
     }
@@ -158,6 +163,16 @@ impl Place {
         let inverse = self.known.information.inverse().unwrap_or_default();
         Covariance2 { xx: inverse.xx, xy: inverse.xy, yy: inverse.yy, yaw: inverse.tt }
     }
+}
+
+/// How far a scan draws a place from where odometry has it, squared, in standard deviations.
+fn drawn(carried: &Known, pose: Pose2) -> f64 {
+    let off = [
+        pose.x_m - carried.pose.x_m,
+        pose.y_m - carried.pose.y_m,
+        normalize_angle(pose.yaw_rad - carried.pose.yaw_rad),
+    ];
+    carried.information.quadratic(off)
 }
 
 fn refined(map: &KnownMap, beams: &Beams, ends: &[[f32; 2]], known: &Known, before: f64) -> Place {

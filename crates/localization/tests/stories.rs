@@ -444,7 +444,10 @@ fn follow(map: &OccupancyGrid, slip: Pose2) -> (f64, f64, f64) {
         }
         amcl.update(odom_from_base, &look(&room(Pose2::IDENTITY), truth(step), &mut stream))
             .unwrap();
-        assert_eq!(amcl.status().state, State::Tracking, "step {step}: {:?}", amcl.status());
+        // Odometry and the scan say something else for once: that is told.
+        let is_told = step == 60 && slip != Pose2::IDENTITY;
+        let state = if is_told { State::Ambiguous } else { State::Tracking };
+        assert_eq!(amcl.status().state, state, "step {step}: {:?}", amcl.status());
         let error = truth(step).inverse() * (amcl.map_from_odom().unwrap() * odom_from_base);
         worst.0 = worst.0.max(libm::hypot(error.x_m, error.y_m));
         worst.1 = worst.1.max(normalize_angle(error.yaw_rad).abs());

@@ -7,11 +7,11 @@ use super::finer::{CONVINCING, REFUTED, STRAY, Seen, is_same};
 use super::{Amcl, Estimate};
 use crate::anywhere::Everywhere;
 use crate::evidence::{agreement, evidence};
-use crate::polish::{Known, loosely, moved, polish};
+use crate::polish::{Known, loosely, polish};
 use crate::scan::Beams;
 
 /// With a smaller part of what is usual on walls a place is looked for nearby.
-const ENOUGH: f64 = 0.85;
+pub(super) const ENOUGH: f64 = 0.85;
 /// So far after a scan that fitted it is known where the robot is, whatever the map does not \[m\].
 pub(super) const TRUSTED_M: f64 = 3.0;
 /// So much more of the scan has to be on walls there.
@@ -20,6 +20,16 @@ const CLEARLY: f64 = 0.1;
 /// \[rad\].
 const AROUND_M: (f64, f64, f64) = (0.25, 0.1, 4.0);
 const AROUND_RAD: (f64, f64, f64) = (0.35, 0.02, 0.8);
+
+/// What a robot may have done where odometry errs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// It is somewhere around.
+    Gone,
+    /// It turned, and hardly went anywhere: so a scan of two walls suffices that do not tell how far
+    /// along them it is.
+    Turned,
+}
 
 /// A place that was followed.
 #[derive(Clone, Copy)]
@@ -30,15 +40,20 @@ pub(super) struct Followed {
 }
 
 impl Amcl {
-    /// Follows a place: refined where the scan fits, found again where it fits nearby, and by odometry
-    /// alone where it has little to do with the map.
-    pub(super) fn followed(&mut self, seen: &Seen, known: &Known, old_from_new: Pose2) -> Followed {
-        let carried = moved(known, old_from_new);
+    /// Follows a place where odometry has led to: refined where the scan fits, found again where it
+    /// fits nearby, and by odometry alone where it has little to do with the map.
+    pub(super) fn followed(
+        &mut self,
+        seen: &Seen,
+        carried: Known,
+        way_m: f64,
+        way: Way,
+    ) -> Followed {
         let Some(map) = &self.map else { return Followed { known: carried, fit: None } };
         let polished = polish(map, &seen.ends, &carried).known;
         let fit = self.fit(polished.pose, &seen.beams);
-        self.astray_m += libm::hypot(old_from_new.x_m, old_from_new.y_m);
-        if let Some(found) = self.nearby(seen, &carried, fit) {
+        self.astray_m += way_m;
+        if let Some(found) = self.nearby(seen, &carried, fit, way) {
             return found;
         }
         let is_stray = fit.is_some_and(|fit| fit < STRAY * self.watch.usual());
@@ -73,6 +88,7 @@ impl Amcl {
         seen: &Seen,
         place: &Known,
         fit: Option<f64>,
+        way: Way,
     ) -> Option<Followed> {
         let fit = fit.filter(|fit| *fit < ENOUGH * self.watch.usual());
         let Some(fit) = fit else {
@@ -87,7 +103,13 @@ impl Amcl {
         let reach = (reach(AROUND_M), reach(AROUND_RAD));
         let peaks = everywhere.peaks_near(&seen.ends, place.pose, reach);
         let seen_at = |peak: &Peak| {
-            let known = Known { pose: peak.pose, information: loosely(0.3, 0.15) };
+            let known = match way {
+                Way::Gone => Known { pose: peak.pose, information: loosely(0.3, 0.15) },
+                Way::Turned => Known {
+                    pose: Pose2 { yaw_rad: peak.pose.yaw_rad, ..place.pose },
+                    information: loosely(0.1, 0.15),
+                },
+            };
             let known = polish(map, &seen.ends, &known).known;
             let agreement = agreement(map, &seen.beams, known.pose)?;
             let fit = if is_near { agreement.judged } else { agreement.all };

@@ -4,7 +4,7 @@ use periplus_base::{Pose2, normalize_angle};
 use periplus_diagnostics::Diagnostic;
 use periplus_matching::{Peak, Symmetric3};
 
-use super::astray::{Followed, TRUSTED_M};
+use super::astray::{ENOUGH, Followed, TRUSTED_M, Way};
 use super::{Amcl, Estimate, has_moved};
 use crate::anywhere::Everywhere;
 use crate::bins::Cluster;
@@ -13,7 +13,7 @@ use crate::guess::scatter;
 use crate::known_map::KnownMap;
 use crate::models::Model;
 use crate::particles::{Covariance2, Particles};
-use crate::polish::{Known, loosely, moved, polish};
+use crate::polish::{Known, loosely, loosened, moved, polish};
 use crate::rivals::Rivals;
 use crate::scan::{BeamLimits, Beams, Scan};
 use crate::settings::Settings;
@@ -29,6 +29,14 @@ const NEAR: (f64, f64) = (0.4, 0.25);
 const EVERY: usize = 20;
 /// Without so much motion no pose is refined again \[m\], \[rad\].
 const STILL: (f64, f64) = (0.02, 0.01);
+/// Farther from where odometry has the robot a scan contradicts it: \[m\], \[rad\], and this share of
+/// the motion.
+const JUMP: (f64, f64) = (0.1, 0.2);
+const SLIP: f64 = 0.25;
+/// Steps of odometry that differ more from the one before may be wrong \[m\], \[rad\].
+const UNEVEN: (f64, f64) = (0.05, 0.05);
+/// They are where the one before fits better by this, and as well as scans usually do.
+const EVEN: f64 = 0.005;
 /// Without so much motion the lost are not looked for again \[m\], \[rad\].
 const AGAIN: (f64, f64) = (0.5, 0.5);
 /// Who was looked for in vain is looked for less often: after so many times the way at most.
@@ -101,8 +109,9 @@ impl Amcl {
         }
         let fit = agreement(map, &seen.beams, rivals.best().known.pose).map_or(1.0, |it| it.all);
         if let Some((known, old)) = self.home {
+            let step = old.inverse() * odom_from_base;
             let Followed { known, fit: at_home } =
-                self.followed(seen, &known, old.inverse() * odom_from_base);
+                self.followed(seen, moved(&known, step), length_m(step), Way::Gone);
             let is_home = at_home.is_some_and(|it| it >= self.convincing().max(fit - BETTER));
             if is_home || fit < STRAY * self.watch.usual() {
                 // None of them was it.
@@ -157,7 +166,7 @@ impl Amcl {
     /// Refines the estimate, and puts some of the particles there.
     pub(super) fn polish(&mut self, estimate: &mut Estimate, seen: &Seen, odom_from_base: Pose2) {
         let is_wanted = self.settings.polishes && self.rivals.is_none();
-        let (Some(map), true, Some(cluster)) =
+        let (Some(_), true, Some(cluster)) =
             (&self.map, is_wanted && !seen.ends.is_empty(), estimate.clusters.first())
         else {
             self.fine = None;
@@ -180,7 +189,9 @@ impl Amcl {
                 && normalize_angle(pose.yaw_rad - mean.yaw_rad).abs() < near_rad
         };
         let fine = self.fine.take().map(|(known, old)| (known, old.inverse() * odom_from_base));
-        let carried = fine.map(|(known, step)| moved(&known, step));
+        let carried = fine.map(|(known, step)| self.carried(seen, &known, step));
+        let (carried, way) = (carried.map(|it| it.0), carried.map_or(Way::Gone, |it| it.1));
+        let Some(map) = &self.map else { return };
         let followed = carried.map(|known| polish(map, &seen.ends, &known));
         let fresh = polish(map, &seen.ends, &Known { pose: mean, information });
         let best = followed
@@ -188,9 +199,13 @@ impl Amcl {
             .unwrap_or(fresh);
         let pose = best.known.pose;
         let fit = self.fit(pose, &seen.beams);
-        if let (Some(known), Some((_, step))) = (&carried, fine) {
-            self.astray_m += libm::hypot(step.x_m, step.y_m);
-            if let Some(found) = self.nearby(seen, known, fit) {
+        if let (Some(known), Some((Known { pose: before, .. }, step))) = (&carried, fine) {
+            self.astray_m += length_m(step);
+            let found = self.nearby(seen, known, fit, way);
+            let at = found.map_or(pose, |found| found.known.pose);
+            self.jump = jump((before * step).normalized(), at, step);
+            self.stride = Some(before.inverse() * at);
+            if let Some(found) = found {
                 self.stay(estimate, found.known, odom_from_base);
                 return;
             }
@@ -224,20 +239,85 @@ impl Amcl {
     /// Refines the pose by a scan that the filter does not use.
     pub(super) fn refine(&mut self, odom_from_base: Pose2, scan: &Scan) {
         let Some((known, old)) = self.fine else { return };
-        if !has_moved(old, odom_from_base, STILL) {
-            return;
-        }
         let Ok(seen) = Seen::new(scan, &self.settings) else { return };
         if seen.ends.is_empty() {
             return;
         }
-        let Followed { known, fit } = self.followed(&seen, &known, old.inverse() * odom_from_base);
-        let pose = known.pose;
-        self.fine = Some((known, odom_from_base));
+        let step = old.inverse() * odom_from_base;
+        let has_gone = has_moved(old, odom_from_base, STILL);
+        let fit = if has_gone {
+            let (carried, way) = self.carried(&seen, &known, step);
+            let before = known.pose;
+            let Followed { known, fit } = self.followed(&seen, carried, length_m(step), way);
+            self.fine = Some((known, odom_from_base));
+            self.told_at(known.pose, odom_from_base);
+            self.stride = Some(before.inverse() * known.pose);
+            self.jump = jump((before * step).normalized(), known.pose, step);
+            fit
+        } else {
+            let here = self.ahead.unwrap_or(known);
+            let fit = self.fit(here.pose, &seen.beams);
+            let found = self.nearby(&seen, &here, fit, Way::Turned);
+            if let Some(Followed { known, .. }) = found {
+                self.ahead = Some(known);
+                self.told_at(known.pose, odom_from_base);
+                self.jump = jump(here.pose, known.pose, Pose2::IDENTITY);
+            }
+            found.map_or(fit, |found| found.fit)
+        };
+        self.doubt();
         // What may be the sign of a robot that was carried away is worth the work at once; not so
-        // where it has been lost for some time.
-        self.is_forced |= self.status.state == State::Tracking && self.watch.suspects(fit);
-        self.map_from_odom = Some((pose * odom_from_base.inverse()).normalized());
+        // where it has been lost for some time, nor for whoever stands before one that waits.
+        self.is_forced |=
+            has_gone && self.status.state == State::Tracking && self.watch.suspects(fit);
+    }
+
+    fn told_at(&mut self, map_from_base: Pose2, odom_from_base: Pose2) {
+        self.map_from_odom = Some((map_from_base * odom_from_base.inverse()).normalized());
+    }
+
+    /// Where the refined pose is after a motion. Odometry that stood still while the robot went on may
+    /// come back with all of the way at once, or without what it missed: what the scan fits best counts.
+    fn carried(&mut self, seen: &Seen, known: &Known, step: Pose2) -> (Known, Way) {
+        let usual = moved(known, step);
+        let (ahead, stride) = (self.ahead.take(), self.stride.take());
+        let Some(map) = &self.map else { return (usual, Way::Gone) };
+        let Some(ahead) = ahead else {
+            // A robot goes on as it went, for the moment; its odometry may say otherwise.
+            let Some(stride) = stride.filter(|it| has_moved(*it, step, UNEVEN)) else {
+                return (usual, Way::Gone);
+            };
+            let even = moved(known, stride);
+            let there = polish(map, &seen.ends, &even);
+            let is_better = there.fit > polish(map, &seen.ends, &usual).fit + EVEN;
+            let fit = self.fit(there.known.pose, &seen.beams);
+            let is_even = is_better && fit.is_some_and(|fit| fit >= ENOUGH * self.watch.usual());
+            return (if is_even { even } else { usual }, Way::Gone);
+        };
+        let mut best = (usual, f64::NEG_INFINITY);
+        for place in [usual, moved(&ahead, step), loosened(&ahead)] {
+            let fit = polish(map, &seen.ends, &place).fit;
+            if fit > best.1 {
+                best = (place, fit);
+            }
+        }
+        (best.0, Way::Turned)
+    }
+
+    /// A robot of which odometry and the scan say something different is not sure, for the moment.
+    pub(super) fn doubt(&mut self) {
+        if let Some(before) = self.undoubted.take() {
+            self.status = before;
+        }
+        let Some((off_m, off_rad)) = self.jump.take() else { return };
+        if self.status.state == State::Tracking {
+            self.undoubted = Some(self.status.clone());
+            self.status.state = State::Ambiguous;
+            self.status.reason = format!(
+                "the scan has the robot {off_m:.2} m and {:.0} degrees from where odometry has it",
+                off_rad.to_degrees(),
+            );
+        }
     }
 
     /// Whether the robot is to be looked for on all of the map.
@@ -293,6 +373,20 @@ impl Amcl {
         self.believe(estimate, rivals, fit);
         true
     }
+}
+
+/// How far a scan has the robot from where odometry has it, where that is a contradiction:
+/// \[m\], \[rad\].
+fn jump(carried: Pose2, found: Pose2, step: Pose2) -> Option<(f64, f64)> {
+    let off = carried.inverse() * found;
+    let (off_m, off_rad) = (length_m(off), normalize_angle(off.yaw_rad).abs());
+    let most_m = JUMP.0 + SLIP * length_m(step);
+    let most_rad = JUMP.1 + SLIP * normalize_angle(step.yaw_rad).abs();
+    (off_m > most_m || off_rad > most_rad).then_some((off_m, off_rad))
+}
+
+fn length_m(step: Pose2) -> f64 {
+    libm::hypot(step.x_m, step.y_m)
 }
 
 fn spread_of(known: &Known) -> Covariance2 {
