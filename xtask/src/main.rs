@@ -121,6 +121,8 @@ enum Contest {
     /// Costmaps: inflation and updates
     Costmap,
     Loading,
+    /// The page: how soon the demo shows it, and how large it is
+    Page,
     Physics,
     Rays,
     /// Whole runs of `periplus sim`
@@ -159,6 +161,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Bags) => bags::bench(),
             Some(Contest::Costmap) => costmap::bench(),
             Some(Contest::Loading) => corpus::bench(),
+            Some(Contest::Page) => viewer::bench(),
             Some(Contest::Physics) => physics::bench(),
             Some(Contest::Rays) => rays::bench(),
             Some(Contest::Sim) => runs::bench(),

@@ -30,6 +30,15 @@ pub(crate) fn check() -> Result<(), Failed> {
 
 /// Drives the page in a browser against a running `periplus`, where there is a browser.
 pub(crate) fn in_browser() -> Result<(), Failed> {
+    with_browser("page: in a browser", &["run", "e2e"])
+}
+
+/// How long it takes from the prompt to the first picture, and how large the page is.
+pub(crate) fn bench() -> Result<(), Failed> {
+    with_browser("page: first picture", &["run", "--silent", "bench:first"])
+}
+
+fn with_browser(name: &str, words: &[&str]) -> Result<(), Failed> {
     install()?;
     if browser().is_none() {
         println!("SKIPPED: no Chromium to drive the page with; apt-get install chromium");
@@ -38,7 +47,7 @@ pub(crate) fn in_browser() -> Result<(), Failed> {
     let mut release = cargo();
     release.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
     timed("page: periplus", || run(&mut release, "see above"))?;
-    timed("page: in a browser", || npm(&["run", "e2e"], "see above"))
+    timed(name, || npm(words, "see above"))
 }
 
 fn install() -> Result<(), Failed> {

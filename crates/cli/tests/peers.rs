@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{BufRead as _, BufReader, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::mpsc::{Receiver, channel};
@@ -62,14 +62,31 @@ struct Running {
 
 impl Running {
     fn start(command: &mut Command) -> Self {
-        let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut child = command.spawn().unwrap();
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        let output = child.stdout.take().unwrap();
+        Self::reading(child, output)
+    }
+
+    /// One that says what it does where errors go.
+    fn start_and_hear_errors(command: &mut Command) -> Self {
+        let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let output = child.stderr.take().unwrap();
+        Self::reading(child, output)
+    }
+
+    fn reading(child: Child, output: impl Read + Send + 'static) -> Self {
         let (send, lines) = channel();
-        let output = BufReader::new(child.stdout.take().unwrap());
+        let output = BufReader::new(output);
         std::thread::spawn(move || {
             output.lines().map_while(Result::ok).try_for_each(|line| send.send(line))
         });
         Self { child, lines }
+    }
+
+    /// Tells it a line.
+    fn hears(&mut self, line: &str) {
+        let input = self.child.stdin.as_mut().unwrap();
+        writeln!(input, "{line}").and_then(|()| input.flush()).unwrap();
     }
 
     /// The next line that has this in it.
@@ -100,6 +117,7 @@ struct Domain(u32);
 impl Domain {
     fn robot(self, python: &Path, node: &str) -> Running {
         let mut robot = Command::new(python);
+        robot.env("PYTHONDONTWRITEBYTECODE", "1");
         robot.arg(here().join("tests/peers/robot.py")).arg(self.0.to_string()).arg(node);
         let robot = Running::start(robot.env("CYCLONEDDS_URI", LOOPBACK));
         robot.says("ready");
@@ -286,6 +304,69 @@ fn keys_drive_a_ros_2_node() {
     press(&[3]);
     robot.says("driven 0.00 0.00");
     assert!(teleop.child.wait().unwrap().success());
+}
+
+/// A robot of another program on a known map (`peers/localize.py`).
+fn lost_robot(domain: Domain, python: &Path) -> Running {
+    let mut robot = Command::new(python);
+    robot.env("PYTHONDONTWRITEBYTECODE", "1");
+    robot.arg(here().join("tests/peers/localize.py")).arg(domain.0.to_string());
+    let robot = Running::start(robot.env("CYCLONEDDS_URI", LOOPBACK));
+    robot.says("ready");
+    robot
+}
+
+#[test]
+fn a_ros_2_robot_finds_itself_and_is_told_where() {
+    let Some(python) = python() else { return };
+    let domain = Domain(106);
+    let mut robot = lost_robot(domain, &python);
+    robot.hears("map map");
+    let amcl = Running::start_and_hear_errors(&mut domain.periplus(&["localize", "--live"]));
+    amcl.says("the robot found itself at");
+    robot.says("pose near");
+    robot.says("tf near");
+    let cloud = robot.says("cloud");
+    assert!(cloud.ends_with(" map"), "{cloud}");
+    robot.hears("anywhere");
+    robot.says("answered");
+    amcl.says("particles are everywhere");
+    // A person knows better.
+    robot.hears("true");
+    amcl.says("the robot is said to be at");
+    robot.says("pose near");
+}
+
+#[test]
+fn what_a_ros_2_robot_says_wrong_is_told_and_survived() {
+    let Some(python) = python() else { return };
+    let domain = Domain(107);
+    let mut robot = lost_robot(domain, &python);
+    let words = ["localize", "--live", "-p", "global_start:=false"];
+    let amcl = Running::start_and_hear_errors(&mut domain.periplus(&words));
+    amcl.says("no map has come yet on `/map`");
+    robot.hears("map world");
+    amcl.says("the map is in frame `world`, `global_frame_id` is `map`");
+    robot.hears("map map");
+    amcl.says("the map has 120 by 80 cells");
+    robot.hears("pose 77 0 0");
+    amcl.says("the initial pose (77.000, 0.000) is outside of the map");
+    robot.hears("doubt 1 1 0");
+    amcl.says("entry 7 of the covariance");
+    // No wrong pose was told, and a right one still can be.
+    assert!(
+        robot.lines.try_iter().all(|line| !line.starts_with("pose") && !line.starts_with("tf"))
+    );
+    robot.hears("true");
+    robot.says("pose near");
+    robot.hears("empty");
+    amcl.says("the scan has no ranges");
+    robot.hears("scan nowhere");
+    amcl.says("nobody has published the frame `nowhere` on /tf");
+    robot.hears("scan laser");
+    robot.hears("true");
+    amcl.says("the robot is said to be at");
+    robot.says("pose near");
 }
 
 #[test]

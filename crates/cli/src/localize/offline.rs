@@ -76,6 +76,7 @@ pub(super) fn run(
     let frame = amcl.settings().global_frame.clone();
     if let Err(why) = amcl.set_map(&frame, &map) {
         terminal::complain(&why.message);
+        why.notes.iter().for_each(|note| terminal::say(&format!("note: {note}")));
         why.help.iter().for_each(|help| terminal::say(&format!("help: {help}")));
         return Ok(ExitCode::FAILURE);
     }

@@ -8,63 +8,21 @@ output what it hears.
 import sys
 import threading
 import time
-import types
-from dataclasses import dataclass
 
-from cyclonedds.core import Policy, Qos
 from cyclonedds.domain import DomainParticipant
-from cyclonedds.idl import IdlStruct
-from cyclonedds.idl.annotations import final
 from cyclonedds.idl.types import array, float64, int8, int32, int64, sequence, uint8, uint32, uint64
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
-from cyclonedds.util import duration
+
+from ros import Entities, Gid, NodeEntities, Time, message, qos, service, struct
 
 DOMAIN, NODE = int(sys.argv[1]), sys.argv[2]
 
 
-def struct(typename, /, **fields):
-    """A type of ROS: its name as DDS has it, and its fields."""
-    name = typename.rsplit("::", 1)[-1]
-    body = {"__annotations__": fields or {"structure_needs_at_least_one_member": uint8}, "__module__": __name__}
-    made = types.new_class(name, (IdlStruct,), {"typename": typename}, lambda space: space.update(body))
-    return dataclass(final(made))
-
-
-def message(name, /, **fields):
-    package, name = name.split("/")
-    return struct(f"{package}::msg::dds_::{name}_", **fields)
-
-
-def service(name, request, response, kind="srv"):
-    """Both types of a service, with the caller's name and number in front as rmw_cyclonedds has them."""
-    package, name = name.split("/")
-    header = {"caller": uint64, "number": int64}
-    ends = (("Request", request), ("Response", response))
-    return [
-        struct(f"{package}::{kind}::dds_::{name}_{end}_", **header, **(fields or {"nothing": uint8}))
-        for end, fields in ends
-    ]
-
-
-Time = message("builtin_interfaces/Time", sec=int32, nanosec=uint32)
 Text = message("std_msgs/String", data=str)
 Vector = message("geometry_msgs/Vector3", x=float64, y=float64, z=float64)
 Twist = message("geometry_msgs/Twist", linear=Vector, angular=Vector)
-
-# Who has which endpoints: rmw_dds_common, as since Iron.
-Gid = message("rmw_dds_common/Gid", data=array[uint8, 16])
-NodeEntities = message(
-    "rmw_dds_common/NodeEntitiesInfo",
-    node_namespace=str,
-    node_name=str,
-    reader_gid_seq=sequence[Gid],
-    writer_gid_seq=sequence[Gid],
-)
-Entities = message(
-    "rmw_dds_common/ParticipantEntitiesInfo", gid=Gid, node_entities_info_seq=sequence[NodeEntities]
-)
 
 Trigger = service("std_srvs/Trigger", {}, {"success": bool, "message": str})
 
@@ -144,15 +102,6 @@ CancelGoal = service(
 Feedback = struct(
     "example_interfaces::action::dds_::Fibonacci_FeedbackMessage_", goal_id=Uuid, sequence=sequence[int32]
 )
-
-
-def qos(latched=False, depth=100):
-    return Qos(
-        Policy.Reliability.Reliable(duration(seconds=2)),
-        Policy.Durability.TransientLocal if latched else Policy.Durability.Volatile,
-        Policy.History.KeepLast(depth),
-        Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=False),
-    )
 
 
 participant = DomainParticipant(DOMAIN)
