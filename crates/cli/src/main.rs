@@ -2,6 +2,7 @@
 
 mod arguments;
 mod bag;
+mod bridge;
 mod check;
 mod conformance;
 mod convert;
@@ -83,6 +84,7 @@ fn main() -> ExitCode {
         Command::Slam(options) => slam::run(&options, ros),
         Command::Costmap(options) => costmap::serve::run(&options, ros),
         Command::Run(options) => program::run(&options, ros),
+        Command::Bridge(options) => bridge::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
                 "`--ros-args` are for commands that run nodes: `periplus sim`, `launch`, `localize`, `teleop`, \

@@ -6,6 +6,7 @@ use anstream::ColorChoice;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
+use crate::bridge::BridgeOptions;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::serve::CostmapServeOptions;
 use crate::demo::DemoOptions;
@@ -72,6 +73,7 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Map(MapCommand),
     Costmap(CostmapServeOptions),
+    Bridge(BridgeOptions),
     Conformance(ConformanceOptions),
     Doctor(Box<DoctorOptions>),
 }

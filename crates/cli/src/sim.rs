@@ -1,5 +1,6 @@
 //! `periplus sim`.
 
+mod gazebo;
 pub(crate) mod progress;
 mod report;
 mod robots;
@@ -27,6 +28,7 @@ use crate::options::{SearchOptions, split};
 use crate::page::{About, Page, PageOptions};
 use crate::terminal;
 
+use gazebo::{Gazebo, GzReach, GzTypes};
 use ros2::{Reach, Ros2};
 
 pub(crate) use report::Report;
@@ -91,6 +93,21 @@ pub(crate) struct SimOptions {
     /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
+    /// Let programs of Gazebo see the run: its topics, and the services of the world; `--gz=network`
+    /// beyond this machine
+    #[arg(
+        long,
+        value_enum,
+        value_name = "loopback|network",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "loopback"
+    )]
+    gz: Option<GzReach>,
+    /// Which names types have for programs of Gazebo: those since Garden, or those of Fortress and of
+    /// Debian's `ign`
+    #[arg(long, value_enum, value_name = "gz|ignition", default_value_t = GzTypes::Gz)]
+    gz_types: GzTypes,
     /// A parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
     #[arg(long = "param", short = 'p', value_name = "[NODE:]NAME:=VALUE")]
     parameters: Vec<String>,
@@ -213,6 +230,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
+    let joined =
+        Gazebo::join(&simulation, &mut services, options.gz, options.gz_types, options.quiet)?;
+    let Some(gazebo) = joined else { return Ok(ExitCode::FAILURE) };
     if options.page.page.is_some() {
         let around = composition.files.iter().filter_map(|file| file.path.parent());
         if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
@@ -253,6 +273,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let wall = stopwatch.elapsed();
     drop(page);
     line.clear();
+    if let Some(gazebo) = gazebo {
+        gazebo.tell()?;
+    }
     ros2.tell()?;
     if !options.quiet {
         let mut err = anstream::stderr().lock();

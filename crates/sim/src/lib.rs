@@ -26,6 +26,9 @@ pub use periplus_dynamics::{Diverged, Mode};
 pub use periplus_sensors::Quirks;
 pub use record::{RecordError, Recorder, Recording, Wanted};
 pub use run::{Progress, Run, Tick};
-pub use services::{Arrival, ArrivalFrom, Arrived, Search, Services};
+pub use services::{
+    Arrival, ArrivalFrom, Arrived, GazeboAnswer, GazeboDesk, GazeboOutlet, GazeboService,
+    GazeboTopic, Search, Services, gazebo_topic,
+};
 pub use shares::{Shares, Work};
 pub use simulation::{Options, Simulation};

@@ -15,6 +15,7 @@ mod convert;
 mod entity;
 mod factory;
 mod forces;
+mod gazebo;
 mod harmonic;
 mod light;
 mod metrics;
@@ -37,6 +38,7 @@ use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
 use self::factory::Factory;
 use self::forces::Forces;
+use self::gazebo::Gazebo;
 use self::harmonic::{Harmonic, name_of};
 use self::metrics::Metrics;
 use self::offer::Offer;
@@ -51,6 +53,9 @@ use crate::Simulation;
 
 pub use self::arrival::{Arrival, ArrivalFrom, Arrived};
 pub(crate) use self::entity::Entity;
+pub use self::gazebo::{
+    GazeboAnswer, GazeboDesk, GazeboOutlet, GazeboService, GazeboTopic, gazebo_topic,
+};
 pub use self::reading::Search;
 
 /// The services of a world. They are looked at between steps.
@@ -72,6 +77,7 @@ pub struct Services {
     topics: StateTopics,
     metrics: Metrics,
     stage: Option<Stage>,
+    gazebo: Option<Gazebo>,
     last_ns: i64,
 }
 
@@ -107,6 +113,7 @@ impl Services {
             topics: StateTopics::new(&node, &states, now_ns)?,
             metrics: Metrics::new(&node, &scene.name, now_ns),
             stage: None,
+            gazebo: None,
             last_ns: now_ns,
         })
     }
@@ -125,6 +132,11 @@ impl Services {
         let folders = self.search.folders.iter().cloned().chain(folders).collect();
         self.stage = Some(Stage::new(&self.log.node, &simulation.scene.name, folders)?);
         Ok(())
+    }
+
+    /// Offers the world to programs of Gazebo, with Gazebo's own messages; the desk is where they ask.
+    pub fn open_to_gazebo(&mut self, simulation: &Simulation) -> GazeboDesk {
+        self.gazebo.insert(Gazebo::new(&simulation.scene.name)).desk()
     }
 
     /// Stops time, or lets it go on.
@@ -178,6 +190,9 @@ impl Services {
         let new_factor = self.physics.serve(simulation, self.tempo);
         self.new_factor = new_factor.or(self.new_factor);
         self.harmonic.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
+        if let Some(gazebo) = &mut self.gazebo {
+            gazebo.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
+        }
         self.unpause.answer(|_| {
             self.tempo.set_paused(false);
             EmptyResponse::default()

@@ -12,7 +12,7 @@ mod taps;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use clock::{Since, unix_ns};
-pub use own::{Own, stand_in};
+pub use own::{Own, is_stand_in, stand_in};
 pub use taps::{Foreign, Taps, Way};
 
 /// Locks; a panic elsewhere must not spread.

@@ -2,13 +2,23 @@
 
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, ServiceInfo, TopicInfo};
 
+/// What the name of each node begins with that stands in a graph for others.
+const FRONT: &str = "/_wire_";
+
+/// Whether a node stands in a graph for others: of any wire. What one wire brings does not go out by
+/// another, or a message would go round between two programs for ever.
+#[must_use]
+pub fn is_stand_in(node: &str) -> bool {
+    node.starts_with(FRONT)
+}
+
 /// The node that stands in a graph for all others on a wire. `id` tells wires apart.
 ///
 /// # Errors
 /// When the graph has one of this name.
 pub fn stand_in(graph: &Graph, id: &[u8]) -> Result<Node, GraphError> {
     let name: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
-    graph.node(NodeSettings::new(format!("_wire_{name}")).bare().keep_names())
+    graph.node(NodeSettings::new(format!("{}{name}", &FRONT[1..])).bare().keep_names())
 }
 
 /// What belongs to a graph itself.
@@ -23,21 +33,20 @@ pub struct Own {
 }
 
 impl Own {
-    /// What the graph has now, without what `stand_in` has.
+    /// What the graph has now, without what stands in it for others.
     #[must_use]
-    pub fn of(graph: &Graph, stand_in: &Node) -> Self {
-        let other = stand_in.full_name();
+    pub fn of(graph: &Graph) -> Self {
         let names = graph.nodes().into_iter().map(|node| node.name);
-        let nodes = names.filter(|name| name != other).collect();
+        let nodes = names.filter(|name| !is_stand_in(name)).collect();
         let mut topics = graph.topics();
         for topic in &mut topics {
-            topic.publishers.retain(|end| end.node != other);
-            topic.subscriptions.retain(|end| end.node != other);
+            topic.publishers.retain(|end| !is_stand_in(&end.node));
+            topic.subscriptions.retain(|end| !is_stand_in(&end.node));
         }
         let mut services = graph.services();
         for service in &mut services {
-            service.clients.retain(|node| node != other);
-            service.server = service.server.take().filter(|node| node != other);
+            service.clients.retain(|node| !is_stand_in(node));
+            service.server = service.server.take().filter(|node| !is_stand_in(node));
         }
         Self { nodes, topics, services }
     }
@@ -57,7 +66,7 @@ mod tests {
         let (name, of) = ("/scan", "sensor_msgs/msg/LaserScan");
         let _own = lidar.raw_publisher(name, of, None, Qos::reliable(1)).expect("a topic");
         let _theirs = other.raw_publisher(name, of, None, Qos::reliable(1)).expect("a topic");
-        let own = Own::of(&graph, &other);
+        let own = Own::of(&graph);
         assert_eq!(own.nodes, ["/lidar"]);
         let topic = own.topics.iter().find(|topic| topic.name == name).expect("the topic");
         assert_eq!(topic.publishers.len(), 1);

@@ -3,6 +3,7 @@
 //!
 //! A [`Transport`] is a place in that network. It finds others by multicast, and they find it; topics
 //! and services go over TCP as ZeroMQ frames them.
+//! A [`Link`] keeps topics of a graph there.
 //!
 //! ```no_run
 //! use periplus_gz_msgs::{Boolean, Message};
@@ -19,12 +20,17 @@
 //! Source: the wire protocol of `gz-transport` 11 to 14, discovery version 10, and ZMTP 3.0
 //! (`rfc.zeromq.org/spec/23`).
 
+mod convert;
 mod error;
+mod link;
 mod names;
+mod outgoing;
 mod settings;
 mod transport;
 
+pub use convert::{gazebo_types, ros_types};
 pub use error::{CallError, WireError};
+pub use link::{Direction, Link, Pair, PairError};
 pub use names::{MOST_NAME, Name};
 pub use settings::{Reach, Settings};
 pub use transport::{

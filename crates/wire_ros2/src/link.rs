@@ -202,7 +202,7 @@ impl Attached {
 
     /// Makes and drops endpoints as the graph has them.
     fn sync(&mut self, net: &Net) {
-        let own = Own::of(&self.graph, &self.node);
+        let own = Own::of(&self.graph);
         self.topics.sync(net, &self.graph, &own.topics);
         self.services.sync(net, &self.node, &own.services);
         self.nodes = own.nodes;

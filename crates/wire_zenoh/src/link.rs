@@ -100,7 +100,7 @@ impl Link {
 impl Attached {
     /// Makes and drops ends as the graph has them.
     fn sync(&mut self, net: &Net) {
-        let own = Own::of(&self.graph, &self.node);
+        let own = Own::of(&self.graph);
         self.nodes.retain(|name, _| own.nodes.contains(name));
         for name in own.nodes {
             if !self.nodes.contains_key(&name)

@@ -82,7 +82,7 @@ impl Harmonic {
 }
 
 /// Pauses, steps, resets. A reset comes first, so that steps count from the new beginning.
-fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &WorldControl) {
+pub(super) fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &WorldControl) {
     if asked.seed != 0 {
         simulation.set_seed(asked.seed.into());
     }
@@ -114,7 +114,7 @@ fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &WorldControl)
     }
 }
 
-fn create(
+pub(super) fn create(
     simulation: &mut Simulation,
     search: &Search,
     asked: &EntityFactory,
@@ -147,7 +147,7 @@ fn create(
     }
 }
 
-fn remove(simulation: &mut Simulation, asked: &Entity) -> Result<(), String> {
+pub(super) fn remove(simulation: &mut Simulation, asked: &Entity) -> Result<(), String> {
     let name = named(asked)?;
     match asked.r#type {
         Entity::LIGHT => simulation

@@ -13,7 +13,7 @@
 
 mod library;
 mod markers;
-mod save;
+pub(super) mod save;
 mod truth;
 
 use std::path::PathBuf;

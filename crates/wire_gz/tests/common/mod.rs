@@ -53,8 +53,10 @@ impl Gazebo {
 
     /// Runs `ign topic` or `ign service` to its end.
     pub fn tool(&self, which: &str, words: &[&str]) -> String {
-        let mut command = Command::new(Path::new(PROGRAMS).join(format!("ign-transport-{which}")));
-        command.args(words);
+        // One that waits for a message in vain has to end too.
+        let mut command = Command::new("timeout");
+        let program = Path::new(PROGRAMS).join(format!("ign-transport-{which}"));
+        command.arg("30").arg(program).args(words);
         let Output { stdout, stderr, .. } =
             self.start(command).wait_with_output().expect("it ends");
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();

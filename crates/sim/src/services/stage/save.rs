@@ -11,7 +11,7 @@ use crate::Simulation;
 ///
 /// # Errors
 /// What SDF cannot say.
-pub(super) fn text(simulation: &Simulation) -> Result<String, String> {
+pub(in crate::services) fn text(simulation: &Simulation) -> Result<String, String> {
     let mut world = simulation.scene.clone();
     let running = simulation.running.iter();
     world.models = running
