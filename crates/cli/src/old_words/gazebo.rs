@@ -11,7 +11,7 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
         return elsewhere(format!("`{program}` needs a word behind it, such as `{program} sim`"));
     };
     match verb.as_str() {
-        "sim" | "gazebo" => simulate(rest),
+        "sim" | "gazebo" => simulate(program, rest),
         "topic" => topic(program, rest),
         "service" => service(program, rest),
         "model" => model(program, rest),
@@ -54,7 +54,7 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
 }
 
 /// `gz sim` and `ign gazebo`.
-fn simulate(rest: &[String]) -> Reading {
+fn simulate(program: &str, rest: &[String]) -> Reading {
     let (mut words, mut dropped) = (Vec::new(), Vec::new());
     let (mut has_page, mut has_world, mut runs) = (true, false, false);
     let mut rest = rest.iter();
@@ -97,6 +97,11 @@ fn simulate(rest: &[String]) -> Reading {
     }
     if has_page {
         words.push("--page".into());
+    }
+    // As there, programs of Gazebo and bridges see the run.
+    words.push("--gz".into());
+    if program == "ign" {
+        words.extend(["--gz-types".into(), "ignition".into()]);
     }
     let reading = without(become_words(&["sim"], words), &dropped);
     if runs { reading } else { reading.noting(AT_ONCE) }
