@@ -36,6 +36,14 @@ fn nodes_of_one_file_that_live_by_different_clocks() {
     assert_eq!(doctor(&file), (Vec::new(), Some(0)));
 }
 
+/// The lidar of the world with the paddles stands in a housing that is a link of its own; its scans
+/// were nothing but "too near".
+#[test]
+fn a_lidar_in_a_housing_sees_the_world() {
+    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../worlds/pong.sdf");
+    assert_eq!(doctor(&world), (Vec::new(), Some(0)));
+}
+
 #[test]
 fn a_scan_in_a_frame_that_the_robot_does_not_have() {
     let folder = Folder::new("doctor-frame");

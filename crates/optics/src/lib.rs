@@ -50,5 +50,5 @@ pub use periplus_pictures::{BadImage, Grey, Image};
 pub use picture::{Picture, Shot, Wanted};
 pub use shapes::{NoShapes, Shapes};
 pub use surroundings::{
-    Geometry, ModelId, PartGroup, PartId, Parts, SHADOW_MASK, Surface, Surroundings, filter,
+    Geometry, ModelGroup, ModelId, PartId, Parts, SHADOW_MASK, Surface, Surroundings, filter,
 };

@@ -7,7 +7,7 @@ use periplus_base::{DVec3, Pose};
 use periplus_raycast::{Filter, Hit, Ray};
 
 use crate::lens::Lens;
-use crate::surroundings::{PartGroup, Surroundings, filter};
+use crate::surroundings::{ModelGroup, Surroundings, filter};
 use bands::Band;
 use shade::Shader;
 
@@ -35,8 +35,8 @@ pub struct Shot<'a> {
     pub far_m: f64,
     /// Only visuals that share a bit are seen.
     pub visibility_mask: u32,
-    /// What is looked past: the camera's own link.
-    pub own: Option<PartGroup>,
+    /// What is looked past: the camera's own model.
+    pub own: Option<ModelGroup>,
     /// Which images.
     pub wanted: Wanted,
     /// How many threads; the picture is the same for any number.

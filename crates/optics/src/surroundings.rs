@@ -38,29 +38,30 @@ pub struct ModelId(pub(crate) u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PartId(pub(crate) u32);
 
-impl PartId {
-    /// What a sensor on this link looks past.
+impl ModelId {
+    /// What a sensor on this model looks past: the model itself, whose lidars often sit inside a
+    /// housing that is a link of its own.
     #[must_use]
-    pub fn group(self) -> PartGroup {
-        PartGroup(self.0 + 1)
+    pub fn group(self) -> ModelGroup {
+        ModelGroup(self.0 + 1)
     }
 }
 
 /// What a sensor looks past, for rays: see [`filter`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct PartGroup(pub u32);
+pub struct ModelGroup(pub u32);
 
 /// The bit of [`Tags::mask`] by which rays to a light see what casts shadows. Of SDF's visibility
 /// flags the uppermost is lost to this; Gazebo keeps the four uppermost for itself anyhow.
 pub const SHADOW_MASK: u32 = 1 << 31;
 
 /// What a sensor's rays look for: what shares a bit with its visibility mask, and is not of its own
-/// link.
+/// model.
 #[must_use]
-pub fn filter(visibility_mask: u32, own: Option<PartGroup>) -> Filter {
+pub fn filter(visibility_mask: u32, own: Option<ModelGroup>) -> Filter {
     Filter {
         mask: visibility_mask & !SHADOW_MASK,
-        except_group: own.map_or(0, |PartGroup(number)| number),
+        except_group: own.map_or(0, |ModelGroup(number)| number),
     }
 }
 

@@ -146,11 +146,15 @@ fn links_move_alone() {
 }
 
 #[test]
-fn a_sensor_looks_past_its_own_link() {
-    let (surroundings, parts) =
-        with(Geometry::Collision, &model("robot", Shape::Sphere { radius_m: 0.5 }), 0.0);
+fn a_sensor_looks_past_its_own_model() {
+    let mut robot = model("robot", Shape::Sphere { radius_m: 0.5 });
+    // A housing that is a link of its own.
+    let mut housing = robot.links[0].clone();
+    housing.name = "housing".into();
+    robot.links.push(housing);
+    let (surroundings, parts) = with(Geometry::Collision, &robot, 0.0);
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
-    let past = filter(u32::MAX, Some(parts.parts[0].group()));
+    let past = filter(u32::MAX, Some(parts.model.group()));
     assert!(surroundings.rays().cast(&ray, filter(u32::MAX, None)).is_some());
     assert!(surroundings.rays().cast(&ray, past).is_none());
 }

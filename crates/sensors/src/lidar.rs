@@ -28,7 +28,7 @@ pub struct Scan {
 /// A lidar of any spelling: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
 ///
 /// Rays look from the least range on, so that the housing around a lidar, which is nearer, is not
-/// seen; parts of its own link that are farther are. Something of another link nearer than that is
+/// seen; parts of its own model that are farther are. Something of another model nearer than that is
 /// told as too near. `<range><resolution>` is not applied, as in Gazebo.
 #[derive(Clone, Debug)]
 pub struct Lidar {
@@ -182,7 +182,7 @@ impl Lidar {
         }
     }
 
-    /// Marks rays on which something of another link is nearer than the least range.
+    /// Marks rays on which something of another model is nearer than the least range.
     fn drop_too_near(&mut self, view: &View<'_>, sweep: Sweep<'_>) {
         let others: Filter = view.others();
         let near = |pose: Pose| view.rays.may_be_near(pose.translation, self.range_min_m, others);

@@ -10,7 +10,7 @@ pub struct View<'a> {
     pub rays: &'a World,
     /// What the sensor looks for: its visibility mask.
     pub filter: Filter,
-    /// The group of the sensor's own link, whose parts do not count when they are nearer than the
+    /// The group of the sensor's own model, whose parts do not count when they are nearer than the
     /// least range: housings. 0 is none.
     pub own_group: u32,
     /// Brightness to a laser of an instance; none where all are 0, which saves time.
@@ -26,7 +26,7 @@ impl<'a> View<'a> {
         Self { rays, filter: Filter::default(), own_group: 0, retro: None, threads: 1 }
     }
 
-    /// The filter that looks past the sensor's own link.
+    /// The filter that looks past the sensor's own model.
     pub(crate) fn others(&self) -> Filter {
         Filter { except_group: self.own_group, ..self.filter }
     }

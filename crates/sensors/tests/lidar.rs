@@ -162,7 +162,7 @@ fn out_of_range_is_told_by_rep_117() {
     assert_eq!(ball(30.5), f32::INFINITY);
 }
 
-/// A lidar inside its own housing looks out of it; a mast of its own link it does see; a cable of
+/// A lidar inside its own housing looks out of it; a mast of its own model it does see; a cable of
 /// another link inside the least range is too near.
 #[test]
 fn the_own_housing_is_not_seen() {
@@ -188,7 +188,7 @@ fn the_own_housing_is_not_seen() {
     let [back, right, ahead, left, _] = scan(2).ranges_m[..] else { panic!() };
     assert!((back - 0.28).abs() < 1e-6, "{back}");
     assert_eq!((right, ahead, left), (f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY));
-    assert_eq!(scan(1).ranges_m[3], f32::INFINITY, "a cable of its own link");
+    assert_eq!(scan(1).ranges_m[3], f32::INFINITY, "a cable of its own model");
 }
 
 #[test]

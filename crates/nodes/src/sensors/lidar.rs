@@ -259,7 +259,7 @@ impl LidarDevice {
         let view = View {
             rays: seen.rays(),
             filter: filter(self.visibility_mask, None),
-            own_group: part.map_or(0, |part| part.group().0),
+            own_group: part.and_then(|part| seen.model_of(part)).map_or(0, |model| model.group().0),
             retro: if seen.has_laser_retro() { Some(&retro) } else { None },
             threads,
         };

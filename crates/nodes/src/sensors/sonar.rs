@@ -52,7 +52,7 @@ impl Device for SonarDevice {
         let seen = moment.seen(Geometry::Collision);
         let view = View {
             filter: filter(u32::MAX, None),
-            own_group: own.map_or(0, |part| part.group().0),
+            own_group: own.and_then(|part| seen.model_of(part)).map_or(0, |model| model.group().0),
             threads,
             ..View::of(seen.rays())
         };

@@ -168,7 +168,7 @@ impl Surroundings {
             name: found.name.to_owned(),
             link_from_body,
             body: Some(placed.body),
-            tags: Tags { mask, group: count(self.parts.len()) + 1 },
+            tags: Tags { mask, group: ModelId(count(self.models.len())).group().0 },
             laser_retro: if found.laser_retro.is_finite() { found.laser_retro } else { 0.0 },
             label: None,
             looks,

@@ -102,6 +102,12 @@ impl Surroundings {
         self.parts(model).find(|&part| self.part_name(part) == Some(name))
     }
 
+    /// The model of a link.
+    #[must_use]
+    pub fn model_of(&self, PartId(number): PartId) -> Option<ModelId> {
+        self.parts.get(number as usize).map(|part| ModelId(part.model))
+    }
+
     /// The name of a link, scoped within its model.
     #[must_use]
     pub fn part_name(&self, PartId(number): PartId) -> Option<&str> {
