@@ -24,6 +24,7 @@ mod slam;
 mod step;
 #[cfg(test)]
 mod tidy;
+mod tutorials;
 mod viewer;
 mod wire;
 mod zenoh;
@@ -89,6 +90,11 @@ enum Task {
     /// The page in `viewer`, which needs Node
     #[command(subcommand)]
     Viewer(Page),
+    /// The tutorials in `docs/tutorials`, every command of them, with what it promises
+    Tutorials {
+        /// Only those with this in their names
+        only: Option<String>,
+    },
     /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
     /// eclipse-zenoh, installed into `.venv`
     Zenoh,
@@ -183,6 +189,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Viewer(Page::Build) => viewer::build(),
         Task::Viewer(Page::Check) => viewer::check(),
         Task::Viewer(Page::Browse) => viewer::in_browser(),
+        Task::Tutorials { only } => tutorials::run_all(only.as_deref()),
         Task::Zenoh => zenoh::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
