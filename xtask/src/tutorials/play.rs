@@ -71,6 +71,7 @@ impl Desk {
             .args(["bash", "-euo", "pipefail", "-c", commands])
             .current_dir(&self.folder)
             .env("PATH", path)
+            .env("CHECKS", root().join("docs/tutorials/checks"))
             .env("ROS_DOMAIN_ID", self.domain_id.to_string())
             .env("IGN_PARTITION", format!("tutorials{}", self.domain_id))
             .env("GZ_PARTITION", format!("tutorials{}", self.domain_id))
