@@ -66,7 +66,7 @@ fn xml_of_ros_2() {
   <set_parameter name="use_sim_time" value="$(var sim)"/>
   <group>
     <push-ros-namespace namespace="a"/>
-    <node pkg="robot_state_publisher" exec="robot_state_publisher" name="rsp" args="--x 'a b'">
+    <node pkg="robot_state_publisher" exec="robot_state_publisher" name="rsp" args="--x 'a b'" ros_args="--log-level debug">
       <param name="robot_description" value="$(command 'xacro $(var share)/bot.xacro')" type="str"/>
       <param name="rate"><param name="publish" value="30.5"/></param>
       <param from="$(var share)/p.yaml"/>
@@ -125,6 +125,10 @@ fn xml_of_ros_2() {
                   "arguments": [
                     "--x",
                     "a b"
+                  ],
+                  "ros_arguments": [
+                    "--log-level",
+                    "debug"
                   ],
                   "written": "/ws/src/bot/launch/bot.launch.xml:7"
                 },

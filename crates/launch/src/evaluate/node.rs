@@ -11,15 +11,17 @@ use crate::words;
 impl Evaluation<'_> {
     pub(super) fn node(&mut self, node: &NodeOf) -> Outcome<What> {
         let mut arguments = self.perform_all(&node.arguments)?;
+        let mut ros_arguments = self.perform_all(&node.ros_arguments)?;
         if node.is_line {
             arguments = self.split(&arguments.join(" "))?;
+            ros_arguments = self.split(&ros_arguments.join(" "))?;
         }
         let mut made = Node {
             package: self.perform_some(node.package.as_ref())?,
             executable: self.perform(&node.executable)?,
             identity: self.identity(&node.identity)?,
             arguments,
-            ros_arguments: self.perform_all(&node.ros_arguments)?,
+            ros_arguments,
             is_lifecycle: node.is_lifecycle,
             components: self.components(&node.components)?,
             running: self.running(&node.running)?,
