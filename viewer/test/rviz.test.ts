@@ -54,6 +54,16 @@ Window Geometry:
 `;
 
 describe('.rviz files', () => {
+  test("a robot's description by its parameter in ROS 1", () => {
+    const file = readRviz(`Visualization Manager:
+  Displays:
+    - {Class: rviz/RobotModel, Name: Robot, Robot Description: robot_description}
+    - {Class: rviz/RobotModel, Name: Other, Robot Description: /a/robot_description}
+`);
+    const topics = file.displays.map((d) => d.values['Description Topic']);
+    expect(topics).toEqual(['/robot_description', '/a/robot_description']);
+  });
+
   test('displays, groups, options below options, tools, views', () => {
     const file = readRviz(FILE);
     expect(file.fixedFrame).toBe('odom');

@@ -94,6 +94,9 @@ enum Task {
     Tutorials {
         /// Only those with this in their names
         only: Option<String>,
+        /// Take their pictures, too, which needs Node and Chromium
+        #[arg(long)]
+        pictures: bool,
     },
     /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
     /// eclipse-zenoh, installed into `.venv`
@@ -189,7 +192,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Viewer(Page::Build) => viewer::build(),
         Task::Viewer(Page::Check) => viewer::check(),
         Task::Viewer(Page::Browse) => viewer::in_browser(),
-        Task::Tutorials { only } => tutorials::run_all(only.as_deref()),
+        Task::Tutorials { only, pictures } => tutorials::run_all(only.as_deref(), *pictures),
         Task::Zenoh => zenoh::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }

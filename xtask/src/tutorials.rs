@@ -11,6 +11,7 @@
 //!
 //! Between them comments that a reader does not see: `<!-- check: COMMAND -->` has to succeed at once,
 //! `<!-- await: COMMAND -->` within a minute, `<!-- close: NAME -->` ends what runs in a terminal.
+//! `<!-- picture: FILE.png [FILE.rviz] -->` takes a picture of the page, when pictures are wished.
 
 mod page;
 mod play;
@@ -19,15 +20,15 @@ use std::path::{Path, PathBuf};
 
 use crate::step::{Failed, cargo, root, run, timed};
 
-/// Runs all tutorials, or those whose names contain a word.
-pub(crate) fn run_all(only: Option<&str>) -> Result<(), Failed> {
+/// Runs all tutorials, or those whose names contain a word; takes their pictures if that is wished.
+pub(crate) fn run_all(only: Option<&str>, pictures: bool) -> Result<(), Failed> {
     let mut release = cargo();
     release.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
     timed("tutorials: periplus", || run(&mut release, "see above"))?;
     let files = files()?;
     let chosen = |file: &PathBuf| only.is_none_or(|word| name(file).contains(word));
     for file in files.into_iter().filter(chosen) {
-        timed(&format!("tutorial {}", name(&file)), || follow(&file))?;
+        timed(&format!("tutorial {}", name(&file)), || follow(&file, pictures))?;
     }
     Ok(())
 }
@@ -47,14 +48,14 @@ fn name(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn follow(file: &Path) -> Result<(), Failed> {
+fn follow(file: &Path, pictures: bool) -> Result<(), Failed> {
     let text = std::fs::read_to_string(file)
         .map_err(|error| Failed(format!("cannot read {}: {error}", file.display())))?;
     let steps = page::steps(&text).map_err(|why| Failed(format!("{}:{why}", file.display())))?;
     if steps.is_empty() {
         return Ok(());
     }
-    let desk = play::Desk::new(&name(file))?;
+    let desk = play::Desk::new(&name(file), pictures)?;
     play::play(&steps, desk).map_err(|why| Failed(format!("{}:{why}", file.display())))
 }
 

@@ -168,8 +168,7 @@ class MapDisplay extends Display {
     this.colors.needsUpdate = true;
     material.uniforms.alpha!.value = this.get('Alpha');
     const behind = this.get<boolean>('Draw Behind');
-    material.depthTest = !behind;
-    // Maps first, costmaps over them, then the rest.
+    // Maps first, costmaps over them, then the rest; what stands on a map hides it either way.
     this.mesh!.renderOrder = behind ? -30 : scheme === 'costmap' ? -10 : -20;
   }
 

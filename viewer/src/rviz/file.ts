@@ -75,7 +75,11 @@ function displayOf(tree: Tree): RvizDisplay {
     ['Image Topic', 'Topic'],
     ['Robot Description', 'Description Topic'],
   ] as const) {
-    if (typeof values[old] === 'string' && values[now] === undefined) values[now] = values[old];
+    const value = values[old];
+    if (typeof value !== 'string' || values[now] !== undefined) continue;
+    // A parameter of ROS 1 is a topic today.
+    const isParameter = old === 'Robot Description' && !value.startsWith('/');
+    values[now] = isParameter ? `/${value}` : value;
   }
   return {
     class: String(tree.Class ?? ''),

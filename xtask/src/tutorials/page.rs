@@ -24,6 +24,8 @@ pub(crate) enum What {
     Await(String),
     /// What runs in a terminal is ended.
     Close(String),
+    /// The page is pictured, with a file of RViz if there is one.
+    Picture(String),
 }
 
 /// The steps of a page; a line and what is wrong there otherwise.
@@ -52,6 +54,7 @@ pub(crate) fn steps(text: &str) -> Result<Vec<Step>, String> {
                 "check" => What::Check(rest),
                 "await" => What::Await(rest),
                 "close" => What::Close(rest),
+                "picture" => What::Picture(rest),
                 _ => continue,
             };
             steps.push(Step { line, what });

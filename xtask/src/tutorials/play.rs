@@ -13,6 +13,8 @@ use crate::tutorials::page::{Step, What, has};
 const LONGEST: Duration = Duration::from_secs(180);
 /// What is waited for comes within this.
 const PATIENCE: Duration = Duration::from_secs(60);
+/// Where the page of what runs is.
+const PAGE: &str = "http://127.0.0.1:8765/";
 /// How often it is looked for.
 const LOOK: Duration = Duration::from_millis(250);
 
@@ -25,6 +27,7 @@ pub(crate) struct Desk {
     last: Option<(PathBuf, Ended)>,
     blocks: usize,
     domain_id: u32,
+    pictures: bool,
 }
 
 /// Whether the last block has ended.
@@ -35,7 +38,7 @@ enum Ended {
 }
 
 impl Desk {
-    pub(crate) fn new(name: &str) -> Result<Self, Failed> {
+    pub(crate) fn new(name: &str, pictures: bool) -> Result<Self, Failed> {
         let folder = root().join("target/tutorials").join(name);
         if folder.exists() {
             std::fs::remove_dir_all(&folder)
@@ -49,7 +52,8 @@ impl Desk {
         }
         // A network where nobody else is.
         let domain_id = 20 + std::process::id() % 80;
-        Ok(Self { folder, terminals: BTreeMap::new(), last: None, blocks: 0, domain_id })
+        let terminals = BTreeMap::new();
+        Ok(Self { folder, terminals, last: None, blocks: 0, domain_id, pictures })
     }
 
     fn log(&mut self) -> Result<(PathBuf, File), String> {
@@ -139,6 +143,18 @@ impl Desk {
         }
     }
 
+    /// A picture of the page; files are named from the root of the tree.
+    fn picture(&self, words: &str) -> Result<(), String> {
+        let files = words.split_whitespace().map(|file| root().join(file));
+        let status = Command::new("node")
+            .args(["e2e/shot.mjs", PAGE])
+            .args(files)
+            .current_dir(root().join("viewer"))
+            .status()
+            .map_err(|error| format!("node cannot be started: {error}"))?;
+        if status.success() { Ok(()) } else { Err("no picture was taken".to_owned()) }
+    }
+
     fn wait_for(&mut self, command: &str) -> Result<(), String> {
         let end = Instant::now() + PATIENCE;
         loop {
@@ -200,6 +216,8 @@ pub(crate) fn play(steps: &[Step], mut desk: Desk) -> Result<(), String> {
                 desk.wait_for(command).inspect(|()| desk.last = last)
             }
             What::Close(terminal) => desk.close(terminal),
+            What::Picture(_) if !desk.pictures => Ok(()),
+            What::Picture(words) => desk.picture(words),
         };
         done.map_err(|why| format!("{line}: {why}"))?;
         println!("   line {line}: ok");

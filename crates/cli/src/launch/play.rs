@@ -36,6 +36,9 @@ const LOOK: Duration = Duration::from_millis(5);
 /// How long it may take to find who is on the network.
 const DISCOVERY: Duration = Duration::from_millis(1500);
 
+/// How often the page is told what others have.
+const LOOK_AROUND: Duration = Duration::from_millis(200);
+
 /// How long the last words may take to arrive.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
@@ -227,6 +230,9 @@ fn in_world(
             let mut ros2 = ros2_cell.borrow_mut();
             if ros2.is_due(progress.wall) {
                 line_cell.borrow().aside(|| ros2.tell());
+                if let (Some(page), Some(remote)) = (&page, ros2.remote()) {
+                    page.set_remote(&remote);
+                }
             }
         },
     );
@@ -326,6 +332,7 @@ fn among_others(
         }
     };
     let mut teller = Teller::new(options);
+    let mut looked = Stopwatch::start();
     let since = Stopwatch::start();
     let is_time = |since: &Stopwatch| {
         options.duration.is_some_and(|seconds| since.elapsed().as_secs_f64() >= seconds)
@@ -342,6 +349,10 @@ fn among_others(
             break;
         }
         live.tell();
+        if let Some(page) = page.as_ref().filter(|_| looked.elapsed() >= LOOK_AROUND) {
+            looked = Stopwatch::start();
+            page.set_remote(&live.wire.remote());
+        }
         sleep(LOOK);
     }
     drop(page);

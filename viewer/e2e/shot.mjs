@@ -1,0 +1,17 @@
+// A picture of the page of a program that runs: node e2e/shot.mjs URL PICTURE [FILE.rviz]
+import { browser, open } from './lib.mjs';
+
+const [url, picture, rviz] = process.argv.slice(2);
+const chrome = await browser();
+try {
+  const { page } = await open(chrome, url);
+  await page.waitForFunction(() => window.periplus?.displays.length > 1, undefined, {
+    timeout: 60_000,
+  });
+  if (rviz) await page.getByTestId('rviz-file').setInputFiles(rviz);
+  // What comes seldom, such as maps, has to have come.
+  await page.waitForTimeout(8000);
+  await page.screenshot({ path: picture });
+} finally {
+  await chrome.close();
+}
