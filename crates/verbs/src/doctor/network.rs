@@ -98,7 +98,7 @@ pub fn domains_in(table: &str) -> BTreeSet<u32> {
 fn ports_tell_domains() {
     let table = "  sl  local_address rem_address\n\
                  1: 00000000:1CE8 00000000:0000 07\n\
-                 2: 0100007F:3A0C 00000000:0000 07\n\
+                 2: 0100007F:3A34 00000000:0000 07\n\
                  3: 0100007F:1CF2 00000000:0000 07\n";
     assert_eq!(domains_in(table).into_iter().collect::<Vec<_>>(), [0, 30]);
 }
