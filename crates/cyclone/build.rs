@@ -45,9 +45,9 @@ const RUNTIME: &[&str] = &[
 const RUNTIME_OF_SYSTEM: &[&str] =
     &["dynlib", "environ", "filesystem", "process", "random", "sync", "threads", "ifaddrs"];
 
-/// `src/core/ddsi/src`: the protocol, without what `c/match.c` and `c/transmit.c` contain.
+/// `src/core/ddsi/src`: the protocol, without what `c/acknack.c`, `c/match.c`, `c/transmit.c` and `c/udp.c`
+/// contain.
 const PROTOCOL: &[&str] = &[
-    "ddsi_acknack",
     "ddsi_addrset",
     "ddsi_bitset",
     "ddsi_bswap",
@@ -114,7 +114,6 @@ const PROTOCOL: &[&str] = &[
     "ddsi_tkmap",
     "ddsi_topic",
     "ddsi_tran",
-    "ddsi_udp",
     "ddsi_vendor",
     "ddsi_vnet",
     "ddsi_whc",
@@ -208,7 +207,7 @@ fn main() {
     add(&core.join("ddsi"), &["defconfig"]);
     add(&core.join("ddsc/src"), INTERFACE);
     add(&core.join("cdr/src"), &["dds_cdrstream"]);
-    add(Path::new("c"), &["blob", "match", "shim", "transmit"]);
+    add(Path::new("c"), &["acknack", "blob", "match", "shim", "transmit", "udp"]);
     build.compile("periplus_cyclone");
 
     if target == "windows" {

@@ -9,6 +9,7 @@
 #include "dds/ddsi/ddsi_guid.h"
 #include "dds/ddsrt/heap.h"
 #include "dds/ddsrt/time.h"
+#include "ddsi__misc.h"
 #include "ddsi__protocol.h"
 #include "ddsi__xmsg.h"
 

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "dds/ddsi/ddsi_guid.h"
 #include "dds/ddsi/ddsi_serdata.h"
 #include "shim.h"
 
@@ -14,6 +15,8 @@ struct pp_blob {
   void *owner;    /* keeps the bytes; without it they are a buffer of `buffer_new` */
   bool has_writer;
   bool has_related;
+  bool has_destination;
+  ddsi_guid_prefix_t destination; /* the only participant that gets it */
   uint8_t vendor[2];
   struct pp_identity writer;
   struct pp_identity related;

@@ -12,6 +12,7 @@
 #include "dds/ddsi/ddsi_proxy_participant.h"
 #include "dds/ddsi/ddsi_thread.h"
 #include "dds/ddsrt/heap.h"
+#include "dds/ddsrt/ifaddrs.h"
 #include "dds/ddsrt/log.h"
 #include "dds/ddsrt/sync.h"
 #include "dds__entity.h"
@@ -50,6 +51,18 @@ void pp_init(const struct pp_hooks *hooks) {
 }
 
 const char *pp_error(int32_t code) { return dds_strretcode(code); }
+
+int32_t pp_has_network(void) {
+  const int families[] = {AF_INET, DDSRT_AF_TERM};
+  ddsrt_ifaddrs_t *interfaces = NULL;
+  int32_t has = 0;
+  if (ddsrt_getifaddrs(&interfaces, families) != DDS_RETCODE_OK)
+    return 0;
+  for (const ddsrt_ifaddrs_t *one = interfaces; one != NULL; one = one->next)
+    has |= one->addr != NULL && (one->flags & IFF_UP) && !(one->flags & IFF_LOOPBACK);
+  ddsrt_freeifaddrs(interfaces);
+  return has;
+}
 
 int32_t pp_domain(uint32_t id, const char *config) { return dds_create_domain(id, config); }
 
@@ -91,27 +104,32 @@ static dds_qos_t *to_dds(const struct pp_qos *from, const uint8_t *user_data, si
   return qos;
 }
 
-/* A property of writers that is not sent: for readers of which DDS they are. */
-#define AUDIENCE "periplus.audience"
-static const char *const audiences[] = {"", "cyclone", "others"};
+static bool is_addressed_to(const struct ddsi_serdata *data, const ddsi_guid_prefix_t *prefix) {
+  const struct pp_blob *blob = (const struct pp_blob *)data;
+  return data->ops != &pp_blob_ops || !blob->has_destination ||
+         memcmp(&blob->destination, prefix, sizeof(*prefix)) == 0;
+}
 
-/* match.c asks. */
-bool pp_is_for(const struct ddsi_writer *writer, const struct ddsi_proxy_reader *reader) {
-  char *audience;
-  if (!dds_qget_prop(writer->xqos, AUDIENCE, &audience))
-    return true;
-  const bool is_cyclone = reader->c.vendor.id[0] == 1 && reader->c.vendor.id[1] == 0x10;
-  const bool is_for = is_cyclone == (strcmp(audience, audiences[1]) == 0);
-  dds_free(audience);
-  return is_for;
+static int filter(struct ddsi_writer *writer, struct ddsi_proxy_reader *reader,
+                  struct ddsi_serdata *data) {
+  (void)writer;
+  return is_addressed_to(data, &reader->e.guid.prefix);
+}
+
+/* match.c calls this for every pair of a writer and a remote reader. */
+bool pp_set_filter(const struct ddsi_writer *writer, struct ddsi_proxy_reader *reader) {
+  if (writer->type != NULL && writer->type->serdata_ops == &pp_blob_ops) {
+    ddsrt_mutex_lock(&reader->e.lock);
+    reader->filter = filter;
+    ddsrt_mutex_unlock(&reader->e.lock);
+  }
+  return true;
 }
 
 int32_t pp_writer(int32_t participant, int32_t topic, const struct pp_qos *settings,
                   const uint8_t *user_data, size_t size) {
   dds_qos_t *qos = to_dds(settings, user_data, size);
   dds_qset_lifespan(qos, span(settings->lifespan_ns));
-  if (settings->audience == 1 || settings->audience == 2)
-    dds_qset_prop(qos, AUDIENCE, audiences[settings->audience]);
   const dds_entity_t writer = dds_create_writer(participant, topic, qos, NULL);
   dds_delete_qos(qos);
   return writer;
@@ -177,6 +195,64 @@ int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
     *sequence = (int64_t)own->m_wr->seq;
   dds_entity_unpin(entity);
   return code;
+}
+
+/* In transmit.c. */
+int pp_write_to(struct ddsi_xpack *packet, struct ddsi_writer *writer, struct ddsi_serdata *serdata,
+                const ddsi_guid_prefix_t *to);
+bool pp_has_reader_of(const struct ddsi_writer *writer, const ddsi_guid_prefix_t *to);
+
+/* GUIDs cross in the order of bytes on the wire; Cyclone keeps them in host order. */
+static ddsi_guid_prefix_t prefix_of(const uint8_t *bytes) {
+  ddsi_guid_prefix_t prefix;
+  memcpy(&prefix, bytes, sizeof(prefix));
+  return ddsi_ntoh_guid_prefix(prefix);
+}
+
+int32_t pp_send_to(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
+                   const struct pp_identity *related, const uint8_t *prefix, int64_t *sequence) {
+  struct dds_writer *own;
+  dds_return_t code = dds_writer_lock(writer, &own);
+  if (code < 0) {
+    pp_hooks.owner_free(owner);
+    return code;
+  }
+  struct pp_blob *blob = pp_blob_new(own->m_wr->type, SDK_DATA);
+  blob->bytes = (uint8_t *)bytes;
+  blob->size = size;
+  blob->owner = owner;
+  blob->destination = prefix_of(prefix);
+  blob->has_destination = true;
+  if (related != NULL) {
+    blob->related = *related;
+    blob->has_related = true;
+  }
+  blob->c.statusinfo = 0;
+  blob->c.timestamp.v = dds_time();
+  struct ddsi_thread_state *const thread = ddsi_lookup_thread_state();
+  ddsi_thread_state_awake(thread, &own->m_entity.m_domain->gv);
+  code = pp_write_to(own->m_xp, own->m_wr, &blob->c, &blob->destination);
+  /* Who calls lets nobody else write meanwhile. */
+  if (sequence != NULL)
+    *sequence = (int64_t)own->m_wr->seq;
+  ddsi_thread_state_asleep(thread);
+  dds_writer_unlock(own);
+  if (code == DDS_RETCODE_NO_DATA)
+    return 0;
+  return code < 0 ? code : 1;
+}
+
+int32_t pp_reaches(int32_t writer, const uint8_t *bytes) {
+  struct dds_writer *own;
+  const dds_return_t code = dds_writer_lock(writer, &own);
+  if (code < 0)
+    return code;
+  const ddsi_guid_prefix_t prefix = prefix_of(bytes);
+  ddsrt_mutex_lock(&own->m_wr->e.lock);
+  const bool reaches = pp_has_reader_of(own->m_wr, &prefix);
+  ddsrt_mutex_unlock(&own->m_wr->e.lock);
+  dds_writer_unlock(own);
+  return reaches;
 }
 
 int32_t pp_take(int32_t reader, struct pp_sample *sample) {
@@ -324,7 +400,9 @@ void pp_discovery_return(int32_t reader, struct pp_found *found) {
 
 int32_t pp_waitset(int32_t participant) { return dds_create_waitset(participant); }
 
-int32_t pp_watch(int32_t waitset, int32_t entity, int32_t event, intptr_t token) {
+#define WATCHED (DDS_DATA_AVAILABLE_STATUS | DDS_PUBLICATION_MATCHED_STATUS)
+
+int32_t pp_watch(int32_t waitset, int32_t entity, int32_t event) {
   const uint32_t events[] = {0, DDS_DATA_AVAILABLE_STATUS, DDS_PUBLICATION_MATCHED_STATUS};
   if (event < 0 || event > 2)
     return DDS_RETCODE_BAD_PARAMETER;
@@ -333,11 +411,19 @@ int32_t pp_watch(int32_t waitset, int32_t entity, int32_t event, intptr_t token)
     if (code < 0)
       return code;
   }
-  return dds_waitset_attach(waitset, entity, token);
+  return dds_waitset_attach(waitset, entity, entity);
 }
 
-int32_t pp_wait(int32_t waitset, intptr_t *tokens, size_t room, int64_t timeout_ns) {
-  return dds_waitset_wait(waitset, tokens, room, span(timeout_ns));
+int32_t pp_wait(int32_t waitset, intptr_t *entities, size_t room, int64_t timeout_ns) {
+  const dds_return_t count = dds_waitset_wait(waitset, entities, room, span(timeout_ns));
+  for (size_t i = 0; count > 0 && i < (size_t)count && i < room; i++) {
+    const dds_entity_t entity = (dds_entity_t)entities[i];
+    uint32_t mask = 0, status;
+    /* Guards have no status and stay set until they are taken. */
+    if (dds_get_status_mask(entity, &mask) >= 0 && (mask & WATCHED) != 0)
+      (void)dds_take_status(entity, &status, mask & WATCHED);
+  }
+  return count;
 }
 
 int32_t pp_guard(int32_t participant) { return dds_create_guardcondition(participant); }

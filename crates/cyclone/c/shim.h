@@ -24,7 +24,7 @@ struct pp_qos {
   int32_t history;     /* 0 keep last, 1 keep all, -1 not told */
   int32_t depth;
   int32_t liveliness;  /* 0 automatic, 1 manual by participant, 2 manual by topic */
-  int32_t audience;    /* of writers: 0 all, 1 readers of Cyclone DDS, 2 all other readers */
+  int32_t unused;
 };
 
 /* A sample that was taken. The bytes were made by `buffer_new` and now belong to the caller. */
@@ -67,6 +67,8 @@ size_t pp_size_of(int which);
 void pp_init(const struct pp_hooks *hooks);
 const char *pp_error(int32_t code);
 
+/* 1 when the machine has an interface besides loopback that is up and has an address of IPv4. */
+int32_t pp_has_network(void);
 int32_t pp_domain(uint32_t id, const char *config);
 int32_t pp_participant(uint32_t domain, const uint8_t *user_data, size_t size);
 int32_t pp_topic(int32_t participant, const char *name, const char *type);
@@ -81,6 +83,12 @@ int32_t pp_guid(int32_t entity, uint8_t *guid);
    timeout at once. */
 int32_t pp_write(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
                  const struct pp_identity *related, int32_t waits, int64_t *sequence);
+/* The same for the readers of one participant alone, whose GUID prefix is given. 0 when it has no
+   matched reader, otherwise 1. */
+int32_t pp_send_to(int32_t writer, const uint8_t *bytes, size_t size, void *owner,
+                   const struct pp_identity *related, const uint8_t *prefix, int64_t *sequence);
+/* 1 when a reader of that participant is matched. */
+int32_t pp_reaches(int32_t writer, const uint8_t *prefix);
 int32_t pp_take(int32_t reader, struct pp_sample *sample);
 int32_t pp_assert_liveliness(int32_t writer);
 int32_t pp_wait_acknowledged(int32_t writer, int64_t timeout_ns);
@@ -92,9 +100,11 @@ int32_t pp_discovery_take(int32_t reader, int32_t kind, struct pp_found *found);
 void pp_discovery_return(int32_t reader, struct pp_found *found);
 
 int32_t pp_waitset(int32_t participant);
-/* `event`: 0 a guard is set, 1 a reader has data, 2 a writer's readers are others. */
-int32_t pp_watch(int32_t waitset, int32_t entity, int32_t event, intptr_t token);
-int32_t pp_wait(int32_t waitset, intptr_t *tokens, size_t room, int64_t timeout_ns);
+/* `event`: 0 a guard is set, 1 a reader has data, 2 a writer's readers changed. */
+int32_t pp_watch(int32_t waitset, int32_t entity, int32_t event);
+/* Gives the entities with an event since the last call, and resets their events: an event that nobody
+   handles is reported once. */
+int32_t pp_wait(int32_t waitset, intptr_t *entities, size_t room, int64_t timeout_ns);
 int32_t pp_guard(int32_t participant);
 int32_t pp_guard_set(int32_t guard, int32_t on);
 

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 pub enum Network {
     /// This machine only.
     Loopback,
-    /// Whatever interface Cyclone chooses.
+    /// The interface that Cyclone chooses, and this machine: programs on this machine may reach no
+    /// other address than 127.0.0.1.
     Any,
     /// The interface of this name or address.
     Interface(String),
@@ -27,6 +28,8 @@ pub struct Config {
     /// Machines to look at, by name or address: at the ports of the first participants of each,
     /// every second as long as it runs.
     pub peers: Vec<String>,
+    /// Participants with another tag are ignored, as are those without one unless this is empty.
+    pub tag: String,
     /// More of Cyclone's XML, or URIs of files with it, as `CYCLONEDDS_URI` has them; what stands
     /// here wins.
     pub more: String,
@@ -39,6 +42,7 @@ impl Default for Config {
             network: Network::Loopback,
             multicast: true,
             peers: vec!["127.0.0.1".to_owned()],
+            tag: String::new(),
             more: String::new(),
         }
     }
@@ -49,22 +53,26 @@ impl Default for Config {
 const PARTICIPANTS: u32 = 60;
 
 impl Config {
-    /// As Cyclone reads it.
+    /// As Cyclone reads it. `has_network`: the machine has an interface besides loopback; Cyclone
+    /// refuses to use one interface twice.
     #[must_use]
-    pub fn xml(&self) -> String {
-        let mut xml = String::from("<General>");
+    pub(crate) fn xml(&self, has_network: bool) -> String {
+        let mut xml = String::from("<General><Interfaces>");
         // The loopback interface of most systems can multicast but does not say so.
-        let interface = match &self.network {
-            Network::Loopback => {
-                format!("address=\"127.0.0.1\" multicast=\"{}\"", self.multicast)
-            }
-            Network::Any => "autodetermine=\"true\"".to_owned(),
+        let loopback = format!("address=\"127.0.0.1\" multicast=\"{}\"", self.multicast);
+        let interfaces = match &self.network {
+            Network::Loopback => vec![loopback],
+            Network::Any if has_network => vec!["autodetermine=\"true\"".to_owned(), loopback],
+            Network::Any => vec![loopback],
             Network::Interface(name) if name.parse::<std::net::IpAddr>().is_ok() => {
-                format!("address=\"{}\"", escape(name))
+                vec![format!("address=\"{}\"", escape(name))]
             }
-            Network::Interface(name) => format!("name=\"{}\"", escape(name)),
+            Network::Interface(name) => vec![format!("name=\"{}\"", escape(name))],
         };
-        let _ = write!(xml, "<Interfaces><NetworkInterface {interface}/></Interfaces>");
+        for interface in interfaces {
+            let _ = write!(xml, "<NetworkInterface {interface}/>");
+        }
+        xml.push_str("</Interfaces>");
         let multicast = if self.multicast { "spdp" } else { "false" };
         let _ = write!(xml, "<AllowMulticast>{multicast}</AllowMulticast>");
         xml.push_str("<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>");
@@ -73,6 +81,9 @@ impl Config {
         xml.push_str("<SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>");
         xml.push_str("</Internal><Discovery>");
         let _ = write!(xml, "<ExternalDomainId>{}</ExternalDomainId>", self.domain_id);
+        if !self.tag.is_empty() {
+            let _ = write!(xml, "<Tag>{}</Tag>", escape(&self.tag));
+        }
         // Ports that others can guess.
         xml.push_str("<ParticipantIndex>auto</ParticipantIndex>");
         let _ = write!(xml, "<MaxAutoParticipantIndex>{PARTICIPANTS}</MaxAutoParticipantIndex>");

@@ -25,7 +25,7 @@ pub(crate) struct Qos {
     pub(crate) history: i32,
     pub(crate) depth: i32,
     pub(crate) liveliness: i32,
-    pub(crate) audience: i32,
+    pub(crate) unused: i32,
 }
 
 #[repr(C)]
@@ -71,6 +71,7 @@ unsafe extern "C" {
     fn pp_size_of(which: i32) -> usize;
     fn pp_init(hooks: *const Hooks);
     pub(crate) fn pp_error(code: i32) -> *const c_char;
+    pub(crate) fn pp_has_network() -> i32;
     pub(crate) fn pp_domain(id: u32, config: *const c_char) -> i32;
     pub(crate) fn pp_participant(domain: u32, user_data: *const u8, size: usize) -> i32;
     pub(crate) fn pp_topic(participant: i32, name: *const c_char, type_name: *const c_char) -> i32;
@@ -100,6 +101,17 @@ unsafe extern "C" {
         waits: i32,
         sequence: *mut i64,
     ) -> i32;
+    /// As `pp_write`, to the readers of the participant whose GUID begins with these 12 bytes.
+    pub(crate) fn pp_send_to(
+        writer: i32,
+        bytes: *const u8,
+        size: usize,
+        owner: *mut c_void,
+        related: *const Identity,
+        prefix: *const u8,
+        sequence: *mut i64,
+    ) -> i32;
+    pub(crate) fn pp_reaches(writer: i32, prefix: *const u8) -> i32;
     pub(crate) fn pp_take(reader: i32, sample: *mut Sample) -> i32;
     pub(crate) fn pp_assert_liveliness(writer: i32) -> i32;
     pub(crate) fn pp_wait_acknowledged(writer: i32, timeout_ns: i64) -> i32;
@@ -108,8 +120,8 @@ unsafe extern "C" {
     pub(crate) fn pp_discovery_take(reader: i32, kind: i32, found: *mut Found) -> i32;
     pub(crate) fn pp_discovery_return(reader: i32, found: *mut Found);
     pub(crate) fn pp_waitset(participant: i32) -> i32;
-    pub(crate) fn pp_watch(waitset: i32, entity: i32, event: i32, token: isize) -> i32;
-    pub(crate) fn pp_wait(waitset: i32, tokens: *mut isize, room: usize, timeout_ns: i64) -> i32;
+    pub(crate) fn pp_watch(waitset: i32, entity: i32, event: i32) -> i32;
+    pub(crate) fn pp_wait(waitset: i32, entities: *mut isize, room: usize, timeout_ns: i64) -> i32;
     pub(crate) fn pp_guard(participant: i32) -> i32;
     pub(crate) fn pp_guard_set(guard: i32, on: i32) -> i32;
 }

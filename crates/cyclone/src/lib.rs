@@ -36,9 +36,9 @@ pub use discovery::{Discovery, Found, Kind};
 pub use error::Error;
 pub use log::{LogLine, take_log};
 pub use participant::Participant;
-pub use qos::{Audience, Durability, Liveliness, Qos};
+pub use qos::{Durability, Liveliness, Qos};
 pub use reader::{Reader, Sample};
-pub use waitset::{Waitset, Waker};
+pub use waitset::{Token, Waitset, Waker};
 pub use writer::{Bytes, Writer};
 
 /// Names a participant, writer or reader in the whole network, in the order of bytes on the wire.

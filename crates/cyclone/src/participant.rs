@@ -46,7 +46,9 @@ impl Participant {
         ffi::init();
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let what = || format!("to join domain {}", config.domain_id);
-        let xml = text(&config.xml(), what)?;
+        // SAFETY: it only looks.
+        let has_network = unsafe { ffi::pp_has_network() } != 0;
+        let xml = text(&config.xml(has_network), what)?;
         // SAFETY: a live string.
         let domain = Entity(check(unsafe { ffi::pp_domain(number, xml.as_ptr()) }, what)?);
         // SAFETY: live bytes of this size.

@@ -45,20 +45,6 @@ pub struct Qos {
     pub lease_ns: Option<i64>,
     /// How long a reliable writer waits for room before it gives up.
     pub blocking_ns: Option<i64>,
-    /// For whom a writer is.
-    pub audience: Audience,
-}
-
-/// Readers that a writer is for; others do not get its samples.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Audience {
-    /// All.
-    #[default]
-    All,
-    /// Those of Cyclone DDS.
-    Cyclone,
-    /// Those of any other DDS.
-    Others,
 }
 
 /// Reliable and volatile, the last ten; a writer waits 100 ms.
@@ -73,7 +59,6 @@ impl Default for Qos {
             liveliness: Liveliness::Automatic,
             lease_ns: None,
             blocking_ns: Some(100_000_000),
-            audience: Audience::All,
         }
     }
 }
@@ -92,7 +77,7 @@ impl Qos {
             history: self.depth.is_none().into(),
             depth: i32::try_from(depth).unwrap_or(i32::MAX),
             liveliness: self.liveliness as i32,
-            audience: self.audience as i32,
+            unused: 0,
         }
     }
 
@@ -120,7 +105,6 @@ impl Qos {
             },
             lease_ns: span(from.lease_ns),
             blocking_ns: span(from.blocking_ns),
-            audience: Audience::All,
         }
     }
 }

@@ -17,10 +17,13 @@ const MATCHED: i32 = 2;
 /// As many things are told at once; more are told at the next look.
 const ROOM: usize = 256;
 
-/// Token of the waker.
-const WOKEN: isize = -1;
+/// Identifies a watched entity in the result of [`Waitset::wait`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Token(i32);
 
-/// Lets a thread sleep until one of the watched has something new.
+/// Lets a thread sleep until one of the watched entities has an event. Each event is reported once,
+/// whether it is handled or not, so that an event that nobody handles never keeps the thread awake.
+/// Take all samples of a reader when its token is reported.
 pub struct Waitset {
     waitset: Entity,
     guard: Arc<Entity>,
@@ -51,7 +54,7 @@ impl Waitset {
         // SAFETY: numbers.
         let guard = Arc::new(Entity(check(unsafe { ffi::pp_guard(of) }, what)?));
         // SAFETY: numbers.
-        check(unsafe { ffi::pp_watch(waitset.0, guard.0, GUARD, WOKEN) }, what)?;
+        check(unsafe { ffi::pp_watch(waitset.0, guard.0, GUARD) }, what)?;
         Ok(Self { waitset, guard, participant })
     }
 
@@ -61,34 +64,34 @@ impl Waitset {
         Waker { guard: self.guard.clone(), _participant: self.participant.clone() }
     }
 
-    fn watch(&self, entity: i32, event: i32, token: u32) -> Result<(), Error> {
+    fn watch(&self, entity: i32, event: i32) -> Result<Token, Error> {
         // SAFETY: numbers.
-        let code = unsafe { ffi::pp_watch(self.waitset.0, entity, event, token as isize) };
-        check(code, || "to wait for an entity".to_owned()).map(drop)
+        let code = unsafe { ffi::pp_watch(self.waitset.0, entity, event) };
+        check(code, || "to wait for an entity".to_owned()).map(|_| Token(entity))
     }
 
     /// Watches for samples. Drop a reader and it is watched no more.
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_reader(&self, reader: &Reader, token: u32) -> Result<(), Error> {
-        self.watch(reader.entity(), DATA, token)
+    pub fn watch_reader(&self, reader: &Reader) -> Result<Token, Error> {
+        self.watch(reader.entity(), DATA)
     }
 
     /// Watches for readers that come and go; [`Writer::readers`] tells how many there are then.
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_writer(&self, writer: &Writer, token: u32) -> Result<(), Error> {
-        self.watch(writer.entity(), MATCHED, token)
+    pub fn watch_writer(&self, writer: &Writer) -> Result<Token, Error> {
+        self.watch(writer.entity(), MATCHED)
     }
 
     /// Watches for others.
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_discovery(&self, discovery: &Discovery, token: u32) -> Result<(), Error> {
-        self.watch(discovery.entity(), DATA, token)
+    pub fn watch_discovery(&self, discovery: &Discovery) -> Result<Token, Error> {
+        self.watch(discovery.entity(), DATA)
     }
 
     /// Sleeps, at most so long, and gives the tokens of what has something new; none when it was
@@ -96,17 +99,23 @@ impl Waitset {
     ///
     /// # Errors
     /// When memory is short.
-    pub fn wait(&self, timeout_ns: i64) -> Result<Vec<u32>, Error> {
-        let mut tokens = [0_isize; ROOM];
+    pub fn wait(&self, timeout_ns: i64) -> Result<Vec<Token>, Error> {
+        let mut entities = [0_isize; ROOM];
         // SAFETY: room for so many.
         let code =
-            unsafe { ffi::pp_wait(self.waitset.0, tokens.as_mut_ptr(), ROOM, timeout_ns.max(0)) };
+            unsafe { ffi::pp_wait(self.waitset.0, entities.as_mut_ptr(), ROOM, timeout_ns.max(0)) };
         let count = check(code, || "to wait".to_owned())?;
         let count = usize::try_from(count).unwrap_or(0).min(ROOM);
-        if tokens[..count].contains(&WOKEN) {
-            // SAFETY: a number.
-            let _ = unsafe { ffi::pp_guard_set(self.guard.0, 0) };
+        let entities = entities[..count].iter().filter_map(|one| i32::try_from(*one).ok());
+        let mut tokens = Vec::with_capacity(count);
+        for entity in entities {
+            if entity == self.guard.0 {
+                // SAFETY: a number.
+                let _ = unsafe { ffi::pp_guard_set(self.guard.0, 0) };
+            } else {
+                tokens.push(Token(entity));
+            }
         }
-        Ok(tokens[..count].iter().filter_map(|token| u32::try_from(*token).ok()).collect())
+        Ok(tokens)
     }
 }

@@ -1,5 +1,6 @@
 //! Writing.
 
+use std::ffi::c_void;
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::check;
@@ -54,7 +55,69 @@ impl Writer {
         self.put(bytes, None, false)
     }
 
+    /// Writes a sample for the readers of one participant and gives its number; none when that
+    /// participant has no matched reader. Other readers do not get it.
+    ///
+    /// # Errors
+    /// As [`Writer::write`].
+    pub fn write_to(
+        &self,
+        participant: Guid,
+        bytes: impl Bytes,
+        related: Option<Identity>,
+    ) -> Result<Option<i64>, Error> {
+        let prefix = participant.0;
+        self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
+            // SAFETY: the bytes live as long as their owner, which is C's from here on; the GUID is
+            // longer than the prefix that is read.
+            unsafe {
+                ffi::pp_send_to(
+                    self.endpoint.entity.0,
+                    bytes,
+                    size,
+                    owner,
+                    related,
+                    prefix.as_ptr(),
+                    sequence,
+                )
+            }
+        })
+        .map(|(is_sent, sequence)| (is_sent != 0).then_some(sequence))
+    }
+
+    /// True when a reader of that participant is matched.
+    #[must_use]
+    pub fn reaches(&self, participant: Guid) -> bool {
+        // SAFETY: a number, and a GUID that is longer than the prefix that is read.
+        unsafe { ffi::pp_reaches(self.endpoint.entity.0, participant.0.as_ptr()) > 0 }
+    }
+
     fn put(&self, bytes: impl Bytes, related: Option<Identity>, waits: bool) -> Result<i64, Error> {
+        self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
+            // SAFETY: the bytes live as long as their owner, which is C's from here on.
+            unsafe {
+                ffi::pp_write(
+                    self.endpoint.entity.0,
+                    bytes,
+                    size,
+                    owner,
+                    related,
+                    waits.into(),
+                    sequence,
+                )
+            }
+        })
+        .map(|(_, sequence)| sequence)
+    }
+
+    /// Gives the bytes and their owner to a function of C that writes them; its result and the number
+    /// of the sample.
+    fn hand_over(
+        &self,
+        bytes: impl Bytes,
+        related: Option<Identity>,
+        write: impl FnOnce(*const u8, usize, *mut c_void, *const ffi::Identity, *mut i64) -> i32,
+    ) -> Result<(i32, i64), Error> {
         let owner: ffi::Owner = Box::new(bytes);
         let what = || "to write a sample".to_owned();
         let size = owner.bytes().len();
@@ -70,20 +133,9 @@ impl Writer {
         let owner = Box::into_raw(Box::new(owner));
         // SAFETY: just made, and read only; the box does not move until C gives it back.
         let bytes = unsafe { (*owner).bytes() };
-        // SAFETY: the bytes live as long as their owner, which is C's from here on.
-        let code = unsafe {
-            ffi::pp_write(
-                self.endpoint.entity.0,
-                bytes.as_ptr(),
-                size.min(bytes.len()),
-                owner.cast(),
-                related,
-                waits.into(),
-                &raw mut sequence,
-            )
-        };
-        check(code, what)?;
-        Ok(sequence)
+        let size = size.min(bytes.len());
+        let code = write(bytes.as_ptr(), size, owner.cast(), related, &raw mut sequence);
+        Ok((check(code, what)?, sequence))
     }
 
     /// How many readers are matched now.

@@ -103,7 +103,7 @@ fn who_comes_and_goes_is_told() {
     let here = net.participant();
     let readers = here.discovery(Kind::Readers).unwrap();
     let waitset = here.waitset().unwrap();
-    waitset.watch_discovery(&readers, 7).unwrap();
+    let watched = waitset.watch_discovery(&readers).unwrap();
     let there = net.participant();
     let qos = Qos {
         is_reliable: false,
@@ -114,7 +114,7 @@ fn who_comes_and_goes_is_told() {
     let reader = there.reader(&topic(), TYPE, &qos, b"typehash=RIHS01_00;").unwrap();
     let foreign = |found: &Found| found.participant == there.guid();
     let found = wait("the reader", || {
-        assert!(waitset.wait(1_000_000_000).unwrap().iter().all(|token| *token == 7));
+        assert!(waitset.wait(1_000_000_000).unwrap().iter().all(|token| *token == watched));
         std::iter::from_fn(|| readers.take().unwrap()).find(foreign)
     });
     assert_eq!((found.guid, found.is_alive), (reader.guid(), true));
@@ -164,11 +164,11 @@ fn a_waker_ends_the_sleep() {
     let waker = waitset.waker();
     waker.wake();
     let start = Instant::now();
-    assert_eq!(waitset.wait(10_000_000_000).unwrap(), Vec::<u32>::new());
+    assert_eq!(waitset.wait(10_000_000_000).unwrap(), Vec::new());
     assert!(start.elapsed() < Duration::from_secs(9));
     // And only once.
     let start = Instant::now();
-    assert_eq!(waitset.wait(50_000_000).unwrap(), Vec::<u32>::new());
+    assert_eq!(waitset.wait(50_000_000).unwrap(), Vec::new());
     assert!(start.elapsed() >= Duration::from_millis(45));
 }
 
@@ -184,4 +184,83 @@ fn what_is_wrong_is_said() {
     let participant = Net { domain_id: 66 }.participant();
     let error = participant.writer("a\0b", TYPE, &Qos::default(), b"").map(drop).unwrap_err();
     assert!(error.to_string().contains("zero byte"), "{error}");
+}
+
+/// An event that nobody handles must not keep the thread awake: after the first call of a service the
+/// status of its writer was never read, and the thread of the wire used a core for good.
+#[test]
+fn an_event_is_reported_once() {
+    let net = Net { domain_id: 67 };
+    let (here, there) = (net.participant(), net.participant());
+    let waitset = here.waitset().unwrap();
+    let writer = here.writer(&topic(), TYPE, &Qos::default(), b"").unwrap();
+    let back = format!("{}b", topic());
+    let reader = here.reader(&back, TYPE, &Qos::default(), b"").unwrap();
+    let watched =
+        [waitset.watch_writer(&writer), waitset.watch_reader(&reader)].map(Result::unwrap);
+    let other = there.reader(&topic(), TYPE, &Qos::default(), b"").unwrap();
+    let talker = there.writer(&back, TYPE, &Qos::default(), b"").unwrap();
+    wait("both to match", || (other.writers() == 1 && talker.readers() == 1).then_some(()));
+    talker.write(cdr(100), None).unwrap();
+    let mut seen = Vec::new();
+    wait("both events", || {
+        seen.extend(waitset.wait(1_000_000).unwrap());
+        watched.iter().all(|token| seen.contains(token)).then_some(())
+    });
+    // Nothing was taken, no status was read.
+    for _ in 0..3 {
+        let start = Instant::now();
+        assert_eq!(waitset.wait(100_000_000).unwrap(), Vec::new());
+        assert!(start.elapsed() >= Duration::from_millis(90), "it does not sleep");
+    }
+    // What comes next is an event again.
+    drop(other);
+    wait("the reader to go", || {
+        waitset.wait(1_000_000).unwrap().contains(&watched[0]).then_some(())
+    });
+    talker.write(cdr(100), None).unwrap();
+    wait("a sample", || waitset.wait(1_000_000).unwrap().contains(&watched[1]).then_some(()));
+    assert!(reader.take().unwrap().is_some() && reader.take().unwrap().is_some());
+}
+
+#[test]
+fn a_sample_for_one_participant_comes_to_it_alone() {
+    let net = Net { domain_id: 68 };
+    let here = net.participant();
+    let qos = Qos { depth: None, ..Qos::default() };
+    let writer = here.writer(&topic(), TYPE, &qos, b"").unwrap();
+    assert!(!writer.reaches(Guid::default()));
+    assert_eq!(writer.write_to(Guid::default(), cdr(10), None).unwrap(), None);
+    let there = [(); 3].map(|()| net.participant());
+    let readers = there.each_ref().map(|one| one.reader(&topic(), TYPE, &qos, b"").unwrap());
+    let second = there[0].reader(&topic(), TYPE, &qos, b"").unwrap();
+    wait("all to match", || {
+        let all = readers.iter().chain([&second]).all(|one| one.writers() == 1);
+        (writer.readers() == 4 && all).then_some(())
+    });
+    assert!(there.iter().all(|one| writer.reaches(one.guid())));
+    let related = Identity { writer: readers[0].guid(), sequence: 5 };
+    // In one packet and in several, and sooner than anybody can acknowledge.
+    let mut expected = [const { Vec::new() }; 3];
+    for round in 0..60_usize {
+        let (to, size) = (round * 7 % 3, if round % 10 == 0 { 200_000 } else { 100 + round });
+        let participant = there[to].guid();
+        let sequence = writer.write_to(participant, cdr(size), Some(related)).unwrap().unwrap();
+        expected[to].push((sequence, size));
+    }
+    // One for all, after the others: whoever waits for a sample that is not for it never gets this.
+    let sequence = writer.write(cdr(50), None).unwrap();
+    for (reader, of) in readers.iter().chain([&second]).zip([0, 1, 2, 0]) {
+        for (sequence, size) in &expected[of] {
+            let sample = receive(reader);
+            assert_eq!(sample.source.unwrap().sequence, *sequence);
+            assert_eq!(sample.bytes[..*size], cdr(*size));
+            assert_eq!(sample.related, Some(related));
+        }
+        assert_eq!(receive(reader).source.unwrap().sequence, sequence);
+        assert_eq!(reader.take().unwrap(), None);
+    }
+    let start = Instant::now();
+    assert!(writer.wait_acknowledged(20_000_000_000), "not all acknowledged");
+    assert!(start.elapsed() < Duration::from_secs(5), "it took {:?}", start.elapsed());
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use periplus_cyclone::{
-    Discovery, Durability, Error, Kind, Participant, Qos, Reader, Waker, Writer,
+    Discovery, Durability, Error, Kind, Participant, Qos, Reader, Token, Waker, Writer,
 };
 use periplus_graph::{Graph, Node};
 use periplus_wire::{Own, lock};
@@ -28,14 +28,13 @@ use topics::Topics;
 /// How often it looks what has changed in the graph, if nothing else wakes it \[ns\].
 const LOOK_NS: i64 = 25_000_000;
 
-/// Token of `ros_discovery_info`; those of discovery are the places of [`KINDS`].
-const INFO: u32 = 3;
-
 const KINDS: [Kind; 3] = [Kind::Participants, Kind::Writers, Kind::Readers];
 
 pub(crate) struct Link {
     net: Net,
     discoveries: [Discovery; 3],
+    /// Tokens of `discoveries` and of `info_reader`.
+    discovery_tokens: Vec<Token>,
     info_reader: Reader,
     info_writer: Writer,
     info_written: Vec<u8>,
@@ -63,8 +62,9 @@ impl Link {
         let discover = |kind| participant.discovery(kind);
         let [participants, writers, readers] = KINDS.map(discover);
         let discoveries = [participants?, writers?, readers?];
-        for (token, discovery) in (0..).zip(&discoveries) {
-            net.waitset.watch_discovery(discovery, token)?;
+        let mut discovery_tokens = Vec::new();
+        for discovery in &discoveries {
+            discovery_tokens.push(net.waitset.watch_discovery(discovery)?);
         }
         let qos = Qos { durability: Durability::TransientLocal, depth: Some(1), ..Qos::default() };
         let said = user_data::type_hash(entities::HASH);
@@ -73,11 +73,12 @@ impl Link {
         // All participants write to one instance, and nothing of any may be lost.
         let all = Qos { depth: None, ..qos };
         let info_reader = participant.reader(topic, type_name, &all, &said)?;
-        net.waitset.watch_reader(&info_reader, INFO)?;
+        discovery_tokens.push(net.waitset.watch_reader(&info_reader)?);
         let info_written = Vec::new();
         Ok(Self {
             net,
             discoveries,
+            discovery_tokens,
             info_reader,
             info_writer,
             info_written,
@@ -100,7 +101,7 @@ impl Link {
                     return;
                 }
             };
-            if tokens.iter().any(|token| *token <= INFO) {
+            if tokens.iter().any(|token| self.discovery_tokens.contains(token)) {
                 self.discover();
             }
             if let Some((graph, node)) = lock(&self.net.shared.joining).take() {
@@ -142,7 +143,7 @@ impl Link {
     }
 
     /// Keeps the network as the graph is, and takes what arrived.
-    fn follow(&mut self, tokens: &[u32]) {
+    fn follow(&mut self, tokens: &[Token]) {
         let Some(attached) = &mut self.attached else { return };
         let changes = lock(&self.net.shared.peers).changes();
         let generation = attached.graph.generation();
@@ -159,7 +160,7 @@ impl Link {
         }
         attached.topics.take(&self.net, tokens);
         attached.services.take(&self.net, tokens);
-        attached.services.answer(&self.net);
+        attached.services.answer();
         attached.topics.notice(&attached.graph, tokens);
         if is_new || is_changed || attached.told.is_waiting() {
             let peers = lock(&self.net.shared.peers);

@@ -7,7 +7,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use periplus_cyclone::{Bytes, Identity, Writer};
+use periplus_cyclone::{Bytes, Guid, Identity, Writer};
 use periplus_graph::Sample;
 use periplus_wire::{Way, lock};
 
@@ -24,8 +24,17 @@ const PAUSE: Duration = Duration::from_millis(2);
 pub(crate) enum Parcel {
     /// A message of a graph, encoded when it is sent.
     Sample(Sample),
-    /// Bytes, and the question that they answer.
-    Bytes(Vec<u8>, Option<Identity>),
+    /// The response of a service, for one participant alone.
+    Response(Response),
+}
+
+/// The response of a service.
+pub(crate) struct Response {
+    pub(crate) bytes: Vec<u8>,
+    /// The request that it answers, in the form of Fast DDS.
+    pub(crate) related: Option<Identity>,
+    /// Participant of the client.
+    pub(crate) client: Guid,
 }
 
 /// Keeps the message as long as DDS sends from it.
@@ -122,9 +131,9 @@ impl Outgoing {
     fn send(self: &Arc<Self>, pace: Pace) -> Next {
         let Some(parcel) = lock(&self.queue).parcels.pop_front() else { return Next::Done };
         let sample = match parcel {
-            Parcel::Bytes(bytes, related) => {
+            Parcel::Response(Response { bytes, related, client }) => {
                 let size = bytes.len();
-                let result = self.writer.write(bytes, related);
+                let result = self.writer.write_to(client, bytes, related);
                 return self.sent(size, result.map(drop).err(), None);
             }
             Parcel::Sample(sample) => sample,

@@ -30,7 +30,6 @@ pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
         },
         lease_ns: qos.lease_ns,
         blocking_ns: Some(BLOCKING_NS),
-        audience: dds::Audience::All,
     }
 }
 

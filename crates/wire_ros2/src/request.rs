@@ -23,12 +23,6 @@ impl Mapping {
     pub fn of(vendor: Vendor) -> Self {
         if vendor == Vendor::CYCLONE { Self::Cyclone } else { Self::Fast }
     }
-
-    /// In which way an answer came.
-    #[must_use]
-    pub fn of_answer(sample: &Sample) -> Self {
-        if sample.related.is_some() { Self::Fast } else { Self::Cyclone }
-    }
 }
 
 /// Bytes in front of the body, in Cyclone's way.

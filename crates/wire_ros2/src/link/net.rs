@@ -1,10 +1,10 @@
 //! Making endpoints, and saying what is wrong.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use periplus_cyclone::{Participant, Qos, Reader, Waitset, Writer};
+use periplus_cyclone::{Participant, Qos, Reader, Token, Waitset, Writer};
 use periplus_diagnostics::Diagnostic;
 use periplus_wire::lock;
 
@@ -12,14 +12,10 @@ use crate::outgoing::Outgoing;
 use crate::user_data;
 use crate::wire::Shared;
 
-/// The first token of endpoints.
-const FIRST: u32 = 16;
-
 pub(super) struct Net {
     pub(super) participant: Participant,
     pub(super) waitset: Waitset,
     pub(super) shared: Arc<Shared>,
-    next_token: Cell<u32>,
     said: RefCell<BTreeSet<String>>,
 }
 
@@ -32,8 +28,7 @@ pub(super) struct Subject<'a> {
 
 impl Net {
     pub(super) fn new(participant: Participant, waitset: Waitset, shared: Arc<Shared>) -> Self {
-        let (next_token, said) = (Cell::new(FIRST), RefCell::default());
-        Self { participant, waitset, shared, next_token, said }
+        Self { participant, waitset, shared, said: RefCell::default() }
     }
 
     /// Says something once.
@@ -48,32 +43,32 @@ impl Net {
         self.say(Diagnostic::warning(code, message));
     }
 
-    fn token(&self) -> u32 {
-        let token = self.next_token.get();
-        self.next_token.set(token.checked_add(1).unwrap_or(FIRST));
-        token
-    }
-
-    /// A writer with its queue, and the token that says that its readers are others.
-    pub(super) fn writer(
+    /// A writer with its queue, and the token that reports a change of its readers.
+    pub(super) fn watched_writer(
         &self,
         subject: &Subject<'_>,
         qos: &Qos,
         keeps: bool,
-    ) -> Option<(Arc<Outgoing>, u32)> {
-        let token = self.token();
-        let made = self.raw_writer(subject, qos).and_then(|writer| {
-            let watched = self.waitset.watch_writer(&writer, token);
-            watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
-            Some(writer)
-        })?;
+    ) -> Option<(Arc<Outgoing>, Token)> {
+        let writer = self.raw_writer(subject, qos)?;
+        let watched = self.waitset.watch_writer(&writer);
+        let token = watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
+        Some((self.queued(writer, qos, keeps), token))
+    }
+
+    /// A writer with its queue.
+    pub(super) fn writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Arc<Outgoing>> {
+        Some(self.queued(self.raw_writer(subject, qos)?, qos, true))
+    }
+
+    fn queued(&self, writer: Writer, qos: &Qos, keeps: bool) -> Arc<Outgoing> {
         let depth = qos.depth.unwrap_or(crate::qos::MOST_KEPT);
-        let outgoing = Outgoing::new(made, depth, keeps, &self.shared.lanes);
+        let outgoing = Outgoing::new(writer, depth, keeps, &self.shared.lanes);
         let mut writers = lock(&self.shared.writers);
         // Those that nobody but this list has are sent and gone.
         writers.retain(|one| Arc::strong_count(one) > 1);
         writers.push(outgoing.clone());
-        Some((outgoing, token))
+        outgoing
     }
 
     /// A writer that is written to directly.
@@ -84,15 +79,13 @@ impl Net {
     }
 
     /// A reader, and the token that says that it has samples.
-    pub(super) fn reader(&self, subject: &Subject<'_>, qos: &Qos) -> Option<(Reader, u32)> {
-        let token = self.token();
+    pub(super) fn reader(&self, subject: &Subject<'_>, qos: &Qos) -> Option<(Reader, Token)> {
         let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
         let made = self.participant.reader(subject.topic, subject.type_name, qos, &said);
         let watched = made.and_then(|reader| {
-            self.waitset.watch_reader(&reader, token)?;
-            Ok(reader)
+            let token = self.waitset.watch_reader(&reader)?;
+            Ok((reader, token))
         });
-        let reader = watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
-        Some((reader, token))
+        watched.map_err(|error| self.complain("wire", error.to_string())).ok()
     }
 }

@@ -4,17 +4,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use periplus_cyclone::{Audience, Guid, Qos, Reader, Waker, Writer};
+use periplus_cyclone::{Guid, Qos, Reader, Token, Waker, Writer};
 use periplus_graph::{Node, RawCall, RawCalls, RawClient, ServiceInfo};
 use periplus_wire::{Since, lock};
 
 use super::net::{Net, Subject};
 use crate::names;
-use crate::outgoing::{Outgoing, Parcel};
+use crate::outgoing::{Outgoing, Parcel, Response};
 use crate::peers::Peers;
 use crate::request::{self, Mapping, Ticket};
 
-/// An answer waits so long for the reader that it is for to be found; then it is sent all the same.
+/// How long a response waits for its client's reader to be discovered; then it is dropped.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// So many calls of one service wait for their answers; then the oldest is let fall.
@@ -34,9 +34,11 @@ struct Serving {
     type_name: String,
     client: RawClient,
     questions: Reader,
-    token: u32,
-    /// A writer for each way, which the callers of the other do not hear.
-    answers: [(Mapping, Arc<Outgoing>); 2],
+    token: Token,
+    /// One writer for clients of all vendors: rmw_fastrtps takes a service for ready only if there are
+    /// as many writers of responses as readers of requests. Each response goes to its client alone, so
+    /// that no client gets the form of another vendor.
+    answers: Arc<Outgoing>,
     waker: Waker,
 }
 
@@ -45,9 +47,8 @@ struct Answer {
     service: String,
     ticket: Ticket,
     body: Vec<u8>,
-    caller: Guid,
-    /// The writer that the caller hears.
-    reached_by: Mapping,
+    /// Participant of the client.
+    client: Guid,
     since: Since,
 }
 
@@ -56,11 +57,10 @@ struct Calling {
     nodes: Vec<String>,
     type_name: String,
     type_hash: Option<String>,
-    /// A writer for each way, which the servers of the other do not hear: to them a question in the
-    /// wrong form would be another question.
-    questions: [(Mapping, Writer); 2],
+    /// Each request goes to one server alone, in the form of its vendor.
+    questions: Writer,
     answers: Reader,
-    token: u32,
+    token: Token,
     /// Who answers, while somebody does.
     server: Option<Server>,
     /// Number of the last question, by our own count.
@@ -120,14 +120,7 @@ impl Services {
         };
         // Answers of many callers may wait.
         let many = Qos { depth: Some(1000), ..qos };
-        let writer = |mapping, audience| {
-            let qos = Qos { audience, ..many };
-            Some((mapping, net.writer(&told, &qos, true)?.0))
-        };
-        let fast = writer(Mapping::Fast, Audience::Others);
-        let cyclone = writer(Mapping::Cyclone, Audience::Cyclone);
-        let (Some(fast), Some(cyclone)) = (fast, cyclone) else { return };
-        let answers = [fast, cyclone];
+        let Some(answers) = net.writer(&told, &many) else { return };
         let Some((questions, token)) = net.reader(&asked, &many) else { return };
         let (node, type_name) = (server.to_owned(), service.type_name.clone());
         let waker = net.waitset.waker();
@@ -144,12 +137,7 @@ impl Services {
         let told = Subject { topic: &reply, type_name: &answer, type_hash };
         // Answers first: who sees the questions' writer may send an answer at once.
         let Some((answers, token)) = net.reader(&told, &qos) else { return };
-        let writer =
-            |mapping, audience| Some((mapping, net.raw_writer(&asked, &Qos { audience, ..qos })?));
-        let fast = writer(Mapping::Fast, Audience::Others);
-        let cyclone = writer(Mapping::Cyclone, Audience::Cyclone);
-        let (Some(fast), Some(cyclone)) = (fast, cyclone) else { return };
-        let questions = [fast, cyclone];
+        let Some(questions) = net.raw_writer(&asked, &qos) else { return };
         let calling = Calling {
             nodes: Vec::new(),
             type_name: service.type_name.clone(),
@@ -192,7 +180,7 @@ impl Services {
     }
 
     /// Takes questions and answers that arrived, and sends the questions of the graph.
-    pub(super) fn take(&mut self, net: &Net, tokens: &[u32]) {
+    pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
         for (name, serving) in &self.serving {
             if tokens.contains(&serving.token) {
                 serving.take(net, name, &self.answers);
@@ -207,34 +195,21 @@ impl Services {
     }
 
     /// Sends answers whose callers are known.
-    pub(super) fn answer(&mut self, net: &Net) {
+    pub(super) fn answer(&mut self) {
         let mut answers = std::mem::take(&mut *lock(&self.answers));
         if answers.is_empty() {
             return;
         }
-        let peers = lock(&net.shared.peers);
         answers.retain(|answer| {
             let Some(serving) = self.serving.get(&answer.service) else { return false };
-            let (_, reply) = names::service(&answer.service);
-            let mapping = answer.reached_by;
-            let Some((_, writer)) = serving.answers.iter().find(|(way, _)| *way == mapping) else {
+            if serving.answers.writer.reaches(answer.client) {
+                let (bytes, related) = request::write_answer(answer.ticket, &answer.body);
+                let client = answer.client;
+                serving.answers.put(Parcel::Response(Response { bytes, related, client }));
                 return false;
-            };
-            let readers: Vec<Guid> = peers
-                .ends(&reply, false)
-                .filter(|(_, end)| Mapping::of(end.vendor) == mapping)
-                .map(|(_, end)| end.participant)
-                .collect();
-            let is_known = readers.contains(&answer.caller.participant())
-                && writer.writer.readers() >= readers.len();
-            if !is_known && answer.since.elapsed() < PATIENCE {
-                return true;
             }
-            let (bytes, related) = request::write_answer(answer.ticket, &answer.body);
-            writer.put(Parcel::Bytes(bytes, related));
-            false
+            answer.since.elapsed() < PATIENCE
         });
-        drop(peers);
         lock(&self.answers).append(&mut answers);
     }
 
@@ -242,14 +217,10 @@ impl Services {
     pub(super) fn ends(&self) -> impl Iterator<Item = (&str, Guid, bool)> {
         let serving = self.serving.values().flat_map(|one| {
             let node = one.node.as_str();
-            let answers = one.answers.iter().map(|(_, writer)| writer.writer.guid());
-            let answers = answers.map(move |guid| (node, guid, true));
-            answers.chain([(node, one.questions.guid(), false)])
+            [(node, one.answers.writer.guid(), true), (node, one.questions.guid(), false)]
         });
         let calling = self.calling.values().flat_map(|one| {
-            let [fast, cyclone] = &one.questions;
-            let ends =
-                [(one.answers.guid(), false), (fast.1.guid(), true), (cyclone.1.guid(), true)];
+            let ends = [(one.answers.guid(), false), (one.questions.guid(), true)];
             let nodes = one.nodes.iter();
             nodes.flat_map(move |node| ends.map(|(guid, writes)| (node.as_str(), guid, writes)))
         });
@@ -267,7 +238,6 @@ impl Serving {
                 Err(error) => return net.complain("wire", error.to_string()),
             };
             let Some(source) = sample.source else { continue };
-            let reached_by = Mapping::of(sample.vendor);
             let Some((ticket, body)) = request::read_question(sample) else {
                 net.complain(
                     "strange-question",
@@ -285,8 +255,7 @@ impl Serving {
                     service,
                     ticket,
                     body: body.to_vec(),
-                    caller: source.writer,
-                    reached_by,
+                    client: source.writer.participant(),
                     since: Since::now(),
                 });
                 waker.wake();
@@ -296,16 +265,9 @@ impl Serving {
 }
 
 impl Calling {
-    /// What servers of this way hear.
-    fn writer(&self, mapping: Mapping) -> &Writer {
-        let [fast, cyclone] = &self.questions;
-        if fast.0 == mapping { &fast.1 } else { &cyclone.1 }
-    }
-
     fn take_answers(&mut self) {
-        let answers_to = self.answers.guid();
+        let (caller, answers_to) = (self.questions.guid(), self.answers.guid());
         while let Ok(Some(sample)) = self.answers.take() {
-            let caller = self.writer(Mapping::of_answer(&sample)).guid();
             let answer = request::read_answer(sample, caller, answers_to);
             let Some((mapping, number, body)) = answer else { continue };
             if let Some(call) = self.waiting.remove(&(mapping, number)) {
@@ -316,8 +278,12 @@ impl Calling {
 
     fn send_questions(&mut self, net: &Net, name: &str) {
         let Some(server) = &self.server else { return };
+        // Discovery reports a server a moment before its reader is matched.
+        if !self.questions.reaches(server.participant) {
+            return;
+        }
         let mapping = server.mapping;
-        let answers_to = self.answers.guid();
+        let (caller, answers_to) = (self.questions.guid(), self.answers.guid());
         while let Some(call) = server.calls.take() {
             let body = match call.request.cdr() {
                 Ok(body) => body,
@@ -327,11 +293,12 @@ impl Calling {
                 }
             };
             self.number += 1;
-            let writer = self.writer(mapping);
             let (bytes, related) =
-                request::write_question(mapping, writer.guid(), answers_to, self.number, body);
-            match writer.write(bytes, related) {
-                Ok(sequence) => {
+                request::write_question(mapping, caller, answers_to, self.number, body);
+            match self.questions.write_to(server.participant, bytes, related) {
+                // The server just left; its callers are told when discovery reports that.
+                Ok(None) => {}
+                Ok(Some(sequence)) => {
                     let number = if mapping == Mapping::Fast { sequence } else { self.number };
                     if self.waiting.len() == MOST_CALLS {
                         self.waiting.pop_first();

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
-use periplus_cyclone::{Guid, Reader};
+use periplus_cyclone::{Guid, Reader, Token};
 use periplus_graph::{
     Durability, EndpointId, Graph, History, Liveliness, Node, Qos, RawPublisher, Reliability,
     TopicInfo,
@@ -34,7 +34,7 @@ pub(super) struct Publishing {
     pub(super) type_hash: Option<String>,
     pub(super) qos: Qos,
     pub(super) outgoing: Arc<Outgoing>,
-    token: u32,
+    token: Token,
 }
 
 /// Subscriptions of the graph that ask for the same, on the network.
@@ -45,7 +45,7 @@ pub(super) struct Subscribing {
     pub(super) type_hash: Option<String>,
     pub(super) qos: Qos,
     reader: Reader,
-    token: u32,
+    token: Token,
     /// What came from writers that discovery has not told of yet.
     early: VecDeque<(Guid, Vec<u8>)>,
 }
@@ -125,7 +125,7 @@ impl Topics {
         qos: Qos,
     ) {
         let keeps = qos.durability == Durability::TransientLocal;
-        let Some((outgoing, token)) = net.writer(subject, &qos::to_dds(&qos), keeps) else {
+        let Some((outgoing, token)) = net.watched_writer(subject, &qos::to_dds(&qos), keeps) else {
             return;
         };
         let publishing = Publishing {
@@ -163,7 +163,7 @@ impl Topics {
     }
 
     /// Looks again at who listens where readers came or went.
-    pub(super) fn notice(&mut self, graph: &Graph, tokens: &[u32]) {
+    pub(super) fn notice(&mut self, graph: &Graph, tokens: &[Token]) {
         if self.publishing.values().any(|one| tokens.contains(&one.token)) {
             self.listen(graph);
         }
@@ -236,7 +236,7 @@ impl Topics {
     }
 
     /// Takes what arrived.
-    pub(super) fn take(&mut self, net: &Net, tokens: &[u32]) {
+    pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
         for (key, subscribing) in &mut self.subscribing {
             if !tokens.contains(&subscribing.token) {
                 continue;
