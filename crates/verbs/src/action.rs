@@ -26,7 +26,7 @@ pub fn list(session: &mut Session<'_>, show_types: bool, count: bool) -> Outcome
 }
 
 /// The action of this name, when it is there.
-fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
+fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let service = format!("{name}/_action/send_goal");
     let (seen, is_there) = session.look_for(|seen| seen.service(&service).is_some());

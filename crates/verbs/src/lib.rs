@@ -32,7 +32,7 @@ mod types;
 mod values;
 
 pub use failure::{Failure, Outcome};
-pub use network::{InGraph, Network};
+pub use network::{InGraph, Network, Progress};
 pub use qos::QosWish;
 pub use seen::{Seen, SeenEnd, SeenNode, SeenService, SeenTopic, is_hidden};
 pub use session::Session;

@@ -18,12 +18,26 @@ pub trait Network {
     /// Who is there now, the verb's own node left out.
     fn seen(&self) -> Seen;
 
+    /// How far discovery has come. Costs less than [`Network::seen`].
+    fn progress(&self) -> Progress;
+
     /// Waits until the others are as wanted, at most so long; whether they are. Who is asked is
     /// asked only when something has changed.
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool;
 
     /// Waits until what was published has arrived at all who listen, at most so long.
     fn flush(&self, timeout: Duration) -> bool;
+}
+
+/// How far discovery has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Number of changes seen so far.
+    pub changes: u64,
+    /// Number of programs found whose nodes, topics or services are not all known yet.
+    pub incomplete: usize,
+    /// Number of programs on this machine that were not found yet, as far as the system tells.
+    pub unanswered: usize,
 }
 
 /// The nodes of this same program.
@@ -39,6 +53,10 @@ impl Network for InGraph {
 
     fn seen(&self) -> Seen {
         Seen::of_graph(&self.0, |name| name.trim_start_matches('/').starts_with(OWN_NODE))
+    }
+
+    fn progress(&self) -> Progress {
+        Progress { changes: self.0.generation(), ..Progress::default() }
     }
 
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool {

@@ -39,7 +39,7 @@ pub fn list(
 }
 
 /// The service of this name, when it is there.
-fn look_up(session: &Session<'_>, name: &str) -> Outcome<SeenService> {
+fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| seen.service(&name).is_some());
     session.go_on()?;

@@ -6,18 +6,30 @@ use std::time::Duration;
 
 use periplus_diagnostics::closest;
 use periplus_graph::{Node, NodeSettings};
-use periplus_host::Stopwatch;
+use periplus_host::{Stopwatch, sleep};
 use serde_json::json;
 
-use crate::network::OWN_NODE;
+use crate::network::{OWN_NODE, Progress};
 use crate::{Failure, Network, Outcome, Seen, Types};
 
-/// How long others have to be found, if it is not said: at least so long ...
-const LEAST: Duration = Duration::from_millis(600);
-/// ... then until nothing has changed for so long ...
+/// Minimum time that discovery gets without `--spin-time`.
+const MIN_DISCOVERY: Duration = Duration::from_millis(600);
+
+/// Discovery goes on until nothing has changed for this time.
 const QUIET: Duration = Duration::from_millis(200);
-/// ... and at most so long.
-const MOST: Duration = Duration::from_millis(2_000);
+
+/// Discovery waits at most this long for programs on this machine that do not answer: they may be on
+/// another network.
+const MAX_UNANSWERED: Duration = Duration::from_millis(2_500);
+
+/// Discovery waits at most this long for programs that were found but are not completely known.
+const MAX_INCOMPLETE: Duration = Duration::from_secs(10);
+
+/// How long a node, topic or service may take to be found, without `--spin-time`.
+const MIN_SEARCH: Duration = Duration::from_millis(2_000);
+
+/// How often discovery is looked at.
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
 /// How often a loop looks whether it is to stop.
 pub(crate) const BREATH: Duration = Duration::from_millis(100);
@@ -36,41 +48,74 @@ pub struct Session<'a> {
     pub stop: &'a AtomicBool,
     /// Whether results are JSON: one object, or one on each line of a stream.
     pub json: bool,
-    /// How long others have to be found; by itself at least 0.6 s and until all is quiet.
+    /// How long others have to be found. Without it at least 0.6 s, and until every program found has
+    /// told all its nodes, topics and services.
     pub spin_time: Option<Duration>,
 }
 
 impl Session<'_> {
-    /// Who is there, when they have had time to be found.
-    pub fn look(&self) -> Seen {
+    /// Nodes, topics and services after discovery. Programs that could not be found completely are
+    /// named on the side.
+    pub fn look(&mut self) -> Seen {
+        let progress = self.discover(MIN_DISCOVERY, |_| false);
+        if progress.incomplete > 0 && !self.is_stopped() {
+            let (count, programs) = match progress.incomplete {
+                1 => ("one".to_owned(), "program"),
+                count => (count.to_string(), "programs"),
+            };
+            self.say(&format!(
+                "WARNING: {count} {programs} on the network did not tell all nodes, topics and services \
+                 in time; the list is incomplete. Wait longer with `--spin-time SECONDS`"
+            ));
+        }
+        self.network.seen()
+    }
+
+    /// Waits for discovery: as long as `--spin-time` says, or at least `min` and until all programs
+    /// found are completely known. Ends early when `is_found`.
+    fn discover(&self, min: Duration, is_found: impl Fn(&Seen) -> bool) -> Progress {
         let clock = Stopwatch::start();
-        let mut last = (self.network.seen(), Duration::ZERO);
+        let mut last = self.network.progress();
+        let mut changed = Duration::ZERO;
+        let mut is_new = true;
         loop {
+            if is_new && is_found(&self.network.seen()) {
+                return last;
+            }
             let now = clock.elapsed();
             let is_done = match self.spin_time {
                 Some(time) => now >= time,
-                None => now >= MOST || now >= LEAST && now >= last.1 + QUIET,
+                None => {
+                    let is_settled = now >= changed + QUIET
+                        && last.incomplete == 0
+                        && (last.unanswered == 0 || now >= MAX_UNANSWERED);
+                    now >= MAX_INCOMPLETE || now >= min && is_settled
+                }
             };
             if is_done || self.is_stopped() {
-                return last.0;
+                return last;
             }
-            let rest = self.spin_time.map_or(QUIET, |time| (time - now).min(QUIET));
-            let before = last.0.clone();
-            if self.network.wait(rest.min(BREATH), &mut |seen| *seen != before) {
-                last = (self.network.seen(), clock.elapsed());
+            sleep(LOOK_AGAIN);
+            let progress = self.network.progress();
+            is_new = progress.changes != last.changes;
+            if is_new {
+                changed = clock.elapsed();
             }
+            last = progress;
         }
     }
 
-    /// How long who is there may take to be found.
+    /// How long a node or service may take to be found.
     pub(crate) fn found_within(&self) -> Duration {
-        self.spin_time.unwrap_or(MOST)
+        self.spin_time.unwrap_or(MIN_SEARCH)
     }
 
-    /// Waits for something as long as others have to be found; what is there then.
+    /// Waits until something is found or discovery ends; what is there then, and whether it was found.
     pub fn look_for(&self, wanted: impl Fn(&Seen) -> bool) -> (Seen, bool) {
-        let is_there = self.wait(Some(self.found_within()), wanted).unwrap_or(false);
-        (self.network.seen(), is_there)
+        self.discover(self.found_within(), &wanted);
+        let seen = self.network.seen();
+        let is_there = wanted(&seen);
+        (seen, is_there)
     }
 
     /// Waits for something, at most so long or until it is told to stop; whether it is so.

@@ -44,6 +44,7 @@ mod link;
 pub mod names;
 mod outgoing;
 mod peers;
+pub mod ports;
 mod qos;
 mod remote;
 pub mod request;
@@ -53,6 +54,6 @@ mod wire;
 
 pub use error::WireError;
 pub use periplus_cyclone::{Guid, Vendor};
-pub use remote::{Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
+pub use remote::{Progress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
 pub use settings::{Range, Settings};
 pub use wire::Wire;

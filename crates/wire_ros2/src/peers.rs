@@ -8,7 +8,7 @@ use periplus_graph::Qos;
 use crate::entities::{self, Form, NodeEntities};
 use crate::names::{self, Use};
 use crate::qos;
-use crate::remote::{Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
+use crate::remote::{Progress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
 use crate::user_data;
 
 /// More endpoints than this are not remembered: a network that is out of its mind must not take our
@@ -33,7 +33,9 @@ pub(crate) struct Endpoint {
 struct Participant {
     vendor: Vendor,
     enclave: String,
-    nodes: Vec<NodeEntities>,
+    /// Its `USER_DATA` has an enclave, which every participant of ROS 2 has and no other.
+    is_ros: bool,
+    nodes: Option<Vec<NodeEntities>>,
 }
 
 /// All others.
@@ -97,9 +99,11 @@ impl Peers {
         let one = self.participants.entry(found.guid).or_insert(Participant {
             vendor: found.vendor,
             enclave: String::new(),
-            nodes: Vec::new(),
+            is_ros: false,
+            nodes: None,
         });
         (one.vendor, one.enclave) = (found.vendor, enclave);
+        one.is_ros |= user_data::value(&found.user_data, "enclave").is_some();
     }
 
     /// What a participant says of its nodes; false when it is no such message.
@@ -122,9 +126,10 @@ impl Peers {
         let one = self.participants.entry(guid).or_insert(Participant {
             vendor,
             enclave: "/".to_owned(),
-            nodes: Vec::new(),
+            is_ros: true,
+            nodes: None,
         });
-        one.nodes = said.nodes;
+        one.nodes = Some(said.nodes);
         true
     }
 
@@ -158,11 +163,38 @@ impl Peers {
         both.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
+    /// How far discovery has come.
+    pub(crate) fn progress(&self) -> Progress {
+        // Participants with an endpoint that none of their nodes has.
+        let nodeless: BTreeSet<Guid> = self
+            .endpoints
+            .iter()
+            .filter(|(guid, end)| {
+                !self.nodes.contains_key(guid) && names::of_ros(&end.topic).is_some()
+            })
+            .map(|(_, end)| end.participant)
+            .collect();
+        let is_complete = |guid: &Guid, one: &Participant| {
+            let Some(nodes) = &one.nodes else { return false };
+            let ends = |node: &NodeEntities| {
+                let mut ends = node.readers.iter().chain(&node.writers);
+                ends.all(|end| self.endpoints.contains_key(&Guid(*end)))
+            };
+            !nodeless.contains(guid) && nodes.iter().all(ends)
+        };
+        let ros = self.participants.iter().filter(|(_, one)| one.is_ros);
+        Progress {
+            changes: self.changes,
+            participants: self.participants.len(),
+            incomplete: ros.filter(|(guid, one)| !is_complete(guid, one)).count(),
+        }
+    }
+
     /// All as plain data.
     pub(crate) fn view(&self) -> Remote {
         let mut remote = Remote::default();
         for (guid, one) in &self.participants {
-            remote.nodes.extend(one.nodes.iter().map(|node| RemoteNode {
+            remote.nodes.extend(one.nodes.iter().flatten().map(|node| RemoteNode {
                 name: node.name.clone(),
                 enclave: one.enclave.clone(),
                 vendor: one.vendor,

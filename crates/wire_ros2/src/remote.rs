@@ -14,6 +14,18 @@ pub struct Remote {
     pub services: Vec<RemoteService>,
 }
 
+/// How far discovery has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Number of participants, endpoints and nodes that came, changed or went so far.
+    pub changes: u64,
+    /// Number of participants found.
+    pub participants: usize,
+    /// Number of participants of ROS 2 that are known in part: their nodes, some endpoints, or the
+    /// nodes of some endpoints are still missing.
+    pub incomplete: usize,
+}
+
 /// A node elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemoteNode {

@@ -5,10 +5,13 @@ use periplus_diagnostics::{Diagnostics, closest};
 use periplus_resources::Host;
 use periplus_wire::environment::{self, not_used};
 
+/// Tag of participants that nobody shall find.
+const OFF_TAG: &str = "periplus_discovery_off";
+
 /// How far discovery reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Range {
-    /// Nobody is found, and nobody finds us.
+    /// Nobody is found, and nobody finds us, static peers included: as `rmw_fastrtps` has it.
     Off,
     /// This machine.
     #[default]
@@ -104,16 +107,16 @@ impl Settings {
             // Others that were named must be reached too.
             Range::Localhost if !self.peers.is_empty() => (dds::Network::Any, false, vec![here]),
             Range::Localhost => (dds::Network::Loopback, self.multicast, vec![here]),
-            Range::Subnet | Range::SystemDefault if self.multicast => {
-                (dds::Network::Any, true, Vec::new())
-            }
-            Range::Subnet | Range::SystemDefault => (dds::Network::Any, false, vec![here]),
+            // Nodes of ROS 2 in the range LOCALHOST hear no multicast.
+            Range::Subnet | Range::SystemDefault => (dds::Network::Any, self.multicast, vec![here]),
         };
         if self.range != Range::Off {
             peers.extend(self.peers.iter().cloned());
         }
+        // No announcement is sent; the tag ignores those of others that come all the same.
+        let tag = if self.range == Range::Off { OFF_TAG.to_owned() } else { String::new() };
         let more = self.cyclone.clone();
-        dds::Config { domain_id: self.domain_id, network, multicast, peers, more }
+        dds::Config { domain_id: self.domain_id, network, multicast, peers, tag, more }
     }
 }
 

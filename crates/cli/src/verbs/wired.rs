@@ -1,18 +1,21 @@
 //! The network of ROS 2, for verbs.
 
+use std::path::Path;
 use std::time::Duration;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::Graph;
 use periplus_host::Machine;
-use periplus_verbs::{Network, Seen, SeenEnd, SeenNode, SeenService, SeenTopic};
-use periplus_wire_ros2::{Remote, RemoteEndpoint, Settings, Wire};
+use periplus_resources::Host as _;
+use periplus_verbs::{Network, Progress, Seen, SeenEnd, SeenNode, SeenService, SeenTopic};
+use periplus_wire_ros2::{Remote, RemoteEndpoint, Settings, Wire, ports};
 
 /// A wire and the graph of the command.
 pub(crate) struct Wired {
     // First, so that it is left before the graph goes.
     wire: Wire,
     graph: Graph,
+    domain_id: u32,
     findings: Diagnostics,
 }
 
@@ -26,7 +29,7 @@ impl Wired {
         let wire = Wire::open(&settings).map_err(|error| error.to_string())?;
         let graph = Graph::live();
         wire.attach(&graph).map_err(|error| error.to_string())?;
-        Ok(Self { wire, graph, findings })
+        Ok(Self { wire, graph, domain_id: settings.domain_id, findings })
     }
 
     /// What was wrong so far.
@@ -44,6 +47,19 @@ impl Network for Wired {
 
     fn seen(&self) -> Seen {
         seen(&self.wire.remote())
+    }
+
+    fn progress(&self) -> Progress {
+        let progress = self.wire.progress();
+        // Linux alone has this file. Without it nobody is known to be missing.
+        let ports = Machine.read(Path::new("/proc/net/udp")).unwrap_or_default();
+        let here = ports::participants(&String::from_utf8_lossy(&ports), self.domain_id);
+        Progress {
+            changes: progress.changes,
+            incomplete: progress.incomplete,
+            // This program is one of them.
+            unanswered: here.saturating_sub(progress.participants + 1),
+        }
     }
 
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool {

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use expect_test::Expect;
 use periplus_graph::{Graph, Node, NodeSettings};
-use periplus_verbs::{InGraph, Network, Outcome, Seen, Session, Types};
+use periplus_verbs::{InGraph, Network, Outcome, Progress, Seen, Session, Types};
 
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
@@ -94,6 +94,10 @@ impl Network for Quiet {
 
     fn seen(&self) -> Seen {
         quiet(self.0.seen())
+    }
+
+    fn progress(&self) -> Progress {
+        self.0.progress()
     }
 
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool {
