@@ -1,0 +1,115 @@
+"""Real ROS 2 (rclpy on rmw_fastrtps_cpp), for the tests of the command.
+
+    rclpy_peer.py nodes COUNT PREFIX     nodes, each in a participant of its own; says `ready`
+    rclpy_peer.py call SECONDS COUNT     waits for services, calls each once and the first COUNT times;
+                                         says how long that took
+    rclpy_peer.py robot                  a node with a topic, a service, parameters and an action
+    rclpy_peer.py say TOPIC              publishes a String again and again
+    rclpy_peer.py hear TOPIC             says which String it hears first
+"""
+
+import importlib
+import sys
+import threading
+import time
+
+import rclpy
+from rclpy.action import ActionServer
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+from test_msgs.action import Fibonacci
+
+
+def trigger(_, response):
+    response.success, response.message = True, "from ros"
+    return response
+
+
+def spin(context, node):
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.spin()
+
+
+def nodes(count, prefix):
+    for number in range(int(count)):
+        context = Context()
+        rclpy.init(context=context)
+        node = rclpy.create_node(f"{prefix}{number}", context=context)
+        node.declare_parameter("number", number)
+        node.create_publisher(String, "/chatter", 10)
+        node.create_service(Trigger, "~/trigger", trigger)
+        threading.Thread(target=spin, args=(context, node), daemon=True).start()
+    print("ready", flush=True)
+    sys.stdin.readline()
+
+
+def call(seconds, count):
+    rclpy.init()
+    node = rclpy.create_node("caller")
+    end = time.monotonic() + float(seconds)
+    known = []
+    while time.monotonic() < end:
+        rclpy.spin_once(node, timeout_sec=0.05)
+        known = [one for one in node.get_service_names_and_types() if not one[0].startswith("/caller/")]
+    slowest, first = 0.0, None
+    for name, types in sorted(known):
+        package, kind, service = types[0].split("/")
+        try:
+            service = getattr(importlib.import_module(f"{package}.{kind}"), service)
+        except ModuleNotFoundError:
+            continue
+        start = time.monotonic()
+        client = node.create_client(service, name)
+        ready = client.wait_for_service(timeout_sec=5.0)
+        future = client.call_async(service.Request())
+        rclpy.spin_until_future_complete(node, future, timeout_sec=5.0)
+        print("called" if ready and future.done() else "FAILED", name, flush=True)
+        slowest = max(slowest, time.monotonic() - start)
+        first = first or (client, service)
+    for _ in range(int(count)):
+        rclpy.spin_until_future_complete(node, first[0].call_async(first[1].Request()), timeout_sec=5.0)
+    print(f"slowest {slowest * 1000:.0f}", flush=True)
+
+
+def robot():
+    rclpy.init()
+    node = rclpy.create_node("robot")
+    node.declare_parameter("speed", 0.5)
+    node.create_service(Trigger, "/trigger", trigger)
+    chatter = node.create_publisher(String, "/chatter", 10)
+    node.create_timer(0.05, lambda: chatter.publish(String(data="hello")))
+    node.create_subscription(String, "/commands", lambda heard: print("heard", heard.data, flush=True), 10)
+
+    def compute(goal):
+        sequence = [0, 1]
+        while len(sequence) <= goal.request.order:
+            sequence.append(sequence[-1] + sequence[-2])
+            goal.publish_feedback(Fibonacci.Feedback(sequence=sequence))
+        goal.succeed()
+        return Fibonacci.Result(sequence=sequence)
+
+    server = ActionServer(node, Fibonacci, "/fibonacci", compute)
+    print("ready", flush=True)
+    rclpy.spin(node)
+    server.destroy()
+
+
+def say(topic):
+    rclpy.init()
+    node = rclpy.create_node("say")
+    publisher = node.create_publisher(String, topic, 10)
+    node.create_timer(0.05, lambda: publisher.publish(String(data="hello")))
+    rclpy.spin(node)
+
+
+def hear(topic):
+    rclpy.init()
+    node = rclpy.create_node("hear")
+    node.create_subscription(String, topic, lambda heard: print("heard", heard.data, flush=True), 10)
+    rclpy.spin(node)
+
+
+{"nodes": nodes, "call": call, "robot": robot, "say": say, "hear": hear}[sys.argv[1]](*sys.argv[2:])

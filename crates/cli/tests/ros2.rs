@@ -1,0 +1,277 @@
+//! The command among real ROS 2 programs: rclpy on rmw_fastrtps_cpp, from PyPI. What is not installed is
+//! skipped, loudly.
+#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
+#![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use common::Folder;
+
+mod common;
+
+const LONG: Duration = Duration::from_secs(60);
+
+/// A domain of its own for each test.
+#[derive(Clone, Copy)]
+struct Domain(u32);
+
+fn here() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+/// The Python that has ROS.
+fn ros() -> Option<PathBuf> {
+    let python = here().join("../../target/peers/ros2/bin/python");
+    let mut asked = Command::new(&python);
+    asked.args(["-c", "import rclpy, std_srvs.srv, test_msgs.action"]).stderr(Stdio::null());
+    if asked.status().is_ok_and(|status| status.success()) {
+        return Some(python);
+    }
+    eprintln!(
+        "SKIPPED: no ROS 2 to test against; python3.12 -m venv target/peers/ros2 && \
+         target/peers/ros2/bin/pip install -r .ci/ros2.txt"
+    );
+    None
+}
+
+/// A program that runs; it is killed when this is dropped.
+struct Running {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Running {
+    fn start(command: &mut Command) -> Self {
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let (send, lines) = channel();
+        let output = BufReader::new(child.stdout.take().unwrap());
+        std::thread::spawn(move || {
+            output.lines().map_while(Result::ok).try_for_each(|line| send.send(line))
+        });
+        Self { child, lines }
+    }
+
+    /// The next line that begins so.
+    #[track_caller]
+    fn says(&self, wanted: &str) -> String {
+        let end = Instant::now() + LONG;
+        loop {
+            let rest = end.saturating_duration_since(Instant::now());
+            let line = self.lines.recv_timeout(rest);
+            let line = line.unwrap_or_else(|_| panic!("no line begins with `{wanted}`"));
+            if line.starts_with(wanted) {
+                return line;
+            }
+        }
+    }
+
+    /// Time on the processor so far, in hundredths of a second.
+    fn ticks(&self) -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).unwrap();
+        let (_, fields) = stat.rsplit_once(") ").unwrap();
+        fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap()).sum()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Domain {
+    fn set(self, mut command: Command, range: Option<&str>) -> Command {
+        command.env("ROS_DOMAIN_ID", self.0.to_string());
+        for name in ["ROS_LOCALHOST_ONLY", "ROS_STATIC_PEERS", "ROS_AUTOMATIC_DISCOVERY_RANGE"] {
+            command.env_remove(name);
+        }
+        if let Some(range) = range {
+            command.env("ROS_AUTOMATIC_DISCOVERY_RANGE", range);
+        }
+        command
+    }
+
+    fn peer(self, python: &Path, range: Option<&str>, words: &[&str]) -> Running {
+        let mut command = Command::new(python);
+        command.arg(here().join("tests/peers/rclpy_peer.py")).args(words);
+        Running::start(&mut self.set(command, range))
+    }
+
+    fn periplus(self, range: Option<&str>, words: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+        command.args(words);
+        self.set(command, range)
+    }
+
+    fn gives(self, words: &[&str]) -> String {
+        let Output { status, stdout, stderr } = self.periplus(None, words).output().unwrap();
+        let stderr = String::from_utf8_lossy(&stderr);
+        assert!(status.success(), "{words:?}: {stderr}");
+        assert!(!stderr.contains("incomplete"), "{words:?}: {stderr}");
+        String::from_utf8(stdout).unwrap()
+    }
+
+    /// A server of a small map.
+    fn map_server(self) -> (Running, Folder) {
+        let folder = Folder::new(&format!("ros2-{}", self.0));
+        std::fs::write(folder.path("map.pgm"), b"P2 2 2 255 0 254 254 0 ").unwrap();
+        let yaml = "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n\
+                    occupied_thresh: 0.65\nfree_thresh: 0.25\n";
+        let map = folder.path("map.yaml");
+        std::fs::write(&map, yaml).unwrap();
+        let map = map.to_string_lossy().into_owned();
+        (Running::start(&mut self.periplus(None, &["map", "serve", &map])), folder)
+    }
+}
+
+/// Before, each service had two writers of responses, for two vendors, and no client of rmw_fastrtps ever
+/// found one ready. After the first call a thread of the server never slept again.
+#[test]
+fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(111);
+    let (server, _folder) = domain.map_server();
+    let rests = |before: &str| {
+        let start = server.ticks();
+        std::thread::sleep(Duration::from_secs(2));
+        let used = server.ticks() - start;
+        assert!(used <= 20, "{used} of 200 ticks {before}");
+    };
+    let caller = domain.peer(&python, None, &["call", "3", "100"]);
+    let mut called = Vec::new();
+    let slowest = loop {
+        let line = caller.lines.recv_timeout(LONG).unwrap();
+        if let Some(slowest) = line.strip_prefix("slowest ") {
+            break slowest.parse::<u64>().unwrap();
+        }
+        assert!(line.starts_with("called "), "{line}");
+        called.push(line);
+    };
+    assert!(called.len() >= 10, "{called:?}");
+    assert!(called.contains(&"called /map_server/list_parameters".to_owned()), "{called:?}");
+    assert!(slowest < 1000, "the slowest took {slowest} ms");
+    drop(caller);
+    rests("after 100 calls");
+}
+
+/// Lists printed what was known after 0.7 s, and nodes of Fast DDS tell their names only when they are
+/// asked in the way of Fast DDS, or 3 s later.
+#[test]
+fn lists_name_all_nodes_of_ros() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(112);
+    let peer = domain.peer(&python, None, &["nodes", "5", "n"]);
+    peer.says("ready");
+    let all: String = (0..5).map(|number| format!("/n{number}\n")).collect();
+    for _ in 0..3 {
+        assert_eq!(domain.gives(&["node", "list"]), all);
+    }
+    let services = domain.gives(&["service", "list"]);
+    assert_eq!(services.matches("/trigger\n").count(), 5, "{services}");
+    let info = domain.gives(&["topic", "info", "-v", "/chatter"]);
+    assert_eq!(info.matches("Node name: n").count(), 5, "{info}");
+    let parameters = domain.gives(&["param", "list"]);
+    assert_eq!(parameters.matches("  number\n").count(), 5, "{parameters}");
+}
+
+#[test]
+fn verbs_work_with_a_node_of_ros() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(113);
+    let robot = domain.peer(&python, None, &["robot"]);
+    robot.says("ready");
+    assert_eq!(domain.gives(&["topic", "echo", "--once", "/chatter"]), "data: hello\n---\n");
+    domain.gives(&["topic", "pub", "--once", "/commands", "std_msgs/msg/String", "data: go"]);
+    robot.says("heard go");
+    let answer = domain.gives(&["service", "call", "/trigger", "std_srvs/srv/Trigger"]);
+    assert!(answer.contains("message='from ros'"), "{answer}");
+    assert_eq!(domain.gives(&["param", "get", "/robot", "speed"]), "Double value is: 0.5\n");
+    domain.gives(&["param", "set", "/robot", "speed", "1.5"]);
+    assert_eq!(domain.gives(&["param", "get", "/robot", "speed"]), "Double value is: 1.5\n");
+    let info = domain.gives(&["action", "info", "/fibonacci"]);
+    assert!(info.contains("Action servers: 1\n    /robot\n"), "{info}");
+    // PyPI has test_msgs of ROS, whose action is that of example_interfaces under another name.
+    let files = here().join("tests/peers/interfaces");
+    let interfaces = files.to_string_lossy();
+    let goal = domain.gives(&[
+        "action",
+        "send_goal",
+        "--interfaces",
+        &interfaces,
+        "--feedback",
+        "/fibonacci",
+        "test_msgs/action/Fibonacci",
+        "order: 5",
+    ]);
+    for part in ["Goal accepted", "sequence:\n- 0\n- 1\n- 1\n- 2\n- 3\n- 5\n", "SUCCEEDED"] {
+        assert!(goal.contains(part), "{goal}");
+    }
+}
+
+/// A node of ROS in the range LOCALHOST hears no multicast and tells addresses of this machine only.
+#[test]
+fn ranges_meet_on_one_machine() {
+    let Some(python) = ros() else { return };
+    for (number, ours, theirs) in
+        [(114, "SUBNET", "LOCALHOST"), (115, "LOCALHOST", "SUBNET"), (116, "SUBNET", "SUBNET")]
+    {
+        let domain = Domain(number);
+        let hears = domain.peer(&python, Some(theirs), &["hear", "/there"]);
+        let _says = domain.peer(&python, Some(theirs), &["say", "/back"]);
+        let words = ["topic", "pub", "-r", "20", "/there", "std_msgs/msg/String", "data: hello"];
+        let _talks = Running::start(&mut domain.periplus(Some(ours), &words));
+        let echo = ["topic", "echo", "/back", "std_msgs/msg/String"];
+        let echo = Running::start(&mut domain.periplus(Some(ours), &echo));
+        hears.says("heard hello");
+        echo.says("data: hello");
+    }
+}
+
+/// OFF means off, also towards a node that looks for others on every port of the machine.
+#[test]
+fn nobody_is_found_in_the_range_off() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(117);
+    let hears = domain.peer(&python, Some("LOCALHOST"), &["hear", "/there"]);
+    let words = ["topic", "pub", "-r", "20", "/there", "std_msgs/msg/String", "data: hello"];
+    let _talks = Running::start(&mut domain.periplus(Some("OFF"), &words));
+    assert!(hears.lines.recv_timeout(Duration::from_secs(4)).is_err());
+}
+
+/// "This machine only" holds for the ports too.
+#[test]
+#[cfg(target_os = "linux")]
+fn ports_of_this_machine_only_are_bound_to_it() {
+    let domain = Domain(118);
+    let (server, _folder) = domain.map_server();
+    let first = 7400 + 250 * domain.0;
+    let end = Instant::now() + LONG;
+    let bound = loop {
+        let udp = std::fs::read_to_string(format!("/proc/{}/net/udp", server.child.id())).unwrap();
+        let local = udp.lines().filter_map(|line| line.split_whitespace().nth(1)?.split_once(':'));
+        let bound: Vec<_> = local
+            .filter_map(|(address, port)| {
+                Some((address.to_owned(), u32::from_str_radix(port, 16).ok()?))
+            })
+            .filter(|(_, port)| (first..first + 250).contains(port))
+            .collect();
+        // Multicast, discovery and data.
+        if bound.len() >= 3 || Instant::now() > end {
+            break bound;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    assert!(bound.len() >= 3, "{bound:?}");
+    // 127.0.0.1, and for multicast the group 239.255.0.1.
+    assert!(bound.iter().all(|(at, _)| at == "0100007F" || at == "0100FFEF"), "{bound:?}");
+}
