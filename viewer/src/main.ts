@@ -2,15 +2,35 @@ import { mount } from 'svelte';
 import App from './panels/App.svelte';
 import { App as State } from './app/app.svelte';
 
+/**
+ * The token of a server. It comes once, in the address, and is then kept for this tab alone: an address
+ * bar is seen by others, copied and synchronized.
+ */
+function tokenFor(base: string): string | null {
+  const key = `token ${base}`;
+  const here = new URL(location.href);
+  const given = here.searchParams.get('token');
+  try {
+    if (given === null) return sessionStorage.getItem(key);
+    sessionStorage.setItem(key, given);
+  } catch {
+    // A page that may not store keeps it in its address, or a reload would need it again.
+    return given;
+  }
+  here.searchParams.delete('token');
+  history.replaceState(history.state, '', here);
+  return given;
+}
+
 /** Where the server is: beside the page, unless `?ws=` names another. */
 function address(): string {
   const query = new URLSearchParams(location.search);
-  const token = query.get('token');
   const base =
     query.get('ws') ??
     (import.meta.env.DEV
       ? 'ws://localhost:8765'
       : `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`);
+  const token = tokenFor(base);
   return token
     ? `${base}${base.includes('?') ? '&' : '?'}token=${encodeURIComponent(token)}`
     : base;

@@ -1,8 +1,8 @@
 //! Who may come in.
 
 use std::fmt;
-use std::net::IpAddr;
 
+use crate::authority::{is_own_origin, is_this_machine};
 use crate::http::Head;
 use crate::token;
 
@@ -62,46 +62,24 @@ impl Door {
     /// Why not.
     pub fn admit(&self, head: &Head) -> Result<(), Refused> {
         if let Some(given) = head.query("token") {
+            let given = token::decoded(given);
             return match &self.token {
-                Some(own) if token::same(own, given) => Ok(()),
+                Some(own) if token::same(own.as_bytes(), &given) => Ok(()),
                 _ => Err(Refused::WrongToken),
             };
         }
         if !self.is_loopback {
             return Err(Refused::NoToken);
         }
-        if let Some(host) = head.header("host")
-            && !is_this_machine(host_of(host))
-        {
+        // Of several, each has to be this machine's: which one counts is not for a client to choose.
+        if let Some(host) = head.headers("host").find(|host| !is_this_machine(host)) {
             return Err(Refused::ForeignHost(host.to_owned()));
         }
-        match head.header("origin") {
-            Some(origin) if !is_own_origin(origin) => {
-                Err(Refused::ForeignOrigin(origin.to_owned()))
-            }
-            _ => Ok(()),
+        match head.headers("origin").find(|origin| !is_own_origin(origin)) {
+            Some(origin) => Err(Refused::ForeignOrigin(origin.to_owned())),
+            None => Ok(()),
         }
     }
-}
-
-/// Whether a page comes from this machine, or from a program on it that shows pages: these say
-/// `file://`, while a file in a browser says `null`, as any page in a sandbox does.
-fn is_own_origin(origin: &str) -> bool {
-    let rest = origin.strip_prefix("http://").or_else(|| origin.strip_prefix("https://"));
-    origin == "file://" || rest.is_some_and(|host| is_this_machine(host_of(host)))
-}
-
-/// A host without its port and brackets.
-fn host_of(host: &str) -> &str {
-    if let Some(rest) = host.strip_prefix('[') {
-        return rest.split(']').next().unwrap_or_default();
-    }
-    host.rsplit_once(':').map_or(host, |(host, _)| host)
-}
-
-fn is_this_machine(host: &str) -> bool {
-    let is_name = host.eq_ignore_ascii_case("localhost");
-    is_name || host.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
 }
 
 #[cfg(test)]
@@ -131,6 +109,9 @@ mod tests {
             "http://127.0.0.1.example.org",
             "http://128.0.0.1",
             "ftp://localhost",
+            "http://[::1].evil.example",
+            "http://localhost:80@evil.example",
+            "http://localhost/",
             "",
         ];
         for origin in foreign {
@@ -144,6 +125,12 @@ mod tests {
         let rebound = "Host: evil.example.org:8765\r\nOrigin: http://evil.example.org:8765\r\n";
         let host = "evil.example.org:8765".to_owned();
         assert_eq!(admit(&door, "/", rebound), Err(Refused::ForeignHost(host)));
+        let host = "[::1].evil.example:8765".to_owned();
+        let rebound = format!("Host: {host}\r\n");
+        assert_eq!(admit(&door, "/", &rebound), Err(Refused::ForeignHost(host)));
+        let twice = "Host: localhost\r\nHost: evil.example\r\n";
+        let host = "evil.example".to_owned();
+        assert_eq!(admit(&door, "/", twice), Err(Refused::ForeignHost(host)));
     }
 
     #[test]
@@ -154,6 +141,9 @@ mod tests {
         assert_eq!(admit(&door, "/?token=", foreign), Err(Refused::WrongToken));
         assert_eq!(admit(&door, "/?token=Secret", foreign), Err(Refused::WrongToken));
         assert_eq!(admit(&door, "/x?a=b&token=secret", foreign), Ok(()));
+        let odd = Door { is_loopback: false, token: Some("a b+c/ü%&".into()) };
+        assert_eq!(admit(&odd, "/?token=a%20b%2bc%2F%C3%BC%25%26", foreign), Ok(()));
+        assert_eq!(admit(&odd, "/?token=a+b+c", foreign), Err(Refused::WrongToken));
         let none = Door { is_loopback: true, token: None };
         assert_eq!(admit(&none, "/?token=", "Host: localhost\r\n"), Err(Refused::WrongToken));
     }

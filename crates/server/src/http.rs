@@ -80,6 +80,11 @@ impl Head {
         self.headers.iter().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
     }
 
+    /// All headers of a name in small letters.
+    pub fn headers(&self, name: &str) -> impl Iterator<Item = &str> {
+        self.headers.iter().filter(move |(own, _)| own == name).map(|(_, value)| value.as_str())
+    }
+
     /// Whether a header that lists words has one.
     #[must_use]
     pub fn lists(&self, name: &str, word: &str) -> bool {

@@ -5,9 +5,12 @@
 //! machine is heard, and of its browsers only pages that came from it: see [`Door`].
 
 mod admit;
+mod authority;
 mod frame;
+mod guesses;
 mod http;
 mod page;
+mod patient;
 mod server;
 mod socket;
 mod token;
@@ -15,7 +18,7 @@ mod token;
 pub use admit::{Door, Refused};
 pub use http::{Head, HeadError, LONGEST_HEAD};
 pub use server::{Server, ServerSettings};
-pub use token::token;
+pub use token::{MIN_TOKEN_CHARACTERS, token};
 
 #[doc(no_inline)]
 pub use periplus_wire_live::Hub;

@@ -19,7 +19,7 @@ const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>Periplus</title
     <code>ws://127.0.0.1:8765</code>.";
 
 /// What a page may do: only what comes from this server, and pictures and workers that it makes.
-const POLICY: &str = "default-src 'self'; connect-src 'self' ws: wss: http: https: blob: data:; \
+const POLICY: &str = "default-src 'self'; connect-src 'self' blob: data:; \
     img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; font-src 'self' data:; \
     script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; frame-ancestors 'self'";
 

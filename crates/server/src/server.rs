@@ -10,7 +10,9 @@ use std::time::Duration;
 use periplus_wire_live::Hub;
 
 use crate::admit::Door;
+use crate::guesses::Guesses;
 use crate::socket;
+use crate::token::{MIN_TOKEN_CHARACTERS, encoded};
 
 /// Connections at one time: each has a thread.
 const MOST_CONNECTIONS: usize = 256;
@@ -38,6 +40,7 @@ pub struct Server {
 pub(crate) struct Room {
     pub(crate) hub: Arc<Hub>,
     pub(crate) door: Door,
+    pub(crate) guesses: Guesses,
     pub(crate) is_closing: AtomicBool,
     connections: AtomicUsize,
 }
@@ -46,7 +49,8 @@ impl Server {
     /// Begins to listen.
     ///
     /// # Errors
-    /// When the port is taken, or the address is one that others reach and there is no token.
+    /// When the port is taken, or the address is one that others reach and there is no token, or one
+    /// that could be guessed.
     pub fn open(hub: Arc<Hub>, settings: ServerSettings) -> io::Result<Self> {
         let ServerSettings { address, token } = settings;
         let is_loopback = address.ip().is_loopback();
@@ -54,12 +58,20 @@ impl Server {
             let why = format!("{address} is reached from other machines, which needs a token");
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
+        if !is_loopback && token.as_ref().is_some_and(|token| is_short(token)) {
+            let why = format!(
+                "the token is too short for {address}, which other machines reach: it needs \
+                 {MIN_TOKEN_CHARACTERS} characters or more; without `--token` one is made"
+            );
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+        }
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;
         let door = Door { is_loopback, token: token.clone() };
         let room = Arc::new(Room {
             hub,
             door,
+            guesses: Guesses::default(),
             is_closing: AtomicBool::new(false),
             connections: AtomicUsize::new(0),
         });
@@ -85,7 +97,9 @@ impl Server {
             std::net::IpAddr::V4(ip) => ip.to_string(),
         };
         match &self.token {
-            Some(token) if !ip.is_loopback() => format!("http://{host}:{port}/?token={token}"),
+            Some(token) if !ip.is_loopback() => {
+                format!("http://{host}:{port}/?token={}", encoded(token))
+            }
             _ => format!("http://{host}:{port}/"),
         }
     }
@@ -105,6 +119,10 @@ impl Drop for Server {
             let _ = thread.join();
         }
     }
+}
+
+fn is_short(token: &str) -> bool {
+    token.chars().count() < MIN_TOKEN_CHARACTERS
 }
 
 /// Who is let in counts as long as this is there.

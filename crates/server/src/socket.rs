@@ -13,16 +13,15 @@ use tungstenite::handshake::derive_accept_key;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
+use crate::admit::Refused;
 use crate::frame;
 use crate::http::{Answer, Head, HeadError, LONGEST_HEAD};
 use crate::page;
+use crate::patient::Patient;
 use crate::server::Room;
 
 /// How long a request may take to come, and a connection stay open without one.
 const PATIENCE: Duration = Duration::from_secs(15);
-
-/// Who takes nothing for so long is gone.
-const STALLED: Duration = Duration::from_secs(10);
 
 /// A client that hears nothing is asked so often whether it still lives.
 const PING: Duration = Duration::from_secs(15);
@@ -37,7 +36,6 @@ const MOST_REQUESTS: usize = 1000;
 pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
     stream.set_nodelay(true)?;
     stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(STALLED))?;
     let mut came = Vec::new();
     for _ in 0..MOST_REQUESTS {
         let head = match next_head(&mut stream, &mut came)? {
@@ -45,7 +43,7 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
             Ok(None) => return Ok(()),
             Err(error) => {
                 let answer = Answer::words("400 Bad Request", &error.to_string());
-                return stream.write_all(&answer.bytes(false, false));
+                return patient(&stream, room)?.write_all(&answer.bytes(false, false));
             }
         };
         if head.is_upgrade() {
@@ -58,12 +56,16 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
         } else {
             Answer::words("405 Method Not Allowed", "only GET and HEAD are known here")
         };
-        stream.write_all(&answer.bytes(is_head, stays))?;
+        patient(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
         if !stays {
             return Ok(());
         }
     }
     Ok(())
+}
+
+fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<Patient<'a>> {
+    Patient::new(stream, room.hub.settings().limits.stalled)
 }
 
 /// Nobody here wants one; what follows it could not be told from it.
@@ -100,10 +102,19 @@ fn next_head(
 }
 
 /// From here on it is a WebSocket, if who asks may have one.
-fn upgrade(mut stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
-    let mut refuse =
-        |status, why: &str| stream.write_all(&Answer::words(status, why).bytes(false, false));
+fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
+    let refuse = |status, why: &str| {
+        patient(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
+    };
+    let address = stream.peer_addr()?.ip();
+    if head.query("token").is_some() && room.guesses.are_too_many(address) {
+        let why = "too many wrong tokens came from this address; wait a minute";
+        return refuse("429 Too Many Requests", why);
+    }
     if let Err(refused) = room.door.admit(head) {
+        if refused == Refused::WrongToken {
+            room.guesses.add(address);
+        }
         return refuse("403 Forbidden", &refused.to_string());
     }
     let known = |name: &&&str| head.lists("sec-websocket-protocol", name);
@@ -128,7 +139,7 @@ fn upgrade(mut stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
          Sec-WebSocket-Accept: {key}\r\nSec-WebSocket-Protocol: {subprotocol}\r\n\r\n"
     );
-    stream.write_all(answer.as_bytes())?;
+    patient(&stream, room)?.write_all(answer.as_bytes())?;
     stream.set_read_timeout(None)?;
     let outbox = session.outbox().clone();
     let writing = stream.try_clone()?;
@@ -179,7 +190,8 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
 }
 
 /// Sends what waits for a client until there is no more.
-fn write(mut stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
+fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
+    let mut stream = patient(stream, room)?;
     let mut idle = Stopwatch::start();
     loop {
         if room.is_closing.load(Ordering::Acquire) {
@@ -187,7 +199,7 @@ fn write(mut stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()>
         }
         match outbox.take(LOOK) {
             Taken::Frame(frame) => {
-                send(stream, &frame)?;
+                send(&mut stream, &frame)?;
                 idle = Stopwatch::start();
             }
             Taken::Nothing if idle.elapsed() >= PING => {
@@ -208,7 +220,7 @@ fn write(mut stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()>
 }
 
 /// Sends a message without putting its parts together first.
-fn send(mut stream: &TcpStream, frame: &Frame) -> io::Result<()> {
+fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
     use periplus_wire_live::Kind;
     let [head, body] = frame.parts();
     let before = match frame.kind() {

@@ -1,5 +1,10 @@
 //! Tokens: what opens a server to others.
 
+use sha2::{Digest as _, Sha256};
+
+/// Shortest token that opens a server to other machines \[characters\]: fewer can be guessed.
+pub const MIN_TOKEN_CHARACTERS: usize = 16;
+
 /// A new one, that nobody can guess: 128 bits as 32 hexadecimal digits.
 ///
 /// # Errors
@@ -10,10 +15,43 @@ pub fn token() -> Result<String, String> {
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// Whether two are the same, in a time that does not tell where they differ.
-pub(crate) fn same(one: &str, other: &str) -> bool {
-    let differences = one.bytes().zip(other.bytes()).fold(0, |sum, (a, b)| sum | (a ^ b));
-    one.len() == other.len() && differences == 0
+/// Whether two are the same. Sums of equal length are compared, all of them, so that the time tells
+/// neither where they differ nor how long the token is.
+pub(crate) fn same(one: &[u8], other: &[u8]) -> bool {
+    let (one, other) = (Sha256::digest(one), Sha256::digest(other));
+    one.iter().zip(&other).fold(0, |sum, (a, b)| sum | (a ^ b)) == 0
+}
+
+/// A token as it is written in an address: all but letters, digits and `-._~` percent-encoded
+/// (RFC 3986, section 2.1).
+pub(crate) fn encoded(token: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
+    let written = token.bytes().map(|byte| {
+        if is_plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") }
+    });
+    written.collect()
+}
+
+/// The bytes that a percent-encoded text stands for. A `%` without two digits stands for itself.
+pub(crate) fn decoded(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, after @ ..] = rest {
+        let digit = |place: usize| after.get(place).and_then(|byte| char::from(*byte).to_digit(16));
+        let byte =
+            digit(0).zip(digit(1)).and_then(|(high, low)| u8::try_from(16 * high + low).ok());
+        match byte.filter(|_| *first == b'%') {
+            Some(byte) => {
+                bytes.push(byte);
+                rest = &after[2..];
+            }
+            None => {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+    }
+    bytes
 }
 
 #[cfg(test)]
@@ -24,7 +62,18 @@ mod tests {
     fn each_is_another() {
         let (one, other) = (token().expect("a token"), token().expect("a token"));
         assert_eq!(one.len(), 32);
-        assert!(same(&one, &one.clone()));
-        assert!(!same(&one, &other) && !same(&one, "") && !same(&one, &one[..31]));
+        let (one, other) = (one.as_bytes(), other.as_bytes());
+        assert!(same(one, one));
+        assert!(!same(one, other) && !same(one, b"") && !same(one, &one[..31]));
+    }
+
+    #[test]
+    fn odd_characters_survive_an_address() {
+        for token in ["plain-._~", "a b+c/ü%&=#?", "%", "%zz", "%4", "日本"] {
+            let address = encoded(token);
+            assert!(address.is_ascii() && !address.contains(['&', '#', ' ', '+', '?', '=']));
+            assert_eq!(decoded(&address), token.as_bytes(), "{address}");
+        }
+        assert_eq!(decoded("%zz%4%"), b"%zz%4%");
     }
 }

@@ -15,6 +15,8 @@ use tungstenite::client::IntoClientRequest as _;
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Error, Message, WebSocket};
 
+const TOKEN: &str = "a secret of 25 characters";
+const TOKEN_IN_ADDRESS: &str = "a%20secret%20of%2025%20characters";
 const LONG: Duration = Duration::from_secs(20);
 
 struct Place {
@@ -37,7 +39,7 @@ impl Place {
     }
 
     fn usual() -> Self {
-        Self::open(Some("secret"), Limits::default())
+        Self::open(Some(TOKEN), Limits::default())
     }
 
     fn address(&self) -> SocketAddr {
@@ -92,6 +94,19 @@ impl Place {
     }
 }
 
+/// The channel of a topic, once it is announced.
+fn channel_of(socket: &mut WebSocket<MaybeTlsStream<TcpStream>>, topic: &str) -> serde_json::Value {
+    loop {
+        let message = socket.read().unwrap();
+        let text: serde_json::Value =
+            serde_json::from_str(message.to_text().unwrap_or("{}")).unwrap_or_default();
+        let channels = text["channels"].as_array().cloned().unwrap_or_default();
+        if let Some(found) = channels.iter().find(|one| one["topic"] == topic) {
+            return found["id"].clone();
+        }
+    }
+}
+
 /// Waits until something holds.
 #[track_caller]
 fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
@@ -110,7 +125,93 @@ fn foreign_pages_and_wrong_tokens_stay_out() {
     assert_eq!(place.ask("/", Some("https://example.org")), 403);
     assert_eq!(place.ask("/", Some("null")), 403);
     assert_eq!(place.ask("/?token=wrong", None), 403);
-    assert_eq!(place.ask("/?token=secret", Some("https://example.org")), 101);
+    let right = format!("/?token={TOKEN_IN_ADDRESS}");
+    assert_eq!(place.ask(&right, Some("https://example.org")), 101);
+    for lax in
+        ["http://[::1].evil.example", "http://localhost:80@evil.example", "http://localhost/"]
+    {
+        assert_eq!(place.ask("/", Some(lax)), 403, "{lax}");
+    }
+}
+
+#[test]
+fn hosts_are_read_strictly() {
+    let place = Place::usual();
+    let ask = |hosts: &str| {
+        let text = format!(
+            "GET / HTTP/1.1\r\n{hosts}Connection: Upgrade\r\nUpgrade: websocket\r\n\
+             Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+             Sec-WebSocket-Protocol: chat\r\n\r\n"
+        );
+        place.send(text.as_bytes())[9..12].to_owned()
+    };
+    // Who is let in is told that there is no such subprotocol.
+    assert_eq!(ask("Host: localhost:8765\r\n"), "400");
+    assert_eq!(ask("Host: [::1].evil.example\r\n"), "403");
+    assert_eq!(ask("Host: [::1]evil\r\n"), "403");
+    assert_eq!(ask("Host: localhost\r\nHost: evil.example\r\n"), "403");
+}
+
+#[test]
+fn tokens_cannot_be_tried_out() {
+    let place = Place::usual();
+    let wrong = (0..30).map(|n| place.ask(&format!("/?token=wrong{n}"), None));
+    let answers: Vec<u16> = wrong.collect();
+    assert_eq!(answers[..10], [403; 10]);
+    assert_eq!(answers[10..], [429; 20]);
+    // Programs on this machine need no token and still come in.
+    place.is_well();
+}
+
+#[test]
+fn a_token_that_could_be_guessed_does_not_open_it_to_others() {
+    let graph = Graph::live();
+    let hub = Arc::new(Hub::open(&graph, Settings::default()).unwrap());
+    let open = |address: &str, token: &str| {
+        let address = address.parse().unwrap();
+        Server::open(hub.clone(), ServerSettings { address, token: Some(token.into()) })
+    };
+    let error = open("0.0.0.0:0", "a").unwrap_err().to_string();
+    assert!(error.contains("too short") && error.contains("16 characters"), "{error}");
+    assert!(open("0.0.0.0:0", "fifteen letters").is_err());
+    assert!(open("127.0.0.1:0", "a").is_ok());
+    let odd = open("0.0.0.0:0", "sixteen & more ü#?").unwrap();
+    assert!(odd.url().ends_with("/?token=sixteen%20%26%20more%20%C3%BC%23%3F"), "{}", odd.url());
+}
+
+#[test]
+fn the_page_connects_to_its_own_server_only() {
+    let place = Place::usual();
+    let answer = place.send(b"GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
+    let policy = answer.lines().find(|line| line.starts_with("Content-Security-Policy:")).unwrap();
+    let connect = policy.split(';').find(|part| part.contains("connect-src")).unwrap();
+    assert_eq!(connect.trim(), "connect-src 'self' blob: data:");
+}
+
+#[test]
+fn a_client_that_never_reads_is_disconnected_in_time() {
+    let stalled = Duration::from_secs(2);
+    let place = Place::open(None, Limits { stalled, ..Limits::default() });
+    let node = place.graph.node(NodeSettings::new("camera")).unwrap();
+    let pictures: Publisher<UInt8MultiArray> =
+        node.publisher("/pictures", Qos::sensor_data()).unwrap();
+    let mut socket = place.connect("/", None).unwrap();
+    let channel = channel_of(&mut socket, "/pictures");
+    let wanted = serde_json::json!({"op": "subscribe", "subscriptions": [
+        {"id": 1, "channelId": channel},
+    ]});
+    socket.send(Message::text(wanted.to_string())).unwrap();
+    eventually("it is heard", || pictures.is_heard());
+    let start = Instant::now();
+    while place.hub.clients() > 0 {
+        let data = vec![0; 1 << 20];
+        pictures.publish(UInt8MultiArray { data, ..UInt8MultiArray::default() });
+        std::thread::sleep(Duration::from_millis(20));
+        assert!(start.elapsed() < LONG, "it is still there");
+    }
+    let (least, most) = (stalled, stalled + Duration::from_millis(1500));
+    let after = start.elapsed();
+    assert!(least <= after && after < most, "disconnected after {after:?} instead of {stalled:?}");
 }
 
 #[test]
@@ -122,8 +223,9 @@ fn an_address_that_others_reach_needs_a_token() {
         Server::open(hub.clone(), ServerSettings { address, token: token.map(Into::into) })
     };
     assert!(open(None).is_err() && open(Some("")).is_err());
-    let server = open(Some("secret")).unwrap();
-    assert!(server.url().ends_with("/?token=secret"), "{}", server.url());
+    let server = open(Some(TOKEN)).unwrap();
+    let right = format!("/?token={TOKEN_IN_ADDRESS}");
+    assert!(server.url().ends_with(&right), "{}", server.url());
     let port = server.address().port();
     let place = Place { graph, server, hub };
     let ask = |target: &str| {
@@ -139,7 +241,7 @@ fn an_address_that_others_reach_needs_a_token() {
         String::from_utf8_lossy(&answer).into_owned()
     };
     assert_eq!(ask("/"), "HTTP/1.1 403");
-    assert_eq!(ask("/?token=secret"), "HTTP/1.1 101");
+    assert_eq!(ask(&right), "HTTP/1.1 101");
     drop(place);
 }
 

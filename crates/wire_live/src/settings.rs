@@ -1,6 +1,7 @@
 //! What a hub is told.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// What a hub says of itself, and how much it lets clients do.
 #[derive(Clone, Debug, Default)]
@@ -29,10 +30,19 @@ pub struct Limits {
     pub waiting: usize,
     /// Messages of one client per second, in the long run.
     pub rate_hz: f64,
+    /// A client that reads nothing for this long is disconnected.
+    pub stalled: Duration,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { clients: 32, message: 32 << 20, entries: 4096, waiting: 256 << 20, rate_hz: 2_000.0 }
+        Self {
+            clients: 32,
+            message: 32 << 20,
+            entries: 4096,
+            waiting: 256 << 20,
+            rate_hz: 2_000.0,
+            stalled: Duration::from_secs(10),
+        }
     }
 }
