@@ -16,6 +16,7 @@ mod hub;
 mod outbox;
 mod outgoing;
 pub mod protocol;
+mod recent_frames;
 mod session;
 mod settings;
 

@@ -4,12 +4,13 @@ use std::time::Duration;
 
 use periplus_graph::{Durability, Graph, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::Message;
-use periplus_msgs::geometry_msgs::Twist;
+use periplus_msgs::geometry_msgs::{TransformStamped, Twist};
 use periplus_msgs::map_msgs::OccupancyGridUpdate;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
+use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_wire_live::{
     Far, FarEnd, FarTopic, Frame, Hub, Kind, Limits, Session, Settings, Taken,
 };
@@ -95,6 +96,38 @@ impl Client {
         let one = json!({"id": id, "channelId": channel["id"]});
         self.say(&json!({"op": "subscribe", "subscriptions": [one]}));
     }
+}
+
+fn transform(child: &str, second: i64) -> TFMessage {
+    let header = std_msgs::Header::at(second * 1_000_000_000, "odom");
+    let one = TransformStamped { header, child_frame_id: child.into(), ..Default::default() };
+    TFMessage { transforms: vec![one] }
+}
+
+#[test]
+fn who_comes_while_time_stands_still_gets_the_newest_transforms() {
+    let graph = Graph::new();
+    let (wheels, arm) = (node(&graph, "wheels"), node(&graph, "arm"));
+    let wheels: Publisher<TFMessage> = wheels.publisher("/tf", Qos::reliable(10)).expect("a topic");
+    let arm: Publisher<TFMessage> = arm.publisher("/tf", Qos::reliable(10)).expect("a topic");
+    let hub = open(&graph);
+    for second in 1..=3 {
+        wheels.publish(transform("base_link", second));
+    }
+    arm.publish(transform("hand", 2));
+    // Nobody was there, and nothing more is published.
+    let mut client = Client::join(&hub);
+    let told = client.hears("advertise");
+    client.subscribe(5, &told, "/tf");
+    let mut newest = Vec::new();
+    for _ in 0..2 {
+        let (id, message) = client.message::<TFMessage>();
+        assert_eq!(id, 5);
+        let one = message.transforms.last().expect("a transform");
+        newest.push((one.child_frame_id.clone(), one.header.stamp.sec));
+    }
+    newest.sort();
+    assert_eq!(newest, [("base_link".to_owned(), 3), ("hand".to_owned(), 2)]);
 }
 
 fn scan(number: f32) -> LaserScan {

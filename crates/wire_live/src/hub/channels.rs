@@ -62,7 +62,7 @@ impl State {
         for topic in &topics {
             for end in &topic.publishers {
                 if !gone.remove(&end.id) {
-                    let way = Arc::new(Outgoing::new(&end.qos));
+                    let way = Arc::new(Outgoing::new(&topic.name, &end.qos));
                     self.hearers_of(&topic.name).into_iter().for_each(|one| way.add(one));
                     self.ways.insert(end.id, (topic.name.clone(), way));
                 }
