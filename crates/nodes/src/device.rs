@@ -1,5 +1,6 @@
 //! What acts and measures.
 
+use periplus_base::Pose;
 use periplus_dynamics::{LinkId, World};
 use periplus_optics::{Geometry, PartId, Surroundings};
 
@@ -43,6 +44,15 @@ pub trait Device: Send {
     /// After a step: measures and publishes what is due.
     fn sense(&mut self, _moment: &mut Moment<'_>) {}
 
+    /// While time stands still: measures once for subscribers that came after the last measurement.
+    /// Nothing is published to others a second time.
+    fn sense_paused(&mut self, _moment: &mut Moment<'_>) {}
+
+    /// Mounting poses of the sensor data that it publishes.
+    fn mounts(&self) -> Vec<SensorMount> {
+        Vec::new()
+    }
+
     /// When it next has something to do without being told \[ns\]. Where motion needs no small
     /// steps, time goes straight to the first of these.
     fn next_ns(&self) -> Option<i64> {
@@ -51,6 +61,19 @@ pub trait Device: Send {
 
     /// Starts again at this time \[ns\], as after its making.
     fn reset(&mut self, time_ns: i64);
+}
+
+/// Mounting pose of the data on one topic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorMount {
+    /// Full name of the topic.
+    pub topic: String,
+    /// Frame in the headers of its messages.
+    pub frame_id: String,
+    /// The link that carries the sensor.
+    pub link: LinkId,
+    /// Pose of the data in that link.
+    pub link_from_data: Pose,
 }
 
 /// The world at the end of a step, as devices see it.

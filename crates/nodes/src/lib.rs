@@ -14,7 +14,7 @@ pub mod states;
 mod views;
 
 pub use build::{devices, world_devices};
-pub use device::{Device, Moment, Span};
+pub use device::{Device, Moment, SensorMount, Span};
 pub use naming::{gz_topic, node_of, plain_node, publisher_qos, subscription_qos};
 pub use setting::Setting;
 pub use views::Views;

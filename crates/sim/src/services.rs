@@ -131,7 +131,7 @@ impl Services {
     ) -> Result<(), GraphError> {
         let folders = self.search.folders.iter().cloned().chain(folders).collect();
         self.stage = Some(Stage::new(&self.log.node, &simulation.scene.name, folders)?);
-        Ok(())
+        self.metrics.offer()
     }
 
     /// Offers the world to programs of Gazebo, with Gazebo's own messages; the desk is where they ask.
@@ -214,6 +214,9 @@ impl Services {
         if self.tempo.may_step() {
             self.forces.push(simulation);
         } else {
+            if self.stage.is_some() {
+                simulation.sense_paused();
+            }
             // Who waits for an answer hears it though time stands still.
             simulation.graph().settle();
         }

@@ -10,7 +10,7 @@ use periplus_dynamics::{Diverged, Mode, ModelId};
 use periplus_graph::{Arguments, Graph, Node, NodeSettings};
 use periplus_host::Stopwatch;
 use periplus_nodes::states::ClockPublisher;
-use periplus_nodes::{Device, Moment, Setting, Span, Views};
+use periplus_nodes::{Device, Moment, SensorMount, Setting, Span, Views};
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 
@@ -391,6 +391,29 @@ impl Simulation {
         self.collect_findings();
         self.shares.lap(Work::Sensing, &mut stopwatch);
         Ok(())
+    }
+
+    /// Measures once for subscribers that came while time stands still.
+    pub(crate) fn sense_paused(&mut self) {
+        let mut moment = Moment {
+            span: Span { start_ns: self.time_ns, length_ns: 0 },
+            world: &self.motion,
+            views: &mut self.views,
+            threads: self.options.threads,
+        };
+        for device in all(&mut self.world_devices, &mut self.running) {
+            device.sense_paused(&mut moment);
+        }
+        self.collect_findings();
+    }
+
+    /// Mounting poses of the sensors' data, with the name of the model of each.
+    pub(crate) fn sensor_mounts(&self) -> impl Iterator<Item = (&str, SensorMount)> {
+        self.running.iter().flat_map(|running| {
+            let name = running.member.name.as_str();
+            let mounts = running.devices.iter().flat_map(|device| device.mounts());
+            mounts.map(move |mount| (name, mount))
+        })
     }
 
     /// One step of the world's size; where motion is exact for any step, straight to the time at

@@ -527,6 +527,78 @@ fn who_draws_the_world_is_told_what_is_in_it_and_where() {
 }
 
 #[test]
+fn poses_of_sensors_are_told_by_topic_and_by_frame() {
+    let mut lab = Lab::new();
+    lab.services.show(&lab.simulation, Vec::new()).unwrap();
+    let sensors = lab.node.mailbox::<TFMessage>("/world/lab/sensors", Qos::latched(1)).unwrap();
+    lab.run(1);
+    let told = sensors.latest().expect("sensors");
+    let names: Vec<(&str, &str)> = told
+        .transforms
+        .iter()
+        .map(|one| (one.header.frame_id.as_str(), one.child_frame_id.as_str()))
+        .collect();
+    let of = "eye/head";
+    assert_eq!(names, [(of, "/scan"), (of, "head"), (of, "/scan/points")]);
+    // Another one comes, half a metre ahead of its link.
+    let posed = "<sensor name=\"nose\" type=\"lidar\"><pose>0.5 0 0 0 0 0</pose><topic>nose</topic>\
+        <gz_frame_id>nose_frame</gz_frame_id><lidar><scan><horizontal><samples>2</samples>\
+        <min_angle>0</min_angle><max_angle>1</max_angle></horizontal></scan>\
+        <range><min>0.1</min><max>9</max></range></lidar></sensor></link>";
+    assert!(lab.spawn("box", &BOX.replace("</link>", posed), "", [1.0, 2.0, 0.5]).0);
+    lab.run(1);
+    let told = sensors.latest().expect("more sensors");
+    for name in ["/nose", "nose_frame"] {
+        let one = told.transforms.iter().find(|one| one.child_frame_id == name).expect(name);
+        assert_eq!(one.header.frame_id, "box/link");
+        assert_eq!(one.transform.translation.x, 0.5);
+    }
+}
+
+#[test]
+fn statistics_are_among_the_topics_of_a_world_that_is_shown() {
+    let mut lab = Lab::new();
+    let has_stats = |lab: &Lab| {
+        let mut topics = lab.simulation.graph().topics().into_iter();
+        topics.any(|topic| topic.name == "/world/lab/stats" && !topic.publishers.is_empty())
+    };
+    assert!(!has_stats(&lab));
+    lab.services.show(&lab.simulation, Vec::new()).unwrap();
+    assert!(has_stats(&lab));
+    let stats = lab.node.mailbox::<WorldStatistics>("/world/lab/stats", Qos::reliable(10)).unwrap();
+    lab.services.set_paused(true);
+    std::thread::sleep(std::time::Duration::from_millis(110));
+    lab.run(1);
+    assert!(stats.latest().expect("statistics").paused);
+    drop(stats);
+    std::thread::sleep(std::time::Duration::from_millis(110));
+    lab.run(1);
+    assert!(has_stats(&lab), "it stays when nobody subscribes");
+}
+
+#[test]
+fn who_subscribes_while_time_stands_still_gets_one_measurement() {
+    let mut lab = Lab::new();
+    lab.services.show(&lab.simulation, Vec::new()).unwrap();
+    lab.scans = lab.node.mailbox("/unused", Qos::sensor_data()).unwrap();
+    lab.run(25);
+    lab.services.set_paused(true);
+    lab.run(3);
+    let late = lab.node.mailbox::<LaserScan>("/scan", Qos::sensor_data()).unwrap();
+    lab.run(3);
+    let scans = late.drain();
+    assert_eq!(scans.len(), 1, "one, not one for each look");
+    assert_eq!(scans[0].header.stamp.ns(), lab.simulation.time_ns());
+    // A second one finds it measured already: the first is not told twice.
+    let _other = lab.node.mailbox::<LaserScan>("/scan", Qos::sensor_data()).unwrap();
+    lab.run(3);
+    assert!(late.drain().is_empty());
+    lab.services.set_paused(false);
+    lab.run(20);
+    assert_eq!(late.drain().len(), 2, "it goes on at its rate");
+}
+
+#[test]
 fn a_world_that_is_saved_can_be_loaded_again() {
     let mut lab = Lab::new();
     lab.services.show(&lab.simulation, Vec::new()).unwrap();

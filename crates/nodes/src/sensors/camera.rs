@@ -16,7 +16,7 @@ use periplus_sensors::{ImageNoise, Pinhole, Streams};
 use self::outs::{Out, outs};
 use super::port::Style;
 use super::{Failed, Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use crate::{Device, Moment, SensorMount};
 
 /// One camera, or several in one sensor.
 struct CameraDevice {
@@ -24,6 +24,10 @@ struct CameraDevice {
     timer: Timer,
     eyes: Vec<Eye>,
     trigger: Option<Trigger>,
+    /// Number of the last measurement that was due.
+    last_tick: u64,
+    /// Whether it had subscribers then.
+    was_heard: bool,
 }
 
 /// What one camera sees and to whom it tells.
@@ -80,6 +84,8 @@ pub(super) fn device(order: Order<'_, '_>, spec: &Camera, diagnostics: &mut Diag
         mount: order.mount,
         eyes,
         trigger,
+        last_tick: 0,
+        was_heard: false,
     }))
 }
 
@@ -152,6 +158,47 @@ impl Device for CameraDevice {
         if self.trigger.as_ref().is_some_and(|trigger| !trigger.is_pulled()) {
             return;
         }
+        self.last_tick = tick.number;
+        self.was_heard = self.is_heard();
+        self.measure(moment, tick.number);
+    }
+
+    fn sense_paused(&mut self, moment: &mut Moment<'_>) {
+        let is_heard = self.is_heard();
+        let had_subscribers = std::mem::replace(&mut self.was_heard, is_heard);
+        if is_heard && !had_subscribers && self.trigger.is_none() {
+            self.measure(moment, self.last_tick);
+        }
+    }
+
+    fn mounts(&self) -> Vec<SensorMount> {
+        let link = self.mount.link;
+        let of = |eye: &Eye, out: &Out| {
+            let (topic, frame_id, camera_from_points) = out.points()?;
+            let link_from_camera = self.mount.link_from_sensor() * eye.sensor_from_camera;
+            let link_from_data = link_from_camera * camera_from_points;
+            Some(SensorMount { topic, frame_id, link, link_from_data })
+        };
+        let of_eye = |eye: &Eye| eye.outs.iter().filter_map(|out| of(eye, out)).collect::<Vec<_>>();
+        self.eyes.iter().flat_map(of_eye).collect()
+    }
+
+    fn next_ns(&self) -> Option<i64> {
+        self.timer.next_ns().filter(|_| self.is_heard())
+    }
+
+    fn reset(&mut self, time_ns: i64) {
+        self.timer.reset(time_ns);
+    }
+}
+
+impl CameraDevice {
+    fn is_heard(&self) -> bool {
+        self.eyes.iter().any(|eye| eye.outs.iter().any(Out::is_heard))
+    }
+
+    fn measure(&mut self, moment: &mut Moment<'_>, tick: u64) {
+        let time_ns = moment.time_ns();
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let threads = moment.threads;
         for eye in &mut self.eyes {
@@ -168,21 +215,12 @@ impl Device for CameraDevice {
                     threads,
                 };
                 moment.seen(Geometry::Visual).take(&shot, &mut eye.picture);
-                eye.spoil(&mut eye.streams.tick(tick.number));
+                eye.spoil(&mut eye.streams.tick(tick));
             }
             for out in &eye.outs {
                 out.publish(&eye.picture, &eye.pinhole, time_ns);
             }
         }
-    }
-
-    fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.eyes.iter().any(|eye| eye.outs.iter().any(Out::is_heard));
-        self.timer.next_ns().filter(|_| is_heard)
-    }
-
-    fn reset(&mut self, time_ns: i64) {
-        self.timer.reset(time_ns);
     }
 }
 

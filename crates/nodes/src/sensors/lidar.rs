@@ -12,7 +12,7 @@ use periplus_plugins::Interpreted;
 use periplus_sensors::{Lidar, Schedule, Streams, Sweep, View};
 
 use super::post::Post;
-use crate::{Device, Moment, node_of, plain_node, publisher_qos};
+use crate::{Device, Moment, SensorMount, node_of, plain_node, publisher_qos};
 use message::Told;
 
 /// Most poses of a moving lidar that are kept for one scan.
@@ -44,6 +44,15 @@ impl Channel {
             Self::Range(publisher) => publisher.is_heard(),
         }
     }
+
+    fn topic(&self) -> &str {
+        match self {
+            Self::Scan(publisher) | Self::Rows(publisher) => publisher.topic(),
+            Self::Points(publisher) | Self::Rings(publisher) => publisher.topic(),
+            Self::OldPoints(publisher) => publisher.topic(),
+            Self::Range(publisher) => publisher.topic(),
+        }
+    }
 }
 
 struct LidarDevice {
@@ -56,6 +65,10 @@ struct LidarDevice {
     geometry: Geometry,
     visibility_mask: u32,
     outputs: Vec<Output>,
+    /// Number of the last measurement that was due.
+    last_tick: u64,
+    /// Whether it had subscribers then.
+    was_heard: bool,
     /// Where the sensor was at the ends of the steps of this scan, if that is wanted.
     track: Option<Vec<(i64, Pose)>>,
     rebuild: Box<dyn Fn(i64) -> Schedule + Send>,
@@ -118,6 +131,8 @@ pub(super) fn build(
         },
         visibility_mask: spec.visibility_mask,
         outputs,
+        last_tick: 0,
+        was_heard: false,
         track: post.setting.rolling_scans.then(Vec::new),
         rebuild: Box::new(move |time_ns| Schedule::new(rate_hz, time_ns, quirks)),
     }))
@@ -226,7 +241,9 @@ impl Device for LidarDevice {
             track.push((now_ns, world_from_sensor));
         }
         let Some(tick) = self.schedule.due(now_ns) else { return };
-        if self.outputs.iter().any(|output| output.to.is_heard()) {
+        self.last_tick = tick;
+        self.was_heard = self.is_heard();
+        if self.was_heard {
             self.measure(moment, tick, world_from_sensor);
         }
         if let Some(track) = &mut self.track {
@@ -235,9 +252,28 @@ impl Device for LidarDevice {
         }
     }
 
+    fn sense_paused(&mut self, moment: &mut Moment<'_>) {
+        let is_heard = self.is_heard();
+        let had_subscribers = std::mem::replace(&mut self.was_heard, is_heard);
+        let state = moment.world.link_state(self.link);
+        if let Some(state) = state.filter(|_| is_heard && !had_subscribers) {
+            let world_from_sensor = state.world_from_link * self.link_from_sensor;
+            self.measure(moment, self.last_tick, world_from_sensor);
+        }
+    }
+
+    fn mounts(&self) -> Vec<SensorMount> {
+        let of = |output: &Output| SensorMount {
+            topic: output.to.topic().to_owned(),
+            frame_id: output.told.frame_id.clone(),
+            link: self.link,
+            link_from_data: self.link_from_sensor,
+        };
+        self.outputs.iter().map(of).collect()
+    }
+
     fn next_ns(&self) -> Option<i64> {
-        let heard = self.outputs.iter().any(|output| output.to.is_heard());
-        self.schedule.next_ns().filter(|_| heard)
+        self.schedule.next_ns().filter(|_| self.is_heard())
     }
 
     fn reset(&mut self, time_ns: i64) {
@@ -250,6 +286,10 @@ impl Device for LidarDevice {
 }
 
 impl LidarDevice {
+    fn is_heard(&self) -> bool {
+        self.outputs.iter().any(|output| output.to.is_heard())
+    }
+
     fn measure(&mut self, moment: &mut Moment<'_>, tick: u64, world_from_sensor: Pose) {
         let now_ns = moment.time_ns();
         let part = moment.part(self.geometry, self.link);

@@ -31,6 +31,11 @@ impl Mount {
         Some(Motion::on_link(&world.link_state(self.link)?, self.link_from_sensor))
     }
 
+    /// Its pose in its link.
+    pub(super) fn link_from_sensor(&self) -> Pose {
+        self.link_from_sensor
+    }
+
     pub(super) fn streams(&self) -> &Streams {
         &self.streams
     }

@@ -43,6 +43,15 @@ impl Metrics {
         }
     }
 
+    /// Offers the statistics of the world also while nobody subscribes: programs that show the world
+    /// find them among its topics.
+    ///
+    /// # Errors
+    /// When a topic of this name has another type.
+    pub(super) fn offer(&mut self) -> Result<(), GraphError> {
+        self.harmonic.keep(&self.node)
+    }
+
     /// A step was taken.
     pub(super) fn count_step(&mut self) {
         self.iterations += 1;

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `/world/<world>/scene` | `visualization_msgs/MarkerArray`, latched | every visual, after a marker that deletes all |
 //! | `/world/<world>/poses` | `tf2_msgs/TFMessage` | models and links in the frame `world`, 30 times a second |
+//! | `/world/<world>/sensors` | `tf2_msgs/TFMessage`, latched | mounting poses of the sensors, by topic and by frame |
 //! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | how well maps agree with the world, now and then |
 //! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
 //! | `/world/<world>/library` | `std_srvs/Trigger` | models that could be put into it, as JSON |
@@ -19,6 +20,7 @@ mod truth;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use periplus_base::Pose;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_host::Stopwatch;
 use periplus_msgs::geometry_msgs::{Transform, TransformStamped};
@@ -43,6 +45,7 @@ const WORLD: &str = "world";
 pub(super) struct Stage {
     scene: Publisher<MarkerArray>,
     poses: Publisher<TFMessage>,
+    sensors: Publisher<TFMessage>,
     truth: Truth,
     save: Offer<Trigger>,
     library: Offer<Trigger>,
@@ -59,6 +62,7 @@ impl Stage {
         Ok(Self {
             scene: node.publisher(&name("scene"), Qos::latched(1))?,
             poses: node.publisher(&name("poses"), Qos::best_effort(1))?,
+            sensors: node.publisher(&name("sensors"), Qos::latched(1))?,
             truth: Truth::new(node, &name("truth"))?,
             save: Offer::new(node, [name("save").as_str()])?,
             library: Offer::new(node, [name("library").as_str()])?,
@@ -81,6 +85,7 @@ impl Stage {
         let changes = simulation.changes();
         if self.told.replace(changes) != Some(changes) {
             self.scene.publish(markers::of(simulation));
+            self.sensors.publish(sensors(simulation));
         }
         let is_due = self.since.as_ref().is_none_or(|since| since.elapsed() >= PERIOD);
         if is_due && self.poses.is_heard() {
@@ -91,16 +96,35 @@ impl Stage {
     }
 }
 
+fn transform(header: &Header, child_frame_id: String, pose: Pose) -> TransformStamped {
+    let translation = vector_message(pose.translation);
+    let rotation = pose_message(pose).orientation;
+    let transform = Transform { translation, rotation };
+    TransformStamped { header: header.clone(), child_frame_id, transform }
+}
+
+/// Mounting poses of the sensors' data in `<model>/<link>`. Each is there by its topic, and by the
+/// frame of its messages, for bridges that publish them under another name; of two with one frame the
+/// first counts.
+fn sensors(simulation: &Simulation) -> TFMessage {
+    let mut transforms: Vec<TransformStamped> = Vec::new();
+    for (model, mount) in simulation.sensor_mounts() {
+        let Some(link) = simulation.motion.link_name(mount.link) else { continue };
+        let header = Header::at(simulation.time_ns(), &format!("{model}/{link}"));
+        let is_known = transforms.iter().any(|one| one.child_frame_id == mount.frame_id);
+        transforms.push(transform(&header, mount.topic, mount.link_from_data));
+        if !is_known {
+            transforms.push(transform(&header, mount.frame_id, mount.link_from_data));
+        }
+    }
+    TFMessage { transforms }
+}
+
 /// Where all models and links are.
 fn poses(simulation: &Simulation) -> TFMessage {
     let header = Header::at(simulation.time_ns(), WORLD);
     let mut transforms = Vec::new();
-    let mut put = |child_frame_id: String, pose: periplus_base::Pose| {
-        let translation = vector_message(pose.translation);
-        let rotation = pose_message(pose).orientation;
-        let transform = Transform { translation, rotation };
-        transforms.push(TransformStamped { header: header.clone(), child_frame_id, transform });
-    };
+    let mut put = |child: String, pose: Pose| transforms.push(transform(&header, child, pose));
     let motion = &simulation.motion;
     for running in &simulation.running {
         let name = &running.member.name;

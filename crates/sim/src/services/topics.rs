@@ -20,18 +20,27 @@ const LOOK_PERIOD_NS: i64 = 100_000_000;
 pub(super) struct OnDemand<T> {
     name: String,
     publisher: Option<Publisher<T>>,
+    /// Whether it is offered without a subscriber too.
+    is_kept: bool,
 }
 
 impl<T: Message> OnDemand<T> {
     pub(super) fn new(name: impl Into<String>) -> Self {
-        Self { name: name.into(), publisher: None }
+        Self { name: name.into(), publisher: None, is_kept: false }
+    }
+
+    /// Offers it from now on, subscribed to or not.
+    pub(super) fn keep(&mut self, node: &Node) -> Result<(), GraphError> {
+        self.is_kept = true;
+        let wanted = [self.name.clone()];
+        self.look(node, &wanted)
     }
 
     /// Comes or goes, by the names of the topics that are subscribed to.
     pub(super) fn look(&mut self, node: &Node, wanted: &[String]) -> Result<(), GraphError> {
         match (&self.publisher, wanted.contains(&self.name)) {
             (None, true) => self.publisher = Some(node.publisher(&self.name, Qos::reliable(1))?),
-            (Some(_), false) => self.publisher = None,
+            (Some(_), false) if !self.is_kept => self.publisher = None,
             _ => {}
         }
         Ok(())

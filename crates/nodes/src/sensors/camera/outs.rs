@@ -1,5 +1,8 @@
 //! Which images a camera publishes, and where.
 
+use std::f64::consts::FRAC_PI_2;
+
+use periplus_base::{Pose, Rpy};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{GraphError, Publisher, Qos, valid_topic_name};
 use periplus_msgs::sensor_msgs::{CameraInfo, Image, PointCloud2};
@@ -51,6 +54,20 @@ impl Out {
             To::ColouredLabels(_) | To::Labels(_) => Wanted { labels: true, ..Wanted::default() },
             To::Info(..) => Wanted::default(),
         }
+    }
+
+    /// Topic and frame of a point cloud, and the axes of its points: along the camera in today's
+    /// Gazebo, optical (z ahead) in Classic.
+    pub(super) fn points(&self) -> Option<(String, String, Pose)> {
+        let To::Points(out, layout) = &self.to else { return None };
+        let camera_from_points = match layout {
+            Cloud::Gz => Pose::IDENTITY,
+            Cloud::Classic | Cloud::ClassicSwapped => {
+                let optical = Rpy { roll: -FRAC_PI_2, pitch: 0.0, yaw: -FRAC_PI_2 };
+                Pose::from_xyz_rpy([0.0; 3], optical)
+            }
+        };
+        Some((out.topic().to_owned(), self.frame.clone(), camera_from_points))
     }
 
     pub(super) fn publish(&self, picture: &Picture, pinhole: &Pinhole, time_ns: i64) {
