@@ -80,7 +80,7 @@ export async function keyboard(chrome, url) {
     await page.evaluate(() => (window.periplus.isAutomatic = false));
     // A run that stands has the same buttons all the time.
     await page.getByRole('button', { name: 'Pause' }).first().click();
-    await until(page, 'periplus.isStill', 'standing still');
+    await until(page, 'periplus.isPaused', 'standing still');
     // Each panel by arrow keys.
     await page.getByRole('tab', { name: 'Drive' }).focus();
     for (const tab of [

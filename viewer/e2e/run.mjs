@@ -5,10 +5,12 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { axe } from './axe.mjs';
 import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until } from './lib.mjs';
+import { use } from './use.mjs';
 
 const PORT = 8821;
 const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
@@ -78,12 +80,12 @@ const tests = {
   /** Pause and step by the buttons. */
   async pause(page) {
     await page.getByRole('button', { name: 'Pause' }).first().click();
-    await until(page, 'periplus.isStill', 'standing still');
+    await until(page, 'periplus.isPaused', 'standing still');
     const before = await page.evaluate('periplus.clock.nowS');
     await page.getByRole('button', { name: 'Step' }).first().click();
     await until(page, `periplus.clock.nowS > ${before}`, 'a step');
     await page.getByRole('button', { name: 'Play', exact: true }).first().click();
-    await until(page, '!periplus.isStill', 'going on');
+    await until(page, '!periplus.isPaused', 'going on');
   },
 
   /** A thing is put in front of the robot, seen by its scanner, and taken away. */
@@ -169,6 +171,8 @@ try {
   await attempt('building', () => building(chrome, pages.url, out));
   await attempt('foreign buildings', () => foreignBuildings(chrome, pages.url, out));
   await attempt('keyboard', () => keyboard(chrome, pages.url));
+  await use(chrome, pages.url, attempt);
+  await axe(chrome, pages.url, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();

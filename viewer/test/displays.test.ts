@@ -12,6 +12,8 @@ import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
 import { wishFor } from '../src/app/auto';
 import { mapTruths, percent } from '../src/app/truth';
 import { Clock } from '../src/app/clock';
+import { estimatorsOf } from '../src/app/estimators';
+import { SensorFrames } from '../src/sim/sensor_frames';
 import type { ImageMessage, LaserScan, PointCloud2 } from '../src/core/types';
 
 const header = { stamp: { sec: 0, nanosec: 0 }, frame_id: 'laser' };
@@ -246,10 +248,64 @@ test('what shows itself', () => {
 test('a clock knows its pace, when it stands, and when time went back', () => {
   const clock = new Clock();
   for (let i = 0; i <= 10; i++) expect(clock.set(i * 0.2, i * 100)).toBe(false);
-  expect(clock.factor).toBeCloseTo(2, 9);
-  expect(clock.isStill(1100)).toBe(false);
-  expect(clock.isStill(2000)).toBe(true);
+  expect(clock.factor()).toBeCloseTo(2, 9);
+  expect(clock.isPaused(1100)).toBe(false);
+  expect(clock.isPaused(2000)).toBe(true);
   expect(clock.set(0, 2100)).toBe(true);
+});
+
+test('a simulation says itself that it is paused, however slow the machine is', () => {
+  const clock = new Clock();
+  // Two steps in four seconds: a guess would call it paused.
+  clock.set(0.1, 0);
+  clock.setStats({ timeS: 0.1, realS: 0, isPaused: false });
+  clock.set(0.2, 4000);
+  clock.setStats({ timeS: 0.2, realS: 4, isPaused: false });
+  expect(clock.isPaused(5500)).toBe(false);
+  expect(clock.factor()).toBeCloseTo(0.025, 9);
+  clock.setStats({ timeS: 0.2, realS: 4, isPaused: true });
+  expect(clock.isPaused(5500)).toBe(true);
+  clock.forgetStats();
+  expect(clock.isPaused(9999)).toBe(true);
+});
+
+test('a rate needs a second of time', () => {
+  const clock = new Clock();
+  for (let i = 0; i <= 4; i++) clock.set(i * 2, i * 100);
+  expect(clock.factor()).toBeUndefined();
+});
+
+test('an estimator publishes transforms and hears measurements', () => {
+  const row = (name: string, type: string, publishers: string[], subscribers: string[]) => ({
+    ...{ name, type, publishers, subscribers },
+  });
+  const scan = row('/scan', 'sensor_msgs/msg/LaserScan', ['/lidar'], ['/viewers']);
+  const tf = row('/tf', 'tf2_msgs/msg/TFMessage', ['/diff_drive', '/viewers'], ['/viewers']);
+  expect(estimatorsOf([scan])).toEqual([]);
+  // The page itself hears everything, and publishes no transforms.
+  expect(estimatorsOf([scan, { ...tf, publishers: ['/diff_drive'] }])).toEqual([]);
+  const joined = { ...scan, subscribers: ['/viewers', '/amcl'] };
+  expect(estimatorsOf([joined, { ...tf, publishers: ['/diff_drive', '/amcl'] }])).toEqual([
+    '/amcl',
+  ]);
+});
+
+test('poses of sensors come from the simulation', () => {
+  const frames = new SensorFrames();
+  const one = (parent: string, child: string, x: number, sec = 1) => ({
+    header: { stamp: { sec, nanosec: 0 }, frame_id: parent },
+    child_frame_id: child,
+    transform: { translation: { x, y: 0, z: 0 }, rotation: { x: 0, y: 0, z: 0, w: 1 } },
+  });
+  const mounts = [one('bot/base', '/lidar', 0.5), one('bot/base', 'lidar_frame', 0.5)];
+  frames.setMounts({ transforms: mounts } as never);
+  expect(frames.worldFromData('/lidar', 'lidar_frame', 1)).toBeUndefined();
+  frames.addPoses({ transforms: [one('world', 'bot/base', 1, 1)] } as never);
+  frames.addPoses({ transforms: [one('world', 'bot/base', 3, 2)] } as never);
+  expect(frames.worldFromData('/lidar', 'any', 1.5)?.t).toEqual([2.5, 0, 0]);
+  // Bridged under another name, and later than the last pose.
+  expect(frames.worldFromData('/laser_scan', '/lidar_frame', 2.5)?.t).toEqual([3.5, 0, 0]);
+  expect(frames.worldFromData('/camera', 'camera', 1)).toBeUndefined();
 });
 
 test('maps beside the truth', () => {

@@ -7,15 +7,18 @@ import { TfBuffer } from '../core/tf';
 import { seconds, stampOf, type TransformStamped } from '../core/types';
 import type { Context } from '../displays/display';
 import type { Values } from '../displays/options';
+import { multiply, type Pose } from '../core/pose';
 import { kindOf } from '../displays/registry';
 import { WorldDisplay } from '../displays/world';
 import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
 import { viewFrom, viewTo } from '../rviz/view';
 import { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
+import { SensorFrames, WORLD } from '../sim/sensor_frames';
 import { bestFrame, wishFor } from './auto';
 import { Clock } from './clock';
 import { Entry } from './entry.svelte';
+import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
 import { mapTruths, type MapTruth } from './truth';
 
@@ -41,6 +44,7 @@ export interface TopicRow {
   metadata?: Record<string, string>;
 }
 
+const WORLD_CLASS = 'periplus/World';
 const MOST_LOG = 1000;
 const FLUSH_MS = 200;
 
@@ -51,7 +55,7 @@ export class App {
   worldName = $state('');
   timeS = $state(0);
   factor: number | undefined = $state();
-  isStill = $state(true);
+  isPaused = $state(true);
   framesPerSecond = $state(0);
   fixedFrame = $state('map');
   isFrameChosen = $state(false);
@@ -72,6 +76,7 @@ export class App {
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
   maps: MapTruth[] = $state.raw([]);
+  estimators: string[] = $state.raw([]);
   rvizTools: RvizTool[] = $state([]);
   fileName = $state('');
 
@@ -79,13 +84,14 @@ export class App {
   readonly clock = new Clock();
   readonly client: Client;
   stage?: Stage;
-  private leaveTruth?: () => void;
+  private readonly sensors = new SensorFrames();
+  private leaveWorld: (() => void)[] = [];
   private rvizOriginal?: Tree;
   private seen = new Set<string>();
   private publishers = new Map<string, (message: Message) => void>();
   private lastId = 0;
   private newLog: LogLine[] = [];
-  private tfVersion = -1;
+  private framesKey = '';
   private isOffersNew = false;
   private flushedMs = 0;
 
@@ -122,12 +128,16 @@ export class App {
   private connected(state: State, why: string): void {
     this.connection = state;
     this.why = why;
-    if (state === 'closed') this.tf.clear();
+    if (state !== 'closed') return;
+    this.tf.clear();
+    this.sensors.clear();
+    this.clock.forgetStats();
   }
 
   private time(timeS: number): void {
     if (!this.clock.set(timeS, performance.now())) return;
     this.tf.rewind(timeS);
+    this.sensors.rewind(timeS);
     for (const { display } of this.displays) {
       if (display instanceof WorldDisplay) display.restarted();
       else if (display) display.moved();
@@ -174,7 +184,16 @@ export class App {
       fixedFrame: () => this.fixedFrame,
       nowS: () => this.clock.nowS,
       topicsOfType: (types) => this.topicsOf(types),
+      fixedFromSensor: (topic, frame, timeS) => this.fixedFromSensor(topic, frame, timeS),
+      estimators: () => this.estimators,
     };
+  }
+
+  private fixedFromSensor(topic: string, frame: string, timeS: number): Pose | undefined {
+    const worldFromData = this.sensors.worldFromData(topic, frame, timeS);
+    if (!worldFromData || this.fixedFrame === WORLD) return worldFromData;
+    const fixedFromWorld = this.world()?.fixedFromWorld;
+    return fixedFromWorld && multiply(fixedFromWorld, worldFromData);
   }
 
   private tick(nowMs: number): void {
@@ -212,8 +231,8 @@ export class App {
     }
     for (const entry of this.displays) entry.flush();
     this.timeS = this.clock.nowS;
-    this.factor = this.clock.factor;
-    this.isStill = this.clock.isStill(nowMs);
+    this.factor = this.clock.factor();
+    this.isPaused = this.clock.isPaused(nowMs);
     this.framesPerSecond = this.stage?.framesPerSecond ?? 0;
     if (this.newLog.length > 0) {
       this.log = [...this.log, ...this.newLog].slice(-MOST_LOG);
@@ -222,9 +241,16 @@ export class App {
     const world = this.world();
     const truth = world?.truth;
     if (truth?.distanceM !== this.truth?.distanceM) this.truth = truth && { ...truth };
-    if (this.tf.version === this.tfVersion) return;
-    this.tfVersion = this.tf.version;
-    const names = this.tf.names();
+    this.chooseFrame();
+  }
+
+  /** Frames that there are; the world's own where a simulation publishes no transforms. */
+  private chooseFrame(): void {
+    const key = `${this.tf.version} ${this.worldName}`;
+    if (key === this.framesKey) return;
+    this.framesKey = key;
+    const known = this.tf.names();
+    const names = known.length === 0 && this.worldName ? [WORLD] : known;
     if (names.join() !== this.frames.join()) this.frames = names;
     if (!this.isFrameChosen && names.length > 0) {
       this.setFixedFrame(
@@ -271,6 +297,7 @@ export class App {
       .map(({ name, type }) => ({ name, type }))
       .sort((a, b) => (a.name < b.name ? -1 : 1));
     this.mismatches = [...client.mismatches];
+    this.estimators = estimatorsOf(this.topics);
     const world = this.services
       .map((service) => /^\/world\/(.+)\/control$/.exec(service.name)?.[1])
       .find(Boolean);
@@ -282,13 +309,24 @@ export class App {
   private setWorld(name: string): void {
     if (name === this.worldName) return;
     this.worldName = name;
-    this.leaveTruth?.();
-    this.leaveTruth = undefined;
+    this.leaveWorld.forEach((leave) => leave());
+    this.leaveWorld = [];
     this.maps = [];
+    this.sensors.clear();
+    this.clock.forgetStats();
     if (!name) return;
-    this.leaveTruth = this.client.subscribe(`/world/${name}/truth`, (message) => {
-      this.maps = mapTruths(message);
-    });
+    const hear = (what: string, handler: Handler) =>
+      this.leaveWorld.push(this.client.subscribe(`/world/${name}/${what}`, handler));
+    hear('truth', (message) => (this.maps = mapTruths(message)));
+    hear('sensors', (message) => this.sensors.setMounts(message));
+    hear('poses', (message) => this.sensors.addPoses(message));
+    hear('stats', (message) =>
+      this.clock.setStats({
+        timeS: seconds(message.sim_time as never),
+        realS: seconds(message.real_time as never),
+        isPaused: message.paused === true || message.stepping === true,
+      }),
+    );
   }
 
   /** Makes two ends of a topic fit. */
@@ -390,6 +428,9 @@ export class App {
 
   openRviz(text: string, fileName = ''): void {
     const file = readRviz(text);
+    // RViz knows no simulated world: it stays, unless the file brings it.
+    const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
+    const worlds = this.displays.filter((entry) => isWorldKept && entry.kind.class === WORLD_CLASS);
     this.clear();
     this.isAutomatic = false;
     this.rvizOriginal = file.original;
@@ -398,6 +439,9 @@ export class App {
     for (const display of file.displays) {
       const entry = this.add(display.class, display.name, display.values, display.isEnabled);
       if (entry) entry.original = display.original;
+    }
+    for (const { name, values, isEnabled } of worlds) {
+      this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
     }
     this.setFixedFrame(file.fixedFrame);
     this.background = file.background;

@@ -70,3 +70,26 @@ export function numberAt(value: unknown, path: string): number {
   }
   return typeof at === 'boolean' ? Number(at) : typeof at === 'number' ? at : NaN;
 }
+
+/** Units of numbers by the last words of their path; REP 103. */
+const UNITS: [RegExp, string][] = [
+  [/(^|\.)linear_acceleration\.[xyz]$|(^|\.)accel\.linear\.[xyz]$/, 'm/s²'],
+  [/(^|\.)angular_velocity\.[xyz]$|(^|\.)angular\.[xyz]$/, 'rad/s'],
+  [/(^|\.)linear\.[xyz]$|(^|\.)(linear_speed|speed)$/, 'm/s'],
+  [/(^|\.)(position|translation|point|origin|points\[\d+\])\.[xyz]$/, 'm'],
+  [/(^|\.)(ranges\[\d+\]|range|range_min|range_max|resolution|altitude)$/, 'm'],
+  [/(^|\.)(yaw|roll|pitch|angle_min|angle_max|angle_increment|field_of_view)$/, 'rad'],
+  [/(^|\.)(force)\.[xyz]$/, 'N'],
+  [/(^|\.)(torque)\.[xyz]$/, 'N·m'],
+  [/(^|\.)magnetic_field\.[xyz]$/, 'T'],
+  [/(^|\.)(scan_time|time_increment|sec)$/, 's'],
+  [/(^|\.)nanosec$/, 'ns'],
+  [/(^|\.)(latitude|longitude)$/, '°'],
+  [/(^|\.)fluid_pressure$/, 'Pa'],
+  [/(^|\.)temperature$/, '°C'],
+];
+
+/** The unit of a number; none where its path does not say. */
+export function unitOf(path: string): string {
+  return UNITS.find(([pattern]) => pattern.test(path))?.[1] ?? '';
+}

@@ -31,6 +31,10 @@ export const SHORTCUTS: Record<string, ToolName> = {
 
 const GREEN = new Color('#2fc46b');
 const PINK = new Color('#ff5ad2');
+/** Above the ground, so that maps do not hide it. */
+const ARROW_HEIGHT_M = 0.05;
+/** The node that stands for all pages. */
+const OWN_NODE = '/viewers';
 /** A shorter drag gives no direction [m]. */
 const LEAST_DRAG_M = 0.05;
 
@@ -60,6 +64,9 @@ export class Tools {
   /** SDF that waits for a place. */
   toInsert?: { name: string; sdf: string; file: string };
   private marks = new Group();
+  /** The last pose estimate and the last goal, each where it was put until there is another. */
+  private poses = new Group();
+  private arrows = new Map<'pose' | 'goal', { frame: string; pose: Pose; mesh: Mesh }>();
   private start?: Vector3;
   private fading?: ReturnType<typeof setTimeout>;
   private points: Vector3[] = [];
@@ -68,7 +75,8 @@ export class Tools {
 
   attach(canvas: HTMLCanvasElement): void {
     const { stage } = this.app;
-    stage!.scene.add(this.marks);
+    stage!.scene.add(this.marks, this.poses);
+    stage!.ticks.add(() => this.placeArrows());
     // Before the view hears of it.
     canvas.addEventListener(
       'pointerdown',
@@ -185,8 +193,10 @@ export class Tools {
     if (this.active === 'pose' || this.active === 'goal') {
       const way = now.clone().sub(start);
       const yaw = way.length() > LEAST_DRAG_M ? Math.atan2(way.y, way.x) : 0;
-      this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]));
-      this.done();
+      this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]), way.length());
+      this.active = 'move';
+      this.clear();
+      this.app.stage!.view.isHeld = false;
     } else if (this.active === 'carry' || this.active === 'turn') {
       void this.drop(now);
     }
@@ -202,19 +212,66 @@ export class Tools {
   private arrow(from: Vector3, to: Vector3): void {
     for (const child of [...this.marks.children]) dispose(child);
     const way = to.clone().sub(from);
-    const length = Math.max(0.4, way.length());
-    const arrow = new Mesh(
-      arrowGeometry(length - 0.2, 0.04, 0.2, 0.12),
-      surface(this.active === 'pose' ? GREEN : PINK),
-    );
-    arrow.position.copy(from).setZ(0.05);
+    const arrow = arrowOf(this.active === 'pose' ? 'pose' : 'goal', way.length());
+    arrow.position.copy(from).setZ(ARROW_HEIGHT_M);
     arrow.rotation.z = Math.atan2(way.y, way.x);
     this.marks.add(arrow);
     this.app.stage!.invalidate();
   }
 
-  private publishPose(tool: 'pose' | 'goal', pose: Pose): void {
+  private keepArrow(tool: 'pose' | 'goal', pose: Pose, lengthM: number): void {
+    const old = this.arrows.get(tool);
+    if (old) dispose(old.mesh);
+    const mesh = arrowOf(tool, lengthM);
+    this.poses.add(mesh);
+    this.arrows.set(tool, { frame: this.app.fixedFrame, pose, mesh });
+    this.placeArrows();
+    this.app.stage!.invalidate();
+  }
+
+  /** Keeps each arrow in the frame in which it was put. */
+  private placeArrows(): void {
+    for (const { frame, pose, mesh } of this.arrows.values()) {
+      const found = this.app.tf.lookup(this.app.fixedFrame, frame);
+      mesh.visible = found.kind === 'found';
+      if (found.kind !== 'found') continue;
+      const { t, q } = multiply(found.pose, pose);
+      mesh.position.set(t[0], t[1], t[2] + ARROW_HEIGHT_M);
+      mesh.quaternion.set(...q);
+    }
+  }
+
+  /** Where the last goal or estimate was put, and in which frame. */
+  shownPose(tool: 'pose' | 'goal'): { frame: string; pose: Pose } | undefined {
+    const arrow = this.arrows.get(tool);
+    return arrow && { frame: arrow.frame, pose: arrow.pose };
+  }
+
+  /** Whether a pose in the fixed frame means anything to a node; if not, the user learns why. */
+  private canPlace(): boolean {
     const { app } = this;
+    if (app.tf.has(app.fixedFrame)) return true;
+    const isEmpty = app.tf.names().length === 0;
+    const advice = isEmpty
+      ? 'No node publishes transforms on /tf; start one, such as robot_state_publisher.'
+      : 'Choose another fixed frame in the panel Displays.';
+    app.notice('error', `Not sent: no transform names the frame "${app.fixedFrame}". ${advice}`);
+    return false;
+  }
+
+  /** Warns where nobody receives what was just published. */
+  private warnOfSilence(topic: string, advice: string): void {
+    const row = this.app.topics.find((one) => one.name === topic);
+    const others = row?.subscribers.filter((node) => node !== OWN_NODE) ?? [];
+    if (others.length === 0) {
+      this.app.notice('warn', `No node subscribes to ${topic}, so nothing happens. ${advice}`);
+    }
+  }
+
+  private publishPose(tool: 'pose' | 'goal', pose: Pose, lengthM: number): void {
+    const { app } = this;
+    if (!this.canPlace()) return;
+    this.keepArrow(tool, pose, lengthM);
     const header = app.header();
     const { t } = pose;
     const where = `x ${t[0].toFixed(2)}, y ${t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
@@ -222,6 +279,10 @@ export class Tools {
       const topic = absolute(app.toolValue('SetGoal', 'Topic', 'goal_pose'));
       app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
       app.notice('info', `Goal in ${app.fixedFrame}: ${where}`);
+      this.warnOfSilence(
+        topic,
+        'Start a navigator that takes goals, such as bt_navigator of Nav2 on ROS 2.',
+      );
       return;
     }
     const covariance = new Float64Array(36);
@@ -232,10 +293,15 @@ export class Tools {
     const inner = { pose: messageOf(pose), covariance };
     app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
     app.notice('info', `Pose estimate in ${app.fixedFrame}: ${where}`);
+    this.warnOfSilence(
+      topic,
+      'Start localization, such as `periplus ros2 launch nav2_bringup localization_launch.py map:=MAP.yaml`.',
+    );
   }
 
   private publishPoint(at: Vector3): void {
     const { app } = this;
+    if (!this.canPlace()) return;
     const topic = absolute(app.toolValue('PublishPoint', 'Topic', 'clicked_point'));
     const point = { x: at.x, y: at.y, z: at.z };
     app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
@@ -376,7 +442,7 @@ export class Tools {
   }
 
   reset(): void {
-    void this.control({ pause: this.app.isStill, reset: { all: true } });
+    void this.control({ pause: this.app.isPaused, reset: { all: true } });
   }
 
   private entity(name: string) {
@@ -475,6 +541,12 @@ export class Tools {
     if (done) this.app.notice('info', `${name} stands in the world`);
     return !!done;
   }
+}
+
+function arrowOf(tool: 'pose' | 'goal', lengthM: number): Mesh {
+  const length = Math.max(0.4, lengthM);
+  const geometry = arrowGeometry(length - 0.2, 0.04, 0.2, 0.12);
+  return new Mesh(geometry, surface(tool === 'pose' ? GREEN : PINK));
 }
 
 function absolute(topic: string): string {

@@ -20,6 +20,10 @@ export interface Context {
   fixedFrame(): string;
   /** Time of the messages [s]. */
   nowS(): number;
+  /** Pose of a simulated sensor's data by the simulation itself, for frames that TF does not know. */
+  fixedFromSensor(topic: string, frame: string, timeS: number): Pose | undefined;
+  /** Nodes that estimate where the robot is. */
+  estimators(): readonly string[];
   /** Texts that were published once: the robot's description. */
   topicsOfType(types: readonly string[]): string[];
 }
@@ -156,26 +160,41 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
     let done = -1;
     for (let i = 0; i < this.pending.length; i++) {
       const { message, sinceMs } = this.pending[i]!;
-      const { frame_id, stamp } = message.header;
-      const { tf } = this.context;
-      const found = tf.lookup(this.context.fixedFrame(), frame_id, seconds(stamp));
-      if (found.kind === 'found') {
-        this.host.status('Transform', 'ok');
-        this.keep(message, found.pose);
+      const pose = this.placeOf(message, nowMs - sinceMs);
+      if (pose) {
+        this.keep(message, pose);
         done = i;
-      } else if (found.kind === 'never' || nowMs - sinceMs > PATIENCE_MS) {
-        const newest = tf.lookup(this.context.fixedFrame(), frame_id);
-        if (newest.kind === 'found') {
-          this.host.status('Transform', 'warn', `Shown by the newest transform: ${found.why}`);
-          this.keep(message, newest.pose);
-          done = i;
-        } else {
-          this.host.status('Transform', 'error', `Cannot be placed: ${newest.why}`);
-          if (this.pending.length > 1) done = Math.max(done, i - 1);
-        }
+      } else if (nowMs - sinceMs > PATIENCE_MS && this.pending.length > 1) {
+        done = Math.max(done, i - 1);
       }
     }
     if (done >= 0) this.pending.splice(0, done + 1);
+  }
+
+  /** Pose of a message in the fixed frame; none as long as it may still come, or cannot. */
+  private placeOf({ header }: M, waitedMs: number): Pose | undefined {
+    const { tf } = this.context;
+    const fixed = this.context.fixedFrame();
+    const stampS = seconds(header.stamp);
+    const then = tf.lookup(fixed, header.frame_id, stampS);
+    if (then.kind === 'found') {
+      this.host.status('Transform', 'ok');
+      return then.pose;
+    }
+    const newest = tf.lookup(fixed, header.frame_id);
+    if (newest.kind !== 'found') {
+      const topic = String(this.values.Topic ?? '');
+      const pose = this.context.fixedFromSensor(topic, header.frame_id, stampS);
+      if (pose) this.host.status('Transform', 'ok', 'Pose from the simulation; TF has none');
+      if (pose) return pose;
+    }
+    if (then.kind !== 'never' && waitedMs <= PATIENCE_MS) return undefined;
+    if (newest.kind === 'found') {
+      this.host.status('Transform', 'warn', `Shown by the newest transform: ${then.why}`);
+      return newest.pose;
+    }
+    this.host.status('Transform', 'error', `Cannot be placed: ${newest.why}`);
+    return undefined;
   }
 
   private keep(message: M, fixedFromFrame: Pose): void {

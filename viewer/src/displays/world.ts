@@ -11,6 +11,7 @@ import { poseOf, seconds, type Marker, type TransformStamped } from '../core/typ
 import { MeshLibrary } from '../scene/meshes';
 import { matrixOf } from '../scene/shapes';
 import { dispose } from '../scene/stage';
+import { WORLD } from '../sim/sensor_frames';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { alpha, bool, choice, topic } from './options';
@@ -51,6 +52,8 @@ export class WorldDisplay extends Display {
   private tfVersion = -1;
   private seen = '';
   private seenParts = 0;
+  /** Whether time went back since the anchor was found: the next estimate gives another. */
+  private isAnchorOld = false;
   private recent: { frame: string; stampS: number; worldFromLink: Pose }[] = [];
   truth?: Truth;
   /** Called when models come and go. */
@@ -198,16 +201,22 @@ export class WorldDisplay extends Display {
       else
         this.anchor = { fixed, fixedFromWorld: multiply(found.pose, this.anchor.fixedFromWorld) };
     }
-    const shared = tf.lookup(fixed, 'world');
-    if (fixed === 'world' || (tf.has('world') && shared.kind === 'found')) {
+    const shared = tf.lookup(fixed, WORLD);
+    if (fixed === WORLD || (tf.has(WORLD) && shared.kind === 'found')) {
       const pose = shared.kind === 'found' ? shared.pose : this.fixedFromWorld;
       this.anchor = { fixed, fixedFromWorld: pose };
     }
     const shown = this.common()[0];
     if (shown) this.measure(shown.frame, shown.link, fixed);
-    this.root.visible = !!this.anchor || this.common().length === 0;
     this.put(this.root, this.fixedFromWorld);
-    if (this.truth) {
+    const isAligned = !!this.anchor || !shown || fixed === WORLD;
+    this.host.status(
+      'Alignment',
+      isAligned ? 'ok' : 'warn',
+      isAligned ? undefined : `No transform from ${shown!.link} to ${fixed} yet`,
+    );
+    if (!this.truth) this.host.status('Truth', 'ok');
+    else {
       const { distanceM, yawRad } = this.truth;
       const degrees = Math.abs((yawRad * 180) / Math.PI).toFixed(1);
       this.host.status(
@@ -231,13 +240,26 @@ export class WorldDisplay extends Display {
       const then = this.recent[i]!;
       const found = this.context.tf.lookup(fixed, link, then.stampS);
       if (found.kind !== 'found') continue;
-      this.anchor ??= { fixed, fixedFromWorld: multiply(found.pose, inverse(then.worldFromLink)) };
+      if (!this.anchor || this.isAnchorOld) {
+        this.anchor = { fixed, fixedFromWorld: multiply(found.pose, inverse(then.worldFromLink)) };
+        this.isAnchorOld = false;
+      }
       const really = multiply(this.anchor.fixedFromWorld, then.worldFromLink);
       const off = multiply(inverse(really), found.pose);
-      this.truth = { link, distanceM: Math.hypot(off.t[0], off.t[1]), yawRad: yawOf(off.q) };
+      // Without an estimator these are the simulation's own frames: there is nothing to compare.
+      const isEstimated = this.context.estimators().length > 0;
+      this.truth = isEstimated
+        ? { link, distanceM: Math.hypot(off.t[0], off.t[1]), yawRad: yawOf(off.q) }
+        : undefined;
       this.recent.splice(0, i);
       return;
     }
+    if (this.anchor) return;
+    // Time stands still, so no estimate of just this time may ever come: the newest has to do.
+    const newest = this.context.tf.lookup(fixed, link);
+    if (newest.kind !== 'found') return;
+    this.anchor = { fixed, fixedFromWorld: multiply(newest.pose, inverse(worldFromLink)) };
+    this.isAnchorOld = true;
   }
 
   /** What RobotModel shows already is drawn again only if that is wanted. */
@@ -314,8 +336,10 @@ export class WorldDisplay extends Display {
 
   /** Time went back: the robot stands where it began. */
   restarted(): void {
-    this.anchor = undefined;
+    // The world stays where it was until the robot is seen again: nodes may need a while.
+    this.isAnchorOld = true;
     this.recent = [];
+    this.truth = undefined;
   }
 
   override stop(): void {

@@ -1,0 +1,121 @@
+// The page for everybody: axe finds nothing serious in its main states, and on a phone all that is
+// needed at once can be reached.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { open, periplus, sim, until } from './lib.mjs';
+
+const PORT = 8826;
+const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const PANELS = ['Drive', 'World', 'Topics', 'Nodes', 'Parameters', 'Services', 'Plot', 'Log'];
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+/** What axe finds wrong, of the kinds that keep people from using the page. */
+async function wrong(page, state) {
+  if (!(await page.evaluate('!!window.axe'))) await page.evaluate(AXE);
+  const found = await page.evaluate(async () => {
+    // Landmarks, headings and names that differ from what is seen count too.
+    const { violations } = await window.axe.run(document, {
+      resultTypes: ['violations'],
+      rules: { 'label-content-name-mismatch': { enabled: true } },
+    });
+    const counts = ['serious', 'critical'];
+    const also = ['page-has-heading-one', 'landmark-unique', 'region'];
+    return violations
+      .filter(({ id, impact }) => counts.includes(impact) || also.includes(id))
+      .map(({ id, impact, nodes }) => ({
+        id,
+        impact,
+        nodes: nodes.map((n) => [n.html, n.failureSummary]),
+      }));
+  });
+  return found.map((one) => ({ state, ...one }));
+}
+
+async function states(page, state) {
+  const all = await wrong(page, `${state}: start`);
+  const panels = page.getByRole('button', { name: 'Panels', exact: true });
+  if ((await panels.getAttribute('aria-pressed')) === 'false') await panels.click();
+  for (const name of PANELS) {
+    await page.getByRole('tab', { name }).click();
+    await page.waitForTimeout(250);
+    all.push(...(await wrong(page, `${state}: ${name}`)));
+  }
+  const displays = page.getByRole('button', { name: 'Displays', exact: true });
+  if ((await displays.getAttribute('aria-pressed')) === 'false') await displays.click();
+  await page.getByRole('button', { name: 'Options of World' }).click();
+  await page.getByRole('button', { name: 'Add', exact: true }).click();
+  await page.evaluate(() => {
+    for (const level of ['info', 'warn', 'error']) window.periplus.notice(level, `a ${level}`);
+  });
+  await page.waitForTimeout(250);
+  all.push(...(await wrong(page, `${state}: displays and messages`)));
+  for (const close of await page.getByRole('button', { name: 'Close', exact: true }).all()) {
+    await close.click({ timeout: 1000 }).catch(() => {});
+  }
+  await page.getByRole('button', { name: 'Add', exact: true }).click();
+  if (state === 'phone') await displays.click();
+  await page.getByRole('button', { name: 'Building Editor' }).click();
+  await page.getByRole('application').waitFor();
+  await page.waitForTimeout(250);
+  all.push(...(await wrong(page, `${state}: Building Editor`)));
+  return all;
+}
+
+/** On a phone nothing that is needed at once is off the screen, and keys are not spoken of. */
+async function phone(page) {
+  const width = page.viewportSize().width;
+  for (const name of [
+    'Pause',
+    'Step',
+    'Reset',
+    'Panels',
+    'Displays',
+    'Building Editor',
+    'Measure',
+  ]) {
+    const box = await page.getByRole('button', { name, exact: true }).first().boundingBox();
+    assert.ok(box && box.x >= 0 && box.x + box.width <= width, `${name}: ${JSON.stringify(box)}`);
+    assert.ok(box.width >= 24 && box.height >= 24, `${name} is too small for a finger`);
+  }
+  const wide = await page.evaluate('document.querySelector(".bar").scrollWidth');
+  assert.ok(wide <= width, `the toolbar is ${wide} px wide`);
+  await page.getByRole('button', { name: 'Panels', exact: true }).click();
+  await page.getByRole('tab', { name: 'Drive' }).click();
+  await page.getByRole('button', { name: 'Measure' }).first().click();
+  const keys = await page.evaluate(() =>
+    [...document.querySelectorAll('kbd, .keys-only')]
+      .filter((e) => e.checkVisibility())
+      .map((e) => e.textContent),
+  );
+  assert.deepEqual(keys, []);
+  await page.getByRole('button', { name: 'Measure' }).first().click();
+  await page.getByRole('button', { name: 'Panels', exact: true }).click();
+}
+
+export async function axe(chrome, url, attempt) {
+  if (!attempt.isWanted('axe')) return;
+  const words = sim('worlds/cube_and_sphere.sdf', SAM_BOT, 'publish_odom_tf:=true');
+  const run = await periplus([...words, `--page=127.0.0.1:${PORT}`], PORT);
+  const look = async (options, test) => {
+    const address = `${url}?ws=ws://127.0.0.1:${PORT}/`;
+    const { page } = await open(chrome, address, options);
+    try {
+      await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
+      await until(page, '!periplus.isPaused', 'a run');
+      await test(page);
+    } finally {
+      await page.close();
+    }
+  };
+  const nothing = (state) => async (page) => assert.deepEqual(await states(page, state), []);
+  try {
+    await attempt('axe dark', () => look({ colorScheme: 'dark' }, nothing('dark')));
+    await attempt('axe light', () => look({ colorScheme: 'light' }, nothing('light')));
+    await attempt('axe phone', () => look({ ...PHONE, colorScheme: 'light' }, nothing('phone')));
+    await attempt('axe phone toolbar', () => look(PHONE, phone));
+  } finally {
+    await run.stop();
+  }
+}

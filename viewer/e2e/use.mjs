@@ -1,0 +1,270 @@
+// What a new user does first: each test holds something that broke a promise once.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { next, open, periplus, ROOT, sim, until } from './lib.mjs';
+
+const PORT = 8825;
+const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
+const CUBE = 'worlds/cube_and_sphere.sdf';
+const pong = ['sim', 'worlds/pong.sdf', '--rtf', '1', '--ros2', 'off'];
+const cube = (...more) => sim(CUBE, SAM_BOT, 'publish_odom_tf:=true', ...more);
+const button = (page, name) => page.getByRole('button', { name, exact: true }).first();
+
+/** Part of the pixels of the 3D view for which a test of r, g and b holds. */
+async function share(page, test) {
+  const png = await page.locator('canvas').first().screenshot();
+  return page.evaluate(
+    async ([bytes, text]) => {
+      const image = await createImageBitmap(new Blob([new Uint8Array(bytes)]));
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const context = canvas.getContext('2d');
+      context.drawImage(image, 0, 0);
+      const { data } = context.getImageData(0, 0, image.width, image.height);
+      const holds = new Function('r', 'g', 'b', `return ${text}`);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) count += holds(data[i], data[i + 1], data[i + 2]);
+      return (count * 4) / data.length;
+    },
+    [[...png], test],
+  );
+}
+
+/** Drags on the ground of the 3D view with a tool that is chosen by its button. */
+async function drag(page, tool) {
+  await button(page, tool).click();
+  const box = await page.locator('canvas').first().boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height * 0.6];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 60, y, { steps: 4 });
+  await page.mouse.up();
+}
+
+const notice = (page, text) => page.getByRole('log', { name: 'Messages' }).getByText(text);
+
+/** Rays of a lidar whose robot publishes no transforms on /tf. */
+async function lidarWithoutTf(page) {
+  await until(page, 'periplus.fixedFrame === "world"', 'the world as the fixed frame');
+  const frames = page.getByRole('combobox', { name: 'Fixed frame' });
+  assert.deepEqual(await frames.locator('option').allTextContents(), ['world']);
+  await page.getByRole('tab', { name: 'World' }).click();
+  await page.getByRole('tabpanel').getByRole('button', { name: 'Visualize Lidar' }).click();
+  const lidar = 'periplus.displays.find((d) => d.kind.title === "Visualize Lidar")';
+  await until(page, `${lidar}?.statuses.Rays`, 'rays');
+  await until(page, 'periplus.displays.every((d) => d.level !== "error")', 'no red display');
+  // The beams leave the robot where the simulation has it, and end at what it has there.
+  const ends = await page.evaluate(`new Promise((resolve) => setTimeout(() => {
+    const d = ${lidar}.display;
+    const group = d.root.children[0];
+    resolve(group.matrix.elements.slice(12, 14));
+  }, 500))`);
+  const robot = await page.evaluate('periplus.world().poseOf("pong-bot/chassis").t');
+  const AHEAD_M = 0.9;
+  assert.ok(
+    Math.hypot(ends[0] - robot[0] - AHEAD_M, ends[1] - robot[1]) < 0.02,
+    `the rays begin at ${ends}, the robot is at ${robot}`,
+  );
+  const blue = await share(page, 'b > 100 && b > r + 50 && b > g + 50');
+  assert.ok(blue > 0.02, `${(blue * 100).toFixed(1)} % of the view is blue`);
+}
+
+/** A goal in a frame that no node knows is not sent. */
+async function goalWithoutFrames(page) {
+  await drag(page, '2D Goal Pose');
+  await notice(page, 'Not sent: no transform names the frame "world"').waitFor();
+}
+
+/** A goal and an estimate that no node receives: the user is told, and sees where they are. */
+async function goalIntoTheVoid(page) {
+  await until(page, 'periplus.tf.has("odom")', 'frames');
+  for (const [tool, topic, advice, rgb] of [
+    ['2D Goal Pose', '/goal_pose', 'navigator', 'r > 180 && b > 120 && g < 130'],
+    ['2D Pose Estimate', '/initialpose', 'localization', 'g > 130 && r < 90 && b < 140'],
+  ]) {
+    const before = await share(page, rgb);
+    await drag(page, tool);
+    await notice(page, `No node subscribes to ${topic}`).filter({ hasText: advice }).waitFor();
+    await page.waitForTimeout(1500);
+    const after = await share(page, rgb);
+    assert.ok(after > before + 0.0002, `${tool}: its arrow is there (${before}, then ${after})`);
+  }
+}
+
+/** Nothing estimates, so nothing can be off. */
+async function nothingEstimates(page) {
+  await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
+  await until(page, 'periplus.tf.has("base_link")', 'the robot');
+  await page.waitForTimeout(1500);
+  assert.deepEqual(await page.evaluate('[...periplus.estimators]'), []);
+  assert.equal(await page.getByText('estimate off by').count(), 0);
+}
+
+/** All names of displays can be read when one is added. */
+async function namesInAdd(page) {
+  await page.getByRole('button', { name: 'Add', exact: true }).click();
+  const clipped = await page.evaluate(() => {
+    const all = [...document.querySelectorAll('.adding .pick span:first-child')];
+    const wrong = all.filter((span) => {
+      const range = document.createRange();
+      range.selectNodeContents(span);
+      const text = range.getBoundingClientRect();
+      const box = span.getBoundingClientRect();
+      const list = span.closest('.adding').getBoundingClientRect();
+      return text.width < 5 || text.width > box.width + 1 || text.right > list.right;
+    });
+    return { count: all.length, wrong: wrong.map((span) => span.textContent) };
+  });
+  assert.ok(clipped.count > 20, `${clipped.count} names`);
+  assert.deepEqual(clipped.wrong, []);
+  await page.getByRole('button', { name: 'Add', exact: true }).click();
+}
+
+/** Steps show in the clock of the page. */
+async function stepsShow(page) {
+  await button(page, 'Pause').click();
+  await until(page, 'periplus.isPaused', 'a pause');
+  const time = page.locator('.time');
+  await page.waitForTimeout(400);
+  const before = await time.textContent();
+  await button(page, 'Step').click();
+  await page.waitForFunction((old) => document.querySelector('.time').textContent !== old, before, {
+    timeout: 5000,
+  });
+}
+
+/** A page that comes while time stands still shows what the run last had. */
+async function openedWhilePaused(chrome, address) {
+  const { page } = await open(chrome, address);
+  await until(page, 'periplus.isPaused', 'a pause');
+  await until(page, 'periplus.tf.has("odom") && periplus.tf.has("base_link")', 'frames');
+  await until(page, 'periplus.fixedFrame === "odom"', 'the fixed frame');
+  for (const [what, expression] of [
+    ['the robot', 'd.kind.title === "RobotModel" && d.level === "ok" && d.statuses.Description'],
+    ['the scan', 'd.kind.title === "LaserScan" && d.statuses.Points && d.level !== "error"'],
+    ['the world', 'd.kind.title === "World" && d.statuses.Scene && d.level === "ok"'],
+  ]) {
+    await until(page, `periplus.displays.some((d) => ${expression})`, what);
+  }
+  const lit = `(() => {
+    const canvas = periplus.displays.find((d) => d.isEnabled && d.canvas?.width > 300)?.canvas;
+    if (!canvas) return false;
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return data.some((v, i) => i % 4 < 3 && v > 60);
+  })()`;
+  await until(page, lit, 'a picture that is not black');
+  assert.ok(await page.evaluate('periplus.isPaused'), 'it is still paused');
+  await page.close();
+}
+
+/** Play and Pause show what the simulation does, also where a step takes seconds. */
+async function slowMachine(page) {
+  await until(page, 'periplus.clock.nowS > 0', 'time');
+  await button(page, 'Pause').waitFor();
+  // Longer than any guess by the clock would wait.
+  for (let i = 0; i < 12; i++) {
+    await page.waitForTimeout(250);
+    assert.equal(await page.evaluate('periplus.isPaused'), false, 'it runs, slowly');
+  }
+  // A reset lets it run on.
+  await button(page, 'Reset').click();
+  await page.waitForTimeout(1500);
+  assert.equal(await page.evaluate('periplus.isPaused'), false, 'it runs after a reset');
+  await button(page, 'Pause').click();
+  await button(page, 'Play').waitFor({ timeout: 10_000 });
+  await button(page, 'Reset').click();
+  await page.waitForTimeout(1500);
+  assert.equal(await page.evaluate('periplus.isPaused'), true, 'a reset keeps the pause');
+}
+
+/** The world is seen all the while a run with a filter is reset. */
+async function reset(page) {
+  await until(page, 'periplus.estimators.length > 0', 'a filter', 60_000);
+  const aligned = 'periplus.world()?.root.visible && !!periplus.world().truth';
+  await until(page, aligned, 'the world beside the estimate', 60_000);
+  const red = 'r > 110 && r > 2 * g && r > 2 * b';
+  const before = await share(page, red);
+  assert.ok(before > 0.001, `the cube is red: ${before}`);
+  await until(page, 'periplus.clock.nowS > 4', 'some time');
+  await button(page, 'Reset').click();
+  await until(page, 'periplus.clock.nowS < 3', 'the time before');
+  for (let i = 0; i < 12; i++) {
+    assert.ok(await page.evaluate('periplus.world().root.visible'), `hidden after ${i * 0.25} s`);
+    await page.waitForTimeout(250);
+  }
+  const after = await share(page, red);
+  assert.ok(after > before / 4, `the cube is seen: ${before}, then ${after}`);
+}
+
+/** A file of RViz leaves the simulated world on the page. */
+async function rvizKeepsWorld(page) {
+  await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
+  const file = join(ROOT, 'robots/sam_bot/rviz/sam_bot.rviz');
+  await page.getByTestId('rviz-file').setInputFiles(file);
+  await until(page, 'periplus.fileName === "sam_bot.rviz"', 'the file');
+  await until(
+    page,
+    'periplus.displays.some((d) => d.kind.title === "World" && d.statuses.Scene)',
+    'the world beside the displays of the file',
+  );
+  const worlds = 'periplus.displays.filter((d) => d.kind.title === "World").length';
+  assert.equal(await page.evaluate(worlds), 1);
+  // A file that has it brings its own.
+  await page.evaluate(
+    (text) => window.periplus.openRviz(text, 'again'),
+    await page.evaluate('periplus.rvizText()'),
+  );
+  assert.equal(await page.evaluate(worlds), 1);
+}
+
+/** A token does not stay where others see it, and a reload still has it. */
+async function tokenLeavesTheAddress(chrome, url) {
+  const address = `${url}?ws=ws://127.0.0.1:${PORT}/&token=sixteen%20letters%20%26%20more`;
+  const { page } = await open(chrome, address);
+  await until(page, 'periplus.connection === "open"', 'a connection');
+  assert.ok(!page.url().includes('token'), page.url());
+  await page.reload();
+  await until(page, 'periplus.connection === "open"', 'a connection after a reload');
+  await page.close();
+}
+
+/** Runs a program, opens the page on it and lets tests look. */
+async function beside(chrome, url, words, look) {
+  const run = await periplus([...words, `--page=127.0.0.1:${PORT}`], PORT);
+  const address = `${url}?ws=ws://127.0.0.1:${PORT}/`;
+  const { page, complaints } = await open(chrome, address);
+  try {
+    await until(page, 'periplus.connection === "open"', 'a connection', 60_000);
+    await look(page, address);
+    assert.deepEqual(complaints, []);
+  } finally {
+    await page.close();
+    await run.stop();
+  }
+}
+
+export async function use(chrome, url, attempt) {
+  if (!attempt.isWanted('use')) return;
+  const on = (name, words, look) => attempt(`use ${name}`, () => beside(chrome, url, words, look));
+  await on('lidar without tf', pong, lidarWithoutTf);
+  await on('goal without frames', pong, goalWithoutFrames);
+  await on('goal into the void', cube(), goalIntoTheVoid);
+  await on('nothing estimates', cube(), nothingEstimates);
+  await on('names in add', cube(), namesInAdd);
+  await on('steps show', cube(), stepsShow);
+  await on('opened while paused', cube(), async (page, address) => {
+    await until(page, 'periplus.clock.nowS > 2', 'some time');
+    await page.evaluate('periplus.clear()');
+    await button(page, 'Pause').click();
+    await until(page, 'periplus.isPaused', 'a pause');
+    await openedWhilePaused(chrome, address);
+  });
+  const slow = [...pong.slice(0, 2), '--rtf', '0.001', '--ros2', 'off'];
+  await on('slow machine', slow, slowMachine);
+  await on('reset', ['launch', 'sam_bot', 'display.launch.py', '--no-browser'], reset);
+  await on('rviz keeps the world', cube(), rvizKeepsWorld);
+  await attempt('use token leaves the address', async () => {
+    const words = [...pong, '--token', 'sixteen letters & more', `--page=0.0.0.0:${PORT}`];
+    const run = await periplus(words, PORT);
+    await tokenLeavesTheAddress(chrome, url).finally(() => run.stop());
+  });
+}

@@ -1,0 +1,62 @@
+/**
+ * Poses of sensors from the simulation itself: data of a sensor is drawn also where no node publishes
+ * the transforms of its robot.
+ */
+import type { Message } from '../core/cdr';
+import { multiply, type Pose } from '../core/pose';
+import { frameName, TfBuffer } from '../core/tf';
+import type { TransformStamped } from '../core/types';
+
+/** The frame that is the simulated world. */
+export const WORLD = 'world';
+
+interface Mount {
+  /** `<model>/<link>`. */
+  link: string;
+  linkFromData: Pose;
+}
+
+export class SensorFrames {
+  /** By topic (`/scan`) and by frame (`laser`). */
+  private mounts = new Map<string, Mount>();
+  private links = new Set<string>();
+  private tf = new TfBuffer();
+
+  clear(): void {
+    this.mounts.clear();
+    this.links.clear();
+    this.tf.clear();
+  }
+
+  /** Forgets what is newer than now: time went back. */
+  rewind(nowS: number): void {
+    this.tf.rewind(nowS);
+  }
+
+  /** Takes `/world/<w>/sensors`. */
+  setMounts(message: Message): void {
+    this.mounts.clear();
+    for (const one of message.transforms as TransformStamped[]) {
+      const { translation: t, rotation: r } = one.transform;
+      const linkFromData: Pose = { t: [t.x, t.y, t.z], q: [r.x, r.y, r.z, r.w] };
+      this.mounts.set(one.child_frame_id, { link: one.header.frame_id, linkFromData });
+    }
+    this.links = new Set([...this.mounts.values()].map((mount) => mount.link));
+  }
+
+  /** Takes `/world/<w>/poses`. */
+  addPoses(message: Message): void {
+    for (const one of message.transforms as TransformStamped[]) {
+      if (this.links.has(one.child_frame_id)) this.tf.add(one, false);
+    }
+  }
+
+  /** Pose of the data on a topic in the world; none of what no simulated sensor measures. */
+  worldFromData(topic: string, frame: string, timeS: number): Pose | undefined {
+    const mount = this.mounts.get(topic) ?? this.mounts.get(frameName(frame));
+    if (!mount) return undefined;
+    const then = this.tf.lookup(WORLD, mount.link, timeS);
+    const found = then.kind === 'found' ? then : this.tf.lookup(WORLD, mount.link);
+    return found.kind === 'found' ? multiply(found.pose, mount.linkFromData) : undefined;
+  }
+}
