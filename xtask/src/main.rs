@@ -6,6 +6,7 @@
     reason = "a tool that runs other programs, reads the source tree and says how it went"
 )]
 
+mod attack;
 mod bags;
 mod codegen;
 mod corpus;
@@ -83,6 +84,21 @@ enum Task {
     Drive,
     /// The same bag from every build and number of threads
     Determinism,
+    /// Hostile inputs of every kind, made from a fixed seed: crashes, time-outs over 10 s and memory over
+    /// 500 MB are faults
+    Attack {
+        /// Only kinds with this in their names
+        only: Option<String>,
+        /// Every Nth input alone
+        #[arg(long, default_value_t = 1)]
+        every: usize,
+        /// Another seed makes other inputs
+        #[arg(long, default_value_t = attack::SEED)]
+        seed: u64,
+        /// The program, in place of a release build
+        #[arg(long, value_name = "FILE")]
+        program: Option<std::path::PathBuf>,
+    },
     /// An hour of simulated time among moving things: memory and marks of costmaps
     Soak,
     /// The pictures in the documentation, from the program itself
@@ -186,6 +202,12 @@ fn perform(task: &Task) -> Result<(), Failed> {
         },
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Attack { only, every, seed, program } => attack::attack(&attack::Wish {
+            seed: *seed,
+            only: only.clone(),
+            every: *every,
+            program: program.clone(),
+        }),
         Task::Soak => costmap::soak(),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
