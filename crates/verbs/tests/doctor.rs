@@ -38,6 +38,7 @@ struct Robot {
     stamp_shift_ns: i64,
     simulated: BTreeMap<String, bool>,
     surroundings: Option<Surroundings>,
+    is_alone: bool,
 }
 
 fn node(graph: &Graph, name: &str) -> Node {
@@ -75,6 +76,7 @@ impl Robot {
             stamp_shift_ns: 0,
             simulated: BTreeMap::from([("/amcl".into(), true), ("/lidar".into(), true)]),
             surroundings: None,
+            is_alone: false,
             graph,
         }
     }
@@ -116,6 +118,7 @@ impl Robot {
         }
         let mut picture = ears.picture(look(), self.simulated.clone(), Duration::from_secs(3));
         picture.surroundings = self.surroundings.clone();
+        picture.is_alone = self.is_alone;
         picture
     }
 
@@ -273,7 +276,7 @@ fn a_lidar_without_a_gpu() {
     let mut robot = Robot::new();
     robot.ranges = vec![0.0, f32::NAN, 0.0, 0.0];
     robot.check(expect![[r#"
-        warning scan-useless: `/scan` says NaN or 0 in every reading (120)
+        warning scan-useless: `/scan` says NaN or 0 in every reading (all of 120 readings)
           it measures nothing: a GPU lidar without a GPU, or a driver without its device; in a world file `type="ray"` instead of `gpu_ray`
     "#]]);
 }
@@ -283,7 +286,7 @@ fn a_lidar_that_looks_at_its_own_robot() {
     let mut robot = Robot::new();
     robot.ranges = vec![0.12; 36];
     robot.check(expect![[r#"
-        warning scan-useless: `/scan` sees only what is nearer than its `range_min` (1080)
+        warning scan-useless: `/scan` sees only what is nearer than its `range_min` (all of 1080 readings)
           it looks at the robot itself, or inside of a shape: move the sensor's link out of the collision shape, or set `range/min` above it
     "#]]);
 }
@@ -351,4 +354,66 @@ fn one_name_for_two_types() {
           rename one of them: `-r /cmd_vel:=/cmd_vel_other`
     "#]],
     );
+}
+
+/// A robot's own file stands on an empty plane, where a lidar sees nothing; in a world that is a finding.
+#[test]
+fn a_lidar_on_an_empty_plane() {
+    let mut robot = Robot::new();
+    robot.ranges = vec![f32::INFINITY; 36];
+    robot.check(expect![[r#"
+        warning scan-useless: `/scan` sees nothing within its `range_max` (all of 1080 readings)
+          nothing is that near at its height: look at the pose of the sensor, set `range/max` higher, or put something into the world
+    "#]]);
+    robot.is_alone = true;
+    robot.check(expect![[""]]);
+}
+
+/// A mapper shows scans when it has some to show; a sensor that is silent is named all the same.
+#[test]
+fn a_mapper_that_shows_nothing_yet() {
+    let robot = Robot::new();
+    let mapper = node(&robot.graph, "mapper");
+    let _scans = mapper.mailbox::<LaserScan>("/scan", Qos::sensor_data()).unwrap();
+    let _shown = mapper.publisher::<LaserScan>("/mapper/shown", Qos::reliable(1)).unwrap();
+    robot.check(expect![[""]]);
+    let driver = node(&robot.graph, "driver");
+    let _silent = driver.publisher::<LaserScan>("/rear_scan", Qos::sensor_data()).unwrap();
+    robot.check(expect![[r#"
+        warning sensor-silent: `/driver` publishes `/rear_scan`, and nothing came in 3.0 s
+          the sensor is off (`<always_on>`, `<update_rate>`), the simulation is paused, a driver waits for its device, or packets are lost: large messages need `net.core.rmem_max`
+    "#]]);
+}
+
+/// A node in the process of the simulation has its time, whatever its parameter says; one in another
+/// process does not.
+#[test]
+fn nodes_in_the_process_of_the_simulation() {
+    let process = |byte: &str| vec![byte; 12].join(".") + ".00.00.01.03";
+    let end = |node: &str, gid: String| SeenEnd {
+        node: Some(node.to_owned()),
+        type_name: "rosgraph_msgs/msg/Clock".into(),
+        type_hash: None,
+        gid,
+        qos: Qos::reliable(1),
+    };
+    let topic = |name: &str, publishers: Vec<SeenEnd>| SeenTopic {
+        name: name.into(),
+        types: vec!["rosgraph_msgs/msg/Clock".into()],
+        publishers,
+        subscriptions: Vec::new(),
+    };
+    let picture = |amcl: &str| Picture {
+        seen: Seen {
+            topics: vec![
+                topic("/clock", vec![end("/gazebo", process("01"))]),
+                topic("/other", vec![end("/amcl", process(amcl))]),
+            ],
+            ..Seen::default()
+        },
+        simulated: BTreeMap::from([("/amcl".to_owned(), false)]),
+        ..Picture::default()
+    };
+    check(&picture("01"), expect![[""]]);
+    assert!(examine(&picture("02")).iter().any(|finding| finding.code == "wall-time"));
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_formats::Language;
 use periplus_graph::NodeSettings;
 use periplus_sim::{Options, ShapeFiles, Simulation, compose};
 use periplus_verbs::doctor::{Ears, examine};
@@ -28,8 +29,18 @@ const OWN: &str = "_periplus_doctor";
 
 pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
     let (files, arguments) = split(&options.words);
-    let is_yaml =
-        |path: &Path| path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+    let is_launch = |path: &Path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        [".launch", ".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml"]
+            .iter()
+            .any(|end| name.ends_with(end))
+            || name.ends_with("_launch.py")
+    };
+    let is_yaml = |path: &Path| {
+        let end = path.extension().unwrap_or_default();
+        !is_launch(path) && (end == "yaml" || end == "yml")
+    };
+    let is_world = |path: &Path| !is_yaml(path) && !is_launch(path);
     let mut found = Vec::new();
     let mut what: Vec<String> = Vec::new();
     for path in files.iter().filter(|path| is_yaml(path)) {
@@ -37,12 +48,17 @@ pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
             Ok(findings) => found.extend(findings),
             Err(why) => {
                 terminal::complain(&why);
-                return Ok(ExitCode::from(2));
+                return Ok(ExitCode::FAILURE);
             }
         }
         what.push(path.display().to_string());
     }
-    let worlds: Vec<_> = files.iter().filter(|path| !is_yaml(path)).collect();
+    for path in files.iter().filter(|path| is_launch(path)) {
+        let search = &options.search.resource_path;
+        found.push(crate::launch::examine(path, arguments.clone(), search));
+        what.push(path.display().to_string());
+    }
+    let worlds: Vec<_> = files.iter().filter(|path| is_world(path)).collect();
     match worlds.as_slice() {
         [] => {}
         [world] => {
@@ -50,7 +66,7 @@ pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
                 Ok(findings) => found.extend(findings),
                 Err(why) => {
                     terminal::complain(&why);
-                    return Ok(ExitCode::from(2));
+                    return Ok(ExitCode::FAILURE);
                 }
             }
             what.push(world.display().to_string());
@@ -91,7 +107,9 @@ fn simulated(
         simulation.step_until(until_ns).map_err(|diverged| diverged.to_string())?;
         ears.hear();
     }
-    let picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
+    let mut picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
+    let is_robot = |language: Language| matches!(language, Language::Urdf | Language::Xacro);
+    picture.is_alone = composition.files.first().is_some_and(|file| is_robot(file.language));
     let mut found: Vec<_> =
         composition.files.into_iter().map(|file| (file.diagnostics, file.sources)).collect();
     found.push((simulation.take_findings(), SourceMap::new()));

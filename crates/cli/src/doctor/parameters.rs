@@ -3,15 +3,11 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_yaml::Node;
 
 /// What is wrong with a file; in words why it cannot be read.
 pub(super) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
-    let bytes =
-        Machine.read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    let text = crate::paths::text(path)?;
     let mut sources = SourceMap::new();
     let mut found = Diagnostics::new();
     let file = sources.add(path.display().to_string(), text.clone());

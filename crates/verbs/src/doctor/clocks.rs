@@ -1,5 +1,7 @@
 //! Whose time it is.
 
+use std::collections::BTreeSet;
+
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use super::Picture;
@@ -11,9 +13,20 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     let publishers = picture.seen.topic("/clock").map_or(&[][..], |topic| &topic.publishers);
     let tellers: Vec<&str> =
         publishers.iter().map(|end| end.node.as_deref().unwrap_or("somebody")).collect();
+    // Nodes in the process that publishes the time have it without `/clock`, as plugins of Gazebo do.
+    let with_clock: BTreeSet<&str> =
+        publishers.iter().filter_map(|end| participant(&end.gid)).collect();
+    let has_clock = |node: &str| {
+        let ends =
+            picture.seen.topics.iter().flat_map(|it| it.publishers.iter().chain(&it.subscriptions));
+        let mut own = ends.filter(|end| end.node.as_deref() == Some(node));
+        own.any(|end| participant(&end.gid).is_some_and(|one| with_clock.contains(one)))
+    };
     let with = |wanted: bool| -> Vec<&str> {
         let nodes = picture.simulated.iter().filter(|(node, is_simulated)| {
-            **is_simulated == wanted && !tellers.contains(&node.as_str())
+            **is_simulated == wanted
+                && !tellers.contains(&node.as_str())
+                && (wanted || !has_clock(node))
         });
         nodes.map(|(node, _)| node.as_str()).collect()
     };
@@ -84,6 +97,12 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             }
         }
     }
+}
+
+/// The part of an endpoint's identity that is its participant's: 12 of 16 bytes, written with dots.
+fn participant(gid: &str) -> Option<&str> {
+    const LENGTH: usize = 12 * 3 - 1;
+    gid.get(..LENGTH)
 }
 
 fn publisher(picture: &Picture, topic: &str) -> String {

@@ -108,6 +108,7 @@ impl Ears {
             clock: self.times_ns,
             clock_jumps: self.clock_jumps,
             simulated,
+            is_alone: false,
             surroundings: None,
         }
     }

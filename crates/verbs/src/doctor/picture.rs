@@ -25,6 +25,8 @@ pub struct Picture {
     pub clock_jumps: usize,
     /// What each node says of `use_sim_time`.
     pub simulated: BTreeMap<String, bool>,
+    /// True for a robot alone on a plane: its sensors see nothing, and that is no fault.
+    pub is_alone: bool,
     /// The machine, where it matters.
     pub surroundings: Option<Surroundings>,
 }

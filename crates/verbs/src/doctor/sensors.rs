@@ -14,16 +14,36 @@ const ENOUGH: usize = 20;
 pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     for (topic, heard) in &picture.heard {
         if heard.count == 0 {
-            found.push(silent(picture, topic));
+            if !is_derived(picture, topic) {
+                found.push(silent(picture, topic));
+            }
             continue;
         }
-        if let Some(finding) = heard.scans.and_then(|scans| useless(topic, &scans)) {
+        if let Some(finding) =
+            heard.scans.and_then(|scans| useless(topic, &scans, picture.is_alone))
+        {
             found.push(finding);
         }
         if let Some(finding) = slow(topic, heard) {
             found.push(finding);
         }
     }
+}
+
+/// True for a topic of a node that itself subscribes to sensor data: a filter or a mapper, which publishes
+/// when it has something to show. Where it is silent by mistake, the sensor before it is silent too.
+fn is_derived(picture: &Picture, topic: &str) -> bool {
+    let publishers = picture.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
+    let mut nodes = publishers.iter().filter_map(|end| end.node.as_deref());
+    let subscribes = |node: &str| {
+        let inputs = picture
+            .seen
+            .topics
+            .iter()
+            .filter(|other| other.name != topic && picture.heard.contains_key(&other.name));
+        inputs.flat_map(|input| &input.subscriptions).any(|end| end.node.as_deref() == Some(node))
+    };
+    nodes.any(subscribes)
 }
 
 fn silent(picture: &Picture, topic: &str) -> Diagnostic {
@@ -45,7 +65,7 @@ fn silent(picture: &Picture, topic: &str) -> Diagnostic {
     )
 }
 
-fn useless(topic: &str, scans: &ScanFacts) -> Option<Diagnostic> {
+fn useless(topic: &str, scans: &ScanFacts, is_alone: bool) -> Option<Diagnostic> {
     if scans.readings < ENOUGH || scans.good > 0 {
         return None;
     }
@@ -62,6 +82,8 @@ fn useless(topic: &str, scans: &ScanFacts) -> Option<Diagnostic> {
             "it looks at the robot itself, or inside of a shape: move the sensor's link out of the \
              collision shape, or set `range/min` above it",
         )
+    } else if is_alone {
+        return None;
     } else {
         (
             "sees nothing within its `range_max`",
@@ -69,7 +91,8 @@ fn useless(topic: &str, scans: &ScanFacts) -> Option<Diagnostic> {
              or put something into the world",
         )
     };
-    Some(Diagnostic::warning("scan-useless", format!("`{topic}` {what} ({all})")).help(help))
+    let message = format!("`{topic}` {what} (all of {all} readings)");
+    Some(Diagnostic::warning("scan-useless", message).help(help))
 }
 
 fn slow(topic: &str, heard: &Heard) -> Option<Diagnostic> {
