@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use periplus_bags::{ReadError, WriteError};
+use periplus_diagnostics::plain_words;
 use periplus_graph::GraphError;
 
 /// Why a recording cannot be opened, read or written.
@@ -56,7 +57,9 @@ impl BagError {
 impl fmt::Display for BagError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::File(path, error) => write!(f, "`{}`: {error}", path.display()),
+            Self::File(path, error) => {
+                write!(f, "`{}`: {}", path.display(), plain_words(error))
+            }
             Self::NoBag(path, why) => write!(f, "`{}` is no recording: {why}", path.display()),
             Self::Read(path, error) => write!(f, "`{}`: {error}", path.display()),
             Self::Database(path, error) => {

@@ -28,7 +28,10 @@ impl Temporary {
         let source = File::open(packed).map_err(BagError::file(packed))?;
         let target = File::create_new(temporary.path()).map_err(BagError::file(&temporary.path))?;
         let mut target = BufWriter::with_capacity(1 << 20, target);
-        let wrong = |error: std::io::Error| BagError::Unpack(packed.to_owned(), error.to_string());
+        let wrong = |error: std::io::Error| {
+            let words = periplus_diagnostics::plain_words(&error);
+            BagError::Unpack(packed.to_owned(), words)
+        };
         let mut unpacked: Box<dyn Read> = match packing {
             Packing::Zstd => Box::new(zstd::stream::read::Decoder::new(source).map_err(wrong)?),
             Packing::Lz4 => Box::new(lz4_flex::frame::FrameDecoder::new(source)),

@@ -56,7 +56,9 @@ pub enum ReadError {
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Source(error) => write!(f, "the bag cannot be read: {error}"),
+            Self::Source(error) => {
+                write!(f, "the bag cannot be read: {}", periplus_diagnostics::plain_words(error))
+            }
             Self::Unknown(Some(other)) => write!(f, "this is not a recording but {other}"),
             Self::Unknown(None) => {
                 write!(f, "this is no recording: neither MCAP nor a bag of ROS 1")

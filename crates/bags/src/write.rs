@@ -96,7 +96,9 @@ pub enum WriteError {
 impl fmt::Display for WriteError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Sink(error) => write!(f, "the bag cannot be written: {error}"),
+            Self::Sink(error) => {
+                write!(f, "the bag cannot be written: {}", periplus_diagnostics::plain_words(error))
+            }
             Self::NegativeTime(time_ns) => {
                 write!(f, "the bag cannot hold the time {time_ns} ns: its times begin at 0")
             }

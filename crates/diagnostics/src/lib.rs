@@ -7,6 +7,7 @@
 mod collect;
 mod diagnostic;
 mod json;
+mod machine_words;
 mod render;
 mod source;
 mod spelling;
@@ -14,6 +15,7 @@ mod spelling;
 pub use collect::{Diagnostics, MOST_KEPT};
 pub use diagnostic::{Diagnostic, Replacement, Severity};
 pub use json::to_json;
+pub use machine_words::plain_words;
 pub use render::{Style, render};
 pub use source::{ContextId, Expansion, FileId, Origin, Position, SourceFile, SourceMap, Span};
 pub use spelling::closest;

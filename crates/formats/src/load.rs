@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_resources::{ReadError, nearest};
 use periplus_scene::Scene;
 use periplus_urdf::Robot;
 use periplus_xml::Document;
@@ -44,6 +45,14 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
         Ok(bytes) => load_bytes(&path, &bytes, setting),
         Err(error) => {
             let mut loaded = empty(path);
+            let near = match error {
+                ReadError::Missing => nearest(setting.host, &loaded.path),
+                _ => None,
+            };
+            let help = match near {
+                Some(near) => format!("did you mean `{}`?", shown(&near, &setting.working_folder)),
+                None => "check the path; it is taken from the folder you stand in".to_owned(),
+            };
             loaded.diagnostics.push(
                 Diagnostic::error(
                     "unreadable-file",
@@ -52,7 +61,7 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
                         shown(&loaded.path, &setting.working_folder)
                     ),
                 )
-                .help("check the path; it is taken from the folder you stand in"),
+                .help(help),
             );
             loaded
         }

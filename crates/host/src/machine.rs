@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
+use periplus_diagnostics::plain_words;
 use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError, Store};
 
 /// The machine that this program runs on.
@@ -59,16 +60,49 @@ impl Host for Machine {
 
 impl Store for Machine {
     fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
-        let words = |error: std::io::Error| error.to_string();
+        let words = |error: std::io::Error| plain_words(&error);
         let mut name = path.file_name().ok_or("this names no file")?.to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let beside = path.with_file_name(name);
+        remove_stale(path);
         let written = write_new(&beside, content).and_then(|()| fs::rename(&beside, path));
         if written.is_err() {
             // Nobody can do more about it here.
             let _ = fs::remove_file(&beside);
         }
         written.map_err(words)
+    }
+}
+
+/// Age from which a part of a process that is gone is nobody's \[s\].
+const STALE_S: u64 = 60;
+
+/// Removes what writers of this file left beside it when they were killed: `NAME.PID.part` of processes that
+/// are gone. A young one stays: it may belong to a process that is not visible here, as in a container.
+fn remove_stale(path: &Path) {
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return };
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    // Without /proc it is not known which processes are there.
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
+    for entry in Machine.list(folder) {
+        let rest = entry.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
+        let Some(process) = rest.and_then(|rest| rest.strip_suffix(".part")) else { continue };
+        let is_number = !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_number || Path::new("/proc").join(process).exists() {
+            continue;
+        }
+        let part = folder.join(&entry);
+        let age = fs::metadata(&part).and_then(|data| data.modified()).ok();
+        let age = age.and_then(|changed| changed.elapsed().ok());
+        if age.is_some_and(|age| age.as_secs() >= STALE_S) {
+            // Nobody can do more about it here.
+            let _ = fs::remove_file(part);
+        }
     }
 }
 
@@ -82,7 +116,7 @@ fn write_new(path: &Path, content: &[u8]) -> std::io::Result<()> {
 fn refusal(error: &std::io::Error) -> ReadError {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory => ReadError::Missing,
-        _ => ReadError::Other(error.to_string()),
+        _ => ReadError::Other(plain_words(error)),
     }
 }
 
@@ -135,6 +169,37 @@ mod tests {
         assert!(Machine.replace(&folder.0.join("no/map.yaml"), b"new").is_err());
         assert!(Machine.replace(&folder.0, b"new").is_err(), "a folder stays a folder");
         assert_eq!(Machine.list(&folder.0), ["map.yaml"], "nothing is left behind");
+    }
+
+    #[test]
+    fn parts_of_killed_writers_are_removed() {
+        if !Path::new("/proc/self").exists() {
+            println!("SKIPPED: there is no /proc here");
+            return;
+        }
+        // No process has a number this large (PID_MAX_LIMIT is 2^22).
+        let own = format!("map.yaml.{}.part", std::process::id());
+        let folder = Folder::new("stale")
+            .with_file("map.yaml.99999999.part", "half")
+            .with_file("map.yaml.88888888.part", "half, and young")
+            .with_file("map.pgm.99999999.part", "of another file")
+            .with_file("map.yaml.mine.part", "of a person")
+            .with_file(&own, "of a process that lives");
+        let old = std::time::SystemTime::now() - std::time::Duration::from_secs(2 * STALE_S);
+        for name in ["map.yaml.99999999.part", "map.pgm.99999999.part", &own] {
+            let file = fs::File::options().write(true).open(folder.0.join(name)).unwrap();
+            file.set_modified(old).unwrap();
+        }
+        remove_stale(&folder.0.join("map.yaml"));
+        assert_eq!(
+            Machine.list(&folder.0),
+            ["map.pgm.99999999.part", "map.yaml.88888888.part", &own, "map.yaml.mine.part"]
+                .iter()
+                .map(|name| (*name).to_owned())
+                .collect::<std::collections::BTreeSet<_>>()
+                .into_iter()
+                .collect::<Vec<_>>()
+        );
     }
 
     #[test]

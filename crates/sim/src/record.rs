@@ -11,6 +11,7 @@ use std::time::Duration;
 use periplus_bags::{
     BagInfo, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer,
 };
+use periplus_diagnostics::plain_words;
 use periplus_graph::{
     Durability, History, Liveliness, Qos, Reliability, Sample, Sink, TapId, TopicInfo,
 };
@@ -59,7 +60,9 @@ pub enum RecordError {
 impl fmt::Display for RecordError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::File(path, error) => write!(f, "`{}` cannot be made: {error}", path.display()),
+            Self::File(path, error) => {
+                write!(f, "`{}` cannot be made: {}", path.display(), plain_words(error))
+            }
             Self::Exists(path) => write!(
                 f,
                 "the folder `{}` is there already; take it away or name another",

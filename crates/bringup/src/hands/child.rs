@@ -112,7 +112,10 @@ impl Child {
             if missing {
                 format!("there is no program `{program}` on the PATH, and nothing built in stands for it")
             } else {
-                format!("`{program}` cannot be started: {error}")
+                format!(
+                    "`{program}` cannot be started: {}",
+                    periplus_diagnostics::plain_words(&error)
+                )
             }
         })?;
         let (send, printed) = channel();
