@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use periplus_bagfiles::Bag;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
-use crate::terminal;
+use crate::{paths, terminal};
 
 pub(crate) use options::BagCommand;
 
@@ -36,13 +36,13 @@ pub(crate) fn run(command: &BagCommand) -> io::Result<ExitCode> {
 
 /// Opens a recording and tells what is wrong with it; none when it cannot be opened.
 fn open(path: &Path) -> io::Result<Option<Bag>> {
-    match Bag::open(path) {
+    match paths::bag(path) {
         Ok(bag) => {
             tell(bag.findings())?;
             Ok(Some(bag))
         }
         Err(error) => {
-            terminal::complain(&error.to_string());
+            terminal::complain(&error);
             Ok(None)
         }
     }

@@ -29,7 +29,7 @@ pub(crate) fn run(options: &ConformanceOptions) -> io::Result<ExitCode> {
         Ok(report) => report,
         Err(error) => {
             complain(&error.to_string());
-            return Ok(ExitCode::from(2));
+            return Ok(ExitCode::FAILURE);
         }
     };
     let text = if options.json { format!("{:#}\n", report.to_json()) } else { report.to_text() };

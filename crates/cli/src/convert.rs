@@ -10,6 +10,7 @@ use periplus_scene::Scene;
 use periplus_xml::write_document;
 
 use crate::options::{ConvertOptions, Format, split};
+use crate::paths;
 use crate::terminal::{self, with_setting, working_folder};
 
 pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
@@ -35,7 +36,19 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
         terminal::complain(&format!("{} is not converted", file.display()));
         return Ok(ExitCode::FAILURE);
     };
-    write(&text, options.output.as_deref())?;
+    match &options.output {
+        Some(path) => {
+            if let Err(why) = paths::write(path, text.as_bytes()) {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        }
+        None => {
+            let mut out = io::stdout().lock();
+            out.write_all(text.as_bytes())?;
+            out.flush()?;
+        }
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -120,15 +133,4 @@ fn is_only_shown(loaded: &Loaded, scene: &Scene) -> bool {
     let has_links = |robot: &periplus_urdf::Robot| !robot.links.is_empty();
     loaded.robot.as_ref().is_some_and(has_links)
         && scene.models.iter().all(|model| model.links.is_empty())
-}
-
-fn write(text: &str, output: Option<&Path>) -> io::Result<()> {
-    match output {
-        Some(path) => std::fs::write(path, text),
-        None => {
-            let mut out = io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            out.flush()
-        }
-    }
 }

@@ -182,10 +182,9 @@ fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
     });
     let Some(bytes) = drawn else { return Err("there is no costmap to draw".into()) };
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+        crate::paths::make_folder(folder)?;
     }
-    std::fs::write(path, bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
+    crate::paths::write(path, &bytes)
 }
 
 /// What a costmap lives on, and what it lacks.

@@ -106,8 +106,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let mut simulation = Simulation::new(&mut composition, files, settings);
     let out = options.out();
     if let Some(out) = &out {
-        std::fs::create_dir_all(out)
-            .map_err(|why| format!("cannot make {}: {why}", out.display()))?;
+        crate::paths::make_folder(out)?;
     }
     let recorder = out.as_deref().map(|out| record(&simulation, out)).transpose()?;
     let search = Search { folders: Vec::new(), working_folder: terminal::working_folder() };
@@ -167,8 +166,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         eyes.write(&out)?;
     }
     let text = format!("{told:#}\n");
-    std::fs::write(out.join("report.json"), text)
-        .map_err(|why| format!("cannot write the report: {why}"))?;
+    crate::paths::write(&out.join("report.json"), text.as_bytes())?;
     let mut err = anstream::stderr().lock();
     let said = run.tell(&mut err).and_then(|()| mapping.tell(&mut err));
     let said = said.and_then(|()| match &truth {

@@ -112,6 +112,38 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     play::play(launched, &options.play, &options.search)
 }
 
+/// What is wrong with a launch file, as far as planning it shows; nothing is started.
+pub(crate) fn examine(
+    file: &Path,
+    arguments: Vec<(String, String)>,
+    resource_path: &[PathBuf],
+) -> (Diagnostics, SourceMap) {
+    let (host, here) = (Machine, working_folder());
+    let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
+    let resolver = Resolver::new(&host, &folders);
+    let mut sources = SourceMap::new();
+    let mut outside = outside::Programs::new(&resolver, &here, true);
+    let found = match self::file(&[file.to_owned()], &resolver, &here) {
+        Ok(Found::File(file)) => {
+            let request = Request {
+                file,
+                arguments,
+                host: &host,
+                resolver: &resolver,
+                outside: &mut outside,
+            };
+            plan(request, &mut sources).1
+        }
+        Ok(Found::StandIn(_)) => Diagnostics::new(),
+        Err(wrong) => {
+            let mut found = Diagnostics::new();
+            found.push(*wrong);
+            found
+        }
+    };
+    (found, sources)
+}
+
 /// A plan of one launch file that is not here.
 fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
     let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
@@ -140,7 +172,12 @@ fn file(words: &[PathBuf], resolver: &Resolver<'_>, here: &Path) -> Result<Found
                 return Ok(Found::File(path));
             }
             Err(Diagnostic::error("launch-file", format!("there is no file {}", file.display()))
-                .help("give the path of a launch file, or a package and the name of a file in it")
+                .help(match crate::paths::advice(file).trim_start_matches("; ") {
+                    "" => {
+                        "give the path of a launch file, or a package and the name of a file in it"
+                    }
+                    near => near,
+                })
                 .into())
         }
         [package, name] => {

@@ -8,9 +8,9 @@ use std::path::Path;
 use clap::Args;
 use periplus_bags::{CarmenScan, is_carmen, read_carmen};
 use periplus_base::Pose2;
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_slam::Scan;
+
+use crate::paths;
 
 /// What of a log is meant.
 #[derive(Clone, Debug, Args)]
@@ -61,9 +61,9 @@ impl Log {
         if is_recording {
             return bag::read(path, options);
         }
-        let text = match Machine.read(path) {
+        let text = match paths::read(path) {
             Ok(text) => text,
-            Err(why) => return Ok(Err(format!("cannot read {}: {why}", path.display()))),
+            Err(why) => return Ok(Err(why)),
         };
         if !is_carmen(&text) {
             return bag::read(path, options);

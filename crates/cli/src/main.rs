@@ -9,15 +9,18 @@ mod convert;
 mod costmap;
 mod demo;
 mod doctor;
+mod help;
 mod launch;
 mod live;
 mod localize;
 mod log;
 mod map;
 mod mapping;
+mod new;
 mod old_words;
 mod options;
 mod page;
+mod paths;
 mod picture;
 mod program;
 mod sim;
@@ -32,30 +35,43 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser as _};
-
+use periplus_diagnostics::plain_words;
 use periplus_graph::split_arguments;
 
 use demo::DemoOptions;
-use options::{Command, Options};
+use options::Command;
 
 /// All at once, so that a reader that has seen enough is an error that [`main`] knows.
 fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Options::command(), "periplus", &mut script);
+    clap_complete::generate(shell, &mut help::command(), "periplus", &mut script);
     std::io::stdout().lock().write_all(&script)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// The manual page of the command, or those of all its commands in a folder.
 fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
-    let command = Options::command();
+    let command = help::command();
     if let Some(folder) = folder {
-        if let Err(error) = clap_mangen::generate_to(command, folder) {
-            terminal::complain(&format!("cannot write to {}: {error}", folder.display()));
-            return Ok(ExitCode::FAILURE);
-        }
-        return Ok(ExitCode::SUCCESS);
+        let written = paths::make_folder(folder).and_then(|()| {
+            clap_mangen::generate_to(command, folder).map_err(|error| {
+                format!("cannot write to {}: {}", folder.display(), plain_words(&error))
+            })
+        });
+        return Ok(match written {
+            Ok(()) => {
+                terminal::say(&format!(
+                    "the manual pages are in {}: `man -l {}`",
+                    folder.display(),
+                    folder.join("periplus.1").display()
+                ));
+                ExitCode::SUCCESS
+            }
+            Err(why) => {
+                terminal::complain(&why);
+                ExitCode::FAILURE
+            }
+        });
     }
     let mut page = Vec::new();
     clap_mangen::Man::new(command).render(&mut page)?;
@@ -71,7 +87,7 @@ fn main() -> ExitCode {
     };
     // A usage error ends here with exit code 2, and a message of clap's.
     let (words, ros) = split_arguments(words);
-    let options = Options::parse_from(words);
+    let options = help::parse(words);
     options.colour.apply();
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
     let outcome = match command {
@@ -98,6 +114,7 @@ fn main() -> ExitCode {
         Command::Demo(options) => demo::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(options) => doctor::run(&options),
+        Command::New(command) => new::run(&command),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),
@@ -119,7 +136,7 @@ fn ended(outcome: std::io::Result<ExitCode>) -> ExitCode {
         // Whoever read our output has seen enough.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            terminal::complain(&format!("cannot write the output: {error}"));
+            terminal::complain(&format!("cannot write the output: {}", plain_words(&error)));
             ExitCode::FAILURE
         }
     }

@@ -12,7 +12,6 @@ use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::{Value, Values};
-use periplus_resources::{Host as _, Store as _};
 use periplus_slam_nodes::{Pace, Program, SlamNode};
 
 use crate::{picture, terminal};
@@ -66,15 +65,7 @@ pub(crate) fn parameters(
         let program = wanted.unwrap_or(Program::Async);
         return Ok(Some((program, program.table().check([], None, &mut diagnostics))));
     };
-    let text = Machine
-        .read(path)
-        .map_err(|why| format!("cannot read {}: {why}", path.display()))
-        .and_then(|bytes| {
-            String::from_utf8(bytes).map_err(|_| {
-                format!("{} is no text; `--slam` takes a file of parameters", path.display())
-            })
-        });
-    let text = match text {
+    let text = match crate::paths::text(path) {
         Ok(text) => text,
         Err(why) => {
             terminal::complain(&why);
@@ -223,14 +214,8 @@ impl Mapping {
     /// Writes what was asked for; in words why it cannot be.
     pub(crate) fn write(&self) -> Result<Option<PathBuf>, String> {
         let Some(folder) = &self.out else { return Ok(None) };
-        std::fs::create_dir_all(folder)
-            .map_err(|why| format!("cannot make {}: {why}", folder.display()))?;
-        let put = |name: &str, bytes: &[u8]| {
-            let path = folder.join(name);
-            Machine
-                .replace(&path, bytes)
-                .map_err(|why| format!("cannot write {}: {why}", path.display()))
-        };
+        crate::paths::make_folder(folder)?;
+        let put = |name: &str, bytes: &[u8]| crate::paths::write(&folder.join(name), bytes);
         let is_empty = self.node.status().counts.kept == 0 && self.node.status().graph.0 == 0;
         let Some(map) = self.node.map().filter(|_| !is_empty) else {
             return Err("there is no map to write: no scan became part of one".into());

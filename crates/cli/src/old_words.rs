@@ -15,6 +15,9 @@ mod shell;
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+pub(crate) use tests::words as words_of_line;
+
 use std::io;
 use std::process::ExitCode;
 

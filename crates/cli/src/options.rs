@@ -14,6 +14,7 @@ use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
+use crate::new::NewCommand;
 use crate::program::RunOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
@@ -46,6 +47,8 @@ pub(crate) enum Command {
     Convert(ConvertOptions),
     Demo(DemoOptions),
     Launch(LaunchOptions),
+    #[command(subcommand)]
+    New(NewCommand),
     Run(RunOptions),
     Sim(Box<SimOptions>),
     Slam(SlamOptions),

@@ -103,7 +103,8 @@ impl Page {
         let server = server.map_err(|error| {
             let taken = error.kind() == std::io::ErrorKind::AddrInUse;
             let advice = "; name another port, such as --page=8766, or 0 for any that is free";
-            format!("no page at {address}: {error}{}", if taken { advice } else { "" })
+            let why = periplus_diagnostics::plain_words(&error);
+            format!("no page at {address}: {why}{}", if taken { advice } else { "" })
         })?;
         Ok(Self { server, hub })
     }

@@ -4,6 +4,7 @@ use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, Parser as _};
+use periplus_diagnostics::plain_words;
 use periplus_host::Machine;
 use periplus_resources::Store as _;
 
@@ -27,7 +28,7 @@ pub(crate) struct RunOptions {
 pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
-    let written = std::fs::create_dir_all(&folder).map_err(|error| error.to_string());
+    let written = std::fs::create_dir_all(&folder).map_err(|error| plain_words(&error));
     let written = written.and_then(|()| Machine.replace(&file, text(options).as_bytes()));
     if let Err(why) = written {
         terminal::complain(&format!("cannot write {}: {why}", file.display()));

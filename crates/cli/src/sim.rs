@@ -22,6 +22,7 @@ use periplus_sim::{
 
 use crate::arguments;
 use crate::costmap::{CostmapOptions, Costmaps};
+use crate::demo::browser;
 use crate::localize::{BesideOptions, Localization};
 use crate::mapping::{Mapping, MappingOptions};
 use crate::options::{SearchOptions, split};
@@ -122,6 +123,9 @@ pub(crate) struct SimOptions {
     mapping: MappingOptions,
     #[command(flatten)]
     page: PageOptions,
+    /// Open no browser on the page
+    #[arg(long, requires = "page")]
+    no_browser: bool,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -248,8 +252,14 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             return Ok(ExitCode::FAILURE);
         }
     };
-    if let Some(page) = page.as_ref().filter(|_| !options.quiet) {
-        terminal::say(&format!("the page is at {}", page.url()));
+    if let Some(page) = &page {
+        let url = page.url();
+        if !options.quiet {
+            terminal::say(&format!("the page is at {url}"));
+        }
+        if !options.no_browser && !browser::open(&url) && !options.quiet {
+            terminal::say("no browser could be opened; open the page yourself");
+        }
     }
     let stop = terminal::stop_on_ctrl_c();
     let run = Run {

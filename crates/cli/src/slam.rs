@@ -10,13 +10,12 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_host::{Machine, Stopwatch};
+use periplus_host::Stopwatch;
 use periplus_maps::{Distro, Saving, render};
-use periplus_resources::Store as _;
 use periplus_slam::Mapper;
 
 use crate::log::Log;
-use crate::{picture, terminal};
+use crate::{paths, picture, terminal};
 use parameters::Parameters;
 use report::Report;
 use session::Made;
@@ -74,7 +73,9 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     let mut spent_s = Vec::with_capacity(log.scans.len());
     // Which scans have a line in the trajectory.
     let mut stamps = Vec::with_capacity(log.scans.len());
-    for logged in log.scans.iter().step_by(parameters.every()) {
+    let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
+    for (number, logged) in log.scans.iter().enumerate().step_by(parameters.every()) {
+        bar.set_position(number as u64);
         let one = Stopwatch::start();
         let before = slam.counts().ignored;
         let _ = slam.add_scan(&logged.scan, logged.odom_from_base);
@@ -83,6 +84,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             stamps.push(logged.stamp.as_str());
         }
     }
+    bar.finish_and_clear();
     let saved = match (&options.save_session, made.graph()) {
         (Some(path), Some(graph)) => put(path, &graph.save()),
         _ => Ok(()),
@@ -107,7 +109,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             _ => Ok(()),
         });
     if !options.quiet {
-        report.tell(&mut anstream::stdout().lock())?;
+        report.tell(&mut anstream::stdout().lock(), written.is_ok())?;
     }
     if let Err(why) = written {
         terminal::complain(&why);
@@ -124,7 +126,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
 const MOST_TOLD: usize = 20;
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    Machine.replace(path, bytes).map_err(|why| format!("cannot write {}: {why}", path.display()))
+    paths::write(path, bytes)
 }
 
 /// Writes all that comes of a run.
@@ -136,7 +138,7 @@ fn write(
     (stamps, before): (&[&str], usize),
     report: &Report<'_>,
 ) -> Result<(), String> {
-    std::fs::create_dir_all(out).map_err(|why| format!("cannot make {}: {why}", out.display()))?;
+    paths::make_folder(out)?;
     let put = |name: &str, bytes: &[u8]| put(&out.join(name), bytes);
     let trajectory = slam.trajectory();
     let lines: String = stamps

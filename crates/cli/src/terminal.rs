@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use indicatif::{ProgressBar, ProgressStyle};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, render};
 use periplus_formats::{Loaded, Setting};
 use periplus_host::Machine;
@@ -72,6 +73,17 @@ pub(crate) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
         complain("Ctrl-C cannot be caught; the bag's end will be missing when it is used");
     }
     stop
+}
+
+/// A line that shows how far a long work is; nothing where stderr is no terminal.
+pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let style =
+        format!("{{bar:30}} {{percent}} %, {{human_pos}} of {{human_len}} {what}, {{eta}} left");
+    let style = ProgressStyle::with_template(&style);
+    ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// Where the user stands.

@@ -2,6 +2,7 @@
 
 mod action;
 mod common;
+mod gazebo;
 mod interface;
 mod lifecycle;
 mod node;

@@ -22,7 +22,7 @@ pub fn list(session: &mut Session<'_>, show_types: bool, count: bool) -> Outcome
         return session.put(&json!({ "actions": all }));
     }
     let titles = actions.iter().map(|one| titled(&one.name, &one.types, show_types));
-    session.put_names(&titles.collect::<Vec<_>>(), count)
+    session.put_list("action", &titles.collect::<Vec<_>>(), count)
 }
 
 /// The action of this name, when it is there.

@@ -30,7 +30,7 @@ pub fn nodes(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     if session.json {
         return session.put(&json!({ "nodes": names }));
     }
-    session.put_names(&names, count)
+    session.put_list("managed node", &names, count)
 }
 
 /// A managed node by its name.

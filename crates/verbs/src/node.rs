@@ -15,7 +15,7 @@ pub fn list(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     if session.json {
         return session.put(&json!({ "nodes": names }));
     }
-    session.put_names(&names, count)?;
+    session.put_list("node", &names, count)?;
     if !count && names.windows(2).any(|pair| pair[0] == pair[1]) {
         session.say(
             "WARNING: there are nodes of exactly the same name; services and parameters of such \

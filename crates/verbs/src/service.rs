@@ -35,7 +35,7 @@ pub fn list(
         return session.put(&json!({ "services": all }));
     }
     let titles = services.iter().map(|one| titled(&one.name, &one.types, show_types));
-    session.put_names(&titles.collect::<Vec<_>>(), count)
+    session.put_list("service", &titles.collect::<Vec<_>>(), count)
 }
 
 /// The service of this name, when it is there.

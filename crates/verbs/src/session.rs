@@ -186,6 +186,25 @@ impl Session<'_> {
         Ok(())
     }
 
+    /// Writes names as [`Session::put_names`], and says so where there are none.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_list<N: std::fmt::Display>(
+        &mut self,
+        what: &str,
+        names: &[N],
+        count: bool,
+    ) -> Outcome {
+        if names.is_empty() && !count {
+            self.say(&format!(
+                "no {what} was found: nothing that runs on this network has one \
+                 (`periplus doctor` examines the network)"
+            ));
+        }
+        self.put_names(names, count)
+    }
+
     /// Writes the types of what has this name.
     ///
     /// # Errors
@@ -211,7 +230,7 @@ impl Session<'_> {
         if self.json {
             return self.put(&json!({ "type": type_name, what: names }));
         }
-        self.put_names(names, count)
+        self.put_list(&format!("{} of this type", what.trim_end_matches('s')), names, count)
     }
 
     /// Writes one JSON object on a line.

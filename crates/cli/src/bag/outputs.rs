@@ -7,12 +7,9 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, closest};
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_yaml::Node;
 
 use super::options::{Chunks, Format, Mode, SelectOptions, StorageId, WriteOptions};
-use crate::terminal;
 
 /// A recording that comes out.
 #[derive(Debug)]
@@ -71,10 +68,7 @@ pub(super) fn is_one(path: &Path) -> bool {
 
 /// Reads such a file; the findings tell what is wrong, and the sources where.
 pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap), String> {
-    let bytes = Machine
-        .read(&terminal::working_folder().join(path))
-        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let text = crate::paths::text(path)?;
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add(path.display().to_string(), text);
     let wanted = match periplus_yaml::parse(file, &sources) {

@@ -4,8 +4,6 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_wire_gz::{Direction, Pair};
 use periplus_yaml::Node;
 
@@ -30,9 +28,7 @@ pub(super) fn read(
     path: &Path,
     is_lazy: bool,
 ) -> Result<(Vec<Pair>, Diagnostics, SourceMap), String> {
-    let cannot = |why: &dyn std::fmt::Display| format!("cannot read {}: {why}", path.display());
-    let bytes = Machine.read(path).map_err(|error| cannot(&error))?;
-    let text = String::from_utf8(bytes).map_err(|_| cannot(&"it is no text"))?;
+    let text = crate::paths::text(path)?;
     Ok(read_text(&path.display().to_string(), text, is_lazy))
 }
 

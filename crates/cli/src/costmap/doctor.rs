@@ -48,7 +48,7 @@ pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
         Ok(file) => file,
         Err(why) => {
             terminal::complain(&why);
-            return Ok(ExitCode::from(2));
+            return Ok(ExitCode::FAILURE);
         }
     };
     add_complaints(&mut file);

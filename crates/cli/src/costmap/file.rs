@@ -4,8 +4,6 @@ use std::path::Path;
 
 use periplus_costmap::{Compat, Config};
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 
 /// The costmaps of Nav2, by the names of their nodes.
 const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
@@ -22,9 +20,7 @@ pub(super) struct File {
 /// # Errors
 /// Why there is none.
 pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> {
-    let bytes =
-        Machine.read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    let text = crate::paths::text(path)?;
     read_text(&path.display().to_string(), text, compat)
 }
 

@@ -73,9 +73,7 @@ impl Eyes {
         ];
         for (name, bytes) in pictures {
             let Some(bytes) = bytes else { continue };
-            let path = folder.join(name);
-            std::fs::write(&path, bytes)
-                .map_err(|why| format!("cannot write {}: {why}", path.display()))?;
+            crate::paths::write(&folder.join(name), &bytes)?;
         }
         Ok(())
     }

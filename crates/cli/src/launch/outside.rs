@@ -96,7 +96,8 @@ impl Outside for Programs<'_> {
             None => {
                 let folder =
                     std::env::temp_dir().join(format!("periplus_launch_{}", std::process::id()));
-                std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+                std::fs::create_dir_all(&folder)
+                    .map_err(|error| periplus_diagnostics::plain_words(&error))?;
                 self.scratch.insert(folder).clone()
             }
         };

@@ -7,9 +7,8 @@ use std::process::ExitCode;
 
 use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_host::{Machine, Stopwatch};
+use periplus_host::Stopwatch;
 use periplus_localization::{Amcl, Scan, Settings, State, Status};
-use periplus_resources::Store as _;
 
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
@@ -176,13 +175,8 @@ fn word(state: State) -> &'static str {
 
 /// Writes all that comes of a run.
 fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), String> {
-    std::fs::create_dir_all(out).map_err(|why| format!("cannot make {}: {why}", out.display()))?;
-    let put = |name: &str, bytes: &[u8]| {
-        let path = out.join(name);
-        Machine
-            .replace(&path, bytes)
-            .map_err(|why| format!("cannot write {}: {why}", path.display()))
-    };
+    crate::paths::make_folder(out)?;
+    let put = |name: &str, bytes: &[u8]| crate::paths::write(&out.join(name), bytes);
     let trajectory = &report.outcome.trajectory;
     let line = |(stamp, pose): &(String, Pose2)| {
         format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)

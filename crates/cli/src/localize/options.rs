@@ -7,11 +7,9 @@ use clap::Args;
 use periplus_base::Pose2;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_grid::OccupancyGrid;
-use periplus_host::Machine;
 use periplus_localization_nodes::read;
 use periplus_maps::{Distro, load};
 use periplus_params::Values;
-use periplus_resources::Host as _;
 use periplus_yaml::Node;
 
 use crate::log::LogOptions;
@@ -110,9 +108,7 @@ pub(super) struct Yaml {
 
 /// Reads a file; in words why it cannot be.
 pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
-    let cannot = |why: &dyn std::fmt::Display| format!("cannot read {}: {why}", path.display());
-    let bytes = Machine.read(path).map_err(|error| cannot(&error))?;
-    let text = String::from_utf8(bytes).map_err(|_| cannot(&"it is no text"))?;
+    let text = crate::paths::text(path)?;
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add(path.display().to_string(), text);
     let tree = match periplus_yaml::parse(file, &sources) {
@@ -136,7 +132,7 @@ pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> io::Result
 
 /// The map of a file; none when it cannot be read, which is told.
 pub(super) fn map(path: &Path) -> io::Result<Option<OccupancyGrid>> {
-    let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &Machine);
+    let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &periplus_host::Machine);
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, &loaded.diagnostics, &loaded.sources)?;
     if loaded.map.is_none() {

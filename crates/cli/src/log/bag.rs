@@ -23,9 +23,9 @@ const BASES: [&str; 2] = ["base_footprint", "base_link"];
 
 /// Reads a recording; in words why it cannot be.
 pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
-    let bag = match Bag::open(path) {
+    let bag = match crate::paths::bag(path) {
         Ok(bag) => bag,
-        Err(why) => return Ok(Err(why.to_string())),
+        Err(why) => return Ok(Err(why)),
     };
     let findings = bag.findings();
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())?;

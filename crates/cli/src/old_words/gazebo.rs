@@ -1,8 +1,11 @@
 //! `gz ...`, `ign ...`, `gazebo ...`.
 
-use super::answers::{elsewhere, lacking};
+use super::answers::{elsewhere, lacking, needless, unknown};
 use super::ros2::without;
 use super::{Reading, become_words};
+
+/// Verbs of `gz` that are translated.
+const WORDS: [&str; 7] = ["sim", "topic", "service", "model", "sdf", "launch", "gui"];
 
 const AT_ONCE: &str = "it runs at once; pause and step it on the page";
 
@@ -46,10 +49,10 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
             &format!("{program} plugin"),
             "plugins are built in: `periplus check WORLD` tells which are known",
         ),
-        other => lacking(
-            &format!("{program} {other}"),
-            "of Gazebo's words there are sim, topic, service, model and sdf",
-        ),
+        "--help" | "-h" => {
+            needless(format!("`{program}` takes {}; see `periplus --help`", WORDS.join(", ")))
+        }
+        other => unknown(program, other, &WORDS),
     }
 }
 
@@ -57,6 +60,7 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
 fn simulate(program: &str, rest: &[String]) -> Reading {
     let (mut words, mut dropped) = (Vec::new(), Vec::new());
     let (mut has_page, mut has_world, mut runs) = (true, false, false);
+    let mut has_own_page = false;
     let mut rest = rest.iter();
     while let Some(word) = rest.next() {
         match word.as_str() {
@@ -65,6 +69,12 @@ fn simulate(program: &str, rest: &[String]) -> Reading {
             "-r" => runs = true,
             "-rs" | "-sr" => (has_page, runs) = (false, true),
             "--headless-rendering" => has_page = false,
+            // Options of ours may stand here too: the messages of a run name them.
+            "--no-browser" => words.push(word.clone()),
+            _ if word == "--page" || word.starts_with("--page=") => {
+                has_own_page = true;
+                words.push(word.clone());
+            }
             "--seed" => words.extend(["--seed".to_owned()].into_iter().chain(rest.next().cloned())),
             "--record" => words.extend(["--record".to_owned(), "recording.mcap".to_owned()]),
             "--record-path"
@@ -95,7 +105,7 @@ fn simulate(program: &str, rest: &[String]) -> Reading {
             "name the world: `periplus sim WORLD.sdf --page`; for a first look, `periplus demo`",
         );
     }
-    if has_page {
+    if has_page && !has_own_page {
         words.push("--page".into());
     }
     // As there, programs of Gazebo and bridges see the run.
@@ -163,7 +173,7 @@ fn has(words: &[String], flags: &[&str]) -> bool {
 fn topic(program: &str, words: &[String]) -> Reading {
     let name = value(words, &["-t", "--topic"]).unwrap_or_default().to_owned();
     if has(words, &["-l", "--list"]) {
-        return become_words(&["topic", "list"], Vec::new());
+        return become_words(&["topic", "list", "--gz"], Vec::new());
     }
     if name.is_empty() {
         return elsewhere(format!(
@@ -234,7 +244,7 @@ fn yaml(text: &str) -> String {
 
 fn service(program: &str, words: &[String]) -> Reading {
     if has(words, &["-l", "--list"]) {
-        return become_words(&["service", "list"], Vec::new());
+        return become_words(&["service", "list", "--gz"], Vec::new());
     }
     let Some(name) = value(words, &["-s", "--service"]) else {
         return elsewhere(format!("`{program} service` takes `-l`, or `-s SERVICE`"));

@@ -2,7 +2,7 @@
 
 use super::answers::{elsewhere, lacking, needless, with_packages};
 use super::programs::{self, Dialect};
-use super::ros2::without;
+use super::ros2::{created, without};
 use super::{Reading, become_words};
 
 pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
@@ -37,11 +37,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
         "rospack" | "rosstack" | "roscd" | "rosls" | "rosed" => {
             with_packages("packages are found by their package.xml; here are those that are found")
         }
-        "roscreate-pkg" | "catkin_create_pkg" => lacking(
-            program,
-            "a package is a folder with a package.xml: write one with `<package><name>NAME</name>\
-             </package>` beside your files",
-        ),
+        "roscreate-pkg" | "catkin_create_pkg" => created(rest),
         _ => return None,
     })
 }

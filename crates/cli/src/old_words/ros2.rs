@@ -1,9 +1,26 @@
 //! `ros2 ...`.
 
-use super::answers::{elsewhere, lacking, needless, with_packages};
+use super::answers::{elsewhere, lacking, needless, unknown, with_packages};
 use super::programs::{self, Dialect};
 use super::ros1::clock_last;
 use super::{Reading, become_words};
+
+/// Verbs of `ros2` that are translated.
+const WORDS: [&str; 13] = [
+    "action",
+    "bag",
+    "doctor",
+    "interface",
+    "launch",
+    "lifecycle",
+    "multicast",
+    "node",
+    "param",
+    "pkg",
+    "run",
+    "service",
+    "topic",
+];
 
 pub(super) fn read(words: &[String]) -> Reading {
     let Some((verb, rest)) = words.split_first() else {
@@ -38,15 +55,11 @@ pub(super) fn read(words: &[String]) -> Reading {
             lacking("ros2 security", "no keys are made here, and topics are not encrypted")
         }
         "test" => lacking("ros2 test", "run tests of launch files where ROS 2 is installed"),
-        "--help" | "-h" => elsewhere(
-            "these words of `ros2` are here: action, bag, doctor, \
-            interface, launch, lifecycle, node, param, run, service, topic; see `periplus --help`",
-        ),
-        other => lacking(
-            &format!("ros2 {other}"),
-            "of `ros2` there are action, bag, doctor, interface, launch, lifecycle, node, param, run, \
-             service and topic",
-        ),
+        "--help" | "-h" => needless(format!(
+            "`ros2` takes {}; `periplus ros2 WORD --help` explains one of them",
+            WORDS.join(", ")
+        )),
+        other => unknown("ros2", other, &WORDS),
     }
 }
 
@@ -87,16 +100,43 @@ fn doctored(rest: &[String]) -> Vec<String> {
     rest.iter().filter(is_known).cloned().collect()
 }
 
+/// `ros2 pkg create` and `catkin_create_pkg`: the name is the one word that belongs to no option.
+pub(super) fn created(rest: &[String]) -> Reading {
+    let (mut name, mut dropped) = (None, Vec::new());
+    let mut rest = rest.iter().peekable();
+    while let Some(word) = rest.next() {
+        if word.starts_with('-') {
+            dropped.push(word.clone());
+            // `--dependencies` takes several words, the others one.
+            while let Some(value) = rest.next_if(|next| !next.starts_with('-')) {
+                // The name may stand last, behind an option's one word.
+                if name.is_none() && rest.peek().is_none() && word != "--dependencies" {
+                    name = Some(value.clone());
+                } else {
+                    dropped.push(value.clone());
+                }
+                if word != "--dependencies" {
+                    break;
+                }
+            }
+        } else if name.is_none() {
+            name = Some(word.clone());
+        } else {
+            dropped.push(word.clone());
+        }
+    }
+    match name {
+        Some(name) => without(become_words(&["new", "package"], vec![name]), &dropped),
+        None => elsewhere("name the package: `periplus new package NAME`"),
+    }
+}
+
 fn package(rest: &[String]) -> Reading {
     match rest.first().map(String::as_str) {
         Some("list" | "prefix" | "xml" | "executables") => {
             with_packages("packages are found by their package.xml; here are those that are found")
         }
-        Some("create") => lacking(
-            "ros2 pkg create",
-            "a package is a folder with a package.xml: write one with `<package><name>NAME</name>\
-             </package>` beside your files",
-        ),
+        Some("create") => created(&rest[1..]),
         _ => elsewhere("`ros2 pkg` takes list, prefix, executables or xml"),
     }
 }

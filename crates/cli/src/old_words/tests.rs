@@ -13,7 +13,7 @@ use super::{Reading, read, shown};
 use crate::options::Options;
 
 /// Words as a shell would hand them over.
-fn words(line: &str) -> Vec<String> {
+pub(crate) fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;
     let mut quote = None;

@@ -1,9 +1,13 @@
 //! How far a run is, for a person who waits.
 
+use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use periplus_sim::Progress;
+
+/// Between two lines where there is no terminal.
+const LINES: Duration = Duration::from_secs(10);
 
 /// Between two drawings of the line.
 const REDRAW: Duration = Duration::from_millis(100);
@@ -13,6 +17,8 @@ pub(crate) struct Line {
     bar: ProgressBar,
     drawn: Duration,
     end_s: Option<f64>,
+    /// When the next line is due where there is no terminal; none where nothing is to be shown.
+    next_line: Option<Duration>,
 }
 
 impl Line {
@@ -23,7 +29,9 @@ impl Line {
             Some(_) => ProgressBar::new(1000).with_style(style("{bar:30} {msg}")),
             None => ProgressBar::new_spinner().with_style(style("{spinner} {msg}")),
         };
-        Self { bar, drawn: Duration::ZERO, end_s }
+        let is_drawn = quiet || std::io::stderr().is_terminal();
+        let next_line = (!is_drawn && end_s.is_some()).then_some(LINES);
+        Self { bar, drawn: Duration::ZERO, end_s, next_line }
     }
 
     /// Shows how far the run is, not too often.
@@ -40,6 +48,14 @@ impl Line {
         self.drawn = progress.wall;
         let time_s = progress.time_ns as f64 * 1e-9;
         let factor = progress.real_time_factor;
+        if let (Some(due), Some(end_s)) = (self.next_line, self.end_s)
+            && progress.wall >= due
+        {
+            self.next_line = Some(progress.wall + LINES);
+            crate::terminal::say(&format!(
+                "{time_s:.1} of {end_s} s simulated, {factor:.1} x real time"
+            ));
+        }
         match self.end_s {
             Some(end_s) => {
                 self.bar.set_position((time_s / end_s * 1000.0) as u64);

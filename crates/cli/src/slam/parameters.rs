@@ -2,9 +2,7 @@
 //! from the command line.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
-use periplus_host::Machine;
 use periplus_params::{Given, Values};
-use periplus_resources::Host as _;
 use periplus_slam::{Method, tables};
 use periplus_slam_nodes::{Written, in_file};
 
@@ -28,11 +26,7 @@ impl Parameters {
         // The method that the node stands for whose parameters are in the file.
         let mut named = None;
         if let Some(path) = &options.live.params_file {
-            let bytes = Machine
-                .read(path)
-                .map_err(|why| format!("cannot read {}: {why}", path.display()))?;
-            let text =
-                String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+            let text = crate::paths::text(path)?;
             let file = sources.add(path.display().to_string(), text);
             match periplus_yaml::parse(file, &sources) {
                 Ok(Some(tree)) => {

@@ -74,7 +74,7 @@ impl Report<'_> {
     }
 
     /// For a person.
-    pub(super) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn tell(&self, out: &mut dyn Write, is_written: bool) -> io::Result<()> {
         let counts = self.slam.counts();
         for warning in self.warnings() {
             writeln!(out, "warning: {warning}")?;
@@ -99,7 +99,10 @@ impl Report<'_> {
         if counts.lost + counts.ignored > 0 {
             writeln!(out, "  {} scans did not fit, {} said nothing", counts.lost, counts.ignored)?;
         }
-        writeln!(out, "  map and trajectory are in {}", self.options.out.display())
+        if is_written {
+            writeln!(out, "  map and trajectory are in {}", self.options.out.display())?;
+        }
+        Ok(())
     }
 
     /// What is odd about the log, and about what the drive in it shows.

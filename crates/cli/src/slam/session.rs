@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_slam::{Gmapping, GmappingSettings, Mapper, Method, Settings, Slam};
 
 use super::options::SlamOptions;
@@ -57,9 +55,7 @@ impl Made {
 }
 
 fn read(path: &Path, settings: Settings) -> Result<Slam, String> {
-    let bytes = Machine
-        .read(path)
-        .map_err(|why| format!("cannot read the session {}: {why}", path.display()))?;
+    let bytes = crate::paths::read(path)?;
     Slam::resume(&bytes, settings)
         .map_err(|why| format!("{} is no session to go on with: {why}", path.display()))
 }

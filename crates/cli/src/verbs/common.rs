@@ -23,27 +23,43 @@ pub(crate) struct Common {
     pub(crate) use_sim_time: bool,
 }
 
+/// Words of `--qos-profile`.
+const PROFILES: [&str; 6] = [
+    "default",
+    "sensor_data",
+    "system_default",
+    "services_default",
+    "parameters",
+    "parameter_events",
+];
+
+/// Words of each policy; the last two leave the choice to the profile, as in ROS 2.
+const HISTORIES: [&str; 4] = ["keep_last", "keep_all", "system_default", "best_available"];
+const RELIABILITIES: [&str; 4] = ["reliable", "best_effort", "system_default", "best_available"];
+const DURABILITIES: [&str; 4] = ["volatile", "transient_local", "system_default", "best_available"];
+const LIVELINESSES: [&str; 4] =
+    ["automatic", "manual_by_topic", "system_default", "best_available"];
+
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Quality of service")]
 pub(crate) struct QosOptions {
-    /// Where to start from: default, sensor_data, system_default, services_default, parameters or
-    /// parameter_events
-    #[arg(long, value_name = "NAME")]
+    /// Profile that the other policies start from
+    #[arg(long, value_name = "NAME", value_parser = PROFILES)]
     qos_profile: Option<String>,
     /// Messages that wait at most
     #[arg(long, value_name = "COUNT")]
     qos_depth: Option<usize>,
-    /// keep_last or keep_all
-    #[arg(long, value_name = "POLICY")]
+    /// Whether old messages are dropped or kept
+    #[arg(long, value_name = "POLICY", value_parser = HISTORIES)]
     qos_history: Option<String>,
-    /// reliable or best_effort
-    #[arg(long, value_name = "POLICY")]
+    /// Whether lost messages are sent again
+    #[arg(long, value_name = "POLICY", value_parser = RELIABILITIES)]
     qos_reliability: Option<String>,
-    /// volatile or transient_local
-    #[arg(long, value_name = "POLICY")]
+    /// Whether late subscribers receive earlier messages
+    #[arg(long, value_name = "POLICY", value_parser = DURABILITIES)]
     qos_durability: Option<String>,
-    /// automatic or manual_by_topic
-    #[arg(long, value_name = "POLICY")]
+    /// How publishers assert that they are alive
+    #[arg(long, value_name = "POLICY", value_parser = LIVELINESSES)]
     qos_liveliness: Option<String>,
     /// How long a publisher may be silent about being alive
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]

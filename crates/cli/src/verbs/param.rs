@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
-use periplus_host::Machine;
-use periplus_resources::Host as _;
 use periplus_verbs::param::{self, List};
 
 use super::common::Common;
 use super::with_session;
-use crate::terminal;
+use crate::{paths, terminal};
 
 /// See and set parameters, as `ros2 param` does
 #[derive(Debug, Args)]
@@ -117,10 +115,10 @@ impl ParamOptions {
             }
             Verb::Load { node_name, parameter_file, no_use_wildcard, common } => {
                 let file = terminal::working_folder().join(parameter_file);
-                let text = match Machine.read(&file) {
-                    Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
-                    Err(error) => {
-                        terminal::complain(&format!("{}: {error}", parameter_file.display()));
+                let text = match paths::text(&file) {
+                    Ok(text) => text,
+                    Err(why) => {
+                        terminal::complain(&why);
                         return Ok(ExitCode::FAILURE);
                     }
                 };

@@ -8,7 +8,7 @@ use periplus_verbs::service;
 use periplus_verbs::topic::{self, Echo};
 
 use super::common::{Common, rate};
-use super::with_session;
+use super::{gazebo, with_session};
 
 /// See and call services, as `ros2 service` does
 #[derive(Debug, Args)]
@@ -78,6 +78,9 @@ enum Verb {
         /// Hidden ones as well
         #[arg(long)]
         include_hidden_services: bool,
+        /// List the services of Gazebo Transport instead of those of ROS 2
+        #[arg(long)]
+        gz: bool,
         #[command(flatten)]
         common: Common,
     },
@@ -112,7 +115,10 @@ impl ServiceOptions {
             Verb::Info { service_name, verbose, common } => {
                 with_session(common, |session| service::info(session, service_name, *verbose))
             }
-            Verb::List { show_types, count_services, include_hidden_services, common } => {
+            Verb::List { show_types, count_services, gz: true, common, .. } => {
+                gazebo::services(common, *show_types, *count_services)
+            }
+            Verb::List { show_types, count_services, include_hidden_services, common, .. } => {
                 let hidden = all || *include_hidden_services;
                 with_session(common, |session| {
                     service::list(session, *show_types, *count_services, hidden)

@@ -10,7 +10,7 @@ use periplus_verbs::show::{Form, Show};
 use periplus_verbs::topic::{self, Echo, List, Publish, Rate};
 
 use super::common::{Common, QosOptions, count, rate, seconds};
-use super::with_session;
+use super::{gazebo, with_session};
 
 /// See, measure and publish topics, as `ros2 topic` does
 #[derive(Debug, Args)]
@@ -24,7 +24,9 @@ pub(crate) struct TopicOptions {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    /// Measure the bytes per second of a topic
     Bw(RateOptions),
+    /// Measure the age of the stamps of a topic on arrival
     Delay(RateOptions),
     Echo(Box<EchoOptions>),
     Find(FindOptions),
@@ -50,6 +52,9 @@ struct ListOptions {
     /// How many publish and subscribe
     #[arg(long, short = 'v')]
     verbose: bool,
+    /// List the topics of Gazebo Transport instead of those of ROS 2
+    #[arg(long)]
+    gz: bool,
     #[command(flatten)]
     common: Common,
 }
@@ -159,7 +164,7 @@ struct HzOptions {
     common: Common,
 }
 
-/// How many bytes come in a second (`bw`), or how old the stamps are (`delay`)
+// The description is that of each command.
 #[derive(Debug, Args)]
 struct RateOptions {
     topic_name: String,
@@ -217,6 +222,9 @@ impl TopicOptions {
     pub(crate) fn run(&self) -> io::Result<ExitCode> {
         let hidden = self.include_hidden_topics;
         match &self.verb {
+            Verb::List(options) if options.gz => {
+                gazebo::topics(&options.common, options.show_types, options.count_topics)
+            }
             Verb::List(options) => with_session(&options.common, |session| {
                 topic::list(
                     session,

@@ -57,7 +57,7 @@ pub fn list(session: &mut Session<'_>, options: List) -> Outcome {
         return Ok(());
     }
     let titles = topics.iter().map(|one| titled(&one.name, &one.types, options.show_types));
-    session.put_names(&titles.collect::<Vec<_>>(), options.count)
+    session.put_list("topic", &titles.collect::<Vec<_>>(), options.count)
 }
 
 /// The topic of this name, when it is there.

@@ -4,7 +4,6 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_bagfiles::Bag;
 use periplus_diagnostics::SourceMap;
 use periplus_frames::Forest;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -18,10 +17,10 @@ use crate::verbs::{Common, without_network};
 
 /// All frames of a recording, from its beginning to its end.
 pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Result<ExitCode> {
-    let bag = match Bag::open(path) {
+    let bag = match crate::paths::bag(path) {
         Ok(bag) => bag,
         Err(why) => {
-            terminal::complain(&why.to_string());
+            terminal::complain(&why);
             return Ok(ExitCode::FAILURE);
         }
     };

@@ -1,0 +1,159 @@
+//! Examples of every command, shown at the end of its `--help`. A test parses each of them.
+
+/// A command line and its purpose.
+pub(super) type Example = (&'static str, &'static str);
+
+/// Examples by command. Groups such as `topic` show the first example of each of their commands.
+#[rustfmt::skip]
+pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
+    ("action find", &[
+        ("periplus action find nav2_msgs/action/NavigateToPose", "All actions of a type"),
+    ]),
+    ("action info", &[("periplus action info /navigate_to_pose -t", "Servers and clients, with types")]),
+    ("action list", &[("periplus action list -t", "All actions with their types")]),
+    ("action send_goal", &[
+        ("periplus action send_goal /navigate_to_pose nav2_msgs/action/NavigateToPose '{pose: {header: {frame_id: map}}}' -f", "Send a goal and print the feedback"),
+    ]),
+    ("action type", &[("periplus action type /navigate_to_pose", "Type of an action")]),
+    ("bag check", &[("periplus bag check run.mcap", "Decode every message of a recording")]),
+    ("bag convert", &[
+        ("periplus bag convert run.mcap -o run.bag", "From ROS 2 to ROS 1"),
+        ("periplus bag convert a.mcap b.mcap -o both", "Several recordings into one"),
+    ]),
+    ("bag cut", &[
+        ("periplus bag cut run.mcap -o scans.mcap --topics /scan /tf", "Keep some topics"),
+    ]),
+    ("bag info", &[("periplus bag info run.mcap", "Duration, topics, types and counts")]),
+    ("bag play", &[
+        ("periplus bag play run.mcap --clock", "Play to ROS 2 with simulated time"),
+        ("periplus bag play old.bag --rate 2 --loop", "A recording of ROS 1, twice as fast, repeated"),
+    ]),
+    ("bag record", &[
+        ("periplus bag record -a -o run", "Record all topics of ROS 2"),
+        ("periplus bag record /scan /tf /tf_static -o run", "Record these topics"),
+    ]),
+    ("bag reindex", &[("periplus bag reindex run", "Rewrite metadata.yaml from the files of a folder")]),
+    ("bridge", &[
+        ("periplus bridge '/lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'", "Scans from Gazebo to ROS 2"),
+        ("periplus bridge --config bridge.yaml", "The topics of a file"),
+    ]),
+    ("check", &[
+        ("periplus check robot.urdf.xacro lidar:=true", "A robot, expanded with an argument"),
+        ("periplus check --strict worlds/house.sdf", "A world; warnings fail too"),
+    ]),
+    ("completions", &[
+        ("periplus completions bash", "Print the script; put it into ~/.local/share/bash-completion/completions/periplus"),
+    ]),
+    ("conformance", &[("periplus conformance cases", "Run all case files of a folder")]),
+    ("convert", &[
+        ("periplus convert robot.urdf.xacro --to urdf -o robot.urdf", "Expand xacro"),
+        ("periplus convert robot.urdf --to sdf", "URDF to SDF, on standard output"),
+    ]),
+    ("costmap", &[("periplus costmap nav2_params.yaml", "Both costmaps of the file, for a robot on ROS 2")]),
+    ("demo", &[
+        ("periplus demo", "A room, a robot, a page in the browser"),
+        ("periplus demo --headless --duration 60 --out demo", "Explore without a page; results in a folder"),
+    ]),
+    ("doctor", &[
+        ("periplus doctor", "Examine what runs on ROS 2"),
+        ("periplus doctor worlds/house.sdf --robot robot.urdf.xacro", "Simulate for two seconds and examine"),
+        ("periplus doctor nav2_params.yaml", "Examine a parameter file"),
+    ]),
+    ("doctor costmap", &[("periplus doctor costmap nav2_params.yaml", "Examine the costmaps of a file")]),
+    ("interface list", &[("periplus interface list -m", "All messages")]),
+    ("interface package", &[("periplus interface package sensor_msgs", "The types of a package")]),
+    ("interface packages", &[("periplus interface packages", "All packages with types")]),
+    ("interface proto", &[("periplus interface proto geometry_msgs/msg/Twist", "A message to edit and publish")]),
+    ("interface show", &[("periplus interface show sensor_msgs/msg/LaserScan", "Fields, constants and comments")]),
+    ("launch", &[
+        ("periplus launch sam_bot display.launch.py", "A launch file of a package"),
+        ("periplus launch robot.launch.xml use_sim_time:=true", "A launch file by its path, with an argument"),
+        ("periplus launch robot.launch.py --show-args", "Its arguments; nothing is started"),
+        ("periplus launch robot.launch.py --duration 10 --record run.mcap", "Ten simulated seconds, recorded"),
+    ]),
+    ("lifecycle get", &[("periplus lifecycle get /map_server", "State of a node")]),
+    ("lifecycle list", &[("periplus lifecycle list /map_server", "Transitions that are possible now")]),
+    ("lifecycle nodes", &[("periplus lifecycle nodes", "All managed nodes")]),
+    ("lifecycle set", &[("periplus lifecycle set /map_server activate", "Activate a node")]),
+    ("localize", &[
+        ("periplus localize drive.mcap --map room.yaml --out result", "Poses of a recorded drive on a map"),
+        ("periplus localize --live --map room.yaml", "The node amcl for a robot on ROS 2"),
+    ]),
+    ("man", &[
+        ("periplus man ~/.local/share/man/man1", "A manual page for every command"),
+    ]),
+    ("map convert", &[("periplus map convert room.yaml -o room2 --mode scale", "The same map in another mode")]),
+    ("map diff", &[("periplus map diff before.yaml after.yaml --picture diff.png", "Align two maps and compare them")]),
+    ("map info", &[("periplus map info room.yaml", "Size, origin, and how much is free, occupied, unknown")]),
+    ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
+    ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
+    ("new package", &[
+        ("periplus new package my_bot", "A package with robot, room, launch file and parameters"),
+        ("periplus new package my_bot --sim classic", "The same for Gazebo Classic 11"),
+    ]),
+    ("new robot", &[
+        ("periplus new robot my_bot", "Write my_bot.urdf.xacro"),
+        ("periplus new robot my_bot --without camera", "A robot without a camera"),
+    ]),
+    ("new world", &[("periplus new world office", "Write office.sdf")]),
+    ("node info", &[("periplus node info /amcl", "Topics, services and actions of a node")]),
+    ("node list", &[("periplus node list", "All nodes")]),
+    ("param delete", &[("periplus param delete /amcl my_parameter", "Remove a parameter")]),
+    ("param describe", &[("periplus param describe /amcl max_particles", "Purpose, type and range")]),
+    ("param dump", &[("periplus param dump /amcl", "All parameters as YAML")]),
+    ("param get", &[("periplus param get /amcl max_particles", "Value of a parameter")]),
+    ("param list", &[("periplus param list /amcl", "Parameters of a node")]),
+    ("param load", &[("periplus param load /amcl amcl.yaml", "Set the parameters of a file")]),
+    ("param set", &[("periplus param set /amcl max_particles 1000", "Set a parameter")]),
+    ("run", &[
+        ("periplus run nav2_costmap_2d nav2_costmap_2d_markers", "One program of a package"),
+    ]),
+    ("service call", &[
+        ("periplus service call /reset_simulation std_srvs/srv/Empty", "A call without values"),
+        ("periplus service call /set_pen std_srvs/srv/SetBool '{data: true}'", "A call with values, as YAML"),
+    ]),
+    ("service echo", &[("periplus service echo /set_pen", "Requests and responses of a service")]),
+    ("service find", &[("periplus service find std_srvs/srv/Empty", "All services of a type")]),
+    ("service info", &[("periplus service info /set_pen", "Number of servers and clients")]),
+    ("service list", &[("periplus service list -t", "All services with their types")]),
+    ("service type", &[("periplus service type /set_pen", "Type of a service")]),
+    ("sim", &[
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --page", "A robot in a house, on a page in the browser"),
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro lidar:=true --pose 1,2,0", "With an argument of its xacro, at a pose"),
+        ("periplus sim worlds/house.sdf --duration 60 --record run.mcap", "A minute at full speed, recorded"),
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --cmd drive.yaml --slam --slam-out map", "Drive by a script, draw the map, save it"),
+    ]),
+    ("slam", &[
+        ("periplus slam drive.mcap --out map", "A map of a recorded drive"),
+        ("periplus slam drive.clf --out map --method gmapping", "By particles, from a CARMEN log"),
+        ("periplus slam --live", "Map what is on ROS 2 now"),
+    ]),
+    ("teleop", &[("periplus teleop", "Drive by keys: u i o j k l"),
+        ("periplus teleop -r cmd_vel:=/robot1/cmd_vel", "A robot with another topic")]),
+    ("tf echo", &[("periplus tf echo map base_link", "Pose of base_link in map")]),
+    ("tf monitor", &[("periplus tf monitor", "Rates and delays of all frames")]),
+    ("tf static", &[
+        ("periplus tf static --x 1 --frame-id map --child-frame-id table", "Publish a static transform"),
+    ]),
+    ("tf tree", &[
+        ("periplus tf tree", "Tree of frames of what runs, as .gv and .pdf"),
+        ("periplus tf tree run.mcap --svg", "Of a recording, as SVG too"),
+    ]),
+    ("topic bw", &[("periplus topic bw /points", "Bytes per second")]),
+    ("topic delay", &[("periplus topic delay /scan", "Age of the stamps on arrival")]),
+    ("topic echo", &[
+        ("periplus topic echo /scan --once", "One message"),
+        ("periplus topic echo /odom --field pose.pose.position", "One field of each message"),
+    ]),
+    ("topic find", &[("periplus topic find sensor_msgs/msg/LaserScan", "All topics of a type")]),
+    ("topic hz", &[("periplus topic hz /scan /odom", "Messages per second")]),
+    ("topic info", &[("periplus topic info /scan -v", "Publishers, subscribers and quality of service")]),
+    ("topic list", &[("periplus topic list -t", "All topics with their types"),
+        ("periplus topic list --gz", "Topics of Gazebo Transport")]),
+    ("topic pub", &[
+        ("periplus topic pub /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}' -r 10", "Ten messages per second"),
+        ("periplus topic pub --once /talk std_msgs/msg/String '{data: hello}'", "One message"),
+    ]),
+    ("topic type", &[("periplus topic type /scan", "Type of a topic")]),
+    ("view", &[("periplus view", "Any ROS 2 system on a page in the browser")]),
+];
