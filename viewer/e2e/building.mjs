@@ -60,6 +60,21 @@ export async function building(chrome, url, out) {
   await press(3, 4);
   await page.keyboard.press('Control+z');
   await page.keyboard.press('Control+y');
+  // Letters of the plan are not drawn over by the lines of what is being drawn.
+  for (const mode of ['select', 'wall', 'door', 'window', 'stairs', 'scale']) {
+    await page.evaluate((name) => window.building.setMode(name), mode);
+    await page.waitForFunction(
+      (name) => document.querySelector('svg[role=application]').classList.contains(`mode-${name}`),
+      mode,
+    );
+    const strokes = await page.evaluate(() =>
+      [...document.querySelectorAll('svg[role=application] text')].map(
+        (t) => getComputedStyle(t).stroke,
+      ),
+    );
+    assert.deepEqual([...new Set(strokes)], ['none'], `letters while in mode ${mode}`);
+  }
+  await page.evaluate(() => window.building.setMode('window'));
   assert.equal(await page.evaluate('building.plan.openings.length'), 1);
   const world = join(out, 'room.world');
   await saved(page, 'World', world);

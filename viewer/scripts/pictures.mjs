@@ -1,10 +1,12 @@
 // Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png, and docs/displays.md
 // with its own.
 //
-//   npm run pictures [demo] [house] [building] [displays]     PERIPLUS=path/to/periplus
-import { mkdirSync } from 'node:fs';
+//   npm run pictures [demo] [house] [building] [displays] [tutorials]     PERIPLUS=path/to/periplus
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
+import { tutorials } from '../e2e/tutorials.mjs';
 import { displays } from './show.mjs';
 
 const OUT = join(ROOT, 'docs/pictures');
@@ -49,6 +51,7 @@ const PICTURES = {
     ),
   building,
   displays: () => displays(chrome, pages.url, OUT),
+  tutorials: ofTutorials,
 };
 
 async function building() {
@@ -87,6 +90,26 @@ async function building() {
   await page.waitForTimeout(800);
   await whole(page, 'building');
   await page.close();
+}
+
+/** Of the tutorials' steps by hand: the tests that follow the texts take them. */
+async function ofTutorials() {
+  const out = mkdtempSync(join(tmpdir(), 'periplus-pictures-'));
+  const shoot = async (page, name, view = {}) => {
+    await page.evaluate((state) => {
+      window.periplus.setView(state);
+      for (const { id } of [...window.periplus.notices]) window.periplus.dismiss(id);
+      document.activeElement?.blur();
+    }, view);
+    await page.mouse.move(640, 5);
+    await page.waitForTimeout(1500);
+    await page.screenshot({ path: join(OUT, 'tutorials', `${name}.png`) });
+  };
+  try {
+    await tutorials(chrome, pages.url, out, (_, take) => take(), shoot);
+  } finally {
+    rmSync(out, { recursive: true });
+  }
 }
 
 const wanted = process.argv.slice(2);

@@ -7,7 +7,7 @@ import { ellipsoidOf } from '../src/displays/covariance';
 import { KINDS, kindOf } from '../src/displays/registry';
 import { thinned } from '../src/scene/cloud';
 import { voxels } from '../src/displays/voxels';
-import { numberAt, numericPaths, show } from '../src/app/fields';
+import { numberAt, numericPaths, show, unitOf } from '../src/app/fields';
 import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
 import { wishFor } from '../src/app/auto';
 import { mapTruths, percent } from '../src/app/truth';
@@ -320,4 +320,19 @@ test('maps beside the truth', () => {
   expect(map).toMatchObject({ topic: '/map', isGood: true, freeIou: 0.962, wallMeanM: 0.021 });
   expect(percent(map!.freeIou)).toBe('96 %');
   expect(percent(NaN)).toBe('–');
+});
+
+test('numbers have units by their path', () => {
+  const check = (path: string, unit: string) => expect([path, unitOf(path)]).toEqual([path, unit]);
+  check('ranges[720]', 'm');
+  check('pose.pose.position.x', 'm');
+  check('twist.twist.linear.x', 'm/s');
+  check('twist.twist.angular.z', 'rad/s');
+  check('linear_acceleration.z', 'm/s²');
+  check('angular_velocity.z', 'rad/s');
+  check('pose.pose.orientation.yaw', 'rad');
+  check('wrench.force.x', 'N');
+  check('header.stamp.sec', 's');
+  check('data', '');
+  check('intensities[3]', '');
 });
