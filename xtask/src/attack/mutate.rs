@@ -106,7 +106,7 @@ fn text(bytes: &[u8], random: &mut Random) -> Vec<u8> {
         7 => words.encode_utf16().flat_map(u16::to_le_bytes).collect(),
         8 => {
             let mut bytes = words.into_bytes();
-            let part: &[u8] = random.pick(&[
+            let part: &[u8] = random.pick::<&[u8]>(&[
                 &b"\0"[..],
                 b"\xEF\xBB\xBF",
                 b"\xFF\xFE",
@@ -154,7 +154,7 @@ fn numbers(text: &str, random: &mut Random) -> String {
     let mut result = text.to_owned();
     for start in chosen.into_iter().rev() {
         let length = text[start..].find(|letter| !is_part(letter)).unwrap_or(text.len() - start);
-        result.replace_range(start..start + length, random.pick(&NUMBERS));
+        result.replace_range(start..start + length, random.pick::<&str>(&NUMBERS));
     }
     result
 }
