@@ -1,9 +1,13 @@
 //! Which shapes touch, beyond what bit masks can say.
 
+use rapier3d_f64::dynamics::{IntegrationParameters, RigidBody};
 use rapier3d_f64::geometry::SolverFlags;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::{ContactModificationContext, PairFilterContext, PhysicsHooks};
 use rapier3d_f64::prelude::ColliderHandle;
+
+use crate::compliance::{effective_mass, in_series, seen_depth};
+use crate::records::LinkRecord;
 
 /// What a collider knows of itself, packed into its 128 bits of user data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +75,43 @@ impl Tag {
 pub(crate) struct Hooks<'a> {
     /// The model of each link.
     pub(crate) model_of_link: &'a [u32],
+    /// The links, for the stiffness of their contacts.
+    pub(crate) links: &'a [LinkRecord],
+    /// The settings of the step.
+    pub(crate) parameters: IntegrationParameters,
+}
+
+impl Hooks<'_> {
+    /// Stiffness of the contacts of a collision [N/m].
+    fn stiffness(&self, tag: Tag) -> Option<f64> {
+        let link = self.links.get(tag.link as usize)?;
+        link.stiffness_n_m.get(usize::from(tag.collision)).copied().flatten()
+    }
+
+    /// Lets penetrating contacts push by their stiffness.
+    fn soften(&self, context: &mut ContactModificationContext<'_>) {
+        let tag = |handle: ColliderHandle| Tag::unpack(context.colliders[handle].user_data);
+        let (one, two) = (tag(context.collider1), tag(context.collider2));
+        let Some(stiffness_n_m) = in_series(self.stiffness(one), self.stiffness(two)) else {
+            return;
+        };
+        let bodies = [context.rigid_body1, context.rigid_body2]
+            .map(|handle| handle.and_then(|handle| context.bodies.get(handle)));
+        let on_fixed = bodies.iter().any(|body| body.is_none_or(RigidBody::is_fixed));
+        let parameters = &self.parameters;
+        let spring = if on_fixed {
+            &parameters.static_contact_softness
+        } else {
+            &parameters.contact_softness
+        };
+        let Some(manifold) = context.rigid_mut() else { return };
+        let normal = *manifold.normal;
+        for contact in manifold.solver_contacts.iter_mut().filter(|contact| contact.dist < 0.0) {
+            let at_m = (contact.anchor1 + contact.anchor2) / 2.0;
+            let mass_kg = effective_mass(bodies, at_m, normal);
+            contact.dist = -seen_depth(-contact.dist, stiffness_n_m, mass_kg, spring, parameters);
+        }
+    }
 }
 
 impl PhysicsHooks for Hooks<'_> {
@@ -103,6 +144,9 @@ impl PhysicsHooks for Hooks<'_> {
         let keep = keeps(context.collider1) && keeps(context.collider2);
         if !keep && let Some(manifold) = context.rigid_mut() {
             manifold.solver_contacts.clear();
+        }
+        if keep {
+            self.soften(context);
         }
     }
 }

@@ -17,8 +17,11 @@
 //! - Friction of a pair is the **smaller** of the two coefficients, as in ODE; where `mu` and `mu2`
 //!   of one surface differ, the smaller holds in every direction, and a warning says so.
 //! - A **wheel** (a cylinder or sphere that turns about its own axis) touches with one point, in
-//!   the middle of its tread: see [`wheel`](World#wheels). Contact stiffness (`kp`, `kd`), slip and
-//!   torsional friction are not modelled.
+//!   the middle of its tread: see [`wheel`](World#wheels). Slip and torsional friction are not
+//!   modelled.
+//! - Contacts of a model with joints give way by 0.6 mm under a quarter of its weight, whichever
+//!   link they belong to, so that wheels and casters share the load. A larger `min_depth` (1 mm to
+//!   5 mm) and a smaller `kp` make them softer; `kd` and `max_vel` have no effect.
 //! - Meshes are exact where they are static, and their convex hull where they move. Ellipsoids are
 //!   hulls of 162 points on their surface. Outlines are prisms in convex pieces, with their holes.
 //!
@@ -29,6 +32,7 @@
 //! [`drives`] holds the laws of the drive plugins as plain functions of numbers.
 
 mod build;
+mod compliance;
 mod contacts;
 pub mod drives;
 mod engine;

@@ -61,6 +61,8 @@ pub(crate) struct LinkRecord {
     pub(crate) body: usize,
     pub(crate) body_from_link: Pose,
     pub(crate) collisions: Vec<String>,
+    /// Stiffness of the contacts of each collision [N/m]; none for the solver's own.
+    pub(crate) stiffness_n_m: Vec<Option<f64>>,
 }
 
 pub(crate) struct JointRecord {

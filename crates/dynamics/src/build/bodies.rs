@@ -95,6 +95,7 @@ impl Builder<'_, '_> {
                 body,
                 body_from_link,
                 collisions: link.collisions.iter().map(|found| found.name.clone()).collect(),
+                stiffness_n_m: vec![None; link.collisions.len()],
             });
         }
         for (slot, body) in body_of_group.iter().enumerate() {

@@ -7,6 +7,7 @@ use rapier3d_f64::geometry::SharedShape;
 
 use super::Builder;
 use super::surface::Surface;
+use crate::compliance::stiffness;
 use crate::hooks::{Part, Tag};
 use crate::places::End;
 use crate::records::BodyKind;
@@ -23,6 +24,9 @@ impl Builder<'_, '_> {
         let bodies: std::collections::BTreeSet<usize> =
             self.records.links[first..].iter().map(|link| link.body).collect();
         let several = bodies.len() > 1;
+        let mut own: Vec<usize> = bodies.into_iter().collect();
+        own.retain(|&body| self.records.bodies[body].kind == BodyKind::Dynamic);
+        let mass_kg: f64 = own.iter().map(|&body| self.records.bodies[body].mass.mass()).sum();
         let axles = self.axles();
         for (number, axle) in axles.into_iter().enumerate() {
             let (name, link, _) = &self.flat.links[number];
@@ -72,7 +76,16 @@ impl Builder<'_, '_> {
                     only_reports: collision.surface.contact.collide_without_contact,
                     part,
                 };
-                let surface = Surface::of(collision, &scoped, moves, self.diagnostics);
+                let contact = &collision.surface.contact;
+                let stiffness = stiffness(mass_kg, own.len() > 1, contact.kp, contact.min_depth_m);
+                let stiffness = stiffness.filter(|_| moves);
+                if let Some(slot) =
+                    self.records.links[link_number].stiffness_n_m.get_mut(usize::from(index))
+                {
+                    *slot = stiffness;
+                }
+                let surface = Surface::of(collision, &scoped, moves, self.diagnostics)
+                    .softened(stiffness.is_some());
                 let grain = self.grain(number, collision, &scoped);
                 let grain = grain.unwrap_or_else(|missing| {
                     self.diagnostics.push(*missing);

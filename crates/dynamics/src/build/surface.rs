@@ -26,6 +26,7 @@ pub(super) struct Surface {
     restitution: f64,
     mask: u32,
     reports: bool,
+    is_softened: bool,
 }
 
 impl Surface {
@@ -59,7 +60,13 @@ impl Surface {
             restitution,
             mask: contact.collide_bitmask,
             reports: contact.collide_without_contact,
+            is_softened: false,
         }
+    }
+
+    /// The same with a stiffness of its own.
+    pub(super) fn softened(self, is_softened: bool) -> Self {
+        Self { is_softened, ..self }
     }
 
     pub(super) fn collider(
@@ -74,7 +81,7 @@ impl Surface {
         if several || self.reports {
             hooks |= ActiveHooks::FILTER_CONTACT_PAIRS;
         }
-        if tag.part != Part::Whole {
+        if tag.part != Part::Whole || self.is_softened {
             hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
         }
         ColliderBuilder::new(shape)

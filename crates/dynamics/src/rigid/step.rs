@@ -26,7 +26,12 @@ impl Rigid {
             records.axes[number].drive(leader, dt_s, self.axes[number], self, &records.bodies);
         }
         self.rub(dt_s);
-        self.solver.step_with_events(&Hooks { model_of_link: &records.model_of_link }, &());
+        let hooks = Hooks {
+            model_of_link: &records.model_of_link,
+            links: &records.links,
+            parameters: self.solver.integration_parameters,
+        };
+        self.solver.step_with_events(&hooks, &());
         let mut pushed = false;
         for (number, axis) in records.axes.iter_mut().enumerate() {
             axis.observe(self.axes[number], self);
