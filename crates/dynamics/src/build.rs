@@ -6,6 +6,7 @@ mod collisions;
 mod gears;
 mod grain;
 mod joints;
+mod steady;
 mod surface;
 
 pub(crate) use between::join;
@@ -38,8 +39,15 @@ pub(crate) fn append(
     let number = records.models.len() as u32;
     let before = records.mark();
     let flat = Flat::new(model);
-    let mut builder =
-        Builder { records, number, first_link: before.links, world_from_model, flat, diagnostics };
+    let mut builder = Builder {
+        records,
+        number,
+        first_link: before.links,
+        world_from_model,
+        flat,
+        without_inertia: Vec::new(),
+        diagnostics,
+    };
     if builder.run(model, meshes).is_none() {
         records.back_to(before);
         return;
@@ -66,6 +74,8 @@ struct Builder<'a, 'b> {
     first_link: usize,
     world_from_model: Pose,
     flat: Flat<'b>,
+    /// Bodies with a link whose inertia is assumed, which is reported already.
+    without_inertia: Vec<usize>,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -83,6 +93,7 @@ impl Builder<'_, '_> {
             );
             return None;
         }
+        let before = self.records.mark();
         let group_of_link = self.groups(model.is_static);
         self.bodies(model, &group_of_link)?;
         self.collisions(model, meshes);
@@ -91,6 +102,8 @@ impl Builder<'_, '_> {
             self.joint(&scope, joint)?;
         }
         self.mimics();
+        self.steady_inertias(before.bodies, before.axes);
+        self.steady_joints(before.bodies, before.axes);
         self.warn_of_steep_masses();
         Some(())
     }

@@ -56,7 +56,7 @@ pub(crate) fn mass_properties(
                 format!("the inertia of `{name}` is not positive about every axis"),
             )
             .at(link.origin)
-            .note("a ball of 1 cm radius of gyration is assumed about such an axis")
+            .note("a ball of 1 cm radius of gyration, or as much as its joints and shapes need, is assumed about such an axis")
             .help("give the inertia of its shape: for a box of sides a, b, c that is m (b² + c²) / 12 about a"),
         );
         let least = Vector::splat(mass_kg * SMALLEST_GYRATION_M * SMALLEST_GYRATION_M);

@@ -1,5 +1,6 @@
 //! Which links are one body.
 
+use periplus_diagnostics::Severity;
 use periplus_scene::{JointKind, Model};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
@@ -79,11 +80,15 @@ impl Builder<'_, '_> {
             let record = &mut self.records.bodies[body];
             let body_from_link = record.world_from_body.inverse() * world_from_link;
             if record.kind == BodyKind::Dynamic {
+                let warnings = self.diagnostics.count(Severity::Warning);
                 let Some(mass) = mass_properties(link, name, self.diagnostics) else {
                     // The others may be worth a word too.
                     refused = true;
                     continue;
                 };
+                if self.diagnostics.count(Severity::Warning) > warnings {
+                    self.without_inertia.push(body);
+                }
                 record.mass += moved(mass, &rapier_pose(body_from_link));
                 if link.gravity {
                     record.weight_share += link.inertial.mass_kg;

@@ -5,15 +5,15 @@ use periplus_base::{DVec3, Pose};
 use crate::kinematic::Twist;
 
 /// The velocities to give a body at each step so that it follows a twist: along its own heading,
-/// and keeping what it has of vertical speed, so that it still falls. Linear [m/s] and angular
+/// with no vertical speed, as Gazebo's plugin gives it. Between two such commands it falls. Linear [m/s] and angular
 /// [rad/s], in world axes. See [`World::set_model_velocity`](crate::World::set_model_velocity).
 #[must_use]
-pub fn planar_velocity(world_from_base: Pose, vertical_m_s: f64, twist: Twist) -> (DVec3, DVec3) {
+pub fn planar_velocity(world_from_base: Pose, twist: Twist) -> (DVec3, DVec3) {
     let (sine, cosine) = libm::sincos(world_from_base.rpy().yaw);
     let linear = DVec3::new(
         cosine * twist.x_m_s - sine * twist.y_m_s,
         sine * twist.x_m_s + cosine * twist.y_m_s,
-        vertical_m_s,
+        0.0,
     );
     (linear, DVec3::new(0.0, 0.0, twist.yaw_rad_s))
 }
@@ -30,8 +30,8 @@ mod tests {
     fn facing_north_ahead_is_y() {
         let north = Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch: 0.0, yaw: FRAC_PI_2 });
         let twist = Twist { x_m_s: 1.0, y_m_s: 0.5, yaw_rad_s: 0.2 };
-        let (linear, angular) = planar_velocity(north, -0.1, twist);
-        assert!(linear.distance(DVec3::new(-0.5, 1.0, -0.1)) < 1e-12);
+        let (linear, angular) = planar_velocity(north, twist);
+        assert!(linear.distance(DVec3::new(-0.5, 1.0, 0.0)) < 1e-12);
         assert_eq!(angular, DVec3::new(0.0, 0.0, 0.2));
     }
 }

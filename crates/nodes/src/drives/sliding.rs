@@ -104,7 +104,7 @@ impl Device for PlanarMove {
             _ => twist,
         };
         let Some(state) = self.body.state(world) else { return };
-        let (linear, angular) = planar_velocity(state.world_from_link, state.linear_m_s.z, twist);
+        let (linear, angular) = planar_velocity(state.world_from_link, twist);
         if !world.follow(self.model, twist) {
             world.set_model_velocity(self.model, linear, angular);
         }
