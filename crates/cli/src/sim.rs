@@ -76,7 +76,7 @@ pub(crate) struct SimOptions {
     #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
     rtf: Option<Factor>,
     /// Step of the simulation in seconds, in place of the world's own
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = step)]
     step: Option<f64>,
     /// Threads for rays; the answers do not depend on it
     #[arg(long, value_name = "NUMBER")]
@@ -327,6 +327,11 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     // Without an end of its own, being stopped is how a run ends.
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
+    // Findings name each.
+    if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
+        terminal::complain(&format!("{diverged}; its model was removed"));
+        return Ok(ExitCode::FAILURE);
+    }
     match outcome {
         Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole => Ok(ExitCode::SUCCESS),
@@ -415,6 +420,15 @@ pub(crate) fn positive(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("it has to be a number above 0".into()),
+    }
+}
+
+/// A step of physics [s].
+fn step(word: &str) -> Result<f64, String> {
+    let [shortest_s, longest_s] = periplus_sim::STEP_RANGE_S;
+    match word.parse::<f64>() {
+        Ok(step_s) if (shortest_s..=longest_s).contains(&step_s) => Ok(step_s),
+        _ => Err(format!("it has to be a number from {shortest_s} to {longest_s}")),
     }
 }
 

@@ -16,6 +16,7 @@ use periplus_scene::Model;
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
+use crate::limits::{MAX_POSITION_M, is_pose};
 use crate::places::Flat;
 use crate::records::{ModelRecord, Records};
 use crate::shapes::Meshes;
@@ -83,13 +84,14 @@ impl Builder<'_, '_> {
     /// None where the model cannot be simulated at all.
     fn run(&mut self, model: &Model, meshes: &dyn Meshes) -> Option<()> {
         let poses = self.flat.links.iter().map(|(_, _, pose)| pose);
-        if !self.world_from_model.is_finite() || poses.into_iter().any(|pose| !pose.is_finite()) {
+        if !is_pose(self.world_from_model) || poses.into_iter().any(|pose| !is_pose(*pose)) {
             self.diagnostics.push(
                 Diagnostic::error(
-                    "pose-not-finite",
-                    format!("the pose of `{}` or of a link in it is not finite", model.name),
+                    "pose-out-of-range",
+                    format!("the pose of `{}` or of a link in it is no number, or beyond {MAX_POSITION_M} m", model.name),
                 )
-                .at(model.origin),
+                .at(model.origin)
+                .help("give poses in metres and radians; the model is left out"),
             );
             return None;
         }

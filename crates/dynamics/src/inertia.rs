@@ -6,6 +6,8 @@ use periplus_scene::{Inertial, Link};
 use rapier3d_f64::math::{Matrix, Pose as RapierPose, Vector};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
+use crate::limits::{MAX_INERTIA_KG_M2, MAX_MASS_KG, is_pose};
+
 /// Radius of gyration that a body without inertia is given [m].
 const SMALLEST_GYRATION_M: f64 = 0.01;
 
@@ -17,14 +19,17 @@ pub(crate) fn mass_properties(
     diagnostics: &mut Diagnostics,
 ) -> Option<MassProperties> {
     let Inertial { mass_kg, link_from_inertial, inertia_kg_m2, .. } = &link.inertial;
-    let finite = mass_kg.is_finite()
-        && link_from_inertial.is_finite()
-        && inertia_kg_m2.iter().all(|value| value.is_finite());
-    if !finite {
+    let sound = mass_kg.abs() <= MAX_MASS_KG
+        && is_pose(*link_from_inertial)
+        && inertia_kg_m2.iter().all(|value| value.abs() <= MAX_INERTIA_KG_M2);
+    if !sound {
         diagnostics.push(
             Diagnostic::error(
-                "inertia-not-finite",
-                format!("mass or inertia of `{name}` is not a finite number"),
+                "inertia-out-of-range",
+                format!(
+                    "mass or inertia of `{name}` is no number, or beyond {MAX_MASS_KG:e} kg or \
+                     {MAX_INERTIA_KG_M2:e} kg m²"
+                ),
             )
             .at(link.origin)
             .help("give mass [kg] and inertia [kg m²] as finite numbers"),

@@ -22,7 +22,8 @@
 //! - Contacts of a model with joints give way by 0.6 mm under a quarter of its weight, whichever
 //!   link they belong to, so that wheels and casters share the load. A larger `min_depth` (1 mm to
 //!   5 mm) and a smaller `kp` make them softer; `kd` and `max_vel` have no effect.
-//! - Meshes are exact where they are static, and their convex hull where they move. Ellipsoids are
+//! - Meshes are exact where they are static, and their convex hull where they move; of a mesh with
+//!   more than 1,000 points up to 1,000 are used, and a hint tells the accuracy. Ellipsoids are
 //!   hulls of 162 points on their surface. Outlines are prisms in convex pieces, with their holes.
 //!
 //! In [`Mode::Kinematic`] the same world moves without physics: robots follow their twists on flat
@@ -39,9 +40,11 @@ mod engine;
 mod exact;
 mod grain;
 mod hooks;
+mod hull;
 mod inertia;
 mod joints;
 mod kinematic;
+pub mod limits;
 mod outline;
 mod places;
 mod records;

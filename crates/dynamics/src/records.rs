@@ -125,6 +125,11 @@ impl Records {
             .map_or(0..0, |model| model.bodies.start as usize..model.bodies.end as usize)
     }
 
+    /// The model that a body is a part of; none for the world's, and for what is removed.
+    pub(crate) fn model_of_body(&self, body: usize) -> Option<u32> {
+        (0..self.models.len() as u32).find(|&model| self.bodies_of(model).contains(&body))
+    }
+
     /// How much there is, to come back to.
     pub(crate) fn mark(&self) -> Mark {
         Mark {

@@ -5,6 +5,8 @@ mod step;
 
 use std::ops::Range;
 
+pub(crate) use step::Lost;
+
 use periplus_base::{DVec3, Pose};
 use rapier3d_f64::dynamics::{
     FrictionModel, ImpulseJointHandle, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,

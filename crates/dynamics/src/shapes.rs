@@ -8,6 +8,8 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::utils::Array2;
 
 use crate::build::rapier_pose;
+use crate::hull::{Simplified, hull_of};
+use crate::limits::{MAX_SIZE_M, is_within};
 use crate::outline::pieces;
 
 /// Triangles of a mesh, scaled and in the mesh's own frame.
@@ -65,7 +67,15 @@ pub(crate) fn shape(
     meshes: &dyn Meshes,
     diagnostics: &mut Diagnostics,
 ) -> Option<Placed> {
-    let made = make(&collision.shape, moves, meshes);
+    let mut hints = Vec::new();
+    let made = make(&collision.shape, moves, meshes, &mut hints);
+    for hint in hints {
+        diagnostics.push(
+            Diagnostic::hint("mesh-simplified", format!("collision `{name}` {hint}"))
+                .at(collision.origin)
+                .help("give a simpler mesh, or boxes, cylinders and spheres, for collisions"),
+        );
+    }
     let (severity, message) = match made {
         Ok(shape) => return shape,
         Err(problem) => problem,
@@ -87,7 +97,12 @@ enum Kind {
 }
 use Kind::{Broken, Unsupported};
 
-fn make(shape: &Shape, moves: bool, meshes: &dyn Meshes) -> Result<Option<Placed>, (Kind, String)> {
+fn make(
+    shape: &Shape,
+    moves: bool,
+    meshes: &dyn Meshes,
+    hints: &mut Vec<String>,
+) -> Result<Option<Placed>, (Kind, String)> {
     let here = |shape| Ok(Some((Pose::IDENTITY, shape)));
     // parry's cylinders and cones stand along y.
     let upright = |shape| {
@@ -136,7 +151,7 @@ fn make(shape: &Shape, moves: bool, meshes: &dyn Meshes) -> Result<Option<Placed
                     format!("has a mesh (`{}`) that was not read", mesh.uri),
                 ));
             };
-            mesh_shape(triangles, moves)
+            mesh_shape(triangles, moves, hints)
         }
         Shape::Heightmap(map) => {
             let Some(heights) = meshes.heights(map) else {
@@ -156,10 +171,10 @@ fn make(shape: &Shape, moves: bool, meshes: &dyn Meshes) -> Result<Option<Placed
 }
 
 fn positive(size: DVec3) -> Result<DVec3, (Kind, String)> {
-    if size.is_finite() && size.min_element() > 0.0 {
+    if is_within(size, MAX_SIZE_M) && size.min_element() > 0.0 {
         return Ok(size);
     }
-    Err((Broken, "has a size that is not positive and finite".into()))
+    Err((Broken, format!("has a size that is not positive, or more than {MAX_SIZE_M} m")))
 }
 
 fn positive_1(size: f64) -> Result<f64, (Kind, String)> {
@@ -167,18 +182,23 @@ fn positive_1(size: f64) -> Result<f64, (Kind, String)> {
 }
 
 fn mesh_shape(
-    Triangles { points_m, triangles }: Triangles,
+    mesh: Triangles,
     moves: bool,
+    hints: &mut Vec<String>,
 ) -> Result<Option<Placed>, (Kind, String)> {
+    let Triangles { points_m, triangles } = &mesh;
     let count = points_m.len();
-    let sound = points_m.iter().all(|point| point.is_finite())
+    let sound = points_m.iter().all(|&point| is_within(point, MAX_SIZE_M))
         && triangles.iter().flatten().all(|&corner| (corner as usize) < count);
     if !sound || triangles.is_empty() {
         return Err((Broken, "has a mesh without triangles, or with broken ones".into()));
     }
     if moves {
-        return hull(&points_m);
+        let Some(hull) = hull_of(&mesh) else { return Err((Broken, FLAT.into())) };
+        hints.extend(hull.simplified.map(|found| simplification(mesh.triangles.len(), found)));
+        return Ok(Some((Pose::IDENTITY, hull.shape)));
     }
+    let Triangles { points_m, triangles } = mesh;
     match SharedShape::trimesh(points_m, triangles) {
         Ok(shape) => Ok(Some((Pose::IDENTITY, shape))),
         Err(error) => Err((Broken, format!("has a mesh that cannot be used: {error}"))),
@@ -199,8 +219,24 @@ fn prism(outlines: &[Polyline]) -> Result<Option<Placed>, (Kind, String)> {
 fn hull(points: &[Vector]) -> Result<Option<Placed>, (Kind, String)> {
     match SharedShape::convex_hull(points) {
         Some(shape) => Ok(Some((Pose::IDENTITY, shape))),
-        None => Err((Broken, "is flat: it has no convex hull".into())),
+        None => Err((Broken, FLAT.into())),
     }
+}
+
+const FLAT: &str = "is flat: it has no convex hull";
+
+/// Description of a simplified hull.
+fn simplification(triangles: usize, found: Simplified) -> String {
+    let Simplified { points_before, points_after, cut_off_m, volume_error } = found;
+    let volume = volume_error
+        .map_or("the mesh is open, so its volume is unknown".into(), |error| {
+            format!("its volume differs from the mesh's by {:+.2} %", error * 100.0)
+        });
+    format!(
+        "has a mesh of {triangles} triangles and {points_before} points; the convex hull of \
+         {points_after} of them is used: the mesh exceeds it by up to {:.2} mm, and {volume}",
+        cut_off_m * 1e3
+    )
 }
 
 fn ground(heights: &Heights) -> Result<Option<Placed>, (Kind, String)> {
@@ -208,7 +244,7 @@ fn ground(heights: &Heights) -> Result<Option<Placed>, (Kind, String)> {
     let sound = *columns >= 2
         && *rows >= 2
         && columns.checked_mul(*rows) == Some(heights_m.len())
-        && heights_m.iter().all(|height| height.is_finite());
+        && heights_m.iter().all(|height| height.abs() <= MAX_SIZE_M);
     if !sound {
         return Err((Broken, "has a ground of fewer than two by two finite heights".into()));
     }

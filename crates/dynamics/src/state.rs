@@ -28,6 +28,8 @@ pub struct LinkState {
 /// A step whose outcome is no longer a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {
+    /// The model of this body.
+    pub model: Option<ModelId>,
     /// The first body concerned, as `model::link`.
     pub link: String,
     /// Simulated time of the step [ns].
@@ -38,7 +40,7 @@ pub struct Diverged {
 
 impl std::fmt::Display for Diverged {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { link, time_ns, speed_m_s } = self;
+        let Self { link, time_ns, speed_m_s, .. } = self;
         let time_s = *time_ns as f64 / 1e9;
         write!(out, "the simulation diverged at {time_s:.3} s: `{link}` ")?;
         match speed_m_s {

@@ -11,8 +11,9 @@ use periplus_scene::Model;
 use crate::build::{append, join};
 use crate::engine::Engine;
 use crate::exact::Exact;
+use crate::limits::{MAX_GRAVITY_M_S2, is_within};
 use crate::records::{Mark, Records};
-use crate::rigid::Rigid;
+use crate::rigid::{Lost, Rigid};
 use crate::shapes::Meshes;
 use crate::state::{Diverged, ModelId};
 
@@ -65,11 +66,13 @@ impl World {
     ) -> (Self, Diagnostics) {
         let mut diagnostics = Diagnostics::new();
         let mut gravity = world.gravity_m_s2;
-        if !gravity.is_finite() {
+        if !is_within(gravity, MAX_GRAVITY_M_S2) {
             diagnostics.push(
                 Diagnostic::error(
-                    "gravity-not-finite",
-                    "gravity is not a finite number; there is none",
+                    "gravity-out-of-range",
+                    format!(
+                        "gravity is no number, or more than {MAX_GRAVITY_M_S2} m/s²; there is none"
+                    ),
                 )
                 .at(world.origin),
             );
@@ -130,6 +133,9 @@ impl World {
         if let Some(record) = self.records.models.get_mut(model.0 as usize) {
             record.removed = true;
         }
+        if self.diverged.as_ref().is_some_and(|diverged| diverged.model == Some(model)) {
+            self.diverged = None;
+        }
     }
 
     /// Everything back to where it was added, at rest and without commands. The same steps then
@@ -158,9 +164,9 @@ impl World {
         self.gravity_m_s2
     }
 
-    /// Changes gravity [m/s²], for good. What is not finite changes nothing.
+    /// Changes gravity [m/s²], for good. One beyond [`MAX_GRAVITY_M_S2`] changes nothing.
     pub fn set_gravity(&mut self, gravity_m_s2: DVec3) {
-        if gravity_m_s2.is_finite() {
+        if is_within(gravity_m_s2, MAX_GRAVITY_M_S2) {
             self.gravity_m_s2 = gravity_m_s2;
             if let Engine::Rigid(rigid) = &mut self.engine {
                 rigid.set_gravity(gravity_m_s2);
@@ -172,8 +178,10 @@ impl World {
     /// what worlds ask for and what the tests hold. A step that is not positive does nothing.
     ///
     /// # Errors
-    /// When a body's motion is no longer finite, or absurdly fast. The world then stands still until
-    /// [`Self::reset`]; each further step gives the same answer.
+    /// When a body's motion is no longer finite, or faster than
+    /// [`MAX_SPEED_M_S`](crate::limits::MAX_SPEED_M_S). The world then stands still, and each further
+    /// step gives the same answer, until its model is [removed](Self::remove) or the world is
+    /// [reset](Self::reset).
     pub fn step(&mut self, step_ns: i64) -> Result<(), Diverged> {
         if let Some(diverged) = &self.diverged {
             return Err(diverged.clone());
@@ -192,7 +200,9 @@ impl World {
         };
         outcome.map_err(|lost| {
             let link = self.records.bodies[lost.body].name.clone();
-            let diverged = Diverged { link, time_ns: self.time_ns, speed_m_s: lost.speed_m_s };
+            let model = self.records.model_of_body(lost.body).map(ModelId);
+            let Lost { speed_m_s, .. } = lost;
+            let diverged = Diverged { model, link, time_ns: self.time_ns, speed_m_s };
             self.diverged = Some(diverged.clone());
             diverged
         })

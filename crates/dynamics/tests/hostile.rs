@@ -58,14 +58,14 @@ fn a_frame_without_mass_on_a_link_with_mass_is_no_error() {
 fn numbers_that_are_none() {
     assert_eq!(
         check(&model("m", vec![heavy(f64::NAN)], vec![])),
-        (false, vec!["inertia-not-finite"])
+        (false, vec!["inertia-out-of-range"])
     );
     assert_eq!(
         check(&model("m", vec![heavy(f64::INFINITY)], vec![])),
-        (false, vec!["inertia-not-finite"])
+        (false, vec!["inertia-out-of-range"])
     );
     let lost = at(f64::NAN, 0.0, 0.0, solid_ball("a", 1.0, 0.1));
-    assert_eq!(check(&model("m", vec![lost], vec![])), (false, vec!["pose-not-finite"]));
+    assert_eq!(check(&model("m", vec![lost], vec![])), (false, vec!["pose-out-of-range"]));
     let mut sick = solid_ball("a", 1.0, 0.1);
     sick.collisions[0].shape = Shape::Sphere { radius_m: f64::NAN };
     assert_eq!(check(&model("m", vec![sick], vec![])), (true, vec!["shape-impossible"]));
@@ -195,4 +195,51 @@ fn rough_ground_may_be_rougher_one_way() {
     assert_eq!(with(true, 100.0, 50.0), Vec::<&str>::new());
     assert_eq!(with(true, 100.0, 0.5), ["friction-one-direction"]);
     assert_eq!(with(false, 100.0, 50.0), ["friction-one-direction"]);
+}
+
+#[test]
+fn absurd_numbers_are_refused_as_nan_is() {
+    assert_eq!(
+        check(&model("m", vec![heavy(1e308)], vec![])),
+        (false, vec!["inertia-out-of-range"])
+    );
+    let mut spun = solid_ball("a", 1.0, 0.1);
+    spun.inertial.inertia_kg_m2[0] = 1e300;
+    assert_eq!(check(&model("m", vec![spun], vec![])), (false, vec!["inertia-out-of-range"]));
+    let far = at(1e308, 0.0, 0.0, solid_ball("a", 1.0, 0.1));
+    assert_eq!(check(&model("m", vec![far], vec![])), (false, vec!["pose-out-of-range"]));
+    let mut huge = solid_ball("a", 1.0, 0.1);
+    huge.collisions[0].shape = Shape::Sphere { radius_m: 1e200 };
+    assert_eq!(check(&model("m", vec![huge], vec![])), (true, vec!["shape-impossible"]));
+
+    let mut world = flat_world();
+    let ball = model("ball", vec![solid_ball("a", 1.0, 0.1)], vec![]);
+    let id = put(&mut world, &ball, Pose::from_xyz(0.0, 0.0, 1.0));
+    let a = link(&world, "ball", "a");
+    let beyond = DVec3::new(0.0, 1e308, 0.0);
+    world.set_gravity(beyond);
+    assert_eq!(world.gravity_m_s2(), DOWN);
+    assert!(!world.set_pose(id, Pose::from_xyz(0.0, 1e308, 0.0)));
+    assert!(!world.set_link_pose(a, Pose::from_xyz(1e300, 0.0, 0.0)));
+    assert!(!world.set_model_velocity(id, beyond, DVec3::ZERO));
+    assert!(!world.set_model_velocity(id, DVec3::ZERO, beyond));
+    assert!(!world.push(a, DVec3::Z, beyond, DVec3::ZERO));
+    assert!(!world.push(a, DVec3::Z, DVec3::ZERO, beyond));
+    assert!(!world.push(a, beyond, DVec3::Z, DVec3::ZERO));
+    run(&mut world, 0.5);
+}
+
+#[test]
+fn the_rest_goes_on_when_a_diverged_model_is_removed() {
+    let mut world = flat_world();
+    let at_height = |x: f64| Pose::from_xyz(x, 0.0, 0.1);
+    let rocket = model("m", vec![solid_ball("rocket", 1.0, 0.1)], vec![]);
+    let rocket = put(&mut world, &rocket, at_height(0.0));
+    put(&mut world, &model("n", vec![solid_ball("ball", 1.0, 0.1)], vec![]), at_height(1.0));
+    world.push(link(&world, "m", "rocket"), DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
+    let diverged = world.step(STEP_NS).unwrap_err();
+    assert_eq!(diverged.model, Some(rocket));
+    world.remove(rocket);
+    run(&mut world, 0.5);
+    assert!((state(&world, "n", "ball").world_from_link.translation.z - 0.1).abs() < 1e-3);
 }

@@ -22,6 +22,7 @@ pub use drive::{Driver, ScriptFindings};
 pub use files::ShapeFiles;
 pub use hear::hear;
 pub use pace::Pace;
+pub use periplus_dynamics::limits::STEP_RANGE_S;
 pub use periplus_dynamics::{Diverged, Mode};
 pub use periplus_sensors::Quirks;
 pub use record::{RecordError, Recorder, Recording, Wanted};

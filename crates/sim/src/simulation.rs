@@ -4,8 +4,9 @@ mod change;
 
 use std::sync::Arc;
 
-use periplus_base::{Pose, Pose2};
+use periplus_base::{DVec3, Pose, Pose2};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_dynamics::limits::{MAX_GRAVITY_M_S2, STEP_RANGE_S, is_within};
 use periplus_dynamics::{Diverged, Mode, ModelId};
 use periplus_graph::{Arguments, Graph, Node, NodeSettings};
 use periplus_host::Stopwatch;
@@ -98,6 +99,8 @@ pub struct Simulation {
     /// Whose log says what is found wrong.
     journal: Option<Node>,
     found: Diagnostics,
+    /// Models that were removed because their motion diverged.
+    diverged: Vec<Diverged>,
 }
 
 impl Simulation {
@@ -106,8 +109,10 @@ impl Simulation {
     #[must_use]
     pub fn new(composition: &mut Composition, files: Arc<ShapeFiles>, options: Options) -> Self {
         let scene = composition.world.clone();
-        let step_s = options.step_s.unwrap_or_else(|| step_of(&scene));
-        let motion = periplus_dynamics::World::empty(scene.gravity_m_s2, options.mode);
+        let mut of_world = Diagnostics::new();
+        let step_s = options.step_s.unwrap_or_else(|| step_of(&scene, &mut of_world));
+        let gravity_m_s2 = gravity_of(&scene, &mut of_world);
+        let motion = periplus_dynamics::World::empty(gravity_m_s2, options.mode);
         let graph = Graph::new();
         graph.set_arguments(options.arguments.clone());
         let views = Views::new(Arc::clone(&files) as _, options.threads).under(&scene);
@@ -121,6 +126,7 @@ impl Simulation {
             shares: Shares::default(),
             journal: graph.node(NodeSettings::new("periplus").keep_names()).ok(),
             found: Diagnostics::new(),
+            diverged: Vec::new(),
             graph,
             scene,
             motion,
@@ -135,7 +141,6 @@ impl Simulation {
                 .diagnostics
                 .push(Diagnostic::error("no-clock", error.to_string())),
         }
-        let mut of_world = Diagnostics::new();
         let devices =
             periplus_nodes::world_devices(&simulation.graph, &simulation.scene, &mut of_world);
         simulation.world_devices.extend(devices);
@@ -357,7 +362,8 @@ impl Simulation {
     /// One step.
     ///
     /// # Errors
-    /// When a body's motion is no longer one.
+    /// When the motion of a body that is no part of a model diverges. A model whose motion
+    /// diverges is removed; see [`Simulation::diverged`].
     pub fn step(&mut self) -> Result<(), Diverged> {
         self.step_until(i64::MAX)
     }
@@ -365,7 +371,8 @@ impl Simulation {
     /// One step that ends at `end_ns` at the latest.
     ///
     /// # Errors
-    /// When a body's motion is no longer one.
+    /// When the motion of a body that is no part of a model diverges. A model whose motion
+    /// diverges is removed; see [`Simulation::diverged`].
     pub fn step_until(&mut self, end_ns: i64) -> Result<(), Diverged> {
         let mut stopwatch = Stopwatch::start();
         self.graph.advance_to(self.time_ns);
@@ -374,7 +381,9 @@ impl Simulation {
         for device in all(&mut self.world_devices, &mut self.running) {
             device.act(&mut self.motion, span);
         }
-        self.motion.step(span.length_ns)?;
+        if let Err(diverged) = self.motion.step(span.length_ns) {
+            self.remove_diverged(diverged)?;
+        }
         self.time_ns = span.end_ns();
         self.shares.lap(Work::Physics, &mut stopwatch);
         self.graph.advance_to(self.time_ns);
@@ -416,6 +425,29 @@ impl Simulation {
         })
     }
 
+    /// Takes out a model whose motion diverged; everything else goes on.
+    fn remove_diverged(&mut self, diverged: Diverged) -> Result<(), Diverged> {
+        let place = self.running.iter().position(|it| Some(it.model) == diverged.model);
+        let Some(name) = place.map(|place| self.running[place].member.name.clone()) else {
+            return Err(diverged);
+        };
+        self.delete(&name);
+        let message = format!("model `{name}` is removed: {diverged}");
+        let mut findings = Diagnostics::new();
+        findings.push(Diagnostic::error("model-diverged", message));
+        self.log(&findings);
+        self.found.append(findings);
+        self.diverged.push(diverged);
+        Ok(())
+    }
+
+    /// Models that were removed because their motion diverged, in the order of time. All else went
+    /// on without them.
+    #[must_use]
+    pub fn diverged(&self) -> &[Diverged] {
+        &self.diverged
+    }
+
     /// One step of the world's size; where motion is exact for any step, straight to the time at
     /// which a device has something to do.
     fn next_length_ns(&mut self, end_ns: i64) -> i64 {
@@ -447,11 +479,36 @@ fn all<'a>(
     world.iter_mut().chain(own)
 }
 
+/// The gravity that a world asks for, or none \[m/s²\].
+fn gravity_of(world: &scene::World, findings: &mut Diagnostics) -> DVec3 {
+    if is_within(world.gravity_m_s2, MAX_GRAVITY_M_S2) {
+        return world.gravity_m_s2;
+    }
+    let message = format!("gravity is no number, or beyond {MAX_GRAVITY_M_S2} m/s²; there is none");
+    findings.push(Diagnostic::error("gravity-out-of-range", message).at(world.origin));
+    DVec3::ZERO
+}
+
+/// Step of a world that asks for none, or for one out of range \[s\].
+const USUAL_STEP_S: f64 = 0.001;
+
 /// The step that a world asks for \[s\].
-fn step_of(world: &scene::World) -> f64 {
+fn step_of(world: &scene::World, findings: &mut Diagnostics) -> f64 {
     let physics = world.physics.iter().find(|physics| physics.default).or(world.physics.first());
-    let asked = physics.map_or(0.001, |physics| physics.max_step_size_s);
-    if asked.is_finite() && asked > 0.0 { asked } else { 0.001 }
+    let asked_s = physics.map_or(USUAL_STEP_S, |physics| physics.max_step_size_s);
+    let [shortest_s, longest_s] = STEP_RANGE_S;
+    if (shortest_s..=longest_s).contains(&asked_s) {
+        return asked_s;
+    }
+    let message = format!(
+        "the world asks for steps of {asked_s} s; they must be from {shortest_s} s to {longest_s} s"
+    );
+    findings.push(
+        Diagnostic::warning("step-out-of-range", message)
+            .at(world.origin)
+            .note(format!("steps of {USUAL_STEP_S} s are used")),
+    );
+    USUAL_STEP_S
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a step is a fraction of a second")]

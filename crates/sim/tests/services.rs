@@ -623,3 +623,73 @@ fn a_world_that_is_saved_can_be_loaded_again() {
     let listed = lab.call::<Trigger>("/world/lab/library", TriggerRequest::default());
     assert!(listed.message.starts_with("{\"models\":["), "{}", listed.message);
 }
+
+/// A ball of a mass [kg].
+fn ball_of(mass_kg: f64) -> String {
+    format!(
+        "<sdf version='1.9'><model name='rock'><link name='link'><inertial><mass>{mass_kg:e}</mass>\
+         </inertial><collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>\
+         </collision></link></model></sdf>"
+    )
+}
+
+#[test]
+fn absurd_numbers_are_refused_with_the_limit() {
+    let mut lab = Lab::new();
+    let (success, message) = lab.spawn("rock", &ball_of(1e308), "", [0.0; 3]);
+    assert!(!success && message.contains("beyond 1e12 kg"), "{message}");
+    let (success, message) = lab.spawn("box", BOX, "", [1e308, 0.0, 0.0]);
+    assert!(!success && message.contains("beyond 1e7 m"), "{message}");
+    let set = |lab: &mut Lab, gravity, time_step| {
+        let name = "/set_physics_properties";
+        let done = lab.call::<SetPhysicsProperties>(name, physics(gravity, time_step));
+        assert!(!done.success);
+        done.status_message.clone()
+    };
+    assert!(set(&mut lab, [0.0, 0.0, 1e308], 0.01).contains("beyond 10000 m/s²"));
+    assert!(set(&mut lab, [0.0; 3], 1e-300).contains("0.000001 s to 1 s"));
+    for (at, speed) in [([1e308, 0.0, 0.0], 0.0), ([0.0; 3], 1e308)] {
+        let model_state = ModelState {
+            model_name: "ball".into(),
+            pose: pose(at),
+            twist: Twist { linear: Vector3 { x: speed, y: 0.0, z: 0.0 }, ..Default::default() },
+            reference_frame: String::new(),
+        };
+        let request = SetModelStateRequest { model_state };
+        let done = lab.call::<SetModelState>("/gazebo/set_model_state", request);
+        assert!(!done.success && done.status_message.contains("beyond"), "{}", done.status_message);
+    }
+    let request = ApplyLinkWrenchRequest {
+        link_name: "ball::body".into(),
+        wrench: Wrench { force: Vector3 { x: 1e308, y: 0.0, z: 0.0 }, torque: Vector3::default() },
+        duration: Duration { sec: 1, nanosec: 0 },
+        ..Default::default()
+    };
+    let done = lab.call::<ApplyLinkWrench>("/apply_link_wrench", request);
+    assert!(!done.success && done.status_message.contains("beyond 1e15 N"));
+    lab.run(100);
+    assert!(lab.simulation.diverged().is_empty());
+    assert_eq!(lab.where_is("ball", "").map(|[x, y, _]| [x, y]), Some([0.0, 5.0]));
+}
+
+#[test]
+fn a_diverging_model_is_removed_and_the_world_goes_on() {
+    let mut lab = Lab::new();
+    assert!(lab.spawn("rock", &ball_of(1e-3), "", [5.0, 5.0, 1.0]).0);
+    let request = ApplyLinkWrenchRequest {
+        link_name: "rock::link".into(),
+        wrench: Wrench { force: Vector3 { x: 1e9, y: 0.0, z: 0.0 }, torque: Vector3::default() },
+        duration: Duration { sec: 1, nanosec: 0 },
+        ..Default::default()
+    };
+    assert!(lab.call::<ApplyLinkWrench>("/apply_link_wrench", request).success);
+    lab.run(50);
+    assert_eq!(lab.ms(), 500);
+    assert_eq!(lab.where_is("rock", ""), None);
+    assert_eq!(lab.simulation.diverged().len(), 1);
+    assert_eq!(lab.simulation.diverged()[0].link, "rock::link");
+    let told = lab.simulation.take_findings();
+    assert!(told.iter().any(|it| it.code == "model-diverged" && it.message.contains("`rock`")));
+    let [_, _, z] = lab.where_is("ball", "").unwrap();
+    assert!((z - (4.0 - 9.8 / 8.0)).abs() < 0.05, "{z}");
+}

@@ -267,6 +267,11 @@ fn in_world(
         report.tell(&mut anstream::stderr().lock())?;
     }
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
+    // Findings name each.
+    if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
+        terminal::complain(&format!("{diverged}; its model was removed"));
+        return Ok(ExitCode::FAILURE);
+    }
     match outcome {
         Ok(()) if cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole && !teller.has_failed => Ok(ExitCode::SUCCESS),

@@ -9,6 +9,7 @@ use super::Builder;
 use super::surface::Surface;
 use crate::compliance::stiffness;
 use crate::hooks::{Part, Tag};
+use crate::limits::{MAX_POSITION_M, is_pose};
 use crate::places::End;
 use crate::records::BodyKind;
 use crate::shapes::{Meshes, shape};
@@ -50,14 +51,14 @@ impl Builder<'_, '_> {
                     );
                     break;
                 };
-                let finite = collision.link_from_collision.is_finite()
+                let finite = is_pose(collision.link_from_collision)
                     && collision.surface.friction.mu.is_finite()
                         | (collision.surface.friction.mu > 0.0);
                 if !finite {
                     self.diagnostics.push(
                         Diagnostic::error(
-                            "collision-not-finite",
-                            format!("the pose or friction of collision `{scoped}` is not a number"),
+                            "collision-out-of-range",
+                            format!("the pose or friction of collision `{scoped}` is no number, or beyond {MAX_POSITION_M} m"),
                         )
                         .at(collision.origin),
                     );

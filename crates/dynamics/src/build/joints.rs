@@ -5,6 +5,7 @@ use periplus_scene::{Joint, JointKind};
 
 use super::Builder;
 use crate::joints::{Axes, axes_of};
+use crate::limits::is_pose;
 use crate::places::End;
 use crate::records::{JointRecord, WORLD_BODY};
 
@@ -52,11 +53,11 @@ impl Builder<'_, '_> {
         let rigid =
             matches!(joint.kind, JointKind::Fixed | JointKind::Floating | JointKind::Gearbox);
         let world_from_joint = self.world_from_model * model_from_child * joint.child_from_joint;
-        if !world_from_joint.is_finite() {
+        if !is_pose(world_from_joint) {
             self.diagnostics.push(
                 Diagnostic::error(
                     "joint-impossible",
-                    format!("the pose of joint `{}` is not finite", record.name),
+                    format!("the pose of joint `{}` is no number, or too far away", record.name),
                 )
                 .at(joint.origin),
             );

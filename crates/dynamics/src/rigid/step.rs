@@ -5,10 +5,8 @@ use rapier3d_f64::prelude::PhysicsPipeline;
 use super::Rigid;
 use crate::hooks::Hooks;
 use crate::joints::Command;
+use crate::limits::MAX_SPEED_M_S;
 use crate::records::{BodyKind, Records};
-
-/// Nothing that a robot meets moves faster [m/s].
-const FASTEST_M_S: f64 = 1e4;
 
 /// A body whose motion is none, and its speed [m/s] if that is a number.
 pub(crate) struct Lost {
@@ -65,7 +63,7 @@ impl Rigid {
             let found = &self.solver.bodies[handle];
             let speed = found.linvel().length();
             let finite = speed.is_finite() && found.translation().is_finite();
-            let speed_m_s = match (finite && !lost.contains(&handle), speed > FASTEST_M_S) {
+            let speed_m_s = match (finite && !lost.contains(&handle), speed > MAX_SPEED_M_S) {
                 (true, false) => continue,
                 (true, true) => Some(speed),
                 (false, _) => None,

@@ -6,6 +6,9 @@ use super::World;
 use crate::engine::Engine;
 use crate::joints::Command;
 use crate::kinematic::Twist;
+use crate::limits::{
+    MAX_ANGULAR_SPEED_RAD_S, MAX_FORCE_N, MAX_POSITION_M, MAX_SPEED_M_S, is_pose, is_within,
+};
 use crate::state::{JointId, LinkId, ModelId};
 
 impl World {
@@ -38,9 +41,11 @@ impl World {
     /// Like [`Self::follow`], with a point of the model [m] that the twist is that of, such as the
     /// [middle](Self::middle_of) between the wheels of a differential drive.
     pub fn follow_about(&mut self, model: ModelId, centre_m: DVec3, twist: Twist) -> bool {
-        let finite = DVec3::new(twist.x_m_s, twist.y_m_s, twist.yaw_rad_s).is_finite();
+        let speed = DVec3::new(twist.x_m_s, twist.y_m_s, 0.0);
+        let sound =
+            is_within(speed, MAX_SPEED_M_S) && twist.yaw_rad_s.abs() <= MAX_ANGULAR_SPEED_RAD_S;
         match &mut self.engine {
-            Engine::Exact(exact) if finite && centre_m.is_finite() => {
+            Engine::Exact(exact) if sound && centre_m.is_finite() => {
                 exact.follow(&self.records, model.0, centre_m, twist)
             }
             _ => false,
@@ -57,8 +62,9 @@ impl World {
         linear_m_s: DVec3,
         angular_rad_s: DVec3,
     ) -> bool {
-        let finite = linear_m_s.is_finite() && angular_rad_s.is_finite();
-        let Some(pose) = self.model_pose(model).filter(|_| finite) else { return false };
+        let sound = is_within(linear_m_s, MAX_SPEED_M_S)
+            && is_within(angular_rad_s, MAX_ANGULAR_SPEED_RAD_S);
+        let Some(pose) = self.model_pose(model).filter(|_| sound) else { return false };
         match &mut self.engine {
             Engine::Rigid(rigid) => {
                 let bodies = self.records.bodies_of(model.0);
@@ -71,9 +77,9 @@ impl World {
     }
 
     /// Puts a model down somewhere, as it is bent, at rest. False if there is no such model, or
-    /// the pose is not finite.
+    /// the pose is beyond its [limit](crate::limits).
     pub fn set_pose(&mut self, model: ModelId, world_from_model: Pose) -> bool {
-        let Some(now) = self.model_pose(model).filter(|_| world_from_model.is_finite()) else {
+        let Some(now) = self.model_pose(model).filter(|_| is_pose(world_from_model)) else {
             return false;
         };
         let change = world_from_model * now.inverse();
@@ -89,11 +95,11 @@ impl World {
     }
 
     /// Puts one link down somewhere, at rest, with what is fixed to it. Joints pull it back if they
-    /// can. False if it is not there, or the pose is not finite.
+    /// can. False if it is not there, or the pose is beyond its [limit](crate::limits).
     pub fn set_link_pose(&mut self, link: LinkId, world_from_link: Pose) -> bool {
         let Some(record) = self.records.links.get(link.0 as usize) else { return false };
         let there = self.engine.body(&self.records, record.body).is_some();
-        if !(there && world_from_link.is_finite()) {
+        if !(there && is_pose(world_from_link)) {
             return false;
         }
         let place = (record.body, world_from_link * record.body_from_link.inverse());
@@ -104,8 +110,10 @@ impl World {
     /// Pushes a link for the next step only, at a point of the world [m], by a force [N] and a
     /// torque [N m] in world axes. False if it cannot be pushed.
     pub fn push(&mut self, link: LinkId, at_m: DVec3, force_n: DVec3, torque_n_m: DVec3) -> bool {
-        let finite = at_m.is_finite() && force_n.is_finite() && torque_n_m.is_finite();
-        let record = self.records.links.get(link.0 as usize).filter(|_| finite);
+        let sound = is_within(at_m, MAX_POSITION_M)
+            && is_within(force_n, MAX_FORCE_N)
+            && is_within(torque_n_m, MAX_FORCE_N);
+        let record = self.records.links.get(link.0 as usize).filter(|_| sound);
         match (&mut self.engine, record) {
             (Engine::Rigid(rigid), Some(link)) => {
                 rigid.push(&self.records, link.body, at_m, (force_n, torque_n_m))
@@ -124,7 +132,7 @@ impl Command {
             Self::Position { target, max_speed, max_effort } => {
                 target.is_finite() && max_speed >= 0.0 && max_effort >= 0.0
             }
-            Self::Effort(effort) => effort.is_finite(),
+            Self::Effort(effort) => effort.abs() <= MAX_FORCE_N,
         }
     }
 }

@@ -1,17 +1,22 @@
 //! Poses, velocities and colours in messages.
 
 use periplus_base::{DQuat, DVec3, Pose};
+use periplus_dynamics::limits::is_pose;
 use periplus_msgs::geometry_msgs::{self, Point, Quaternion, Twist, Vector3};
 use periplus_msgs::std_msgs::ColorRGBA;
 use periplus_scene::Colour;
 
-/// None if a number is none. A rotation of no length is none at all, as in Gazebo.
+/// Refusal of a pose that [`pose`] does not take.
+pub(super) const BAD_POSE: &str =
+    "the pose holds a number that is none (NaN or infinite), or a position beyond 1e7 m";
+
+/// None if a number is none, or beyond [`MAX_POSITION_M`](periplus_dynamics::limits). A rotation of no length is none at all, as in Gazebo.
 pub(super) fn pose(message: &geometry_msgs::Pose) -> Option<Pose> {
     let (at, turned) = (&message.position, &message.orientation);
     let turned = DQuat::from_xyzw(turned.x, turned.y, turned.z, turned.w);
     let turned = if turned.length_squared() == 0.0 { DQuat::IDENTITY } else { turned };
     let pose = Pose::from_xyz_quaternion([at.x, at.y, at.z], turned);
-    pose.is_finite().then_some(pose)
+    is_pose(pose).then_some(pose)
 }
 
 pub(super) fn pose_message(pose: Pose) -> geometry_msgs::Pose {

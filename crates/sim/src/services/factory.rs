@@ -10,6 +10,7 @@ use periplus_msgs::gazebo_msgs::{
 use periplus_msgs::geometry_msgs;
 use periplus_msgs::std_msgs::Header;
 
+use super::convert::BAD_POSE;
 use super::offer::Offer;
 use super::reading::{Search, Source};
 use super::spawn::{Spawned, Standing, Wish, delete, lights, spawn};
@@ -107,8 +108,8 @@ struct Order<'a> {
 
 impl Order<'_> {
     fn fill(&self, simulation: &mut Simulation, search: &Search) -> Result<Spawned, String> {
-        let frame_from_here = convert::pose(self.pose)
-            .ok_or("`initial_pose` holds a number that is none (NaN or infinite)")?;
+        let frame_from_here =
+            convert::pose(self.pose).ok_or_else(|| format!("`initial_pose`: {BAD_POSE}"))?;
         let world_from_frame: Pose = entity::frame(simulation, self.frame)?.pose;
         let wish = Wish {
             source: Source::Text(self.xml),

@@ -1,6 +1,7 @@
 //! Pushes from outside, under the names of `gazebo_ros_force_system` and of ROS 1.
 
 use periplus_base::DVec3;
+use periplus_dynamics::limits::{MAX_FORCE_N, MAX_POSITION_M, is_within};
 use periplus_dynamics::{Command, JointId, LinkId, Mode};
 use periplus_graph::{GraphError, Node};
 use periplus_msgs::builtin_interfaces::{Duration, Time};
@@ -169,8 +170,14 @@ fn wrench(
     let world_from_frame = entity::frame(simulation, frame)?.pose;
     let (force, torque) = (vector(&wrench.force), vector(&wrench.torque));
     let point_m = DVec3::new(point.x, point.y, point.z);
-    if !(force.is_finite() && torque.is_finite() && point_m.is_finite()) {
-        return Err("the wrench or its point holds a number that is none (NaN or infinite)".into());
+    let sound = is_within(force, MAX_FORCE_N)
+        && is_within(torque, MAX_FORCE_N)
+        && is_within(point_m, MAX_POSITION_M);
+    if !sound {
+        return Err(format!(
+            "the wrench or its point holds a number that is none (NaN or infinite), or beyond \
+             {MAX_FORCE_N:e} N, {MAX_FORCE_N:e} N m or {MAX_POSITION_M:e} m"
+        ));
     }
     let link_from_point_m = if entity::WORLD_FRAMES.contains(&frame) {
         simulation.centre_of_mass(name)
@@ -188,8 +195,8 @@ fn effort(simulation: &Simulation, name: &str, effort: f64) -> Result<On, String
     if simulation.motion().mode() == Mode::Kinematic {
         return Err("this run moves things exactly as told; efforts move nothing in it".into());
     }
-    if !effort.is_finite() {
-        return Err("`effort` is no number (NaN or infinite)".into());
+    if effort.is_nan() || effort.abs() > MAX_FORCE_N {
+        return Err(format!("`effort` is no number (NaN or infinite), or beyond {MAX_FORCE_N:e}"));
     }
     let joint = find_joint(simulation, name);
     let joint = joint.ok_or_else(|| format!("there is no joint `{name}`"))?;

@@ -9,6 +9,7 @@ use periplus_msgs::ros_gz_interfaces::{
 };
 use periplus_nodes::gz_topic;
 
+use super::convert::BAD_POSE;
 use super::convert::pose;
 use super::offer::Offer;
 use super::reading::{Search, Source};
@@ -62,13 +63,11 @@ impl Harmonic {
             DeleteEntityResponse { success: log.note("remove", done) }
         });
         self.set_pose.answer(|asked| {
-            let done = pose(&asked.pose)
-                .ok_or_else(|| "the pose holds a number that is none (NaN or infinite)".to_owned())
-                .and_then(|pose| {
-                    let found = entity::find(simulation, named(&asked.entity)?)?;
-                    simulation.place(found, pose);
-                    Ok(())
-                });
+            let done = pose(&asked.pose).ok_or_else(|| BAD_POSE.to_owned()).and_then(|pose| {
+                let found = entity::find(simulation, named(&asked.entity)?)?;
+                simulation.place(found, pose);
+                Ok(())
+            });
             SetEntityPoseResponse { success: log.note("set_pose", done) }
         });
         for message in self.lights.drain() {
@@ -119,8 +118,7 @@ pub(super) fn create(
     search: &Search,
     asked: &EntityFactory,
 ) -> Result<Spawned, String> {
-    let frame_from_model =
-        pose(&asked.pose).ok_or("the pose holds a number that is none (NaN or infinite)")?;
+    let frame_from_model = pose(&asked.pose).ok_or(BAD_POSE)?;
     let frame = entity::frame(simulation, &asked.relative_to)?;
     let world_from_model = frame.pose * frame_from_model;
     let sources = [&asked.sdf, &asked.sdf_filename, &asked.clone_name];

@@ -4,6 +4,7 @@ use periplus_base::DVec3;
 use periplus_msgs::ros_gz_interfaces;
 use periplus_scene::{Attenuation, Light, LightKind, Spot};
 
+use super::convert::BAD_POSE;
 use super::convert::{colour, pose, vector};
 use super::spawn::lights;
 use crate::Simulation;
@@ -57,8 +58,7 @@ pub(super) fn configure(
     message: &ros_gz_interfaces::Light,
 ) -> Result<(), String> {
     let known = light(simulation, &message.name)?;
-    let parent_from_light =
-        pose(&message.pose).ok_or("the pose holds a number that is none (NaN or infinite)")?;
+    let parent_from_light = pose(&message.pose).ok_or(BAD_POSE)?;
     let [constant, linear, quadratic] = attenuation(
         message.attenuation_constant.into(),
         message.attenuation_linear.into(),

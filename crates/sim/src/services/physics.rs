@@ -1,5 +1,6 @@
 //! Gravity, step and pace: asked and set.
 
+use periplus_dynamics::limits::{MAX_GRAVITY_M_S2, STEP_RANGE_S, is_within};
 use periplus_graph::{GraphError, Node};
 use periplus_msgs::gazebo_msgs::{
     GetPhysicsProperties, GetPhysicsPropertiesResponse, ODEPhysics, SetPhysicsProperties,
@@ -13,8 +14,8 @@ use super::state_plugin::StatePlugin;
 use super::tempo::Tempo;
 use crate::Simulation;
 
-/// Greatest step that is taken \[s\].
-const LONGEST_STEP_S: f64 = 1.0;
+/// Largest rate of steps that can be asked for \[Hz\].
+const MAX_UPDATE_RATE_HZ: f64 = 1e9;
 
 pub(super) struct Physics {
     get: Offer<GetPhysicsProperties>,
@@ -77,19 +78,23 @@ fn set(
 ) -> Result<(Factor, &'static str), String> {
     let SetPhysicsPropertiesRequest { time_step, max_update_rate, gravity, ode_config } = asked;
     let gravity = vector(gravity);
-    if !gravity.is_finite() {
-        return Err("`gravity` holds a number that is none (NaN or infinite)".into());
-    }
-    if !(*time_step > 0.0 && *time_step <= LONGEST_STEP_S) {
+    if !is_within(gravity, MAX_GRAVITY_M_S2) {
         return Err(format!(
-            "`time_step` is {time_step}; it must be above 0 and at most {LONGEST_STEP_S} s. All \
+            "`gravity` holds a number that is none (NaN or infinite), or beyond {MAX_GRAVITY_M_S2} \
+             m/s²"
+        ));
+    }
+    let [shortest_s, longest_s] = STEP_RANGE_S;
+    if !(shortest_s..=longest_s).contains(time_step) {
+        return Err(format!(
+            "`time_step` is {time_step}; it must be from {shortest_s} s to {longest_s} s. All \
              fields count: ask get_physics_properties first and change what you want"
         ));
     }
-    if !(max_update_rate.is_finite() && *max_update_rate >= 0.0) {
+    if !(0.0..=MAX_UPDATE_RATE_HZ).contains(max_update_rate) {
         return Err(format!(
-            "`max_update_rate` is {max_update_rate}; it must be a rate in Hz, or 0 for as fast as \
-             can be"
+            "`max_update_rate` is {max_update_rate}; it must be a rate of at most \
+             {MAX_UPDATE_RATE_HZ} Hz, or 0 for as fast as can be"
         ));
     }
     simulation.set_step(*time_step);

@@ -1,5 +1,6 @@
 //! Where things are: asked, set and published, under the names of `gazebo_ros_state` and of ROS 1.
 
+use periplus_dynamics::limits::{MAX_ANGULAR_SPEED_RAD_S, MAX_SPEED_M_S, is_within};
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::gazebo_msgs::{
     EntityState, GetEntityState, GetEntityStateResponse, GetLinkState, GetLinkStateResponse,
@@ -11,7 +12,7 @@ use periplus_msgs::geometry_msgs::{Pose, Twist};
 use periplus_msgs::std_msgs::Header;
 
 use super::Log;
-use super::convert::{pose, pose_message, twist_message, vector};
+use super::convert::{BAD_POSE, pose, pose_message, twist_message, vector};
 use super::entity::{self, Entity, Motion};
 use super::offer::Offer;
 use super::state_plugin::StatePlugin;
@@ -175,11 +176,13 @@ impl<'a> Wanted<'a> {
 }
 
 fn set(simulation: &mut Simulation, wanted: &Wanted<'_>) -> Result<(), String> {
-    let frame_from_entity =
-        pose(wanted.pose).ok_or("the pose holds a number that is none (NaN or infinite)")?;
+    let frame_from_entity = pose(wanted.pose).ok_or(BAD_POSE)?;
     let (linear, angular) = (vector(&wanted.twist.linear), vector(&wanted.twist.angular));
-    if !(linear.is_finite() && angular.is_finite()) {
-        return Err("the twist holds a number that is none (NaN or infinite)".into());
+    if !(is_within(linear, MAX_SPEED_M_S) && is_within(angular, MAX_ANGULAR_SPEED_RAD_S)) {
+        return Err(format!(
+            "the twist holds a number that is none (NaN or infinite), or beyond {MAX_SPEED_M_S} m/s \
+             or {MAX_ANGULAR_SPEED_RAD_S} rad/s"
+        ));
     }
     let found = entity::find(simulation, wanted.name)?;
     let frame = entity::frame(simulation, wanted.frame)?;

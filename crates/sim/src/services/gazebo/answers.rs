@@ -90,8 +90,7 @@ fn bring(
 
 fn put(simulation: &mut Simulation, asked: &Pose) -> Result<(), String> {
     let message: geometry_msgs::Pose = asked.to_ros().ok_or("the message is none")?;
-    let pose =
-        convert::pose(&message).ok_or("the pose holds a number that is none (NaN or infinite)")?;
+    let pose = convert::pose(&message).ok_or(convert::BAD_POSE)?;
     let name = match asked.name.as_str() {
         "" => scene::name_of(simulation, asked.id)
             .ok_or("name the model: none has the number that is given")?,
