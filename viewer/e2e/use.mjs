@@ -197,6 +197,25 @@ async function reset(page) {
   assert.ok(after > before / 4, `the cube is seen: ${before}, then ${after}`);
 }
 
+/** The world stays in view while no node says yet where the robot is: a paused run that is reset. */
+async function resetWhilePaused(page) {
+  await until(page, 'periplus.tf.has("odom") && periplus.clock.nowS > 1', 'odometry');
+  const red = 'r > 110 && r > 2 * g && r > 2 * b';
+  // Chosen by the user, so it stays when nobody publishes it.
+  await page.getByRole('combobox', { name: 'Fixed frame' }).selectOption('odom');
+  await page.evaluate('periplus.setFixedFrame("odom")');
+  await button(page, 'Pause').click();
+  await until(page, 'periplus.isPaused', 'a pause');
+  const before = await share(page, red);
+  assert.ok(before > 0.001, `the cube is red: ${before}`);
+  await button(page, 'Reset').click();
+  await until(page, 'periplus.clock.nowS < 0.5', 'the start');
+  await page.waitForTimeout(1000);
+  assert.ok(await page.evaluate('periplus.world().root.visible'), 'the world is hidden');
+  const after = await share(page, red);
+  assert.ok(after > before / 4, `the cube is seen: ${before}, then ${after}`);
+}
+
 /** A file of RViz leaves the simulated world on the page. */
 async function rvizKeepsWorld(page) {
   await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
@@ -263,6 +282,7 @@ export async function use(chrome, url, attempt) {
   const slow = [...pong.slice(0, 2), '--rtf', '0.001', '--ros2', 'off'];
   await on('slow machine', slow, slowMachine);
   await on('reset', ['launch', 'sam_bot', 'display.launch.py', '--no-browser'], reset);
+  await on('reset while paused', cube(), resetWhilePaused);
   await on('rviz keeps the world', cube(), rvizKeepsWorld);
   await attempt('use token leaves the address', async () => {
     const words = [...pong, '--token', 'sixteen letters & more', `--page=0.0.0.0:${PORT}`];

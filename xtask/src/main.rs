@@ -136,6 +136,8 @@ enum Page {
     Check,
     /// In a browser, against a running `periplus`
     Browse,
+    /// Its accessibility by the rules of axe, in a browser
+    Axe,
 }
 
 /// What can be raced.
@@ -214,6 +216,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Viewer(Page::Build) => viewer::build(),
         Task::Viewer(Page::Check) => viewer::check(),
         Task::Viewer(Page::Browse) => viewer::in_browser(),
+        Task::Viewer(Page::Axe) => viewer::axe(),
         Task::Tutorials { only, pictures } => tutorials::run_all(only.as_deref(), *pictures),
         Task::Zenoh => zenoh::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),

@@ -33,6 +33,11 @@ pub(crate) fn in_browser() -> Result<(), Failed> {
     with_browser("page: in a browser", &["run", "e2e"])
 }
 
+/// Checks the main states of the page by the rules of axe, where there is a browser.
+pub(crate) fn axe() -> Result<(), Failed> {
+    with_browser("page: axe", &["run", "e2e", "--", "axe"])
+}
+
 /// How long it takes from the prompt to the first picture, and how large the page is.
 pub(crate) fn bench() -> Result<(), Failed> {
     with_browser("page: first picture", &["run", "--silent", "bench:first"])
@@ -51,8 +56,10 @@ fn with_browser(name: &str, words: &[&str]) -> Result<(), Failed> {
 }
 
 fn install() -> Result<(), Failed> {
-    let is_installed = folder().join("node_modules/.package-lock.json").exists();
-    if is_installed { Ok(()) } else { npm(&["ci", "--no-audit", "--no-fund"], NEEDS_NODE) }
+    let changed = |name: &str| folder().join(name).metadata().and_then(|file| file.modified()).ok();
+    let installed = changed("node_modules/.package-lock.json");
+    let is_current = installed.is_some() && installed >= changed("package-lock.json");
+    if is_current { Ok(()) } else { npm(&["ci", "--no-audit", "--no-fund"], NEEDS_NODE) }
 }
 
 fn npm(words: &[&str], help: &str) -> Result<(), Failed> {
