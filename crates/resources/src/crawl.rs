@@ -46,8 +46,9 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
             if IGNORE_MARKS.into_iter().any(holds) {
                 continue;
             }
-            if holds("package.xml") {
-                note_package(host, &folder, &mut found);
+            // As colcon and catkin have it, a package holds no other packages.
+            if holds("package.xml") && note_package(host, &folder, &mut found) {
+                continue;
             }
         }
         if level == depth {
@@ -63,16 +64,18 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
     found
 }
 
-fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) {
-    let Ok(bytes) = host.read(&folder.join("package.xml")) else { return };
+/// True for a folder whose `package.xml` has a name.
+fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) -> bool {
+    let Ok(bytes) = host.read(&folder.join("package.xml")) else { return false };
     let manifest = manifest::package(&bytes);
     if manifest.name.is_empty() {
-        return;
+        return false;
     }
     found.packages.entry(manifest.name.clone()).or_default().push(folder.to_path_buf());
     if !manifest.gazebo_paths.is_empty() {
         found.exports.push((folder.to_path_buf(), manifest));
     }
+    true
 }
 
 #[cfg(test)]
@@ -89,7 +92,8 @@ mod tests {
             .with_file("/w/a/b/c/d/package.xml", manifest)
             .with_file("/w/install/bot/package.xml", manifest)
             .with_file("/w/old/COLCON_IGNORE", "")
-            .with_file("/w/old/package.xml", manifest);
+            .with_file("/w/old/package.xml", manifest)
+            .with_file("/w/z/inner/package.xml", manifest);
         let found = crawl(&host, Path::new("/w"), 3);
         assert_eq!(found.packages["bot"], [Path::new("/w/z"), Path::new("/w/a/b")]);
         assert!(!found.cut_short);

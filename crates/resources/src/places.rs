@@ -9,8 +9,6 @@ use crate::host::Host;
 pub(crate) struct Place {
     pub(crate) folder: PathBuf,
     pub(crate) how: How,
-    /// Named by `--resource-path`: the user's own word, so a bare folder there will do.
-    pub(crate) asked_for: bool,
 }
 
 /// How a folder is searched for a package or model.
@@ -30,22 +28,24 @@ pub(crate) enum How {
 const ROS_DEPTH: usize = 4;
 /// How deep packages lie below a folder above the mentioning file.
 const UPWARD_DEPTH: usize = 3;
+/// How deep packages lie below the folder of a workspace: clone, group, stack, package.
+const WORKSPACE_DEPTH: usize = 5;
 
 /// The places that do not depend on who asks: `--resource-path`, then the variables.
 pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
     let mut places = Vec::new();
-    let mut add = |folder: PathBuf, how, asked_for| {
+    let mut add = |folder: PathBuf, how| {
         // What does not exist stays in the list: whoever mistyped it shall see it among the
         // places tried.
         let folder = host.canonical(&folder).unwrap_or(folder);
-        let place = Place { folder, how, asked_for };
+        let place = Place { folder, how };
         if !places.contains(&place) {
             places.push(place);
         }
     };
     for folder in extra {
-        add(folder.clone(), How::Workspace, true);
-        add(folder.clone(), How::Tree(UPWARD_DEPTH), true);
+        add(folder.clone(), How::Workspace);
+        add(folder.clone(), How::Tree(WORKSPACE_DEPTH));
     }
     let entries = |variable: &str| -> Vec<PathBuf> {
         let value = host.variable(variable).unwrap_or_default();
@@ -59,32 +59,36 @@ pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
         "GAZEBO_RESOURCE_PATH",
     ] {
         for folder in entries(variable) {
-            add(folder, How::Children, false);
+            add(folder, How::Children);
         }
     }
     for folder in entries("ROS_PACKAGE_PATH") {
-        add(folder.clone(), How::Workspace, false);
-        add(folder, How::Tree(ROS_DEPTH), false);
+        add(folder.clone(), How::Workspace);
+        add(folder, How::Tree(ROS_DEPTH));
     }
     for folder in entries("AMENT_PREFIX_PATH") {
-        add(folder, How::Prefix, false);
+        add(folder, How::Prefix);
     }
     // Where Classic keeps the models it fetched; it always looks there.
     if let Some(home) = host.variable("HOME").filter(|home| !home.is_empty()) {
         let models = Path::new(&home).join(".gazebo/models");
         if host.kind(&models).is_some() {
-            add(models, How::Children, false);
+            add(models, How::Children);
         }
     }
     places
 }
 
 /// The places upward from a mentioning file, given its folder and those above it.
-pub(crate) fn upward(folders: &[PathBuf], project: &Path) -> Vec<Place> {
+pub(crate) fn upward(
+    folders: &[PathBuf],
+    project: &Path,
+    workspaces: &[PathBuf],
+) -> Vec<Place> {
     let mut places = Vec::new();
     for folder in folders {
         let depth = folder.components().count().saturating_sub(1);
-        let place = |how| Place { folder: folder.clone(), how, asked_for: false };
+        let place = |how| Place { folder: folder.clone(), how };
         let outside = !folder.starts_with(project);
         if outside && depth == 0 {
             continue;
@@ -92,8 +96,14 @@ pub(crate) fn upward(folders: &[PathBuf], project: &Path) -> Vec<Place> {
         places.push(place(How::Workspace));
         // Not through the whole machine, nor through /usr or /home because a file lies there.
         if depth > usize::from(outside) {
-            places.push(place(How::Tree(UPWARD_DEPTH)));
+            let is_workspace = workspaces.contains(folder);
+            let depth = if is_workspace { WORKSPACE_DEPTH } else { UPWARD_DEPTH };
+            places.push(place(How::Tree(depth)));
         }
+    }
+    for folder in workspaces.iter().filter(|folder| !folders.contains(folder)) {
+        let place = |how| Place { folder: folder.clone(), how };
+        places.extend([place(How::Workspace), place(How::Tree(WORKSPACE_DEPTH))]);
     }
     places
 }

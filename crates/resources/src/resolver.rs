@@ -18,7 +18,7 @@ use crate::crawl::Crawl;
 use crate::host::Host;
 use crate::manifest::PackageManifest;
 use crate::miss::{Miss, MissKind};
-use crate::places::{self, Place};
+use crate::places::{self, How, Place};
 use crate::surroundings::{Surroundings, surroundings};
 use crate::uri::{self, Scheme, Uri};
 use crate::{crawl, fuel, manifest};
@@ -131,6 +131,33 @@ impl<'h> Resolver<'h> {
     /// A miss with every place tried.
     pub fn find_model(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
         self.find(Scheme::Model, name, from)
+    }
+
+    /// The ROS packages that the file `from` can see, by name, with their folders.
+    #[must_use]
+    pub fn packages(&self, from: &Path) -> BTreeMap<String, PathBuf> {
+        let around = self.surroundings(from);
+        let mut packages = BTreeMap::new();
+        for place in self.fixed.iter().chain(&around.places) {
+            let crawl = match place.how {
+                How::Tree(depth) => self.crawl(&place.folder, depth),
+                How::Prefix => self.crawl(&place.folder.join("share"), 1),
+                How::Workspace => {
+                    let name = self.manifest(&place.folder).name.clone();
+                    if !name.is_empty() {
+                        packages.entry(name).or_insert_with(|| place.folder.clone());
+                    }
+                    continue;
+                }
+                How::Children => continue,
+            };
+            for (name, folders) in &crawl.packages {
+                if let Some(folder) = folders.first() {
+                    packages.entry(name.clone()).or_insert_with(|| folder.clone());
+                }
+            }
+        }
+        packages
     }
 
     fn find(&self, scheme: Scheme, name: &str, from: &Path) -> Result<PathBuf, Miss> {

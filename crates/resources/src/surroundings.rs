@@ -39,10 +39,10 @@ pub(crate) fn surroundings(host: &dyn Host, from: &Path, id: usize) -> Surroundi
     };
     let real = canonical(&real);
     let (project, upward) = project(host, &real);
-    let mut folders = vec![named, real];
+    let mut folders = vec![named, real.clone()];
     folders.dedup();
-    let places = places::upward(&upward, &project);
     let home = home(host);
+    let places = places::upward(&upward, &project, &workspaces(host, &real, home.as_deref()));
     let holds_home = |up: &Path| home.as_ref().is_some_and(|home| home.starts_with(up));
     let may_be_named = |up: &&PathBuf| up.components().count() > 2 && !holds_home(up);
     let eponyms = upward.iter().filter(may_be_named).cloned().collect();
@@ -73,6 +73,25 @@ fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
     let owner = holding("package.xml").or_else(|| holding("model.config"));
     let project = above(owner.map_or(folder, |level| &upward[level]));
     (project, upward)
+}
+
+/// Folders that a build tool writes beside `src`.
+const BUILT: [&str; 6] = ["install", "devel", "build", "log", ".catkin_workspace", ".catkin_tools"];
+
+/// The folders of sources of the workspaces around a folder, nearest first: each `src` above it, and
+/// each folder in which something was built. Clones that lie beside each other there see each other, as
+/// for colcon and catkin.
+fn workspaces(host: &dyn Host, folder: &Path, home: Option<&Path>) -> Vec<PathBuf> {
+    // Nobody's home is a workspace, nor is a folder of the system's.
+    let may_be = |up: &&Path| up.components().count() > 2 && Some(*up) != home;
+    let is_workspace = |up: &&Path| {
+        let is_src = up.file_name().is_some_and(|name| name == "src");
+        let built = BUILT.iter().filter(|name| host.kind(&up.join(name)).is_some()).count();
+        // A repository has a `build` of its own; a workspace has two of them at least.
+        is_src || built >= 2
+    };
+    let above = folder.ancestors().take(MOST_LEVELS);
+    above.filter(may_be).filter(is_workspace).map(Path::to_path_buf).collect()
 }
 
 #[cfg(test)]

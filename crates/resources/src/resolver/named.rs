@@ -65,7 +65,8 @@ impl Resolver<'_> {
         Err(miss)
     }
 
-    /// The best folder of a name: one that says it is such a package or model, else the first.
+    /// The best folder of a name: one that says it is such a package or model, else the first. A
+    /// repository that is named like a package in it says nothing of the kind.
     fn folder(
         &self,
         scheme: Scheme,
@@ -74,7 +75,7 @@ impl Resolver<'_> {
         search: &mut Search,
     ) -> Option<PathBuf> {
         let mut first = None;
-        for (look, asked_for) in self.looks(name, around) {
+        for look in self.looks(name, around) {
             search.note(&look, |folder| folder.to_path_buf());
             for folder in &look.found {
                 let Some(folder) = self.accepted(folder, name, around) else {
@@ -82,7 +83,7 @@ impl Resolver<'_> {
                     continue;
                 };
                 let says_so = match scheme {
-                    Scheme::Package => asked_for || self.manifest(&folder).name == name,
+                    Scheme::Package => self.manifest(&folder).name == name,
                     Scheme::Model => self.model_file(&folder).is_ok(),
                 };
                 if says_so {
@@ -103,7 +104,7 @@ impl Resolver<'_> {
         search: &mut Search,
     ) -> Option<PathBuf> {
         let decoded = percent_decoded(rest);
-        for (look, _) in self.looks(name, around) {
+        for look in self.looks(name, around) {
             search.note(&look, |folder| folder.join(rest));
             for found in &look.found {
                 let Some(folder) = self.accepted(found, name, around) else {
@@ -133,16 +134,16 @@ impl Resolver<'_> {
         None
     }
 
-    /// What each place says to a name, and whether the user asked for that place; in their order,
-    /// each looked at only when the ones before did not do.
+    /// What each place says to a name, in their order; each is looked at only when the ones before did
+    /// not do.
     fn looks<'a>(
         &'a self,
         name: &'a str,
         around: &'a Surroundings,
-    ) -> impl Iterator<Item = (Rc<Look>, bool)> + 'a {
+    ) -> impl Iterator<Item = Rc<Look>> + 'a {
         let exports = std::iter::once_with(|| self.exports(around).as_ref().clone()).flatten();
         let places = self.fixed.iter().chain(&around.places).cloned().chain(exports);
-        places.map(move |place| (self.look(&place, name), place.asked_for))
+        places.map(move |place| self.look(&place, name))
     }
 
     fn look(&self, place: &Place, name: &str) -> Rc<Look> {
@@ -192,7 +193,7 @@ impl Resolver<'_> {
                 for path in &manifest.gazebo_paths {
                     let path = path.replace("${prefix}", &package.to_string_lossy());
                     let Some(folder) = self.host.canonical(Path::new(&path)) else { continue };
-                    let place = Place { folder, how: How::Children, asked_for: false };
+                    let place = Place { folder, how: How::Children };
                     if !places.contains(&place) {
                         places.push(place);
                     }

@@ -447,3 +447,52 @@ proptest! {
         let _ = Resolver::new(&host, &[]).find_package(&uri, Path::new(&from));
     }
 }
+
+#[test]
+fn clones_of_a_workspace_see_each_other() {
+    let host = machine(&[
+        "/home/ada/ws/src/robot/.git/HEAD",
+        "/home/ada/ws/src/robot/bot/package.xml",
+        "/home/ada/ws/src/robot/bot/launch/bot.launch.py",
+        "/home/ada/ws/src/vendor/worlds/.git/HEAD",
+        "/home/ada/ws/src/vendor/worlds/stack/office/package.xml",
+        "/home/ada/ws/src/vendor/worlds/stack/office/office.sdf",
+        "/home/ada/other/arm/package.xml",
+    ])
+    .with_variable("HOME", "/home/ada");
+    let resolver = Resolver::new(&host, &[]);
+    let from = Path::new("/home/ada/ws/src/robot/bot/launch/bot.launch.py");
+    let office = resolver.resolve("package://office/office.sdf", from);
+    assert_eq!(office, Ok("/home/ada/ws/src/vendor/worlds/stack/office/office.sdf".into()));
+    assert!(resolver.find_package("arm", from).is_err(), "no other folder of somebody's home");
+    let names: Vec<String> = resolver.packages(from).into_keys().collect();
+    assert_eq!(names, ["bot", "office"]);
+}
+
+#[test]
+fn a_workspace_is_also_one_where_something_was_built() {
+    let host = machine(&[
+        "/home/ada/ws/robot/.git/HEAD",
+        "/home/ada/ws/robot/bot/package.xml",
+        "/home/ada/ws/robot/bot/a.urdf",
+        "/home/ada/ws/worlds/office/package.xml",
+        "/home/ada/ws/install/setup.bash",
+        "/home/ada/ws/log/latest",
+    ]);
+    let from = Path::new("/home/ada/ws/robot/bot/a.urdf");
+    let office = Resolver::new(&host, &[]).find_package("office", from);
+    assert_eq!(office, Ok("/home/ada/ws/worlds/office".into()));
+}
+
+#[test]
+fn a_repository_named_like_a_package_in_it_is_not_that_package() {
+    let host = machine(&[
+        "/w/src/bot/.git/HEAD",
+        "/w/src/bot/README.md",
+        "/w/src/bot/bot/package.xml",
+        "/w/src/bot/bot/launch/a.launch",
+    ]);
+    let resolver = Resolver::new(&host, &["/w/src".into()]);
+    let from = Path::new("/elsewhere/a.launch");
+    assert_eq!(resolver.find_package("bot", from), Ok("/w/src/bot/bot".into()));
+}

@@ -1,2 +1,0 @@
-"""One handler, by the name of its module."""
-from launch.event_handlers import OnProcessStart  # noqa: F401

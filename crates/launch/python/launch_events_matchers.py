@@ -1,2 +1,0 @@
-"""Conditions on actions."""
-from launch.events import matches_action  # noqa: F401
