@@ -8,15 +8,17 @@ mod show;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::Args;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap, closest};
 use periplus_host::{Machine, Stopwatch};
-use periplus_launch::{Plan, Request, Step, What, dialect, plan};
+use periplus_launch::{Ending, Plan, Request, Step, What, dialect, plan_with_ending};
 use periplus_resources::{Host as _, Kind, Resolver};
 
 use crate::arguments;
 use crate::options::{SearchOptions, split};
+use crate::sim::positive;
 use crate::terminal::{self, working_folder};
 
 /// Run a launch file of ROS 1 or ROS 2
@@ -38,6 +40,12 @@ pub(crate) struct LaunchOptions {
     /// Print the plan as JSON, and start nothing
     #[arg(short, long, conflicts_with = "show_args")]
     print: bool,
+    /// Run no code of the launch file: no Python, and no program that it names; xacro is built in
+    #[arg(long)]
+    no_code: bool,
+    /// Seconds that Python and each program may take while the launch file is evaluated
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value = "60")]
+    evaluation_limit: f64,
     #[command(flatten)]
     play: play::PlayOptions,
     #[command(flatten)]
@@ -57,8 +65,13 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
     // Files that it makes last as long as it runs.
-    let mut outside = outside::Programs::new(&resolver, &here, options.print);
-    let (plan, found, file) = match file(&words, &resolver, &here) {
+    let limits = outside::Limits {
+        is_kept: options.print,
+        runs_code: !options.no_code,
+        longest: Duration::from_secs_f64(options.evaluation_limit.min(LONGEST_EVALUATION_S)),
+    };
+    let mut outside = outside::Programs::new(&resolver, &here, limits);
+    let (plan, found, ending, file) = match file(&words, &resolver, &here) {
         Ok(Found::File(file)) => {
             let request = Request {
                 file: file.clone(),
@@ -67,11 +80,12 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
                 resolver: &resolver,
                 outside: &mut outside,
             };
-            let (plan, found) = plan(request, &mut sources);
-            (plan, found, file)
+            let (plan, found, ending) = plan_with_ending(request, &mut sources);
+            (plan, found, ending, file)
         }
         Ok(Found::StandIn(file)) => {
-            (only(&file, arguments), Diagnostics::new(), PathBuf::from(file))
+            let plan = only(&file, arguments);
+            (plan, Diagnostics::new(), Ending::default(), PathBuf::from(file))
         }
         Err(wrong) => {
             let mut found = Diagnostics::new();
@@ -109,7 +123,12 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     drop(out);
     let launched =
         play::Launched { plan, dialect: dialect(&host, &file), arguments: to_nodes, start };
-    play::play(launched, &options.play, &options.search)
+    let outcome = play::play(launched, &options.play, &options.search);
+    for complaint in ending.run() {
+        let line = complaint.line.map(|line| format!("{line}: ")).unwrap_or_default();
+        terminal::complain(&format!("at the end of the launch: {line}{}", complaint.message));
+    }
+    outcome
 }
 
 /// What is wrong with a launch file, as far as planning it shows; nothing is started.
@@ -122,7 +141,7 @@ pub(crate) fn examine(
     let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
-    let mut outside = outside::Programs::new(&resolver, &here, true);
+    let mut outside = outside::Programs::new(&resolver, &here, outside::Limits::EXAMINED);
     let found = match self::file(&[file.to_owned()], &resolver, &here) {
         Ok(Found::File(file)) => {
             let request = Request {
@@ -132,7 +151,7 @@ pub(crate) fn examine(
                 resolver: &resolver,
                 outside: &mut outside,
             };
-            plan(request, &mut sources).1
+            periplus_launch::plan(request, &mut sources).1
         }
         Ok(Found::StandIn(_)) => Diagnostics::new(),
         Err(wrong) => {
@@ -144,10 +163,22 @@ pub(crate) fn examine(
     (found, sources)
 }
 
+/// The most seconds that `--evaluation-limit` grants: a day.
+const LONGEST_EVALUATION_S: f64 = 86_400.0;
+
 /// A plan of one launch file that is not here.
 fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
     let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
-    Plan { steps: vec![Step { id: 0, after: Vec::new(), what, written: None }], ..Plan::default() }
+    Plan {
+        steps: vec![Step {
+            id: 0,
+            after: Vec::new(),
+            what,
+            written: None,
+            environment: std::collections::BTreeMap::new(),
+        }],
+        ..Plan::default()
+    }
 }
 
 /// What words mean.

@@ -1,7 +1,10 @@
 """Where packages are. One that is not here has the place `package://NAME`."""
+import ast
+import linecache
 import pathlib
+import sys
 
-from periplus_launch import conversation
+from periplus_launch import conversation, objects
 
 
 class PackageNotFoundError(KeyError):
@@ -9,11 +12,22 @@ class PackageNotFoundError(KeyError):
 
 
 def get_package_share_directory(package_name, print_warning=True):
-    return conversation.ask("package", name=package_name, is_prefix=False)
+    return _found(package_name, is_prefix=False)
 
 
 def get_package_prefix(package_name):
-    return conversation.ask("package", name=package_name, is_prefix=True)
+    return _found(package_name, is_prefix=True)
+
+
+def _found(name, is_prefix):
+    # A launch file that has a way without the package is to take it.
+    if _is_expected_to_miss() and name not in get_packages_with_prefixes():
+        raise PackageNotFoundError(f"package '{name}' not found")
+    return conversation.ask("package", name=name, is_prefix=is_prefix)
+
+
+def get_packages_with_prefixes():
+    return conversation.ask("packages")
 
 
 class _Path(type(pathlib.Path())):
@@ -31,3 +45,33 @@ def get_package_share_path(package_name, print_warning=True):
 
 def get_package_prefix_path(package_name):
     return _Path(get_package_prefix(package_name))
+
+
+_WAYS_OUT = {"PackageNotFoundError", "KeyError", "LookupError", "Exception", "BaseException"}
+
+
+def _is_expected_to_miss():
+    """Whether the launch file's line that asks handles a package that is not found."""
+    frame = sys._getframe(1)
+    while frame is not None and not objects.is_own(frame.f_code.co_filename):
+        frame = frame.f_back
+    if frame is None:
+        return False
+    file, line = frame.f_code.co_filename, frame.f_lineno
+    try:
+        tree = ast.parse("".join(linecache.getlines(file)))
+    except (SyntaxError, ValueError, RecursionError):
+        return False
+    return any(
+        isinstance(node, ast.Try)
+        and node.body[0].lineno <= line <= node.body[-1].end_lineno
+        and any(_names(handler.type) & _WAYS_OUT for handler in node.handlers)
+        for node in ast.walk(tree)
+    )
+
+
+def _names(caught):
+    if caught is None:
+        return {"BaseException"}
+    named = caught.elts if isinstance(caught, ast.Tuple) else [caught]
+    return {getattr(each, "attr", getattr(each, "id", "")) for each in named}

@@ -2,8 +2,9 @@
 
 Requests come as lines of JSON on the standard input, answers leave on what was the standard output.
 What a launch file prints goes to the standard error. The first line brings the modules that stand in
-for those of ROS while a file is evaluated.
+for those of ROS while a file is evaluated, and the limit of memory.
 """
+import importlib
 import importlib.abc
 import importlib.util
 import json
@@ -19,29 +20,125 @@ os.dup2(2, 1)
 class Sources(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Finds modules among texts that were handed over."""
 
-    def __init__(self, sources):
-        self.sources = sources
+    def __init__(self, sources, wanted):
+        self.sources, self.wanted = sources, wanted
 
     def find_spec(self, name, path=None, target=None):
-        if name not in self.sources:
+        if not self.wanted(name.partition(".")[0]):
             return None
-        is_package = any(other.startswith(name + ".") for other in self.sources)
+        if name not in self.sources and submodules.provider(name) is None:
+            return None
         return importlib.util.spec_from_loader(
-            name, self, origin=f"<{name}>", is_package=is_package
+            name,
+            self,
+            origin=f"<{name}>",
+            is_package=submodules.is_package(name, self.sources),
         )
 
     def exec_module(self, module):
         name = module.__spec__.name
-        text = self.sources[name]
-        file = f"<{name}>"
-        # So that a traceback shows the line.
-        linecache.cache[file] = (len(text), None, text.splitlines(True), file)
-        exec(compile(text, file, "exec"), module.__dict__)
+        if name not in self.sources:
+            same_as(module, submodules.provider(name))
+            return
+        execute(self.sources[name], name, module.__dict__)
+
+
+def execute(text, name, names):
+    file = f"<{name}>"
+    # So that a traceback shows the line.
+    linecache.cache[file] = (len(text), None, text.splitlines(True), file)
+    exec(compile(text, file, "exec"), names)
+
+
+def same_as(module, provider):
+    """Gives a module the names of another, which may still be on its way."""
+    other = importlib.import_module(provider)
+
+    def forward(name):
+        if name.startswith("__") or not hasattr(other, name):
+            raise AttributeError(f"module {module.__name__!r} has no attribute {name!r}")
+        return getattr(other, name)
+
+    module.__getattr__ = forward
+    module.__all__ = [name for name in vars(other) if not name.startswith("_")]
+
+
+class Workspace(importlib.abc.MetaPathFinder):
+    """Finds the Python modules of packages that are not installed."""
+
+    def find_spec(self, name, path=None, target=None):
+        if path is not None or "." in name:
+            return None
+        from periplus_launch import conversation
+
+        folder = conversation.module_folder(name)
+        if not folder:
+            return None
+        return importlib.machinery.PathFinder.find_spec(name, [folder])
+
+
+class _Needed(type):
+    """A class of which nothing can be used."""
+
+    def __call__(cls, *_args, **_options):
+        raise ModuleNotFoundError(
+            f"`{cls.__name__}` needs `{cls.__module__}`, which is not on this machine"
+        )
+
+    def __getattr__(cls, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return cls()
+
+
+class Absent(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Modules of ROS that are not here. Their names can be imported, as tests beside a launch file do;
+    using one says that it is missing."""
+
+    def find_spec(self, name, path=None, target=None):
+        if not submodules.is_absent(name):
+            return None
+        return importlib.util.spec_from_loader(name, self, is_package=True)
+
+    def exec_module(self, module):
+        def make(name):
+            if name.startswith("__"):
+                raise AttributeError(name)
+            return _Needed(name, (), {"__module__": module.__name__})
+
+        module.__getattr__ = make
+        if module.__name__ == "rclpy.logging":
+            import logging
+
+            module.get_logger = logging.getLogger
+
+
+def limit_memory(most):
+    """Bounds what this process may take, on systems that can."""
+    try:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
+    except (ImportError, OSError, ValueError):
+        pass
 
 
 def main():
-    sources = json.loads(lines_in.readline())
-    sys.meta_path.insert(0, Sources(sources))
+    first = json.loads(lines_in.readline())
+    sources = first["modules"]
+    limit_memory(first["most_memory"])
+    global submodules
+    submodules = importlib.util.module_from_spec(
+        importlib.util.spec_from_loader("periplus_submodules", loader=None)
+    )
+    execute(sources["periplus_launch.submodules"], "periplus_launch.submodules", vars(submodules))
+    # The folder where the program was started is no place of modules.
+    sys.path[:] = [folder for folder in sys.path if folder]
+    sys.dont_write_bytecode = True
+    sys.meta_path.insert(0, Sources(sources, lambda top: top not in submodules.LAST))
+    sys.meta_path.append(Workspace())
+    sys.meta_path.append(Sources(sources, lambda top: top in submodules.LAST))
+    sys.meta_path.append(Absent())
     from periplus_launch import conversation
 
     conversation.run(lines_in, lines_out)

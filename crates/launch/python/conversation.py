@@ -1,7 +1,10 @@
 """Requests and questions, one line each."""
+import builtins
 import importlib.util
+import io
 import json
 import os
+import re
 import sys
 import traceback
 
@@ -9,6 +12,8 @@ from . import objects
 
 _lines_in = None
 _lines_out = None
+_folders = {}
+_open = open
 
 
 class Refused(Exception):
@@ -36,9 +41,31 @@ def ask(question, **details):
             return message["answer"]
 
 
+def module_folder(name):
+    """The folder in which a package of the workspace has a Python module of that name."""
+    if name not in _folders:
+        _folders[name] = ask("module", name=name)
+    return _folders[name]
+
+
+def _open_in_sources(file, mode="r", *args, **options):
+    """As `open`; a file that a build would install is read where its package has it."""
+    try:
+        return _open(file, mode, *args, **options)
+    except FileNotFoundError:
+        if not isinstance(file, (str, os.PathLike)) or set(mode) & set("wax+"):
+            raise
+        path = os.path.abspath(file)
+        source = ask("in_sources", path=path)
+        if source == path:
+            raise
+        return _open(source, mode, *args, **options)
+
+
 def run(lines_in, lines_out):
     global _lines_in, _lines_out
     _lines_in, _lines_out = lines_in, lines_out
+    builtins.open = io.open = _open_in_sources
     for line in lines_in:
         _send(_answered(json.loads(line)))
 
@@ -47,20 +74,43 @@ def _answered(request):
     try:
         return _do(request)
     except Refused as refused:
-        return {"error": _place(refused) + str(refused)}
+        return {"error": str(refused), "line": _line(refused)}
     except BaseException as problem:  # a launch file may raise anything, even SystemExit
-        return {"error": _place(problem) + "".join(
-            traceback.format_exception_only(type(problem), problem)
-        ).strip()}
+        message = "".join(traceback.format_exception_only(type(problem), problem)).strip()
+        return {"error": message, "line": _line(problem), "help": _help(problem)}
 
 
-def _place(problem):
-    """`file:line: ` of the launch file, where the problem came from."""
-    frames = traceback.extract_tb(problem.__traceback__)
-    own = [frame for frame in frames if not frame.filename.startswith("<")]
+def _line(problem):
+    """`file:line` of the launch file, where the problem came from."""
     if isinstance(problem, SyntaxError) and problem.filename:
-        return f"{problem.filename}:{problem.lineno}: "
-    return f"{own[-1].filename}:{own[-1].lineno}: " if own else ""
+        return f"{problem.filename}:{problem.lineno}"
+    frames = traceback.extract_tb(problem.__traceback__)
+    own = [frame for frame in frames if objects.is_own(frame.filename)]
+    return f"{own[-1].filename}:{own[-1].lineno}" if own else None
+
+
+def _help(problem):
+    """What to do about a problem, where that is known."""
+    if isinstance(problem, ModuleNotFoundError) and problem.name:
+        top = problem.name.partition(".")[0]
+        return (
+            f"the Python module `{top}` is neither in a package of this workspace nor on this "
+            f"machine: name the folder of its package, `--resource-path FOLDER`, or install it"
+        )
+    frames = traceback.extract_tb(problem.__traceback__)
+    if isinstance(problem, KeyError) and frames and frames[-1].filename.endswith(("os>", "os.py")):
+        name = problem.args[0]
+        return f"the environment has no variable `{name}`: set it, `export {name}=VALUE`"
+    package = re.search(r"package:/+(\w+)", str(problem))
+    if package:
+        package = package[1]
+        return (
+            f"the package `{package}` is not on this machine: name its folder, "
+            f"`--resource-path FOLDER`"
+        )
+    if isinstance(problem, MemoryError):
+        return "a launch file may take only so much memory while it is evaluated"
+    return None
 
 
 def _do(request):
@@ -69,35 +119,69 @@ def _do(request):
     context = LaunchContext._of(request.get("context", {}))
     kind = request["ask"]
     if kind == "load":
-        return {"answer": _load(request["file"], context)}
+        # What a module sets in `os.environ` holds for everything behind it.
+        with context._active():
+            answer = _load(request["file"])
+        return {"answer": answer, **context._changes()}
     subject = objects.get(request["id"])
-    if kind == "perform":
-        with context._active():
+    with context._active():
+        if kind == "perform":
             answer = str(subject.perform(context))
-    elif kind == "holds":
-        with context._active():
+        elif kind == "holds":
             answer = bool(subject(context) if callable(subject) else subject.evaluate(context))
-    elif kind in ("call", "for_each"):
-        with context._active():
-            made = subject(context)
-            answer = [objects.described(action) for action in objects.flat(made)]
-    else:
-        raise Refused(f"`{kind}` is no request")
+        elif kind in ("call", "for_each"):
+            answer = [objects.described(action) for action in objects.flat(subject(context))]
+        else:
+            raise Refused(f"`{kind}` is no request")
     return {"answer": answer, **context._changes()}
 
 
-def _load(file, context):
+def _load(file):
     folder = os.path.dirname(file)
-    spec = importlib.util.spec_from_file_location("launch_file_" + str(abs(hash(file))), file)
+    name = "launch_file_" + str(abs(hash(file)))
+    spec = importlib.util.spec_from_file_location(name, file)
     module = importlib.util.module_from_spec(spec)
-    sys.dont_write_bytecode = True
+    # Dataclasses and pickles look their module up.
+    sys.modules[name] = module
     sys.path.insert(0, folder)
     try:
-        with context._active():
-            spec.loader.exec_module(module)
-            if not hasattr(module, "generate_launch_description"):
-                raise Refused("the file has no function `generate_launch_description`")
-            made = module.generate_launch_description()
-            return [objects.described(action) for action in objects.flat(made)]
+        spec.loader.exec_module(module)
+        if not hasattr(module, "generate_launch_description"):
+            return _of_tests(module)
+        made = module.generate_launch_description()
+        return [objects.described(action) for action in objects.flat(_first(made))]
     finally:
         sys.path.remove(folder)
+
+
+def _of_tests(module):
+    """The description of a file of `launch_testing`."""
+    made = getattr(module, "generate_test_description", None)
+    if made is None:
+        raise Refused("the file has no function `generate_launch_description`")
+    import inspect
+
+    wanted = [
+        parameter.name
+        for parameter in inspect.signature(made).parameters.values()
+        if parameter.default is parameter.empty
+        and parameter.kind not in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL)
+    ]
+    given = {"ready_fn": lambda: None}
+    given.update({name: value for name, value in getattr(made, "_first_values", {}).items()})
+    unknown = [name for name in wanted if name not in given]
+    if unknown:
+        raise Refused(
+            f"`generate_test_description` takes `{unknown[0]}`, which only its test runner gives"
+        )
+    made = made(**{name: given[name] for name in given if name in wanted})
+    return [objects.described(action) for action in objects.flat(_first(made))]
+
+
+def _first(made):
+    """A description that comes with its context, as tests give it."""
+    from launch import LaunchDescription
+
+    if isinstance(made, tuple) and made and isinstance(made[0], LaunchDescription):
+        return made[0]
+    return made

@@ -1,13 +1,48 @@
 """Stands in for `launch`, while a launch file is evaluated."""
 import contextlib
-
-from periplus_launch import conversation, objects
+import os
+import sys
+from typing import Any
 
 _active = []
+# The environment that this process was given.
+_machine = dict(os.environ)
+
+
+def _set_environment(values):
+    values = {name: value for name, value in values.items() if value is not None}
+    for name in os.environ.keys() - values.keys():
+        del os.environ[name]
+    for name, value in values.items():
+        if os.environ.get(name) != value:
+            os.environ[name] = value
+
+
+SomeSubstitutionsType = SomeEntitiesType = SomeActionsType = Any
+SomeSubstitutionsType_types_tuple = SomeEntitiesType_types_tuple = (str, list, tuple)
+
+
+class InvalidLaunchFileError(Exception):
+    """A launch file that cannot be read."""
 
 
 class LaunchDescriptionEntity:
     """Base of everything in a launch description."""
+
+    def visit(self, context):
+        return [self]
+
+    def describe(self):
+        return type(self).__name__
+
+    def describe_sub_entities(self):
+        return []
+
+    def describe_conditional_sub_entities(self):
+        return []
+
+    def get_asyncio_future(self):
+        return None
 
 
 class LaunchContext:
@@ -17,8 +52,11 @@ class LaunchContext:
         self.argv = list(argv or [])
         self.noninteractive = noninteractive
         self.launch_configurations = {}
-        self.environment = {}
+        # As in `launch`, the context's environment is that of the process.
+        self.environment = os.environ
         self.locals = _Locals()
+        self.is_shutdown = False
+        self.asyncio_loop = None
         self._file = ""
 
     @classmethod
@@ -26,19 +64,11 @@ class LaunchContext:
         context = cls()
         context.launch_configurations = dict(snapshot.get("configurations", {}))
         context._changed = dict(snapshot.get("environment", {}))
+        context._defaults = dict(snapshot.get("defaults", {}))
         context._file = snapshot.get("file", "")
+        context.argv = list(snapshot.get("argv", []))
         if snapshot.get("namespace"):
             context.launch_configurations.setdefault("ros_namespace", snapshot["namespace"])
-        import os
-
-        context.environment = dict(os.environ)
-        for name, value in context._changed.items():
-            if value is None:
-                context.environment.pop(name, None)
-            else:
-                context.environment[name] = value
-        context._environment_before = dict(context.environment)
-        context._namespace_before = context.launch_configurations.get("ros_namespace")
         return context
 
     def _snapshot(self):
@@ -53,11 +83,14 @@ class LaunchContext:
         }
 
     def _environment_changes(self):
-        changed = dict(getattr(self, "_changed", {}))
-        before = getattr(self, "_environment_before", self.environment)
-        for name in before.keys() | self.environment.keys():
-            if before.get(name) != self.environment.get(name):
-                changed[name] = self.environment.get(name)
+        """What differs from the machine's environment; null for what is taken away."""
+        if self not in _active:
+            return getattr(self, "_changed", {})
+        changed = {}
+        for name in _machine.keys() | os.environ.keys():
+            value = os.environ.get(name)
+            if value != _machine.get(name) and value != self._defaults.get(name):
+                changed[name] = value
         return changed
 
     def _changes(self):
@@ -66,11 +99,19 @@ class LaunchContext:
 
     @contextlib.contextmanager
     def _active(self):
+        """Makes this the context of everything that asks for one, and its environment the process's."""
+        before = dict(os.environ)
+        argv = sys.argv
+        _set_environment({**_machine, **self._defaults, **self._changed})
+        sys.argv = ["ros2", "launch", self._file, *self.argv]
         _active.append(self)
         try:
             yield self
         finally:
+            self._changed = self._environment_changes()
             _active.pop()
+            sys.argv = argv
+            _set_environment(before)
 
     def perform_substitution(self, substitution):
         return substitution.perform(self)
@@ -83,6 +124,21 @@ class LaunchContext:
 
     def extend_globals(self, extensions):
         self.locals.__dict__.update(extensions)
+
+    def get_launch_configuration(self, name):
+        return self.launch_configurations[name]
+
+    def emit_event_sync(self, event):
+        """Events are emitted by the plan alone."""
+
+    async def emit_event(self, event):
+        pass
+
+    def register_event_handler(self, event_handler, append=False):
+        pass
+
+    def unregister_event_handler(self, event_handler):
+        pass
 
 
 class _Locals:
@@ -106,14 +162,27 @@ class LaunchDescription(LaunchDescriptionEntity):
     def add_entity(self, entity):
         self.entities.append(entity)
 
+    def visit(self, context):
+        return self.entities
+
+    def get_launch_arguments(self, conditional_inclusion=False):
+        return [each for each in self.entities if isinstance(each, actions.DeclareLaunchArgument)]
+
 
 class LaunchService:
     """Files that launch themselves when they are run as scripts are not run as scripts."""
 
     def __init__(self, *, argv=None, **_others):
         self.argv = argv
+        self.context = LaunchContext(argv=argv)
 
     def include_launch_description(self, description):
+        pass
+
+    def emit_event(self, event):
+        pass
+
+    def shutdown(self):
         pass
 
     def run(self, **_others):
@@ -130,6 +199,10 @@ class LaunchDescriptionSource:
     def location(self):
         return self._location
 
+    def get_launch_description(self, context):
+        """Actions that read the file."""
+        return LaunchDescription([actions.IncludeLaunchDescription(self)])
+
 
 class LaunchIntrospector:
     """Shows descriptions as text."""
@@ -142,10 +215,10 @@ from . import action, condition, substitution  # noqa: E402
 from .action import Action  # noqa: E402,F401
 from .condition import Condition  # noqa: E402,F401
 from .substitution import Substitution  # noqa: E402,F401
-from .some_types import *  # noqa: E402,F401,F403
 from . import (  # noqa: E402,F401
     actions,
     conditions,
+    descriptions,
     event,
     event_handler,
     event_handlers,
@@ -153,11 +226,8 @@ from . import (  # noqa: E402,F401
     frontend,
     launch_description_sources,
     logging,
-    some_types,
     substitutions,
     utilities,
 )
 from .event import Event  # noqa: E402,F401
 from .event_handler import EventHandler  # noqa: E402,F401
-
-launch_context = launch_description = None

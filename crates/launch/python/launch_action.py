@@ -15,10 +15,11 @@ class Action(LaunchDescriptionEntity):
         return self._condition
 
     def _described(self):
+        is_own = objects.is_own(type(self).execute.__code__.co_filename)
         described = {
             "id": objects.keep(self),
             "place": getattr(self, "_written", None),
-            **self._deed(),
+            **(Action._deed(self) if is_own else self._deed()),
         }
         condition = getattr(self, "_condition", None)
         if condition is not None:
@@ -32,13 +33,14 @@ class Action(LaunchDescriptionEntity):
         return {"do": "call", "function": objects.keep(_Run(self.execute))}
 
     def execute(self, context):
-        return None
+        """What the class of a launch file's own gets that extends one of these."""
+        if type(self)._deed is Action._deed:
+            return None
+        return [_Deed(self)]
 
-    def visit(self, context):
-        return [self]
-
-    def describe(self):
-        return type(self).__name__
+    @staticmethod
+    def parse(entity, parser):
+        return Action, {}
 
 
 class _Run:
@@ -47,3 +49,15 @@ class _Run:
 
     def __call__(self, context):
         return self.function(context)
+
+
+class _Deed(Action):
+    """What an action does by itself, without what its class in the launch file adds."""
+
+    def __init__(self, action):
+        super().__init__()
+        self._action = action
+        self._written = getattr(action, "_written", None)
+
+    def _deed(self):
+        return self._action._deed()

@@ -104,24 +104,40 @@ class ResetEnvironment(Action):
 class GroupAction(Action):
     def __init__(self, actions, *, scoped=True, forwarding=True, launch_configurations=None, **others):
         super().__init__(condition=others.get("condition"))
-        self._actions, self._scoped, self._forwarding = actions, scoped, forwarding
+        # Entities may come one by one, and are looked at more than once.
+        self._actions = list(objects.flat(actions))
+        self._scoped, self._forwarding = scoped, forwarding
         self._configurations = launch_configurations
 
     def _deed(self):
         return {
             "do": "group",
-            "actions": [objects.described(action) for action in objects.flat(self._actions)],
+            "actions": [objects.described(action) for action in self._actions],
             "is_scoped": bool(self._scoped),
             "is_forwarding": bool(self._forwarding),
             "configurations": pairs(self._configurations),
         }
 
 
+    def get_sub_entities(self):
+        return self._actions
+
+
 class IncludeLaunchDescription(Action):
     def __init__(self, launch_description_source, *, launch_arguments=None, condition=None):
         super().__init__(condition=condition)
         self._source = launch_description_source
+        if hasattr(launch_arguments, "items"):
+            launch_arguments = launch_arguments.items()
         self._arguments = list(launch_arguments or [])
+
+    @property
+    def launch_description_source(self):
+        return self._source
+
+    @property
+    def launch_arguments(self):
+        return tuple(self._arguments)
 
     def _deed(self):
         from launch import LaunchDescription, LaunchDescriptionSource
@@ -145,7 +161,14 @@ class OpaqueFunction(Action):
         return self._function(context, *self._args, **self._kwargs)
 
 
-OpaqueCoroutine = OpaqueFunction
+class OpaqueCoroutine(Action):
+    """Runs beside the launch: what it does is not known before."""
+
+    def __init__(self, *, coroutine, args=None, kwargs=None, ignore_context=False, **others):
+        super().__init__(condition=others.get("condition"))
+
+    def _deed(self):
+        return {"do": "left", "what": "a coroutine of the launch file's own"}
 
 
 class ForEach(Action):
@@ -183,30 +206,65 @@ class _Each:
         return made
 
 
-ForLoop = ForEach
+class ForLoop(Action):
+    """Does what a function gives for each whole number below a length."""
+
+    def __init__(self, length, *, function, name=None, condition=None):
+        super().__init__(condition=condition)
+        self._length, self._function = length, function
+
+    def _deed(self):
+        return {"do": "for_each", "function": objects.keep(_Pass(self))}
+
+
+class _Pass:
+    def __init__(self, action):
+        self.action = action
+
+    def __call__(self, context):
+        from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+        length = normalize_to_list_of_substitutions(self.action._length)
+        made = []
+        for number in range(int(perform_substitutions(context, length))):
+            made.extend(objects.flat(self.action._function(number)))
+        return made
 
 
 class ExecuteLocal(Action):
-    def __init__(self, *, process_description=None, condition=None, **running):
+    """Starts a program that is described apart."""
+
+    def __init__(self, *, process_description, condition=None, **running):
         super().__init__(condition=condition)
-        self._command = getattr(process_description, "cmd", [])
-        self._name, self._running = None, running
+        self.process_description = process_description
+        self._running = running
+
+    @property
+    def cmd(self):
+        return self.process_description.cmd
+
+    @property
+    def name(self):
+        return self.process_description.name
 
     def _deed(self):
-        return _process(self._command, self._name, self._running)
-
-
-class ExecuteProcess(Action):
-    def __init__(self, *, cmd, name=None, condition=None, prefix=None, cwd=None, env=None,
-                 additional_env=None, **running):
-        super().__init__(condition=condition)
-        self._command, self._name = cmd, name
-        self._running = {
-            **running, "prefix": prefix, "cwd": cwd, "env": env, "additional_env": additional_env,
+        of = self.process_description
+        described = {
+            key: getattr(of, key, None) for key in ("prefix", "cwd", "env", "additional_env")
         }
+        return _process(of.cmd, of.name, {**self._running, **described})
 
-    def _deed(self):
-        return _process(self._command, self._name, self._running)
+
+class ExecuteProcess(ExecuteLocal):
+    def __init__(self, *, cmd, prefix=None, name=None, cwd=None, env=None, additional_env=None,
+                 **running):
+        from launch.descriptions import Executable
+
+        described = Executable(
+            cmd=[cmd] if isinstance(cmd, str) else cmd, prefix=prefix, name=name, cwd=cwd,
+            env=env, additional_env=additional_env,
+        )
+        super().__init__(process_description=described, **running)
 
 
 def _process(command, name, running):
@@ -276,7 +334,15 @@ class EmitEvent(Action):
                 "target": _number(event.lifecycle_node_matcher),
                 "transition": event.transition,
             }
+        from launch.events.process import ShutdownProcess, SignalProcess
+
+        if isinstance(event, (ShutdownProcess, SignalProcess)):
+            return {"do": "left", "what": "the end of a process that an event asks for"}
         return {"do": "left", "what": f"the event {type(event).__name__}"}
+
+    @property
+    def event(self):
+        return self._event
 
 
 class LogInfo(Action):
@@ -290,8 +356,16 @@ class LogInfo(Action):
     def _deed(self):
         return {"do": "log", "text": text(self._msg), "level": text(self._given or self._level)}
 
+    @property
+    def msg(self):
+        return self._msg
 
-Log = LogInfo
+
+class Log(LogInfo):
+    """A message with its level."""
+
+    def __init__(self, *, msg, level, **others):
+        super().__init__(msg=msg, level=level, **others)
 
 
 class LogDebug(LogInfo):
@@ -309,7 +383,15 @@ class LogError(LogInfo):
 class TimerAction(Action):
     def __init__(self, *, period, actions, **others):
         super().__init__(condition=others.get("condition"))
-        self._period, self._actions = period, actions
+        self._period, self._actions = period, list(objects.flat(actions))
+
+    @property
+    def period(self):
+        return self._period
+
+    @property
+    def actions(self):
+        return self._actions
 
     def _deed(self):
         return {
@@ -323,6 +405,10 @@ class RegisterEventHandler(Action):
     def __init__(self, event_handler, **others):
         super().__init__(**others)
         self._handler = event_handler
+
+    @property
+    def event_handler(self):
+        return self._handler
 
     def _deed(self):
         return self._handler._described()

@@ -15,6 +15,12 @@ class Condition:
             "holds", condition=described(self), context=context._snapshot()
         )
 
+    def _predicate_func(self, context):
+        return self.evaluate(context)
+
+    def describe(self):
+        return type(self).__name__
+
     def _described(self):
         return {"condition": "python", "id": objects.keep(self)}
 
@@ -22,4 +28,6 @@ class Condition:
 def described(condition):
     if not isinstance(condition, Condition):
         raise TypeError(f"{condition!r} is no condition")
+    if objects.is_own(type(condition).evaluate.__code__.co_filename):
+        return Condition._described(condition)
     return condition._described()

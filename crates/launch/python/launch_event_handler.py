@@ -8,6 +8,7 @@ class EventHandler:
     def __init__(self, *, matcher=None, entities=None, handle_once=False):
         self.matcher, self.entities = matcher, entities
         self.handle_once = handle_once
+        self._written = objects.written()
 
     def _described(self):
         return {"do": "left", "what": "an event handler with a matcher of the file's own"}
@@ -29,7 +30,16 @@ class _On(EventHandler):
         event = dict(self._event)
         if event["event"] != "shutdown":
             event["of"] = _number(self._of)
-        return {"do": "when", "event": event, "actions": _actions(self._reactions)}
+        return {"do": "when", "event": event, "actions": _actions(self._reactions, self._class())}
+
+    def _class(self):
+        """The class of event that a function of the launch file gets."""
+        from launch import events
+
+        return {
+            "started": events.process.ProcessStarted,
+            "shutdown": events.Shutdown,
+        }.get(self._event["event"], events.process.ProcessExited)
 
 
 def _number(action):
@@ -43,18 +53,25 @@ def _number(action):
 
 
 class _Reaction:
-    """A function of event and context, called when the plan is made."""
+    """A function of event and context."""
 
-    def __init__(self, function):
-        self.function = function
+    def __init__(self, function, event):
+        self.function, self.event = function, event
 
     def __call__(self, context):
-        from launch.events.process import ProcessExited
+        import inspect
 
-        return self.function(ProcessExited(), context)
+        try:
+            takes = len(inspect.signature(self.function).parameters)
+        except (TypeError, ValueError):
+            takes = 2
+        return self.function(*(self.event(), context)[:max(takes, 1)])
 
 
-def _actions(reactions):
+def _actions(reactions, event=None):
+    from launch.events.process import ProcessExited
+
     if callable(reactions):
-        return [{"do": "call", "function": objects.keep(_Reaction(reactions))}]
+        reaction = _Reaction(reactions, event or ProcessExited)
+        return [{"do": "call", "function": objects.keep(reaction)}]
     return [objects.described(action) for action in objects.flat(reactions)]

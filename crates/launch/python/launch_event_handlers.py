@@ -1,5 +1,5 @@
 """Event handlers."""
-from launch.event_handler import _On
+from launch.event_handler import EventHandler, _On
 
 
 class OnProcessStart(_On):
@@ -18,19 +18,31 @@ class OnExecutionComplete(_On):
 
 
 class OnProcessIO(_On):
+    """Handles what a process prints; functions that read it have nothing to read before it runs."""
+
     def __init__(self, *, target_action=None, on_stdin=None, on_stdout=None, on_stderr=None, **_others):
         super().__init__("printed", on_stdout or on_stderr or on_stdin, of=target_action)
+
+    def _described(self):
+        if callable(self._reactions):
+            return {"do": "left", "what": "a function that reads what a process prints"}
+        return super()._described()
 
 
 class OnShutdown(_On):
     def __init__(self, *, on_shutdown, **_others):
-        super().__init__("shutdown", [] if callable(on_shutdown) else on_shutdown)
-        self._is_function = callable(on_shutdown)
-
-    def _described(self):
-        if self._is_function:
-            return {"do": "left", "what": "a function that the file calls at the end"}
-        return super()._described()
+        super().__init__("shutdown", on_shutdown)
 
 
-from . import on_process_exit, on_process_start, on_shutdown  # noqa: E402,F401
+class OnIncludeLaunchDescription(EventHandler):
+    """Included files are read when the plan is made."""
+
+    def __init__(self, **_others):
+        super().__init__()
+
+
+OnActionEventBase = _On
+
+
+def event_named(event_name):
+    return lambda event: getattr(event, "name", None) == event_name

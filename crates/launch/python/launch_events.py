@@ -11,6 +11,11 @@ class TimerEvent(Event):
     pass
 
 
+class ExecutionComplete(Event):
+    def __init__(self, *, action=None):
+        self.action = action
+
+
 class IncludeLaunchDescription(Event):
     def __init__(self, launch_description):
         self.launch_description = launch_description
@@ -30,4 +35,4 @@ def matches_action(target):
     return _Matcher(target)
 
 
-from . import matchers, process  # noqa: E402,F401
+from . import process  # noqa: E402,F401

@@ -8,3 +8,5 @@ from . import (  # noqa: F401
     substitutions,
     utilities,
 )
+
+ParametersType = RemapRulesType = SomeParameters = SomeRemapRules = object

@@ -11,10 +11,18 @@ class Node(Action):
 
     _is_lifecycle = False
 
-    def __init__(self, *, executable, package=None, name=None, namespace=None, exec_name=None,
+    def __init__(self, *, executable=None, package=None, name=None, namespace=None, exec_name=None,
                  parameters=None, remappings=None, ros_arguments=None, arguments=None,
-                 condition=None, **running):
+                 condition=None, node_name=None, node_namespace=None, node_executable=None,
+                 **running):
         super().__init__(condition=condition)
+        # Up to Foxy the names began with `node_`.
+        executable = executable if executable is not None else node_executable
+        name = name if name is not None else node_name
+        namespace = namespace if namespace is not None else node_namespace
+        if executable is None:
+            raise TypeError(f"{type(self).__name__}: the argument `executable` is missing")
+        self.node_executable, self.node_package, self.node_name = executable, package, name
         self._details = {
             "package": text(package),
             "executable": text(executable),
@@ -41,7 +49,10 @@ class Node(Action):
 class LifecycleNode(Node):
     _is_lifecycle = True
 
-    def __init__(self, *, name, namespace="", autostart=False, **others):
+    def __init__(self, *, name=None, namespace="", autostart=False, **others):
+        if name is None and others.get("node_name") is None:
+            raise TypeError("LifecycleNode: the argument `name` is missing")
+        namespace = others.pop("node_namespace", None) or namespace
         super().__init__(name=name, namespace=namespace, **others)
         self._details["autostart"] = text(
             str(autostart) if isinstance(autostart, bool) else autostart
@@ -49,7 +60,10 @@ class LifecycleNode(Node):
 
 
 class ComposableNodeContainer(Node):
-    def __init__(self, *, name, namespace="", composable_node_descriptions=None, **others):
+    def __init__(self, *, name=None, namespace="", composable_node_descriptions=None, **others):
+        if name is None and others.get("node_name") is None:
+            raise TypeError("ComposableNodeContainer: the argument `name` is missing")
+        namespace = others.pop("node_namespace", None) or namespace
         super().__init__(name=name, namespace=namespace, **others)
         self._components = list(composable_node_descriptions or [])
 

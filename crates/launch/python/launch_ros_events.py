@@ -1,6 +1,3 @@
 """Events of ROS."""
-from . import lifecycle  # noqa: F401
-
-
-def matches_node_name(node_name):
-    return None
+from . import lifecycle, matchers  # noqa: F401
+from .lifecycle import matches_node_name  # noqa: F401

@@ -12,8 +12,27 @@ class ChangeState(Event):
 
 
 class StateTransition(Event):
-    pass
+    """A managed node has gone to another state."""
+
+    def __init__(self, *, action=None, msg=None, **_others):
+        self.action, self.msg = action, msg
+        self.start_state = self.goal_state = self.transition = ""
+
+
+class _Named:
+    """Matches the node of a name."""
+
+    action = None
+
+    def __init__(self, node_name):
+        self.node_name = node_name
+
+    def __call__(self, action):
+        return getattr(action, "node_name", None) == self.node_name
 
 
 def matches_node_name(node_name):
-    return None
+    return _Named(node_name)
+
+
+matches_node_namespace = matches_node_name

@@ -10,6 +10,12 @@ class ParameterValue:
     def __init__(self, value, *, value_type=None):
         self.value, self.value_type = value, value_type
 
+    def evaluate(self, context):
+        from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+        value = normalize_to_list_of_substitutions(self.value)
+        return perform_substitutions(context, value)
+
     def _given(self):
         return {"given": "text", "text": text(self.value), "of_type": _type_name(self.value_type)}
 
@@ -28,6 +34,14 @@ class ParameterFile:
 
     def __init__(self, param_file, *, allow_substs=False):
         self.param_file, self.allow_substs = param_file, allow_substs
+
+    def evaluate(self, context):
+        from pathlib import Path
+
+        from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+        file = normalize_to_list_of_substitutions(self.param_file)
+        return Path(perform_substitutions(context, file))
 
 
 class Parameter:
@@ -99,4 +113,6 @@ def given(value):
             # Parts of one text.
             return {"given": "text", "text": text(value), "of_type": None}
         return {"given": "value", "value": list(value)}
+    if type(value).__module__ == "numpy":
+        return given(value.tolist())
     raise TypeError(f"{value!r} is no value of a parameter")

@@ -9,8 +9,7 @@ class Substitution:
         return {"sub": "python", "id": objects.keep(self)}
 
     def perform(self, context):
-        described = _without_own(self._described(), context)
-        return conversation.ask("perform", text=[described], context=context._snapshot())
+        raise NotImplementedError(f"{type(self).__name__} has no `perform`")
 
     def describe(self):
         return type(self).__name__
@@ -19,6 +18,21 @@ class Substitution:
         from launch.substitutions import PathJoinSubstitution
 
         return PathJoinSubstitution([self, other])
+
+    def __rtruediv__(self, other):
+        from launch.substitutions import PathJoinSubstitution
+
+        return PathJoinSubstitution([other, self])
+
+    @classmethod
+    def parse(cls, data):
+        return cls, {}
+
+
+def perform(described, context):
+    """The text of a substitution that the program evaluates."""
+    described = _without_own(described, context)
+    return conversation.ask("perform", text=[described], context=context._snapshot())
 
 
 def _without_own(described, context):

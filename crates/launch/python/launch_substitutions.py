@@ -1,5 +1,5 @@
 """Substitutions."""
-from launch.substitution import Substitution
+from launch.substitution import Substitution, perform
 from periplus_launch import objects
 from periplus_launch.objects import text
 
@@ -15,7 +15,12 @@ class _Of(Substitution):
         super().__init__()
         self._details = {"sub": sub, **details}
 
+    def perform(self, context):
+        return perform(self._details, context)
+
     def _described(self):
+        if objects.is_own(type(self).perform.__code__.co_filename):
+            return super()._described()
         return self._details
 
 
@@ -35,7 +40,14 @@ class TextSubstitution(Substitution):
 class LaunchConfiguration(_Of):
     def __init__(self, variable_name, *, default=None):
         super().__init__("configuration", name=text(variable_name), default=_default(default))
-        self.variable_name = [variable_name]
+        self.variable_name = normalized(variable_name)
+
+
+def normalized(value):
+    """Substitutions, as the attributes of these objects hold them."""
+    from launch.utilities import normalize_to_list_of_substitutions
+
+    return [] if value is None else normalize_to_list_of_substitutions(value)
 
 
 def _default(value):
@@ -48,12 +60,14 @@ def _default(value):
 
 class EnvironmentVariable(_Of):
     def __init__(self, name, *, default_value=None):
-        super().__init__("environment", name=text(name), default=text(default_value))
+        super().__init__("environment", name=text(name), default=_default(default_value))
+        self.name, self.default_value = normalized(name), default_value
 
 
 class Command(_Of):
     def __init__(self, command, *, on_stderr="fail"):
         super().__init__("command", command=text(command), on_stderr=text(on_stderr))
+        self.command = normalized(command)
 
 
 class FindExecutable(_Of):
@@ -70,7 +84,11 @@ class PathJoinSubstitution(_Of):
         return PathJoinSubstitution([*self.substitutions, other])
 
 
-PathSubstitution = PathJoinSubstitution
+class PathSubstitution(PathJoinSubstitution):
+    """A path that is extended by `/`."""
+
+    def __init__(self, path):
+        super().__init__([path])
 
 
 class StringJoinSubstitution(_Of):
@@ -83,6 +101,8 @@ class StringJoinSubstitution(_Of):
 class PythonExpression(_Of):
     def __init__(self, expression, python_modules=("math",)):
         super().__init__("expression", expression=text(expression))
+        self.expression = normalized(expression)
+        self.python_modules = python_modules
 
 
 class AnonName(_Of):
@@ -180,4 +200,5 @@ class ForEachVar(Substitution):
         return str(context.get_locals_as_dict().get(self.name, self.default_value))
 
 
-BooleanSubstitution = NotImplemented
+class ForLoopIndex(ForEachVar):
+    """The number of a `ForLoop`'s pass."""

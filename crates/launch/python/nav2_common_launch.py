@@ -2,6 +2,7 @@
 from launch.condition import described as condition_described
 from launch.substitution import Substitution
 from launch.substitutions import _Of
+from launch_ros.actions import Node as launch_ros_Node
 from periplus_launch import conversation
 from periplus_launch.objects import pairs, text
 
@@ -66,10 +67,6 @@ class ParseMultiRobotPose(Substitution):
         return poses
 
 
-from . import (  # noqa: E402,F401
-    has_node_params,
-    launch_config_as_bool,
-    parse_multirobot_pose,
-    replace_string,
-    rewritten_yaml,
-)
+
+class Node(launch_ros_Node):
+    """A node, as files of before Foxy name it."""

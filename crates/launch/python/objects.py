@@ -1,7 +1,10 @@
 """Objects of launch files as JSON, and those that only Python can evaluate by number."""
 import itertools
+import os
 import sys
 
+# The folder of Python's own modules.
+_LIBRARY = os.path.dirname(os.__file__) + os.sep
 _numbers = itertools.count(1)
 _kept = {}
 
@@ -23,11 +26,17 @@ def get(number):
     return _kept[number]
 
 
+def is_own(file):
+    """Whether a file is one of the user's, and not of the machinery."""
+    is_installed = file.startswith(_LIBRARY) or "-packages/" in file
+    return not file.startswith("<") and not is_installed
+
+
 def written():
     """`file:line` of the launch file's line that is being evaluated."""
     frame = sys._getframe(1)
     while frame is not None:
-        if not frame.f_code.co_filename.startswith("<"):
+        if is_own(frame.f_code.co_filename):
             return f"{frame.f_code.co_filename}:{frame.f_lineno}"
         frame = frame.f_back
     return None
@@ -51,6 +60,10 @@ def flat(made):
 def described(action):
     from launch.action import Action
 
+    from launch.event_handler import EventHandler
+
+    if isinstance(action, EventHandler):
+        return {"place": getattr(action, "_written", None), **action._described()}
     if not isinstance(action, Action):
         raise TypeError(f"{action!r} is no action of a launch file")
     return action._described()
@@ -76,4 +89,4 @@ def pairs(value):
     if value is None:
         return []
     entries = value.items() if hasattr(value, "items") else value
-    return [[text(a), text(b)] for a, b in entries]
+    return [[text(a), text(b)] for a, b in entries if b is not None]

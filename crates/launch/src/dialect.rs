@@ -34,6 +34,8 @@ pub fn dialect(host: &dyn Host, file: &Path) -> Dialect {
     ]) {
         Dialect::Ros2
     } else if has(&[" type=", "$(arg ", "$(find ", "<rosparam", " ns="])
+        // Only there a parameter may be outside of nodes.
+        || (has(&["<param"]) && !has(&["<node", "<composable"]))
         || name.ends_with(".launch")
     {
         Dialect::Ros1

@@ -4,20 +4,21 @@
 mod node;
 mod parameters;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap};
-use periplus_resources::{Host, Resolver};
+use periplus_resources::{Host, Resolver, in_sources, package_of};
 use serde_json::{Value, json};
 
 use crate::context::{Context, within};
+use crate::ending::Ending;
 use crate::front;
 use crate::guess::Guess as _;
 use crate::outside::{Interpreter, Outside};
 use crate::plan::{Argument, Parameters, Plan, Step, Trigger, What};
 use crate::python;
-use crate::tree::{Action, Condition, Deed, Event, Given, Place, Text};
+use crate::tree::{Action, Condition, Deed, Event, Given, Names, Place, Text};
 use crate::truth::value_of;
 
 /// How deep files may include each other.
@@ -25,6 +26,10 @@ const DEEPEST: usize = 50;
 
 /// How many actions a launch may have: real ones have hundreds.
 const MOST_ACTIONS: usize = 100_000;
+
+/// How deep actions may contain each other: real ones do so ten deep. A function that returns itself, and
+/// a group in a group, end here and not with the stack.
+const MOST_NESTED: usize = 150;
 
 pub(crate) type Outcome<T> = Result<T, Box<Diagnostic>>;
 
@@ -39,6 +44,12 @@ pub(crate) struct Evaluation<'a> {
     pub(crate) context: Context,
     pub(crate) missing_packages: BTreeSet<String>,
     python: Option<Box<dyn Interpreter>>,
+    /// True while the interpreter works on a request.
+    is_asking: bool,
+    /// Actions that wait for events, in the order in which they were met.
+    later: VecDeque<Later>,
+    /// Functions of the launch file that are called when everything ends.
+    at_end: Vec<Value>,
     /// Where the action that is looked at is written.
     place: Place,
     /// What must have happened before what is looked at.
@@ -48,8 +59,19 @@ pub(crate) struct Evaluation<'a> {
     next_step: usize,
     next_name: usize,
     depth: usize,
+    nesting: usize,
     actions: usize,
     is_over: bool,
+}
+
+/// Actions that wait for events.
+struct Later {
+    after: Vec<Trigger>,
+    actions: Vec<Action>,
+    /// The file that they are written in.
+    file: PathBuf,
+    /// Configurations of the place where they are written, for those that are gone at the event.
+    configurations: Names,
 }
 
 impl<'a> Evaluation<'a> {
@@ -69,12 +91,16 @@ impl<'a> Evaluation<'a> {
             context: Context::default(),
             missing_packages: BTreeSet::new(),
             python: None,
+            is_asking: false,
+            later: VecDeque::new(),
+            at_end: Vec::new(),
             place: Place::default(),
             after: Vec::new(),
             steps: BTreeMap::new(),
             next_step: 0,
             next_name: 0,
             depth: 0,
+            nesting: 0,
             actions: 0,
             is_over: false,
         }
@@ -100,6 +126,31 @@ impl<'a> Evaluation<'a> {
         self.depth -= 1;
         self.context.file = before;
         outcome
+    }
+
+    /// Decides what happens at events: as in `launch`, after everything that happens at once, with the
+    /// configurations, environment and scopes of then.
+    pub(crate) fn events(&mut self) -> Outcome<()> {
+        while let Some(Later { after, actions, file, configurations }) = self.later.pop_front() {
+            let is_at_end = after.contains(&Trigger::Shutdown);
+            if self.is_over && !is_at_end {
+                continue;
+            }
+            self.after = after;
+            self.context.file = file;
+            for (name, value) in configurations {
+                self.context.configurations.entry(name).or_insert(value);
+            }
+            self.run_all(&actions)?;
+        }
+        self.after.clear();
+        Ok(())
+    }
+
+    /// The interpreter with the functions that it is to call when everything ends.
+    pub(crate) fn ending(&mut self) -> Ending {
+        let calls = std::mem::take(&mut self.at_end);
+        Ending { interpreter: self.python.take().filter(|_| !calls.is_empty()), calls }
     }
 
     /// What a file says.
@@ -146,6 +197,24 @@ impl<'a> Evaluation<'a> {
     }
 
     pub(crate) fn run_all(&mut self, actions: &[Action]) -> Outcome<()> {
+        if self.nesting == MOST_NESTED {
+            return Err(self
+                .error(
+                    "launch-size",
+                    format!("actions contain each other more than {MOST_NESTED} deep"),
+                )
+                .help(
+                    "a function or group that gives itself again needs a condition that ends this",
+                )
+                .into());
+        }
+        self.nesting += 1;
+        let outcome = self.run_each(actions);
+        self.nesting -= 1;
+        outcome
+    }
+
+    fn run_each(&mut self, actions: &[Action]) -> Outcome<()> {
         for action in actions {
             if self.is_over {
                 break;
@@ -211,7 +280,7 @@ impl<'a> Evaluation<'a> {
             }
             Deed::Environment { name, value } => {
                 let (name, value) = (self.perform(name)?, self.perform(value)?);
-                self.context.environment.insert(name, Some(value));
+                self.set_variable(name, Some(value));
             }
             Deed::Append { name, value, separator, prepend } => {
                 let (name, value) = (self.perform(name)?, self.perform(value)?);
@@ -224,13 +293,16 @@ impl<'a> Evaluation<'a> {
                     Some(there) if !there.is_empty() => format!("{there}{separator}{value}"),
                     _ => value,
                 };
-                self.context.environment.insert(name, Some(joined));
+                self.set_variable(name, Some(joined));
             }
             Deed::Unset { name } => {
                 let name = self.perform(name)?;
-                self.context.environment.insert(name, None);
+                self.set_variable(name, None);
             }
-            Deed::ResetEnvironment => self.context.environment.clear(),
+            Deed::ResetEnvironment => {
+                self.context.environment.clear();
+                self.context.changed_at.clear();
+            }
             Deed::Group { actions, is_scoped, is_forwarding, configurations } => {
                 self.group(actions, *is_scoped, *is_forwarding, configurations)?;
             }
@@ -240,6 +312,11 @@ impl<'a> Evaluation<'a> {
                 self.run_all(&actions)?;
             }
             Deed::Include { file, arguments } => self.include(file, arguments)?,
+            // Its work is for the end, when what the launch has made is no longer needed.
+            Deed::Call { function } if self.after.contains(&Trigger::Shutdown) => {
+                let context = json!(self.context.snapshot());
+                self.at_end.push(json!({"ask": "call", "id": function, "context": context}));
+            }
             Deed::Call { function } => {
                 let answer = self.ask_python(json!({"ask": "call", "id": function}))?;
                 let actions: Vec<Action> = self.decode(answer)?;
@@ -265,7 +342,7 @@ impl<'a> Evaluation<'a> {
                 let id = self.step_of(action.id);
                 let what = self.node(node)?;
                 self.push(id, what);
-                self.at_end_of(id, &node.running.on_exit)?;
+                self.at_end_of(id, &node.running.on_exit);
             }
             Deed::Load { container, components } => {
                 let what = self.load(container, components)?;
@@ -276,7 +353,7 @@ impl<'a> Evaluation<'a> {
                 let id = self.step_of(action.id);
                 let what = self.process(process)?;
                 self.push(id, what);
-                self.at_end_of(id, &process.running.on_exit)?;
+                self.at_end_of(id, &process.running.on_exit);
             }
             Deed::Log { text, level } => {
                 let text = self.perform(text)?;
@@ -304,7 +381,7 @@ impl<'a> Evaluation<'a> {
                         .error("launch-timer", format!("`{seconds}` is no number of seconds"))
                         .into());
                 };
-                self.run_after(Trigger::Seconds(seconds), actions)?;
+                self.run_after(Trigger::Seconds(seconds), actions);
             }
             Deed::When { event, actions } => {
                 let trigger = match event {
@@ -318,7 +395,7 @@ impl<'a> Evaluation<'a> {
                     },
                     Event::Shutdown => Trigger::Shutdown,
                 };
-                self.run_after(trigger, actions)?;
+                self.run_after(trigger, actions);
             }
             Deed::Left { what } => {
                 let left = self
@@ -398,11 +475,21 @@ impl<'a> Evaluation<'a> {
             Some(folder) if !file.starts_with("package://") => folder.join(&file),
             _ => Path::new(&file).to_path_buf(),
         };
+        let (path, file) = match self.unbuilt(&path) {
+            Some(generated) => (path, generated),
+            None => (path, file),
+        };
         if file.starts_with("package://") {
             let id = self.step_of(None);
             let arguments = arguments.into_iter().collect();
             self.push(id, What::Include { file, arguments });
             return Ok(());
+        }
+        if self.host.kind(&path).is_none() {
+            return Err(self
+                .error("launch-include", format!("there is no file {}", path.display()))
+                .help("check the path; a file that a build would make needs that build")
+                .into());
         }
         let place = self.place.clone();
         self.context.configurations.extend(arguments.iter().cloned());
@@ -411,18 +498,61 @@ impl<'a> Evaluation<'a> {
         Ok(())
     }
 
-    fn run_after(&mut self, trigger: Trigger, actions: &[Action]) -> Outcome<()> {
-        self.after.push(trigger);
-        let outcome = self.run_all(actions);
-        self.after.pop();
-        outcome
+    /// For a file that only a build makes, from `FILE.in` beside it: its name in its package, for which
+    /// something may stand.
+    pub(crate) fn unbuilt(&self, path: &Path) -> Option<String> {
+        if self.host.kind(path).is_some() {
+            return None;
+        }
+        let mut template = path.as_os_str().to_owned();
+        template.push(".in");
+        self.host.kind(Path::new(&template))?;
+        let (package, inner) = package_of(self.host, path)?;
+        Some(format!("package://{package}/{inner}"))
     }
 
-    fn at_end_of(&mut self, id: usize, actions: &[Action]) -> Outcome<()> {
-        if actions.is_empty() {
-            return Ok(());
+    /// The path of a file in the sources of its package, where the package's build would install it at
+    /// this path.
+    pub(crate) fn in_sources(&self, path: &str) -> String {
+        let found = in_sources(self.host, Path::new(path));
+        found.map_or_else(|| path.to_owned(), |found| found.display().to_string())
+    }
+
+    fn run_after(&mut self, trigger: Trigger, actions: &[Action]) {
+        let mut after = self.after.clone();
+        after.push(trigger);
+        self.later.push_back(Later {
+            after,
+            actions: actions.to_vec(),
+            file: self.context.file.clone(),
+            configurations: self.context.configurations.clone(),
+        });
+    }
+
+    /// Sets a variable of the environment, and notes where.
+    fn set_variable(&mut self, name: String, value: Option<String>) {
+        if let Some(written) = self.written() {
+            self.context.changed_at.insert(name.clone(), written);
         }
-        self.run_after(Trigger::Ended(Some(id)), actions)
+        self.context.environment.insert(name, value);
+    }
+
+    /// The place of the action that is looked at: `file:line`.
+    fn written(&self) -> Option<String> {
+        match &self.place {
+            Place { line: Some(line), .. } => Some(line.clone()),
+            Place { span: Some(span), .. } => {
+                let (file, position) = self.sources.locate(*span);
+                Some(format!("{file}:{}", position.line))
+            }
+            _ => None,
+        }
+    }
+
+    fn at_end_of(&mut self, id: usize, actions: &[Action]) {
+        if !actions.is_empty() {
+            self.run_after(Trigger::Ended(Some(id)), actions);
+        }
     }
 
     /// The number of the step that an action is or will be.
@@ -437,15 +567,14 @@ impl<'a> Evaluation<'a> {
     }
 
     fn push(&mut self, id: usize, what: What) {
-        let written = match &self.place {
-            Place { line: Some(line), .. } => Some(line.clone()),
-            Place { span: Some(span), .. } => {
-                let (file, position) = self.sources.locate(*span);
-                Some(format!("{file}:{}", position.line))
-            }
-            _ => None,
+        let step = Step {
+            id,
+            after: self.after.clone(),
+            what,
+            written: self.written(),
+            environment: self.context.changes(),
         };
-        self.plan.steps.push(Step { id, after: self.after.clone(), what, written });
+        self.plan.steps.push(step);
     }
 
     /// A name that nobody else has in this launch; the same in every launch.
@@ -470,8 +599,18 @@ impl<'a> Evaluation<'a> {
     }
 
     pub(crate) fn read(&mut self, file: &Path) -> Outcome<String> {
+        let found = in_sources(self.host, file);
+        let file = found.as_deref().unwrap_or(file);
         let bytes = self.host.read(file).map_err(|why| {
-            self.error("launch-file", format!("{} cannot be read: {why}", file.display()))
+            let shown = file.display().to_string();
+            let wrong = self.error("launch-file", format!("{shown} cannot be read: {why}"));
+            match shown.strip_prefix("package://").and_then(|rest| rest.split('/').next()) {
+                Some(package) => wrong.help(format!(
+                    "the package `{package}` is not on this machine: name its folder, \
+                     `--resource-path FOLDER`"
+                )),
+                None => wrong,
+            }
         })?;
         String::from_utf8(bytes).map_err(|_| {
             self.error("launch-file", format!("{} is no text in UTF-8", file.display())).into()
@@ -485,19 +624,37 @@ impl<'a> Evaluation<'a> {
 
     /// Asks the interpreter of Python, with what holds here; takes over what it has changed.
     pub(crate) fn ask_python(&mut self, mut request: Value) -> Outcome<Value> {
+        if self.is_asking {
+            // It waits for our answer, and cannot give one.
+            return Err(self
+                .error("launch-python", "an object of the launch file's own needs itself")
+                .help("a substitution or condition may not be evaluated while it is evaluated")
+                .into());
+        }
         let mut python = match self.python.take() {
             Some(python) => python,
             None => self.outside.python().map_err(|why| self.error("launch-python", why))?,
         };
         request["context"] = json!(self.context.snapshot());
+        self.is_asking = true;
         let answer = python.ask(request, &mut |question| python::answer(self, &question));
+        self.is_asking = false;
         self.python = Some(python);
         let answer = answer.map_err(|why| python::complaint(self, &why))?;
         if let Some(configurations) = answer.get("configurations") {
             self.context.configurations = self.decode(configurations.clone())?;
         }
         if let Some(environment) = answer.get("environment") {
-            self.context.environment = self.decode(environment.clone())?;
+            let changed: BTreeMap<String, Option<String>> = self.decode(environment.clone())?;
+            let before = std::mem::take(&mut self.context.environment);
+            // A file sets variables while it is read, and its functions at the place that calls them.
+            let written = self.written().unwrap_or_else(|| self.context.file.display().to_string());
+            for (name, value) in &changed {
+                if before.get(name) != Some(value) {
+                    self.context.changed_at.insert(name.clone(), written.clone());
+                }
+            }
+            self.context.environment = changed;
         }
         Ok(answer.get("answer").cloned().unwrap_or(Value::Null))
     }

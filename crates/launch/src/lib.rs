@@ -7,9 +7,11 @@
 
 mod context;
 mod dialect;
+mod ending;
 mod evaluate;
 mod front;
 mod guess;
+mod modules;
 mod outside;
 mod perform;
 mod plan;
@@ -28,11 +30,13 @@ use periplus_resources::{Host, Resolver};
 
 use crate::guess::Guess as _;
 pub use dialect::{Dialect, dialect};
-pub use outside::{Answer, Interpreter, Nothing, Outside, Printed};
+pub use ending::Ending;
+pub use outside::{Answer, Complaint, Interpreter, Nothing, Outside, Printed};
 pub use plan::{
-    Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger, What,
+    Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger,
+    Variable, What,
 };
-pub use stand_in::{BOOT, MODULES};
+pub use stand_in::{BOOT, MODULES, MOST_MEMORY};
 
 /// What is launched, and with what.
 pub struct Request<'a> {
@@ -50,20 +54,34 @@ pub struct Request<'a> {
 
 /// Makes a plan of a launch file. When a finding is an error, the plan goes up to there.
 pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics) {
+    let (plan, found, _) = plan_with_ending(request, sources);
+    (plan, found)
+}
+
+/// Makes a plan of a launch file that is to run, with what the file's own functions do at its end.
+pub fn plan_with_ending(
+    request: Request<'_>,
+    sources: &mut SourceMap,
+) -> (Plan, Diagnostics, Ending) {
     let Request { file, arguments, host, resolver, outside } = request;
     let mut evaluation = evaluate::Evaluation::new(host, resolver, outside, sources);
-    let outcome = match dialect(host, &file) {
+    let dialect = dialect(host, &file);
+    evaluation.context.usual = context::usual(dialect, &file);
+    evaluation.context.command_line =
+        arguments.iter().map(|(name, value)| format!("{name}:={value}")).collect();
+    let outcome = match dialect {
         Dialect::Ros1 => roslaunch::launch(&mut evaluation, &file, &arguments),
         Dialect::Ros2 => {
             evaluation.context.configurations = arguments.iter().cloned().collect();
-            evaluation.launch(&file, &arguments)
+            evaluation.launch(&file, &arguments).and_then(|()| evaluation.events())
         }
     };
     if let Err(wrong) = outcome {
         evaluation.found.push(*wrong);
     }
     unused(&mut evaluation, &arguments, &file);
-    (evaluation.plan, evaluation.found)
+    let ending = evaluation.ending();
+    (evaluation.plan, evaluation.found, ending)
 }
 
 /// Arguments of the command line that no file has asked for: a slip in a name would else be silent.

@@ -13,6 +13,25 @@ pub struct Printed {
     pub errors: String,
     /// Whether it ended well.
     pub is_success: bool,
+    /// True when it failed for want of a package that is not on this machine.
+    pub is_package_missing: bool,
+}
+
+/// What an interpreter has to say against a launch file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Complaint {
+    /// What is wrong.
+    pub message: String,
+    /// `file:line` of the launch file, where that is known.
+    pub line: Option<String>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl From<String> for Complaint {
+    fn from(message: String) -> Self {
+        Self { message, ..Self::default() }
+    }
 }
 
 /// Programs and places for files, for those who may not touch the machine themselves.
@@ -45,8 +64,8 @@ pub trait Interpreter {
     /// `answer`.
     ///
     /// # Errors
-    /// What the interpreter or the launch file has to complain about, with the place in the file.
-    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, String>;
+    /// What the interpreter or the launch file has to complain about.
+    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, Complaint>;
 }
 
 /// A machine without programs, for tests.

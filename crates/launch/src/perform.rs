@@ -22,6 +22,9 @@ const BYTES: u64 = 1 << 20;
 /// The longest text: descriptions of robots have some hundred thousand bytes.
 pub(crate) const LONGEST: usize = 16 << 20;
 
+/// No path is longer [bytes].
+const LONGEST_PATH: usize = 4096;
+
 impl Evaluation<'_> {
     /// The text in full.
     pub(crate) fn perform(&mut self, text: &Text) -> Outcome<String> {
@@ -38,7 +41,18 @@ impl Evaluation<'_> {
                     .into());
             }
         }
-        Ok(whole)
+        Ok(self.in_sources_if_path(whole))
+    }
+
+    /// A text; one that is the path of a file that a package's build would install becomes the path of
+    /// the file itself.
+    fn in_sources_if_path(&self, text: String) -> String {
+        // A path of Python's has one slash where a URI has two.
+        if let Some(rest) = text.strip_prefix("package:/").filter(|rest| !rest.starts_with('/')) {
+            return format!("package://{rest}");
+        }
+        let is_path = text.starts_with('/') && text.len() < LONGEST_PATH && !text.contains('\n');
+        if is_path { self.in_sources(&text) } else { text }
     }
 
     /// The text in full, if there is one.
@@ -251,11 +265,7 @@ impl Evaluation<'_> {
     /// The folder of a package, or what stands for one that is not here.
     pub(crate) fn package(&mut self, name: &str, is_prefix: bool) -> String {
         match self.resolver.find_package(name, &self.context.file) {
-            // An installed package is PREFIX/share/NAME; one that is not installed is its own prefix.
-            Ok(folder) if is_prefix => {
-                let above = folder.parent().filter(|above| above.ends_with("share"));
-                above.and_then(Path::parent).unwrap_or(&folder).display().to_string()
-            }
+            Ok(folder) if is_prefix => crate::python::prefix(&folder),
             Ok(folder) => folder.display().to_string(),
             Err(_) => {
                 if self.missing_packages.insert(name.to_owned()) {
@@ -311,7 +321,7 @@ impl Evaluation<'_> {
     /// # Errors
     /// It is no command, or it fails.
     pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, String>> {
-        let Some(words) = words::split(line).filter(|words| !words.is_empty()) else {
+        let Some(mut words) = words::split(line).filter(|words| !words.is_empty()) else {
             return Err(self
                 .error("launch-command", format!("no command can be read from `{line}`"))
                 .help("close every quote")
@@ -321,10 +331,16 @@ impl Evaluation<'_> {
         if let Some(word) = words[1..].iter().find(|word| word.starts_with("package://")) {
             return Ok(Err(format!("the package of {word} is not on this machine")));
         }
+        for word in &mut words[1..] {
+            *word = self.in_sources(word);
+        }
         let printed = match self.outside.run(&words) {
             Ok(printed) => printed,
             Err(why) => return Ok(Err(why)),
         };
+        if printed.is_package_missing {
+            return Ok(Err(printed.errors.trim().to_owned()));
+        }
         if !printed.is_success {
             return Err(self
                 .error("launch-command", format!("`{}` failed", short(line)))
@@ -365,7 +381,7 @@ impl Evaluation<'_> {
         self.context.file.parent().map(Path::to_path_buf).unwrap_or_default()
     }
 
-    fn scratch(&mut self, like: &str, text: &str) -> Outcome<String> {
+    pub(crate) fn scratch(&mut self, like: &str, text: &str) -> Outcome<String> {
         let name = Path::new(like).file_name().and_then(|name| name.to_str()).unwrap_or("file");
         match self.outside.scratch(name, text) {
             Ok(path) => Ok(path.display().to_string()),

@@ -50,6 +50,20 @@ pub struct Step {
     /// Where it is written: `file:line`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<String>,
+    /// Variables of the environment that the launch file has changed before this step, with the place of
+    /// each change. Scoped groups undo theirs at their end.
+    #[serde(rename = "launch_environment", skip_serializing_if = "BTreeMap::is_empty")]
+    pub environment: BTreeMap<String, Variable>,
+}
+
+/// A variable of the environment as a launch file has changed it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Variable {
+    /// Its value; none for one that was unset.
+    pub value: Option<String>,
+    /// Place of the change: `file:line`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<String>,
 }
 
 /// What a step waits for.

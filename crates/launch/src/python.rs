@@ -3,11 +3,15 @@
 //! `{"answer": ..., "configurations": {...}, "environment": {...}}`; the latter two are what a function of
 //! the launch file has changed.
 
+use std::path::Path;
+
 use periplus_diagnostics::Diagnostic;
 use serde_json::{Value, json};
 
 use crate::context::Snapshot;
 use crate::evaluate::Evaluation;
+use crate::modules;
+use crate::outside::Complaint;
 use crate::tree::{Condition, Text};
 
 /// Answers what a launch file asks while it is evaluated.
@@ -34,6 +38,19 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
             .command(&text("line"), question["on_stderr"].as_str().unwrap_or("fail"))
             .map(Value::from)
             .map_err(|wrong| in_words(&wrong)),
+        "packages" => {
+            let file = evaluation.context.file.clone();
+            let packages = evaluation.resolver.packages(&file).into_iter();
+            let prefixes = packages.map(|(name, folder)| (name, prefix(&folder)));
+            Ok(json!(prefixes.collect::<std::collections::BTreeMap<_, _>>()))
+        }
+        "module" => Ok(json!(modules::folder(evaluation, &text("name")))),
+        "xacro" => xacro(evaluation, question),
+        "in_sources" => Ok(json!(evaluation.in_sources(&text("path")))),
+        "scratch" => evaluation
+            .scratch(&text("name"), &text("text"))
+            .map(Value::from)
+            .map_err(|wrong| in_words(&wrong)),
         "yaml" => evaluation.yaml("text", &text("text")).map_err(|wrong| in_words(&wrong)),
         other => Err(format!("`{other}` is no question")),
     };
@@ -47,7 +64,43 @@ fn in_words(wrong: &Diagnostic) -> String {
     std::iter::once(&wrong.message).chain(further).cloned().collect::<Vec<_>>().join("; ")
 }
 
-/// What went wrong in a launch file, as a finding. The interpreter gives the place as `file:line: `.
-pub(crate) fn complaint(evaluation: &Evaluation<'_>, why: &str) -> Box<Diagnostic> {
-    evaluation.error("launch-python", why.trim()).into()
+/// The text of an expanded file.
+fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
+    let file = question["file"].as_str().unwrap_or_default();
+    if let Some(rest) = file.strip_prefix("package:/") {
+        let package = rest.trim_start_matches('/').split('/').next().unwrap_or_default();
+        return Err(format!(
+            "{file} cannot be expanded: the package `{package}` is not on this machine; \
+             name its folder, `--resource-path FOLDER`"
+        ));
+    }
+    let mappings: Vec<(String, String)> =
+        serde_json::from_value(question["mappings"].clone()).map_err(|why| why.to_string())?;
+    let mut words = vec!["xacro".to_owned(), evaluation.in_sources(file)];
+    words.extend(mappings.iter().map(|(name, value)| format!("{name}:={value}")));
+    let printed = evaluation.outside.run(&words)?;
+    if !printed.is_success {
+        return Err(format!("{file} cannot be expanded: {}", printed.errors.trim()));
+    }
+    Ok(printed.output.into())
+}
+
+/// The prefix of a package's folder: that of an installed one is PREFIX/share/NAME, one that is not
+/// installed is its own.
+pub(crate) fn prefix(folder: &Path) -> String {
+    let share = folder.parent().filter(|above| above.ends_with("share"));
+    share.and_then(Path::parent).unwrap_or(folder).display().to_string()
+}
+
+/// What went wrong in a launch file, as a finding.
+pub(crate) fn complaint(evaluation: &Evaluation<'_>, why: &Complaint) -> Box<Diagnostic> {
+    let message = match &why.line {
+        Some(line) => format!("{line}: {}", why.message.trim()),
+        None => why.message.trim().to_owned(),
+    };
+    let wrong = evaluation.error("launch-python", message);
+    match &why.help {
+        Some(help) => wrong.help(help).into(),
+        None => wrong.into(),
+    }
 }

@@ -16,7 +16,7 @@ use serde_json::Value;
 use crate::context::within;
 use crate::evaluate::{Evaluation, Outcome};
 use crate::guess::Guess as _;
-use crate::plan::What;
+use crate::plan::{Variable, What};
 use crate::truth::truth;
 
 /// How deep files may include each other.
@@ -56,6 +56,8 @@ struct Scope {
     /// Whether given arguments that the file does not have are passed on in silence.
     is_passing_all: bool,
     environment: BTreeMap<String, Option<String>>,
+    /// Places of the changes of the environment, as `file:line`.
+    changed_at: BTreeMap<String, String>,
     remaps: Vec<(String, String)>,
     /// Parameters `~name` for all nodes that follow.
     private: Vec<(String, Value)>,
@@ -201,7 +203,7 @@ impl Loader<'_, '_> {
             "env" => {
                 let (name, value) =
                     (self.needed(element, "name", scope)?, self.needed(element, "value", scope)?);
-                scope.environment.insert(name, Some(value));
+                self.set_variable(element, scope, name, value);
                 Ok(())
             }
             "group" => {
@@ -261,6 +263,7 @@ impl Loader<'_, '_> {
             None => false,
         };
         if inner.is_passing_all {
+            inner.given.extend(scope.given.clone());
             inner.given.extend(scope.arguments.clone());
         }
         for child in element.elements() {
@@ -279,7 +282,7 @@ impl Loader<'_, '_> {
                 "env" => {
                     let (name, value) =
                         (self.needed(child, "name", scope)?, self.needed(child, "value", scope)?);
-                    inner.environment.insert(name, Some(value));
+                    self.set_variable(child, &mut inner, name, value);
                 }
                 other => {
                     let message = format!("`<{other}>` means nothing in `<include>`");
@@ -290,8 +293,9 @@ impl Loader<'_, '_> {
             }
         }
         if file.starts_with("package://") {
-            let what = What::Include { file, arguments: inner.given };
-            self.step(element, what);
+            let arguments = std::mem::take(&mut inner.given);
+            let what = What::Include { file, arguments };
+            self.step(element, &inner, what);
             return Ok(());
         }
         let folder = scope.file.parent().map(Path::to_path_buf).unwrap_or_default();
@@ -325,14 +329,31 @@ impl Loader<'_, '_> {
         self.evaluation.found.push(finding);
     }
 
-    fn step(&mut self, element: &Element, what: What) {
-        let id = self.next_step;
-        self.next_step += 1;
-        let written = element.name_origin().0.map(|span| {
+    fn set_variable(&self, element: &Element, scope: &mut Scope, name: String, value: String) {
+        if let Some(written) = self.written(element) {
+            scope.changed_at.insert(name.clone(), written);
+        }
+        scope.environment.insert(name, Some(value));
+    }
+
+    /// The place of an element: `file:line`.
+    fn written(&self, element: &Element) -> Option<String> {
+        element.name_origin().0.map(|span| {
             let (file, position) = self.evaluation.sources.locate(span);
             format!("{file}:{}", position.line)
-        });
-        let step = crate::plan::Step { id, after: Vec::new(), what, written };
+        })
+    }
+
+    fn step(&mut self, element: &Element, scope: &Scope, what: What) {
+        let id = self.next_step;
+        self.next_step += 1;
+        let change = |(name, value): (&String, &Option<String>)| {
+            let written = scope.changed_at.get(name).cloned();
+            (name.clone(), Variable { value: value.clone(), written })
+        };
+        let environment = scope.environment.iter().map(change).collect();
+        let written = self.written(element);
+        let step = crate::plan::Step { id, after: Vec::new(), what, written, environment };
         self.evaluation.plan.steps.push(step);
     }
 }

@@ -13,7 +13,7 @@ struct Echo;
 
 impl Outside for Echo {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        Ok(Printed { output: words.join("|"), errors: String::new(), is_success: true })
+        Ok(Printed { output: words.join("|"), is_success: true, ..Printed::default() })
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {

@@ -3,6 +3,7 @@
 mod crawl;
 mod fuel;
 mod host;
+mod layout;
 mod manifest;
 mod memory;
 mod miss;
@@ -13,6 +14,7 @@ mod surroundings;
 mod uri;
 
 pub use host::{Host, Kind, LARGEST_FILE, ReadError, Store};
+pub use layout::{in_sources, package_of};
 pub use manifest::package_name;
 pub use memory::MemoryHost;
 pub use miss::{Miss, MissKind};

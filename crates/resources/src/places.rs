@@ -80,11 +80,7 @@ pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
 }
 
 /// The places upward from a mentioning file, given its folder and those above it.
-pub(crate) fn upward(
-    folders: &[PathBuf],
-    project: &Path,
-    workspaces: &[PathBuf],
-) -> Vec<Place> {
+pub(crate) fn upward(folders: &[PathBuf], project: &Path, workspaces: &[PathBuf]) -> Vec<Place> {
     let mut places = Vec::new();
     for folder in folders {
         let depth = folder.components().count().saturating_sub(1);

@@ -1,11 +1,14 @@
 //! Programs and files for launch files that are evaluated.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
 
 use periplus_diagnostics::{Severity, Style, render};
 use periplus_formats::{Setting, load};
-use periplus_host::Machine;
+use periplus_host::{Machine, Stopwatch};
 use periplus_launch::{Interpreter, Outside, Printed};
 use periplus_resources::{Resolver, Store as _};
 use periplus_xml::write_document;
@@ -19,31 +22,53 @@ pub(super) struct Programs<'a> {
     /// A folder of this launch's own, once a file is in it.
     scratch: Option<PathBuf>,
     files: usize,
-    /// Whether files that were made stay: a plan that was printed names them.
-    is_kept: bool,
+    limits: Limits,
 }
+
+/// What a launch file may do while it is evaluated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Whether files that were made stay: a plan that was printed names them.
+    pub(super) is_kept: bool,
+    /// Whether Python and programs run.
+    pub(super) runs_code: bool,
+    /// How long Python and each program may take.
+    pub(super) longest: Duration,
+}
+
+impl Limits {
+    /// Those of a launch file that is only looked at.
+    pub(super) const EXAMINED: Self =
+        Self { is_kept: false, runs_code: true, longest: Duration::from_secs(60) };
+}
+
+/// What is read of a program's output [bytes]; more is no text for a launch file.
+const MOST_OUTPUT: u64 = 64 << 20;
 
 impl Drop for Programs<'_> {
     fn drop(&mut self) {
-        if let Some(folder) = self.scratch.take().filter(|_| !self.is_kept) {
+        if let Some(folder) = self.scratch.take().filter(|_| !self.limits.is_kept) {
             let _ = std::fs::remove_dir_all(folder);
         }
     }
 }
 
 impl<'a> Programs<'a> {
-    pub(super) fn new(resolver: &'a Resolver<'a>, working_folder: &Path, is_kept: bool) -> Self {
+    pub(super) fn new(resolver: &'a Resolver<'a>, working_folder: &Path, limits: Limits) -> Self {
         let working_folder = working_folder.to_path_buf();
-        Self { resolver, working_folder, scratch: None, files: 0, is_kept }
+        Self { resolver, working_folder, scratch: None, files: 0, limits }
     }
 
     /// What `xacro FILE name:=value` prints: it is built in.
     fn xacro(&self, words: &[String]) -> Result<Printed, String> {
         let mut arguments = Vec::new();
         let mut file = None;
-        for word in words {
+        let mut output = None;
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
             match word.split_once(":=") {
                 Some((name, value)) => arguments.push((name.to_owned(), value.to_owned())),
+                None if word == "-o" => output = words.next(),
                 // Options of old: `--inorder` is what everybody has today.
                 None if word.starts_with('-') => {}
                 None => file = Some(word),
@@ -59,18 +84,24 @@ impl<'a> Programs<'a> {
         };
         let loaded = load(Path::new(file), &setting);
         let mut errors = String::new();
+        let mut is_package_missing = false;
         // Only what keeps it from being expanded: the rest is told when the robot is loaded.
         let document = loaded.document.as_ref();
         if document.is_none() {
             for finding in loaded.diagnostics.iter().filter(|f| f.severity == Severity::Error) {
                 errors += &render(finding, &loaded.sources, Style::Plain);
+                is_package_missing |= finding.code == "missing-resource"
+                    && finding.message.contains("there is no package");
             }
         }
-        Ok(Printed {
-            output: document.map(write_document).unwrap_or_default(),
-            is_success: document.is_some(),
-            errors,
-        })
+        let is_success = document.is_some();
+        let mut text = document.map(write_document).unwrap_or_default();
+        if let Some(path) = output.filter(|_| is_success) {
+            let path = self.working_folder.join(path);
+            Machine.replace(&path, text.as_bytes())?;
+            text.clear();
+        }
+        Ok(Printed { output: text, is_success, errors, is_package_missing })
     }
 }
 
@@ -81,13 +112,10 @@ impl Outside for Programs<'_> {
         if matches!(name, "xacro" | "xacro.py") {
             return self.xacro(rest);
         }
-        let ran = Command::new(program).args(rest).stdin(Stdio::null()).output();
-        let ran = ran.map_err(|error| error.to_string())?;
-        Ok(Printed {
-            output: String::from_utf8_lossy(&ran.stdout).into_owned(),
-            errors: String::from_utf8_lossy(&ran.stderr).into_owned(),
-            is_success: ran.status.success(),
-        })
+        if !self.limits.runs_code {
+            return Err("with `--no-code` programs that a launch file names are not run".into());
+        }
+        bounded(program, rest, self.limits.longest)
     }
 
     fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, String> {
@@ -108,6 +136,59 @@ impl Outside for Programs<'_> {
     }
 
     fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Ok(Box::new(Python::start()?))
+        if !self.limits.runs_code {
+            return Err(
+                "this launch file is written in Python, and with `--no-code` none of its code \
+                        is run; launch it without if you trust it"
+                    .into(),
+            );
+        }
+        Ok(Box::new(Python::start(self.limits.longest)?))
     }
+}
+
+/// Runs a program to its end, within a time.
+fn bounded(program: &str, words: &[String], longest: Duration) -> Result<Printed, String> {
+    let mut child = Command::new(program)
+        .args(words)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| error.to_string())?;
+    let (send, texts) = channel();
+    let pipes: [Option<Box<dyn Read + Send>>; 2] = [
+        child.stdout.take().map(|pipe| Box::new(pipe) as _),
+        child.stderr.take().map(|pipe| Box::new(pipe) as _),
+    ];
+    for (place, pipe) in pipes.into_iter().enumerate() {
+        let Some(pipe) = pipe else { continue };
+        let send = send.clone();
+        std::thread::spawn(move || {
+            let mut bytes = Vec::new();
+            let _ = pipe.take(MOST_OUTPUT).read_to_end(&mut bytes);
+            let _ = send.send((place, String::from_utf8_lossy(&bytes).into_owned()));
+        });
+    }
+    drop(send);
+    let mut printed = Printed::default();
+    let start = Stopwatch::start();
+    loop {
+        let rest = longest.saturating_sub(start.elapsed());
+        match texts.recv_timeout(rest) {
+            Ok((0, text)) => printed.output = text,
+            Ok((_, text)) => printed.errors = text,
+            Err(RecvTimeoutError::Disconnected) => break,
+            Err(RecvTimeoutError::Timeout) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!(
+                    "it has not ended after {} s; `--evaluation-limit SECONDS` allows more",
+                    longest.as_secs_f64()
+                ));
+            }
+        }
+    }
+    printed.is_success = child.wait().map_err(|error| error.to_string())?.success();
+    Ok(printed)
 }

@@ -1,21 +1,29 @@
 //! Launch files in Python, evaluated by a python3 of the machine's.
 
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use periplus_launch::{Answer, BOOT, Interpreter, MODULES};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+use periplus_launch::{Answer, BOOT, Complaint, Interpreter, MODULES, MOST_MEMORY};
 use serde_json::{Map, Value, json};
+
+/// The longest answer [bytes]: descriptions of robots are some hundred thousand long.
+const LONGEST: u64 = 256 << 20;
 
 /// A python3 that waits for requests.
 pub(super) struct Python {
     child: Child,
     requests: ChildStdin,
-    answers: BufReader<ChildStdout>,
+    answers: Receiver<io::Result<String>>,
+    /// How long an answer may take.
+    limit: Duration,
 }
 
 impl Python {
     /// Starts one.
-    pub(super) fn start() -> Result<Self, String> {
+    pub(super) fn start(limit: Duration) -> Result<Self, String> {
         let mut child = Command::new("python3")
             // Whatever the machine has under the names of ROS: ours come first.
             .args(["-c", BOOT])
@@ -32,10 +40,10 @@ impl Python {
         let (Some(requests), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
             return Err("python3 has no standard input or output".into());
         };
-        let mut python = Self { child, requests, answers: BufReader::new(answers) };
+        let mut python = Self { child, requests, answers: lines(answers), limit };
         let modules: Map<String, Value> =
             MODULES.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
-        python.send(&Value::Object(modules))?;
+        python.send(&json!({ "modules": modules, "most_memory": MOST_MEMORY }))?;
         Ok(python)
     }
 
@@ -46,19 +54,57 @@ impl Python {
             .write_all(line.as_bytes())
             .map_err(|error| format!("python3 has ended: {error}"))
     }
+
+    fn message(&mut self) -> Result<Value, Complaint> {
+        let line = match self.answers.recv_timeout(self.limit) {
+            Ok(line) => line.map_err(|error| error.to_string())?,
+            Err(RecvTimeoutError::Timeout) => {
+                return Err(Complaint {
+                    message: format!(
+                        "this launch file is still being evaluated after {} s",
+                        self.limit.as_secs_f64()
+                    ),
+                    line: None,
+                    help: Some(
+                        "if it does need longer, allow it: `--evaluation-limit SECONDS`".into(),
+                    ),
+                });
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err("python3 has ended before it has answered".to_owned().into());
+            }
+        };
+        serde_json::from_str(&line)
+            .map_err(|error| format!("python3 has answered what is no JSON: {error}").into())
+    }
+}
+
+/// The lines of a pipe, read on a thread of its own so that nobody waits for them without end.
+fn lines(pipe: ChildStdout) -> Receiver<io::Result<String>> {
+    let (send, lines) = channel();
+    std::thread::spawn(move || {
+        let mut pipe = BufReader::new(pipe);
+        loop {
+            let mut line = String::new();
+            let read = pipe.by_ref().take(LONGEST).read_line(&mut line);
+            let sent = match read {
+                Ok(0) => return,
+                Ok(_) => send.send(Ok(line)),
+                Err(error) => send.send(Err(error)),
+            };
+            if sent.is_err() {
+                return;
+            }
+        }
+    });
+    lines
 }
 
 impl Interpreter for Python {
-    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, String> {
+    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, Complaint> {
         self.send(&request)?;
         loop {
-            let mut line = String::new();
-            let read = self.answers.read_line(&mut line).map_err(|error| error.to_string())?;
-            if read == 0 {
-                return Err("python3 has ended before it has answered".into());
-            }
-            let message: Value = serde_json::from_str(&line)
-                .map_err(|error| format!("python3 has answered what is no JSON: {error}"))?;
+            let message = self.message()?;
             if message.get("question").is_some() {
                 let reply = match answer(message) {
                     Ok(answer) => json!({ "answer": answer }),
@@ -66,7 +112,12 @@ impl Interpreter for Python {
                 };
                 self.send(&reply)?;
             } else if let Some(error) = message.get("error") {
-                return Err(error.as_str().unwrap_or_default().to_owned());
+                let text = |name: &str| message[name].as_str().map(str::to_owned);
+                return Err(Complaint {
+                    message: error.as_str().unwrap_or_default().to_owned(),
+                    line: text("line"),
+                    help: text("help"),
+                });
             } else {
                 return Ok(message);
             }

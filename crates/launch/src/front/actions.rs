@@ -6,16 +6,18 @@ use super::entity::Entity;
 use crate::evaluate::Outcome;
 use crate::guess::Guess as _;
 use crate::tree::{
-    Action, ComponentOf, Condition, Deed, Given, IdentityOf, NodeOf, ParametersOf, Place,
-    ProcessOf, RunningOf, Target, Text, plain,
+    Action, ComponentOf, Condition, Deed, Given, IdentityOf, NodeOf, ParametersOf, Part, Place,
+    ProcessOf, RunningOf, Substitution, Target, Text, plain,
 };
 
 /// The names of actions.
-const KNOWN: [&str; 25] = [
+const KNOWN: [&str; 28] = [
     "append_env",
     "arg",
     "executable",
     "group",
+    "gz_server",
+    "gz_spawn_model",
     "include",
     "let",
     "lifecycle_node",
@@ -26,6 +28,7 @@ const KNOWN: [&str; 25] = [
     "push_ros_namespace",
     "reset",
     "reset_env",
+    "ros_gz_bridge",
     "ros_timer",
     "set_env",
     "set_parameter",
@@ -185,6 +188,9 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             };
             Deed::Log { text, level: entity.text("level")? }
         }
+        "gz_server" => include_of(entity, "ros_gz_sim", "gz_server", &GZ_SERVER)?,
+        "gz_spawn_model" => include_of(entity, "ros_gz_sim", "gz_spawn_model", &GZ_SPAWN_MODEL)?,
+        "ros_gz_bridge" => include_of(entity, "ros_gz_bridge", "ros_gz_bridge", &ROS_GZ_BRIDGE)?,
         "shutdown" => Deed::Shutdown { reason: entity.text("reason")? },
         "timer" | "ros_timer" => {
             Deed::Timer { seconds: entity.needed("period")?, actions: all(entity)? }
@@ -205,6 +211,60 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             return Err(unknown.into());
         }
     })
+}
+
+/// Attributes of the actions of `ros_gz_sim` and `ros_gz_bridge`, which are the arguments of the launch
+/// files that they include.
+const GZ_SERVER: [&str; 7] = [
+    "world_sdf_file",
+    "world_sdf_string",
+    "container_name",
+    "create_own_container",
+    "use_composition",
+    "verbosity_level",
+    "initial_sim_time",
+];
+const GZ_SPAWN_MODEL: [&str; 13] = [
+    "world",
+    "file",
+    "model_string",
+    "topic",
+    "entity_name",
+    "name",
+    "allow_renaming",
+    "x",
+    "y",
+    "z",
+    "roll",
+    "pitch",
+    "yaw",
+];
+const ROS_GZ_BRIDGE: [&str; 10] = [
+    "bridge_name",
+    "config_file",
+    "container_name",
+    "create_own_container",
+    "namespace",
+    "use_composition",
+    "use_respawn",
+    "log_level",
+    "bridge_params",
+    "extra_bridge_params",
+];
+
+/// An action that includes the launch file of its name with its attributes as arguments.
+fn include_of(entity: &Entity<'_>, package: &str, file: &str, names: &[&str]) -> Outcome<Deed> {
+    known(entity, names)?;
+    let mut arguments = Vec::new();
+    for name in names {
+        if let Some(value) = entity.text(name)? {
+            arguments.push((plain(*name), value));
+        }
+    }
+    let folder = Substitution::Package { name: plain(package), is_prefix: false };
+    let mut path = vec![Part::Substitution(Box::new(folder))];
+    path.extend(plain(format!("/launch/{file}.launch.py")));
+    Ok(Deed::Include { file: path, arguments })
 }
 
 fn node(entity: &Entity<'_>, kind: &str) -> Outcome<Deed> {

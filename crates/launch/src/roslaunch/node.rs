@@ -72,7 +72,7 @@ impl Loader<'_, '_> {
                 "env" => {
                     let (name, value) =
                         (self.needed(child, "name", &inner)?, self.needed(child, "value", &inner)?);
-                    inner.environment.insert(name, Some(value));
+                    self.set_variable(child, &mut inner, name, value);
                 }
                 other => {
                     let message = format!("`<{other}>` means nothing in `<node>`");
@@ -93,19 +93,19 @@ impl Loader<'_, '_> {
             executable,
             identity: Identity {
                 name: Some(name),
-                namespace: (inner.namespace != "/").then_some(inner.namespace),
+                namespace: (inner.namespace != "/").then(|| inner.namespace.clone()),
                 parameters: if values.is_empty() {
                     Vec::new()
                 } else {
                     vec![Parameters::Values(values)]
                 },
-                remaps: inner.remaps,
+                remaps: std::mem::take(&mut inner.remaps),
             },
             arguments,
             running,
             ..Node::default()
         }));
-        self.step(element, what);
+        self.step(element, &inner, what);
         Ok(())
     }
 

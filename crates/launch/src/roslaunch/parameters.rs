@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use periplus_diagnostics::Diagnostic;
-use periplus_xml::Element;
+use periplus_diagnostics::{Diagnostic, Origin};
+use periplus_xml::{Element, Node, Text};
 use serde_json::Value;
 
 use super::{Loader, Scope, wrong};
@@ -129,29 +129,85 @@ impl Loader<'_, '_> {
 
     /// The tree that a `<rosparam>` loads.
     pub(super) fn rosparam_value(&mut self, element: &Element, scope: &Scope) -> Outcome<Value> {
-        let text = match self.optional(element, "file", scope)? {
-            Some(file) if file.starts_with("package://") => {
-                let finding = Diagnostic::warning(
-                    "launch-file",
-                    format!("the parameters of {file} are left out: its package is not here"),
-                )
-                .at(element.name_origin());
-                self.evaluation.found.push(finding);
-                return Ok(Value::Object(serde_json::Map::new()));
-            }
-            Some(file) => self.evaluation.read(Path::new(&file))?,
-            None => element.text().into_owned(),
-        };
+        let file = self.optional(element, "file", scope)?;
+        if let Some(file) = file.as_deref().filter(|file| file.starts_with("package://")) {
+            let finding = Diagnostic::warning(
+                "launch-file",
+                format!("the parameters of {file} are left out: its package is not here"),
+            )
+            .at(element.name_origin());
+            self.evaluation.found.push(finding);
+            return Ok(Value::Object(serde_json::Map::new()));
+        }
         let resolves = match element.attribute("subst_value") {
             Some(attribute) => self.truth(attribute, scope)?,
             None => false,
         };
-        let text =
-            if resolves { self.resolved_text(&text, &element.name_origin(), scope)? } else { text };
-        let file = self.evaluation.sources.add("rosparam", text);
-        let tree = periplus_yaml::parse(file, self.evaluation.sources)?;
+        let tree = match file {
+            None if !resolves => self.inline(element)?,
+            None => {
+                let text = content(element);
+                let text = self.resolved_text(&text, &element.text_origin(), scope)?;
+                let id = self.evaluation.sources.add("rosparam", text);
+                periplus_yaml::parse(id, self.evaluation.sources)
+                    .map_err(|wrong| moved(*wrong, &element.text_origin()))?
+            }
+            Some(path) => {
+                let mut text = self
+                    .evaluation
+                    .read(Path::new(&path))
+                    .map_err(|wrong| wrong.at(element.name_origin()))?;
+                if resolves {
+                    text = self.resolved_text(&text, &element.name_origin(), scope)?;
+                }
+                let id = self.evaluation.sources.add(path, text);
+                periplus_yaml::parse(id, self.evaluation.sources)?
+            }
+        };
         Ok(tree.map_or(Value::Null, |node| value_of(&node)))
     }
+
+    /// The YAML between the tags of an element, with its places in the launch file.
+    fn inline(&mut self, element: &Element) -> Outcome<Option<periplus_yaml::Node>> {
+        let text = content(element);
+        let runs: Vec<_> = runs(element).collect();
+        let span = match runs.as_slice() {
+            // Without entities and CDATA it is as long as its source.
+            [only] => only.origin.0.filter(|span| (span.end - span.start) as usize == text.len()),
+            _ => None,
+        };
+        let begins_a_line = text.split('\n').next().is_some_and(|line| line.trim().is_empty());
+        let Some(span) = span.filter(|_| begins_a_line) else {
+            let id = self.evaluation.sources.add("rosparam", text);
+            return periplus_yaml::parse(id, self.evaluation.sources)
+                .map_err(|wrong| moved(*wrong, &element.text_origin()).into());
+        };
+        // Everything before it as blank lines, so that each line keeps its number.
+        let launch = self.evaluation.sources.file(span.file);
+        let name = launch.name.clone();
+        let before = &launch.text[..span.start as usize];
+        let blank = |byte| if byte == b'\n' { '\n' } else { ' ' };
+        let padded: String = before.bytes().map(blank).chain(text.chars()).collect();
+        let id = self.evaluation.sources.add(name, padded);
+        periplus_yaml::parse(id, self.evaluation.sources)
+    }
+}
+
+/// The characters of an element with all white space: in YAML it has a meaning.
+fn content(element: &Element) -> String {
+    runs(element).map(|text| text.text.as_str()).collect()
+}
+
+fn runs(element: &Element) -> impl Iterator<Item = &Text> {
+    element.children.iter().filter_map(|node| match node {
+        Node::Text(text) => Some(text),
+        _ => None,
+    })
+}
+
+/// A finding at another place.
+fn moved(wrong: Diagnostic, origin: &Origin) -> Diagnostic {
+    wrong.at(*origin)
 }
 
 /// The leaves of a tree by full name.

@@ -69,7 +69,10 @@ impl Loader<'_, '_> {
                 )
                 .at(*origin)
                 .guess(name, known)
-                .help(format!("declare it before: `<arg name=\"{name}\" default=\"...\"/>`"))
+                .help(format!(
+                    "give it, `{name}:=VALUE`, or declare it before: \
+                     `<arg name=\"{name}\" default=\"...\"/>`"
+                ))
                 .into()
             }),
             ["find", package] => Ok(self.evaluation.package(package, false)),
@@ -135,13 +138,14 @@ impl Loader<'_, '_> {
     }
 
     fn argument_value(&self, name: &str, scope: &Scope) -> Option<String> {
-        scope.arguments.get(name).cloned()
+        // What the command line or the including file gives holds even where the file does not name it.
+        scope.arguments.get(name).or_else(|| scope.given.get(name)).cloned()
     }
 
     fn variable(&self, name: &str, scope: &Scope) -> Option<String> {
         match scope.environment.get(name) {
             Some(value) => value.clone(),
-            None => self.evaluation.host.variable(name),
+            None => self.evaluation.context.variable(name, self.evaluation.host),
         }
     }
 
@@ -188,20 +192,20 @@ impl Names for Arguments<'_, '_, '_, '_> {
         function: &str,
         arguments: &[Value],
         _keywords: &[(Rc<str>, Value)],
-        _budget: &mut Budget,
+        budget: &mut Budget,
     ) -> Option<Result<Value, ExpressionError>> {
         if !FUNCTIONS.contains(&function) {
             return None;
         }
-        let texts: Vec<&str> = arguments
+        let texts: Vec<String> = arguments
             .iter()
             .filter_map(|argument| match argument {
-                Value::Str(text) => Some(&**text),
-                _ => None,
+                Value::Str(text) => Some(text.to_string()),
+                other => other.to_text(budget).ok(),
             })
             .collect();
         let mut words = vec![function];
-        words.extend(texts);
+        words.extend(texts.iter().map(String::as_str));
         let mut loader = self.loader.borrow_mut();
         Some(match loader.substitution(&words, &Origin::default(), self.scope) {
             Ok(text) => Ok(converted(&text)),

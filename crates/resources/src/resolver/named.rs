@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::Resolver;
 use crate::host::Kind;
+use crate::layout::in_sources;
 use crate::miss::Miss;
 use crate::places::{How, Place};
 use crate::surroundings::Surroundings;
@@ -112,12 +113,17 @@ impl Resolver<'_> {
                     continue;
                 };
                 for rest in std::iter::once(rest).chain(decoded.as_deref()) {
-                    let target = folder.join(rest);
+                    let mut target = folder.join(rest);
                     if self.host.kind(&target).is_none() {
-                        if !search.tried.contains(&target) {
-                            search.tried.push(target);
+                        match in_sources(self.host, &target) {
+                            Some(source) => target = source,
+                            None => {
+                                if !search.tried.contains(&target) {
+                                    search.tried.push(target);
+                                }
+                                continue;
+                            }
                         }
-                        continue;
                     }
                     match self.fenced(&target, Some(name), around) {
                         Some(target) => return Some(target),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::Resolver;
 use crate::fuel::FuelUri;
+use crate::layout::in_sources;
 use crate::miss::Miss;
 use crate::places::How;
 use crate::surroundings::Surroundings;
@@ -92,10 +93,15 @@ impl Resolver<'_> {
         let mut refused = None;
         for folder in &folders {
             for path in std::iter::once(path).chain(decoded.as_deref()) {
-                let target = folder.join(path);
+                let mut target = folder.join(path);
                 if self.host.kind(&target).is_none() {
-                    tried.push(target);
-                    continue;
+                    match in_sources(self.host, &target) {
+                        Some(source) => target = source,
+                        None => {
+                            tried.push(target);
+                            continue;
+                        }
+                    }
                 }
                 match self.fenced(&target, None, around) {
                     Some(target) => return Ok(target),

@@ -1,2 +1,0 @@
-"""Stands in for `nav2_common`."""
-from . import launch  # noqa: F401

@@ -1,0 +1,147 @@
+//! Files of packages that are not installed: a build puts some of them elsewhere in the package's share
+//! folder than they are in its sources, and launch files name them by where they are installed.
+
+use std::path::{Path, PathBuf};
+
+use crate::host::Host;
+use crate::manifest::package_name;
+
+/// A file lies at most this many folders below its package.
+const DEEPEST: usize = 8;
+
+/// The largest build file that is read [bytes].
+const LARGEST: usize = 1 << 20;
+
+/// The package around a path, and the path in it.
+#[must_use]
+pub fn package_of(host: &dyn Host, path: &Path) -> Option<(String, String)> {
+    let folder = folder_of(host, path)?;
+    let name = package_name(host, folder)?;
+    Some((name, path.strip_prefix(folder).ok()?.display().to_string()))
+}
+
+fn folder_of<'p>(host: &dyn Host, path: &'p Path) -> Option<&'p Path> {
+    let mut above = path.ancestors().skip(1).take(DEEPEST);
+    above.find(|up| up.parent().is_some() && host.kind(&up.join("package.xml")).is_some())
+}
+
+/// The file in the sources of its package that the build installs at a path where nothing is now.
+#[must_use]
+pub fn in_sources(host: &dyn Host, path: &Path) -> Option<PathBuf> {
+    if !path.is_absolute() || host.kind(path).is_some() {
+        return None;
+    }
+    let folder = folder_of(host, path)?;
+    let inner = path.strip_prefix(folder).ok()?;
+    let bytes = host.read(&folder.join("CMakeLists.txt")).ok()?;
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned();
+    let found = rules(&text).into_iter().filter_map(|rule| rule.source(inner));
+    found.map(|source| folder.join(source)).find(|source| host.kind(source).is_some())
+}
+
+/// What one `install(...)` does with one source.
+struct Rule {
+    source: PathBuf,
+    /// The folder in the package's share folder.
+    to: PathBuf,
+    is_folder: bool,
+    /// True for a folder whose content is installed, without its name.
+    is_content: bool,
+}
+
+impl Rule {
+    /// The source of an installed path.
+    fn source(&self, installed: &Path) -> Option<PathBuf> {
+        let rest = installed.strip_prefix(&self.to).ok()?;
+        if self.is_content {
+            return Some(self.source.join(rest));
+        }
+        let rest = rest.strip_prefix(self.source.file_name()?).ok()?;
+        match self.is_folder {
+            true => Some(self.source.join(rest)),
+            false => rest.as_os_str().is_empty().then(|| self.source.clone()),
+        }
+    }
+}
+
+/// The rules of a `CMakeLists.txt` that install files into the package's share folder.
+fn rules(text: &str) -> Vec<Rule> {
+    let without_comments: String = text
+        .lines()
+        .map(|line| line.split('#').next().unwrap_or_default())
+        .collect::<Vec<_>>()
+        .join(" ");
+    let mut rules = Vec::new();
+    for (at, _) in without_comments.match_indices("install(") {
+        let Some(inner) = without_comments[at + "install(".len()..].split(')').next() else {
+            continue;
+        };
+        let words: Vec<&str> =
+            inner.split_whitespace().map(|word| word.trim_matches('"')).collect();
+        let Some((kind, rest)) = words.split_first() else { continue };
+        let is_folder = match *kind {
+            "DIRECTORY" => true,
+            "FILES" | "PROGRAMS" => false,
+            _ => continue,
+        };
+        let Some(end) = rest.iter().position(|word| *word == "DESTINATION") else { continue };
+        let Some(to) = rest.get(end + 1).and_then(|to| share(to)) else { continue };
+        for source in &rest[..end] {
+            rules.push(Rule {
+                source: PathBuf::from(source.trim_end_matches('/')),
+                to: to.clone(),
+                is_folder,
+                is_content: is_folder && source.ends_with('/'),
+            });
+        }
+    }
+    rules
+}
+
+/// The folder of a destination in the package's share folder; none for one elsewhere.
+fn share(destination: &str) -> Option<PathBuf> {
+    let of_package = ["${CATKIN_PACKAGE_SHARE_DESTINATION}"];
+    if let Some(rest) = of_package.iter().find_map(|prefix| destination.strip_prefix(prefix)) {
+        return Some(rest.trim_matches('/').into());
+    }
+    let mut parts = destination.trim_end_matches('/').splitn(3, '/');
+    let is_share = matches!(parts.next(), Some("share" | "${CMAKE_INSTALL_DATADIR}"));
+    parts.next().filter(|_| is_share)?;
+    Some(parts.next().unwrap_or_default().into())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+
+    use crate::MemoryHost;
+
+    use super::in_sources;
+
+    #[test]
+    fn files_are_found_where_the_build_takes_them_from() {
+        let host = MemoryHost::new()
+            .with_file("/w/bot/package.xml", "<package><name>bot</name></package>")
+            .with_file(
+                "/w/bot/CMakeLists.txt",
+                "project(bot) # install(FILES no DESTINATION share/bot)\n\
+                 install(DIRECTORY description/urdf bringup/launch\n DESTINATION share/bot)\n\
+                 install(\n DIRECTORY bringup/config/ DESTINATION share/${PROJECT_NAME}/params)\n\
+                 install(FILES top/a.yaml DESTINATION share/${PROJECT_NAME}/config)\n\
+                 install(TARGETS x DESTINATION lib/bot)",
+            )
+            .with_file("/w/bot/description/urdf/bot.urdf", "")
+            .with_file("/w/bot/bringup/config/p.yaml", "")
+            .with_file("/w/bot/top/a.yaml", "");
+        let check = |installed: &str, source: Option<&str>| {
+            let found = in_sources(&host, Path::new(installed));
+            assert_eq!(found, source.map(PathBuf::from), "{installed}");
+        };
+        check("/w/bot/urdf/bot.urdf", Some("/w/bot/description/urdf/bot.urdf"));
+        check("/w/bot/params/p.yaml", Some("/w/bot/bringup/config/p.yaml"));
+        check("/w/bot/config/a.yaml", Some("/w/bot/top/a.yaml"));
+        check("/w/bot/urdf/other.urdf", None);
+        check("/w/bot/top/a.yaml", None);
+        check("/elsewhere/a.yaml", None);
+    }
+}
