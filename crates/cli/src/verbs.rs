@@ -104,11 +104,11 @@ fn end(outcome: Outcome) -> io::Result<ExitCode> {
     match outcome {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(Failure::Output(error)) => Err(error),
-        Err(Failure::Interrupted) => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Err(failure) => {
-            terminal::complain(&failure.to_string());
-            let is_usage = matches!(failure, Failure::Usage(_));
-            Ok(if is_usage { ExitCode::from(2) } else { ExitCode::FAILURE })
+            if !matches!(failure, Failure::Interrupted) {
+                terminal::complain(&failure.to_string());
+            }
+            Ok(ExitCode::from(failure.exit_code()))
         }
     }
 }

@@ -19,6 +19,17 @@ pub enum Failure {
 pub type Outcome<T = ()> = Result<T, Failure>;
 
 impl Failure {
+    /// The exit code of a program that ends so: 2 where what was typed has no meaning, 130 where it was
+    /// interrupted, else 1.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage(_) => 2,
+            Self::Interrupted => 130,
+            Self::Failed(_) | Self::Output(_) => 1,
+        }
+    }
+
     /// What went wrong, said.
     pub fn failed(what: impl Into<String>) -> Self {
         Self::Failed(what.into())

@@ -12,6 +12,7 @@ use periplus_msgs::rcl_interfaces::{
     GetParameters, GetParametersRequest, ListParameters, ListParametersRequest, Parameter,
     ParameterType, ParameterValue, SetParameters, SetParametersRequest, SetParametersResult,
 };
+use periplus_yaml::{Node as Yaml, Value as YamlValue};
 use serde_json::json;
 
 use crate::ask::ask;
@@ -222,19 +223,45 @@ fn tell(
     Ok(*successful)
 }
 
-/// Sets a parameter; the value is YAML.
+/// Sets a parameter; the value is YAML, or a text where a parameter cannot hold what it is: a mapping or
+/// a list of lists, as footprints are.
 ///
 /// # Errors
 /// When there is no such node, it refuses the value, or the output cannot be written.
 pub fn set(session: &mut Session<'_>, node: &str, name: &str, value: &str) -> Outcome {
-    let value = parameter_from_yaml(value)
-        .map_err(|wrong| Failure::Usage(format!("the value `{value}` {wrong}")))?;
+    let value = typed_value(value)?;
     let node = look_up(session, node)?;
     let own = session.node(None)?;
     let result = set_one(session, &own, &node, name, value)?;
     match tell(session, &node, name, &result, "Set parameter")? {
         true => Ok(()),
         false => Err(Failure::failed(format!("Setting parameter failed: {}", result.reason))),
+    }
+}
+
+/// The value that a word stands for, as `ros2 param set` takes it.
+fn typed_value(text: &str) -> Outcome<ParameterValue> {
+    let wrong = match parameter_from_yaml(text) {
+        Ok(value) => return Ok(value),
+        Err(wrong) => wrong,
+    };
+    let mut sources = SourceMap::new();
+    let file = sources.add("value", text);
+    let is_nested = periplus_yaml::parse(file, &sources).ok().flatten().is_some_and(|node| {
+        let is_scalar = |node: &Yaml| matches!(node.value, YamlValue::Scalar { .. });
+        match &node.value {
+            YamlValue::Map(_) => true,
+            YamlValue::List(items) => !items.iter().all(is_scalar),
+            YamlValue::Scalar { .. } => false,
+        }
+    });
+    match is_nested {
+        true => Ok(ParameterValue {
+            r#type: ParameterType::PARAMETER_STRING,
+            string_value: text.to_owned(),
+            ..ParameterValue::default()
+        }),
+        false => Err(Failure::Usage(format!("the value `{text}` {wrong}"))),
     }
 }
 

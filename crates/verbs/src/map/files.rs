@@ -138,5 +138,5 @@ pub fn convert(session: &mut Session<'_>, convert: &Convert) -> Outcome {
     for words in said {
         session.say(&format!("WARNING: {words}"));
     }
-    write(session, &render(&map.grid, &saving))
+    write(session, &render(&map.grid, &saving), &Machine)
 }

@@ -9,7 +9,7 @@ use periplus_host::{Machine, Stopwatch, sleep, unix_ns};
 use periplus_maps::{Distro, MapFiles, Wish, from_message, render};
 use periplus_msgs::Message as _;
 use periplus_msgs::nav_msgs::OccupancyGrid;
-use periplus_resources::Store as _;
+use periplus_resources::Store;
 
 use crate::session::full_name;
 use crate::{Failure, Outcome, Session};
@@ -37,9 +37,18 @@ pub struct Save {
 /// When the thresholds make no sense, no map comes in time, it is malformed, or the files cannot be
 /// written.
 pub fn save(session: &mut Session<'_>, save: &Save) -> Outcome {
+    save_to(session, save, &Machine)
+}
+
+/// The same with another store for the files than the machine's.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_to(session: &mut Session<'_>, save: &Save, store: &dyn Store) -> Outcome {
     let unix_s = unix_ns().div_euclid(1_000_000_000);
     let settled = save.wish.settle(save.distro, unix_s);
-    let (saving, said) = settled.map_err(|error| Failure::Usage(error.to_string()))?;
+    // As the savers of ROS do: the words make sense, and the map is not saved.
+    let (saving, said) = settled.map_err(|error| Failure::failed(error.to_string()))?;
     for words in said {
         session.say(&format!("WARNING: {words}"));
     }
@@ -50,15 +59,15 @@ pub fn save(session: &mut Session<'_>, save: &Save) -> Outcome {
         "Received a {} X {} map @ {} m/pix",
         lattice.width, lattice.height, lattice.resolution_m
     ));
-    write(session, &render(&map, &saving))
+    write(session, &render(&map, &saving), store)
 }
 
 /// Writes both files of a map, the picture first: a YAML that is there names a picture that is there.
-pub(super) fn write(session: &mut Session<'_>, files: &MapFiles) -> Outcome {
+pub(super) fn write(session: &mut Session<'_>, files: &MapFiles, store: &dyn Store) -> Outcome {
     for (path, content) in
         [(&files.image_path, files.image.as_slice()), (&files.yaml_path, files.yaml.as_bytes())]
     {
-        Machine
+        store
             .replace(Path::new(path), content)
             .map_err(|words| Failure::failed(format!("cannot write `{path}`: {words}")))?;
     }
