@@ -77,7 +77,9 @@ pub(crate) fn make(
         }
         _ => {}
     }
-    let named = parameters(ask, &mut made.notes);
+    let mut named = parameters(ask, &mut made.notes);
+    // As for programs that are run by themselves, what this command was given goes before.
+    named.extend(graph.parameters_given_to(&ask.full_name()));
     let node = node(ask, graph, &named, &mut made.notes)?;
     made.node = Some(node.full_name().to_owned());
     let failed = |error: GraphError| error.to_string();
@@ -87,9 +89,13 @@ pub(crate) fn make(
             let text = description(ask, &named)?.ok_or_else(|| {
                 "the parameter `robot_description` is missing: it is to hold a URDF".to_owned()
             })?;
-            let model = robot(&text, &settings.search)?;
             let options = RobotStateOptions::default();
-            made.keep(RobotStatePublisher::new(node, text, &model, options).map_err(failed)?);
+            if is_urdf(&text) {
+                made.keep(RobotStatePublisher::of_urdf(node, text, options)?);
+            } else {
+                let model = robot(&text, &settings.search)?;
+                made.keep(RobotStatePublisher::new(node, text, &model, options).map_err(failed)?);
+            }
         }
         Role::JointStatePublisher => {
             let mut values = JOINT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
@@ -240,6 +246,14 @@ pub(crate) fn remapped(mut settings: NodeSettings, ask: &Ask) -> NodeSettings {
         }
     }
     settings
+}
+
+/// True if the root of a description is `<robot>`: other formats become models first.
+fn is_urdf(text: &str) -> bool {
+    let mut sources = SourceMap::new();
+    let file = sources.add("robot_description", text);
+    let document = periplus_xml::parse(file, &sources, &mut Diagnostics::new());
+    document.is_some_and(|document| document.root.local_name() == "robot")
 }
 
 /// The node of a program; with a number behind its name when that is taken, as programs that are

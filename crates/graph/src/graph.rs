@@ -1,8 +1,10 @@
 //! The handle of a graph.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, Weak};
 
 use periplus_diagnostics::Diagnostics;
+use periplus_msgs::rcl_interfaces::ParameterValue;
 
 use crate::agenda::Agenda;
 use crate::arguments::Arguments;
@@ -83,6 +85,12 @@ impl Graph {
     /// program. What [`NodeSettings`] says of a node comes first.
     pub fn set_arguments(&self, arguments: Arguments) {
         *lock(&self.0.arguments) = Arc::new(arguments);
+    }
+
+    /// Parameters that the arguments of this program give a node of a full name.
+    #[must_use]
+    pub fn parameters_given_to(&self, full_name: &str) -> BTreeMap<String, ParameterValue> {
+        self.arguments().parameters_of(full_name)
     }
 
     /// What the arguments say that no node has use for: patterns that fit none, and parameters that

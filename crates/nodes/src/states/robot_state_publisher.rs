@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_params::{Table, Value, Values, flag, number, text};
@@ -85,8 +85,7 @@ struct State {
     options: RobotStateOptions,
     described: Option<String>,
     tf: Publisher<tf2_msgs::TFMessage>,
-    /// Kept, so that what was said before stays.
-    _description: Publisher<std_msgs::String>,
+    description: Publisher<std_msgs::String>,
     tf_static: Publisher<tf2_msgs::TFMessage>,
     /// Times of the states that were told last, by joint [ns].
     told_ns: BTreeMap<String, i64>,
@@ -95,7 +94,7 @@ struct State {
 
 impl RobotStatePublisher {
     /// As a node of a graph. `description` is the URDF; the frames are those of `model`, which was
-    /// made from it.
+    /// made from it: what a simulator merges is fixed.
     ///
     /// # Errors
     /// When a topic of that name has another type.
@@ -105,11 +104,32 @@ impl RobotStatePublisher {
         model: &Model,
         options: RobotStateOptions,
     ) -> Result<Self, GraphError> {
-        let tree = FrameTree::of(model);
+        Self::of_tree(node, description.into(), FrameTree::of(model), options)
+    }
+
+    /// As a node of a graph, with the frames that the URDF itself has: links need no inertia to move.
+    ///
+    /// # Errors
+    /// When the text is no URDF, or a topic of that name has another type.
+    pub fn of_urdf(
+        node: Node,
+        description: impl Into<String>,
+        options: RobotStateOptions,
+    ) -> Result<Self, String> {
+        let description = description.into();
+        let tree = tree_of(&description)?;
+        Self::of_tree(node, description, tree, options).map_err(|error| error.to_string())
+    }
+
+    fn of_tree(
+        node: Node,
+        description: String,
+        tree: FrameTree,
+        options: RobotStateOptions,
+    ) -> Result<Self, GraphError> {
         let described = node.publisher("robot_description", Qos::latched(1))?;
         let tf_static = node.publisher("/tf_static", Qos::latched(1))?;
         let tf = node.publisher("/tf", TF_QOS)?;
-        let description = description.into();
         let values = options.values(&description);
         described.publish(std_msgs::String { data: description });
         let now_ns = node.now_ns();
@@ -118,13 +138,14 @@ impl RobotStatePublisher {
             options,
             described: values.text("robot_description"),
             tf,
-            _description: described,
+            description: described,
             tf_static,
             told_ns: BTreeMap::new(),
             last_ns: now_ns,
         };
         let mut actor = node.actor(state);
-        let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        let parameters =
+            actor.parameters(values, |state, values, io| state.change(values, io.now_ns()))?;
         actor.with(|state| {
             state.options = RobotStateOptions::read(&parameters.values());
             let prefix = &state.options.frame_prefix;
@@ -145,6 +166,26 @@ impl RobotStatePublisher {
     }
 }
 
+/// The frames of a URDF, or what is wrong with it.
+fn tree_of(description: &str) -> Result<FrameTree, String> {
+    if description.trim().is_empty() {
+        return Err("`robot_description` must not be empty".into());
+    }
+    let mut sources = SourceMap::new();
+    let file = sources.add("robot_description", description);
+    let mut diagnostics = Diagnostics::new();
+    let document = periplus_xml::parse(file, &sources, &mut diagnostics);
+    let robot = document.and_then(|document| periplus_urdf::read(&document, &mut diagnostics));
+    match robot.filter(|robot| !robot.links.is_empty()) {
+        Some(robot) => Ok(FrameTree::of_robot(&robot)),
+        None => {
+            let wrong = diagnostics.iter().find(|it| it.severity == Severity::Error);
+            let why = wrong.map_or("it has no links", |wrong| wrong.message.as_str());
+            Err(format!("`robot_description` is no robot: {why}"))
+        }
+    }
+}
+
 fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TFMessage {
     let transforms = tree.fixed.iter().map(|edge| {
         let (parent, child) =
@@ -155,18 +196,24 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
 }
 
 impl State {
-    /// Other parameters from now on.
-    fn change(&mut self, values: &Values) -> Result<(), String> {
-        let options = RobotStateOptions::read(values);
-        if options.frame_prefix != self.options.frame_prefix {
-            return Err(
-                "the names of frames stay; give `frame_prefix` when the node is made".into()
-            );
+    /// Takes other parameters. Another description is published as it was the first time, with its
+    /// fixed frames.
+    fn change(&mut self, values: &Values, now_ns: i64) -> Result<(), String> {
+        let description = values.text("robot_description");
+        let tree = match &description {
+            Some(text) if description != self.described => Some(tree_of(text)?),
+            Some(_) => None,
+            None => return Err("`robot_description` must not be empty".into()),
+        };
+        self.options = RobotStateOptions::read(values);
+        if let Some(tree) = tree {
+            self.tree = tree;
+            self.description
+                .publish(std_msgs::String { data: description.clone().unwrap_or_default() });
+            self.described = description;
+            let prefix = &self.options.frame_prefix;
+            self.tf_static.publish(fixed_transforms(&self.tree, prefix, now_ns));
         }
-        if values.text("robot_description") != self.described {
-            return Err("another robot needs another node: this one keeps its description".into());
-        }
-        self.options = options;
         Ok(())
     }
 
@@ -189,8 +236,11 @@ impl State {
         if !self.options.ignore_timestamp && stamp_ns < due_ns {
             return;
         }
-        let mut positions: BTreeMap<String, f64> =
-            name.iter().cloned().zip(position.iter().copied()).collect();
+        let mut positions = BTreeMap::new();
+        for (name, position) in name.iter().zip(position) {
+            // The first position of a joint that is there twice counts.
+            positions.entry(name.clone()).or_insert(*position);
+        }
         self.tree.complete(&mut positions);
         let prefix = &self.options.frame_prefix;
         let transforms = positions.iter().filter(|(_, position)| position.is_finite());

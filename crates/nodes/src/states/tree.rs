@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use periplus_base::{DQuat, DVec3, Pose};
 use periplus_scene::{Joint, JointKind, Mimic, Model, tf_tree};
+use periplus_urdf::{JointType, Robot};
 
 /// A frame on another.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +63,53 @@ impl FrameTree {
             let moving = MovingEdge { edge: plain, child_from_joint, axis_in_joint, slides };
             tree.moving.insert(name, moving);
         }
+        tree
+    }
+
+    /// The frames of a URDF as `kdl_parser` has them: every joint counts whatever its links weigh,
+    /// floating joints have no transform, and planar ones never move.
+    pub(crate) fn of_robot(robot: &Robot) -> Self {
+        let mut tree = Self::default();
+        for joint in &robot.joints {
+            let edge = Edge {
+                parent: joint.parent.clone(),
+                child: joint.child.clone(),
+                parent_from_child: joint.parent_from_joint.pose(),
+            };
+            let slides = match joint.kind {
+                JointType::Floating => continue,
+                JointType::Fixed | JointType::Planar => {
+                    tree.fixed.push(edge);
+                    continue;
+                }
+                JointType::Revolute | JointType::Continuous => false,
+                JointType::Prismatic => true,
+            };
+            let axis = joint.axis.as_ref().map_or(DVec3::X, |(axis, _)| DVec3::from_array(*axis));
+            if let Some(mimic) = &joint.mimic {
+                let follow = Mimic {
+                    joint: mimic.joint.clone(),
+                    axis: "axis".into(),
+                    multiplier: mimic.multiplier,
+                    offset: mimic.offset,
+                    reference: 0.0,
+                };
+                tree.mimics.insert(joint.name.clone(), follow);
+            }
+            let moving = MovingEdge {
+                edge,
+                child_from_joint: Pose::IDENTITY,
+                axis_in_joint: axis.normalize_or(DVec3::X),
+                slides,
+            };
+            tree.moving.insert(joint.name.clone(), moving);
+        }
+        // In the order of the joints' names, as the original keeps them.
+        let name = |edge: &Edge| {
+            let joint = robot.joints.iter().find(|joint| joint.child == edge.child);
+            joint.map(|joint| joint.name.clone())
+        };
+        tree.fixed.sort_by_key(name);
         tree
     }
 

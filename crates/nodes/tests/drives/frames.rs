@@ -4,6 +4,9 @@ use std::sync::Arc;
 
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::rcl_interfaces::{
+    Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
+};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_nodes::states::{
     JointStateOptions, JointStateSource, RobotStateOptions, RobotStatePublisher,
@@ -125,6 +128,64 @@ fn states_that_make_no_sense_are_passed_over() {
     states.publish(state(500, 0.3));
     graph.settle();
     assert!(tf.latest().is_some());
+}
+
+const ARM: &str = r#"<robot name="arm">
+  <link name="base"/><link name="upper"/><link name="plate"/>
+  <joint name="turn" type="continuous">
+    <parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="mount" type="fixed"><parent link="base"/><child link="plate"/></joint>
+</robot>"#;
+
+#[test]
+fn links_need_no_inertia_and_another_description_is_taken_at_run_time() {
+    let Ears { graph, tf, states, node } = ears();
+    let publisher = graph.node(NodeSettings::new("robot_state_publisher")).unwrap();
+    let options = RobotStateOptions::default();
+    let _publisher = RobotStatePublisher::of_urdf(publisher, ARM, options).unwrap();
+    let frames = |tf: &Mailbox<tf2_msgs::TFMessage>| -> Vec<String> {
+        let last = tf.latest().unwrap();
+        last.transforms.iter().map(|one| one.child_frame_id.clone()).collect()
+    };
+    let fixed: Mailbox<tf2_msgs::TFMessage> = node.mailbox("/tf_static", Qos::latched(1)).unwrap();
+    assert_eq!(frames(&fixed), ["plate"]);
+    graph.advance_to(1_000_000_000);
+    let turned = |time_ms: i64| sensor_msgs::JointState {
+        name: vec!["turn".into()],
+        position: vec![1.0],
+        ..state(time_ms, 0.0)
+    };
+    states.publish(turned(1000));
+    graph.settle();
+    assert_eq!(frames(&tf), ["upper"]);
+
+    let set = |name: &str, text: &str| {
+        let value = ParameterValue {
+            r#type: ParameterType::PARAMETER_STRING,
+            string_value: text.to_owned(),
+            ..ParameterValue::default()
+        };
+        let parameters = vec![Parameter { name: name.to_owned(), value }];
+        let client = node.client::<SetParameters>("/robot_state_publisher/set_parameters").unwrap();
+        let answer = client.call(SetParametersRequest { parameters });
+        graph.settle();
+        answer.take().unwrap().unwrap().results[0].clone()
+    };
+    assert!(!set("robot_description", "").successful);
+    let refused = set("robot_description", "<robot name='r'/>");
+    assert!(refused.reason.contains("no robot"), "{}", refused.reason);
+    assert!(set("frame_prefix", "left/").successful);
+    let other = ARM.replace("plate", "table").replace("upper", "lower");
+    assert!(set("robot_description", &other).successful);
+    assert_eq!(frames(&fixed), ["left/table"]);
+    let text: Mailbox<std_msgs::String> =
+        node.mailbox("/robot_description", Qos::latched(1)).unwrap();
+    assert_eq!(text.latest().unwrap().data, other);
+    graph.advance_to(2_000_000_000);
+    states.publish(turned(2000));
+    graph.settle();
+    assert_eq!(frames(&tf), ["left/lower"]);
 }
 
 #[test]
