@@ -2,7 +2,10 @@
 //!
 //! Source: `nav2_costmap_2d/src/clear_costmap_service.cpp`, `costmap_layer.cpp`.
 
+use periplus_grid::Lattice;
+
 use crate::cost::UNKNOWN;
+use crate::costmap::cell_clamped;
 use crate::{Compat, Costmap, LayeredCostmap, Window};
 
 /// Which part of a layer to clear.
@@ -43,19 +46,14 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
     }
     let compat = costmap.frame().compat;
     let lattice = *costmap.costmap().lattice();
-    let mut any = false;
     for layer in costmap.all_mut() {
         let is_meant = names.is_empty() || names.iter().any(|name| name == layer.name());
         if !is_meant || !layer.is_clearable() {
             continue;
         }
-        any = true;
         // A layer may have moved less far than the costmap; its own cells count.
         let cells = *layer.grid().map_or(&lattice, Costmap::lattice);
-        let corner = |x_m, y_m, side_m: f64| {
-            let (x_m, y_m) = (x_m - side_m / 2.0, y_m - side_m / 2.0);
-            (cells.whole_cells_to(x_m, y_m), cells.whole_cells_to(x_m + side_m, y_m + side_m))
-        };
+        let corner = |x_m, y_m, side_m| corners(&cells, [x_m, y_m], side_m, compat);
         match region {
             Region::Around { x_m, y_m, side_m } => {
                 let (start, end) = corner(x_m, y_m, side_m);
@@ -71,7 +69,25 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
     if region == Region::Everything {
         costmap.reset_costs();
     }
-    if any { Ok(()) } else { Err("no layer may be cleared".into()) }
+    Ok(())
+}
+
+/// The cells of the lower left and the upper right corner of a square about a point.
+fn corners(
+    cells: &Lattice,
+    [x_m, y_m]: [f64; 2],
+    side_m: f64,
+    compat: Compat,
+) -> ((i64, i64), (i64, i64)) {
+    let (x_m, y_m) = (x_m - side_m / 2.0, y_m - side_m / 2.0);
+    let cell = |x_m, y_m| {
+        if compat.clamps_cleared_areas() {
+            return cells.whole_cells_to(x_m, y_m);
+        }
+        let (x, y) = cell_clamped(cells, x_m, y_m);
+        (x as i64, y as i64)
+    };
+    (cell(x_m, y_m), cell(x_m + side_m, y_m + side_m))
 }
 
 fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String> {

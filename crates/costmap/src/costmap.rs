@@ -101,25 +101,10 @@ impl Costmap {
         if lattice.is_empty() {
             return None;
         }
-        let (x0, y0) = self.cell_clamped(bounds.min_x, bounds.min_y);
-        let (xn, yn) = self.cell_clamped(bounds.max_x, bounds.max_y);
+        let (x0, y0) = cell_clamped(lattice, bounds.min_x, bounds.min_y);
+        let (xn, yn) = cell_clamped(lattice, bounds.max_x, bounds.max_y);
         let (xn, yn) = ((xn + 1).min(lattice.width), (yn + 1).min(lattice.height));
         (xn >= x0 && yn >= y0).then_some(Window { x0, y0, xn, yn })
-    }
-
-    /// `worldToMapEnforceBounds`: points beyond a side get the cell at that side.
-    fn cell_clamped(&self, x_m: f64, y_m: f64) -> Cell {
-        let Lattice { resolution_m, width, height, origin } = *self.lattice();
-        let clamp = |at: f64, start: f64, count: usize| {
-            if at < start {
-                0
-            } else if at > resolution_m * count as f64 + start {
-                count - 1
-            } else {
-                ((at - start) / resolution_m) as usize
-            }
-        };
-        (clamp(x_m, origin.x_m, width), clamp(y_m, origin.y_m, height))
     }
 
     /// Puts one cost into all cells.
@@ -152,21 +137,36 @@ impl Costmap {
         *self = Self::new(lattice, self.default_cost);
     }
 
-    /// How far the lower left corner lies from a robot in the middle \[m\].
-    fn half_size_m(&self, compat: Compat) -> (f64, f64) {
-        let Lattice { resolution_m, width, height, .. } = *self.lattice();
-        let length = |cells: usize| (cells as f64 - compat.missing_cells()) * resolution_m;
-        (length(width) / 2.0, length(height) / 2.0)
-    }
-
     /// Moves by whole cells so that a robot is in the middle. What is still in the window keeps its
     /// place in the world, new cells hold the default.
     pub fn roll_around(&mut self, robot: Pose2, compat: Compat) {
-        let (half_width_m, half_height_m) = self.half_size_m(compat);
+        let (half_width_m, half_height_m) = half_size_m(self.lattice(), compat);
         let (x_m, y_m) = (robot.x_m - half_width_m, robot.y_m - half_height_m);
         // A robot at infinity would move the grid there for good.
         if x_m.is_finite() && y_m.is_finite() {
             self.grid.roll_to(x_m, y_m, self.default_cost);
         }
     }
+}
+
+/// Distance of the lower left corner of a grid from a robot in its middle, along x and y \[m\].
+pub(crate) fn half_size_m(lattice: &Lattice, compat: Compat) -> (f64, f64) {
+    let length = |cells: usize| (cells as f64 - compat.missing_cells()) * lattice.resolution_m;
+    (length(lattice.width) / 2.0, length(lattice.height) / 2.0)
+}
+
+/// The cell of a point; points beyond a side get the cell at that side, and one on the upper edge the
+/// cell after the last (`worldToMapEnforceBounds`).
+pub(crate) fn cell_clamped(lattice: &Lattice, x_m: f64, y_m: f64) -> Cell {
+    let Lattice { resolution_m, width, height, origin } = *lattice;
+    let clamp = |at: f64, start: f64, count: usize| {
+        if at < start {
+            0
+        } else if at > resolution_m * count as f64 + start {
+            count.saturating_sub(1)
+        } else {
+            ((at - start) / resolution_m) as usize
+        }
+    };
+    (clamp(x_m, origin.x_m, width), clamp(y_m, origin.y_m, height))
 }

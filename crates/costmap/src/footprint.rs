@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use periplus_base::Pose2;
-use periplus_grid::Line;
+use periplus_grid::{Cell, Line};
 
 use crate::{Costmap, cost};
 
@@ -89,15 +89,16 @@ impl Footprint {
         self.points.iter().map(place).collect()
     }
 
-    /// The highest cost under the outline of a robot at a pose; a corner outside is lethal.
+    /// The cost under the outline of a robot at a pose, as [`outline_cost`] has it.
     #[must_use]
     pub fn cost(&self, costmap: &Costmap, global_from_base: Pose2) -> u8 {
         outline_cost(costmap, &self.placed(global_from_base))
     }
 }
 
-/// The highest cost on the outline of a polygon in the global frame \[m\]. What lies within does not
-/// count; a corner outside is lethal.
+/// The cost of the outline of a polygon in the global frame \[m\]: the highest of its sides, up to the
+/// first one that is lethal. A side with a lethal cell is lethal, also if it has unknown cells, and so is
+/// a corner outside. Cells within the outline do not count.
 #[must_use]
 pub fn outline_cost(costmap: &Costmap, corners: &[[f64; 2]]) -> u8 {
     let finder = costmap.finder();
@@ -105,11 +106,26 @@ pub fn outline_cost(costmap: &Costmap, corners: &[[f64; 2]]) -> u8 {
         corners.iter().map(|[x_m, y_m]| finder.cell_of(*x_m, *y_m)).collect();
     let Some(cells) = cells.filter(|cells| !cells.is_empty()) else { return cost::LETHAL };
     let sides = cells.iter().zip(cells.iter().cycle().skip(1));
-    sides
-        .flat_map(|(start, end)| Line::between(*start, *end))
-        .filter_map(|cell| costmap.cost(cell))
-        .max()
-        .unwrap_or(cost::LETHAL)
+    let mut highest = cost::FREE;
+    for (start, end) in sides {
+        highest = highest.max(side_cost(costmap, *start, *end));
+        if highest == cost::LETHAL {
+            break;
+        }
+    }
+    highest
+}
+
+/// The highest cost on a line of cells, or lethal if one of them is.
+fn side_cost(costmap: &Costmap, start: Cell, end: Cell) -> u8 {
+    let mut highest = cost::FREE;
+    for cost in Line::between(start, end).filter_map(|cell| costmap.cost(cell)) {
+        if cost == cost::LETHAL {
+            return cost;
+        }
+        highest = highest.max(cost);
+    }
+    highest
 }
 
 /// Distances from the base of what is nearest and of the furthest corner \[m\]. Fewer than three

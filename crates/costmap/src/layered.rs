@@ -156,6 +156,10 @@ impl LayeredCostmap {
     /// Takes the size of a map that has come, as layers ask for it. Updates do this first; to do it
     /// earlier lets others see the size before the first update.
     pub fn settle_size(&mut self) {
+        // A costmap that moves with the robot keeps its own size.
+        if self.frame.is_rolling {
+            return;
+        }
         let wanted = self
             .layers
             .iter()

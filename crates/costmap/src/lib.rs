@@ -59,7 +59,7 @@ mod voxel_grid;
 pub use advice::Advice;
 pub use area::{Bounds, Window};
 pub use combine::Combination;
-pub use compat::Compat;
+pub use compat::{Compat, RangeMeasure};
 pub use config::{Config, LayerConfig, LayerKind, SourceConfig};
 pub use costmap::Costmap;
 pub use footprint::Footprint;

@@ -8,6 +8,8 @@ use periplus_base::{DVec3, Pose};
 use periplus_diagnostics::Diagnostics;
 use periplus_params::Values;
 
+use crate::Compat;
+
 /// Points and how to use them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observation {
@@ -192,6 +194,7 @@ pub struct Source {
     /// Lists of points to be used again.
     spare: Vec<Vec<[f32; 3]>>,
     last_ns: Option<i64>,
+    compat: Compat,
     /// Whether the sensor was outside of the grid when it was last used.
     pub(crate) was_outside: bool,
 }
@@ -213,8 +216,16 @@ impl Source {
             fresh: 0,
             spare: Vec::new(),
             last_ns: None,
+            compat: Compat::default(),
             was_outside: false,
         }
+    }
+
+    /// Drops old observations as a release of Nav2 does.
+    #[must_use]
+    pub fn with_compat(mut self, compat: Compat) -> Self {
+        self.compat = compat;
+        self
     }
 
     /// Takes other values for its parameters. The topic and what comes from it stay.
@@ -296,21 +307,37 @@ impl Source {
     /// Drops what is too old.
     pub fn purge(&mut self, now_ns: i64) {
         let persistence_ns = self.settings.persistence_ns;
+        let is_stale = |seen: &Observation| now_ns.saturating_sub(seen.time_ns) > persistence_ns;
         let kept = if persistence_ns == 0 {
             1
+        } else if self.compat.drops_observations_one_by_one() {
+            MOST_KEPT
         } else {
-            let is_stale =
-                |seen: &Observation| now_ns.saturating_sub(seen.time_ns) > persistence_ns;
             self.observations.iter().position(is_stale).unwrap_or(MOST_KEPT)
         };
         while self.observations.len() > kept.min(MOST_KEPT) {
-            if let Some(old) = self.observations.pop_back()
-                && self.spare.len() < 2
-            {
-                self.spare.push(old.points);
+            self.drop_at(self.observations.len() - 1);
+        }
+        if persistence_ns != 0 && self.compat.drops_observations_one_by_one() {
+            for index in (0..self.observations.len()).rev() {
+                if is_stale(&self.observations[index]) {
+                    self.drop_at(index);
+                }
             }
         }
         self.fresh = self.fresh.min(self.observations.len());
+    }
+
+    /// Drops one observation and keeps its list of points to be used again.
+    fn drop_at(&mut self, index: usize) {
+        if index < self.fresh {
+            self.fresh -= 1;
+        }
+        if let Some(old) = self.observations.remove(index)
+            && self.spare.len() < 2
+        {
+            self.spare.push(old.points);
+        }
     }
 
     /// What counts, newest first.

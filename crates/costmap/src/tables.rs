@@ -83,8 +83,9 @@ pub static COSTMAP: Table = Table {
         text("service_introspection_mode", "Unused; services are not recorded.").or("disabled"),
         choice(
             "compat",
-            &["humble", "jazzy", "main", "kilted", "rolling", "iron"],
-            "Whose habits to keep where distributions of ROS differ.",
+            &crate::Compat::NAMES,
+            "Release of Nav2 whose behaviour is kept where releases differ; `jazzy-1.3.10` is Jazzy up to \
+             Nav2 1.3.10.",
         )
         .or("main"),
     ],
@@ -251,7 +252,7 @@ pub static KEEPOUT: Table = Table {
         FILTER_INFO_TOPIC,
         MASK_TOLERANCE,
         flag("override_lethal_cost", "Whether a robot in a zone may leave it.").or("false"),
-        integer("lethal_override_cost", "The cost of zones then.").or("252").within(0.0, 252.0),
+        integer("lethal_override_cost", "The cost of zones then, 252 at most.").or("252"),
     ],
 };
 

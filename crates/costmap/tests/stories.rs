@@ -427,11 +427,11 @@ fn parameters_change_while_it_runs() {
     look(&mut costmap, 0, &[[0.5, 0.0, 0.0]]);
     let mut values = config.node.clone();
     values.set("robot_radius", periplus_params::Value::Number(0.35));
-    config.change(&mut costmap, values.clone()).unwrap();
+    config.change(&mut costmap, values.clone(), &NoFrames).unwrap();
     look(&mut costmap, 1, &[[0.5, 0.0, 0.0]]);
     assert_eq!(costmap.cost_at(Pose2::new(1.75, 1.55, 0.0), false), 253, "now within the robot");
     values.set("rolling_window", periplus_params::Value::Bool(true));
-    let refused = config.change(&mut costmap, values).unwrap_err();
+    let refused = config.change(&mut costmap, values, &NoFrames).unwrap_err();
     assert_eq!(refused, "`rolling_window` cannot be changed while the costmap runs");
     assert_eq!(config.compat, Compat::Main);
 }

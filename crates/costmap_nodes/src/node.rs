@@ -51,7 +51,7 @@ pub(crate) struct State {
     pub(crate) costmap: Option<LayeredCostmap>,
     pub(crate) tf: Listener,
     inputs: Inputs,
-    outputs: Option<Outputs>,
+    pub(crate) outputs: Option<Outputs>,
     outlines: Outlines,
     health: Health,
     is_active: bool,
@@ -323,12 +323,14 @@ impl State {
     /// Takes other parameters while it runs.
     fn change(&mut self, all: &Values) -> Result<(), String> {
         let node = split(all, "", &self.config.node);
+        let tf = &self.tf;
+        let frames = |target: &str, source: &str| Some(tf.at(target, source, 0).ok()?.0);
         match &mut self.costmap {
             Some(costmap) => {
                 for layer in self.config.layers.iter().chain(&self.config.filters) {
                     change_layer(costmap, layer, all)?;
                 }
-                self.config.change(costmap, node)?;
+                self.config.change(costmap, node, &frames)?;
             }
             None => self.config.node = node,
         }

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use periplus_costmap::filters::{BinaryFilter, SpeedFilter};
 use periplus_costmap::layers::VoxelLayer;
-use periplus_costmap::{
-    Compat, Config, Costmap, LayerKind, LayeredCostmap, Outgoing, Publication, Window,
-};
+use periplus_costmap::{Config, Costmap, LayerKind, LayeredCostmap, Outgoing, Publication, Window};
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs, sensor_msgs, std_msgs};
@@ -88,6 +86,14 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
+    /// Publishes whole grids the next time: cells have changed outside of an update.
+    pub(crate) fn start_over(&mut self) {
+        self.master.publication.start_over();
+        for layer in self.layers.values_mut() {
+            layer.publication.start_over();
+        }
+    }
+
     pub(crate) fn new(node: &Node, config: &Config) -> Result<Self, GraphError> {
         let namespace = node.names().namespace().to_owned();
         let mut outputs = Self {
@@ -113,7 +119,7 @@ impl Outputs {
                     | LayerKind::Range
                     | LayerKind::Container
             );
-            if has_grid && config.compat >= Compat::Jazzy {
+            if has_grid && config.compat.publishes_layers() {
                 outputs.layers.insert(name.clone(), GridPort::new(node, &name)?);
             }
             match layer.kind {

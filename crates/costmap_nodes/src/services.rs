@@ -43,17 +43,21 @@ pub(crate) fn serve(
             state.toggle(&name, request.data)
         })?;
     }
-    if forms == Compat::Main {
+    if forms.answers_several_costs() {
         actor.serve::<GetCosts>(&format!("get_cost_{name}"), |state, request, _| {
             state.costs(&request.poses, request.use_footprint)
         })
     } else {
-        actor.serve::<GetCost>(&format!("get_cost_{name}"), |state, request, _| {
+        actor.serve::<GetCost>(&format!("get_cost_{name}"), move |state, request, _| {
             let [x, y, yaw] = [request.x, request.y, request.theta].map(f64::from);
-            let cost = state.costmap.as_ref().map_or(255, |costmap| {
-                costmap.cost_at(Pose2::new(x, y, yaw), request.use_footprint)
-            });
-            GetCostResponse { cost: cost.into() }
+            let Some(costmap) = &state.costmap else { return GetCostResponse { cost: 255.0 } };
+            let is_outside = !request.use_footprint && costmap.cell_of(x, y).is_none();
+            let cost = if is_outside {
+                forms.cost_outside()
+            } else {
+                costmap.cost_at(Pose2::new(x, y, yaw), request.use_footprint).into()
+            };
+            GetCostResponse { cost }
         })
     }
 }

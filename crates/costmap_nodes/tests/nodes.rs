@@ -505,6 +505,61 @@ fn older_distributions_have_other_forms() {
 }
 
 #[test]
+fn jazzy_answers_minus_one_outside_and_kilted_has_forms_of_both() {
+    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Jazzy);
+    stage.costmap.start();
+    stage.place("odom", 0.05);
+    stage.advance(200);
+    let request = GetCostRequest { x: 99.0, y: 0.0, ..GetCostRequest::default() };
+    let answer = stage.ask::<GetCost>("/local_costmap/get_cost_local_costmap", request);
+    assert_eq!(answer.cost, -1.0);
+
+    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Kilted);
+    stage.costmap.start();
+    stage.place("odom", 0.05);
+    stage.advance(200);
+    assert_eq!(stage.costmap.status().sources[0].1, "/scan");
+    let mut pose = periplus_msgs::geometry_msgs::PoseStamped::default();
+    pose.header.frame_id = "odom".into();
+    pose.pose.position.x = 99.0;
+    let request = GetCostsRequest { use_footprint: false, poses: vec![pose] };
+    let answer = stage.ask::<GetCosts>("/local_costmap/get_cost_local_costmap", request);
+    assert_eq!((answer.costs.as_slice(), answer.success), (&[254.0][..], false));
+    let services = stage.graph.services();
+    let find = |name: &str| services.iter().find(|one| one.name.ends_with(name));
+    let entirely = find("clear_entirely_local_costmap").unwrap();
+    assert_eq!(entirely.type_hash.as_deref(), Some(ClearEntireCostmap::TYPE_HASH));
+    assert!(find("clear_around_pose_local_costmap").is_none());
+}
+
+#[test]
+fn the_frame_of_the_robot_must_have_a_transform() {
+    let mut stage = Stage::local();
+    stage.advance(1);
+    stage.place("odom", 0.05);
+    stage.advance(200);
+    let set = |stage: &Stage, frame: &str| {
+        let value = ParameterValue {
+            r#type: ParameterType::PARAMETER_STRING,
+            string_value: frame.into(),
+            ..ParameterValue::default()
+        };
+        let parameters = vec![Parameter { name: "robot_base_frame".into(), value }];
+        let name = "/local_costmap/local_costmap/set_parameters";
+        let answer = stage.ask::<SetParameters>(name, SetParametersRequest { parameters });
+        answer.results[0].clone()
+    };
+    let refused = set(&stage, "nowhere");
+    assert!(!refused.successful);
+    assert!(refused.reason.contains("no transform from `nowhere` to `odom`"), "{}", refused.reason);
+    let before = stage.costmap.status().updates;
+    stage.place("odom", 0.05);
+    stage.advance(400);
+    assert!(stage.costmap.status().updates > before, "the costmap goes on");
+    assert!(set(&stage, "odom").successful);
+}
+
+#[test]
 fn without_a_word_services_have_the_messages_of_jazzy() {
     let mut diagnostics = Diagnostics::new();
     let untold = Config::read([], None, &mut diagnostics);

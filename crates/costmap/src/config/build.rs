@@ -2,13 +2,13 @@
 
 use periplus_params::Values;
 
-use super::{Config, LayerConfig, LayerKind, footprint_of, lattice_of};
+use super::{Config, LayerConfig, LayerKind, SourceConfig, footprint_of, lattice_of};
 use crate::filters::{BinaryFilter, KeepoutFilter, SpeedFilter};
 use crate::layers::{
     ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
     StaticLayer, VoxelLayer,
 };
-use crate::{Layer, LayeredCostmap, Source};
+use crate::{Compat, Frames, Layer, LayeredCostmap, Source};
 
 impl Config {
     /// The costmap.
@@ -30,11 +30,15 @@ impl Config {
         let name = config.name.clone();
         let values = config.values.clone();
         let sources = || {
-            config.sources.iter().map(|one| Source::new(&one.name, one.values.clone())).collect()
+            let source = |one: &SourceConfig| {
+                Source::new(&one.name, one.values.clone()).with_compat(self.compat)
+            };
+            config.sources.iter().map(source).collect()
         };
         match config.kind {
             LayerKind::Static => {
-                Box::new(StaticLayer::new(name, values, MapMeaning::read(&self.node, self.compat)))
+                let meaning = MapMeaning::read(&self.node, self.compat);
+                Box::new(StaticLayer::new(name, values, meaning, self.compat))
             }
             LayerKind::Obstacle => {
                 Box::new(ObstacleLayer::new(name, values, tracks_unknown, sources()))
@@ -54,12 +58,18 @@ impl Config {
     }
 
     /// What changed parameters of the node do to a costmap that runs. Kinds and ranges have been
-    /// checked.
+    /// checked. The frame of the robot may only become one that `frames` has a transform to.
     ///
     /// # Errors
     /// Why they cannot be, in words; nothing has changed then.
-    pub fn change(&mut self, costmap: &mut LayeredCostmap, values: Values) -> Result<(), String> {
-        refuse(&self.node, &values)?;
+    pub fn change(
+        &mut self,
+        costmap: &mut LayeredCostmap,
+        values: Values,
+        frames: &dyn Frames,
+    ) -> Result<(), String> {
+        refuse(&self.node, &values, self.compat)?;
+        refuse_lost_robot(&self.node, &values, frames)?;
         let is_other =
             |names: &[&str]| names.iter().any(|name| values.get(name) != self.node.get(name));
         let has_outline = is_other(&["footprint", "robot_radius", "footprint_padding"]);
@@ -81,6 +91,21 @@ impl Config {
     }
 }
 
+/// A frame of the robot without a transform would end all updates.
+fn refuse_lost_robot(before: &Values, after: &Values, frames: &dyn Frames) -> Result<(), String> {
+    let (base, global) = (after.text("robot_base_frame"), after.text("global_frame"));
+    let (base, global) = (base.unwrap_or_default(), global.unwrap_or_default());
+    if before.text("robot_base_frame").as_ref() == Some(&base)
+        || frames.latest(&global, &base).is_some()
+    {
+        return Ok(());
+    }
+    let kept = before.text("robot_base_frame").unwrap_or_default();
+    Err(format!(
+        "there is no transform from `{base}` to `{global}`; `robot_base_frame` stays `{kept}`"
+    ))
+}
+
 /// Parameters that only count at the start.
 const FIXED: [&str; 8] = [
     "plugins",
@@ -94,7 +119,7 @@ const FIXED: [&str; 8] = [
 ];
 
 /// Which changes are refused while a costmap runs.
-fn refuse(before: &Values, after: &Values) -> Result<(), String> {
+fn refuse(before: &Values, after: &Values, compat: Compat) -> Result<(), String> {
     for name in FIXED {
         if before.get(name) != after.get(name) {
             return Err(format!("`{name}` cannot be changed while the costmap runs"));
@@ -102,7 +127,10 @@ fn refuse(before: &Values, after: &Values) -> Result<(), String> {
     }
     // At the start it may be anything, and 0 or less means never.
     let publish_hz = after.number("publish_frequency").unwrap_or_default();
-    if before.number("publish_frequency") != Some(publish_hz) && publish_hz <= 0.0 {
+    if compat.refuses_to_stop_publishing()
+        && before.number("publish_frequency") != Some(publish_hz)
+        && publish_hz <= 0.0
+    {
         return Err("`publish_frequency` must be above 0 while the costmap runs".into());
     }
     Ok(())

@@ -48,7 +48,9 @@ impl KeepoutFilter {
     fn take(&mut self, values: Values) {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
-        let cost = values.integer("lethal_override_cost").unwrap_or(252).clamp(0, 252) as u8;
+        let cost = values.integer("lethal_override_cost").unwrap_or(252);
+        // Negative ones become large ones without a sign before they are limited.
+        let cost = if (0..=252).contains(&cost) { cost as u8 } else { 252 };
         self.leaving_cost = flag("override_lethal_cost").then_some(cost);
         self.values = values;
         self.has_changed = true;
@@ -114,7 +116,7 @@ impl Layer for KeepoutFilter {
     }
 
     fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
-        if !self.is_enabled {
+        if !self.is_enabled || !moment.compat.updates_keepout_zones() {
             return;
         }
         if self.leaving_cost.is_some() {
@@ -149,7 +151,9 @@ impl Layer for KeepoutFilter {
             return;
         };
         self.was_lost = false;
-        let zone_cost = self.leaving_cost.filter(|_| self.is_inside(moment));
+        let zone_cost = self
+            .leaving_cost
+            .filter(|_| moment.compat.updates_keepout_zones() && self.is_inside(moment));
         let lattice = *master.lattice();
         let finder = mask.grid.lattice.finder();
         // Only where the mask is.

@@ -96,8 +96,9 @@ impl SpeedFilter {
         Ok(if is_possible { limit } else { 0.0 })
     }
 
-    /// The lowest limit from here along the path.
-    fn limit_ahead(&mut self, moment: &Moment<'_>) -> f64 {
+    /// The lowest limit from here along the path; an error where the mask says nothing of the robot's
+    /// own cell.
+    fn limit_ahead(&mut self, moment: &Moment<'_>) -> Result<f64, &'static str> {
         let number = |name: &str| self.values.number(name).unwrap_or_default();
         let shortest_m = number("min_lookahead").max(0.0);
         let longest_m = number("max_lookahead").max(shortest_m);
@@ -109,7 +110,7 @@ impl SpeedFilter {
         }
         self.held_m = 0.0;
         self.reached = self.nearest(moment.robot);
-        let Ok(here) = self.limit_at(moment, moment.robot) else { return 0.0 };
+        let here = self.limit_at(moment, moment.robot)?;
         let mut lowest = if here == 0.0 { f64::INFINITY } else { here };
         let mut along_m = 0.0;
         for index in self.reached..self.path.len() {
@@ -130,17 +131,20 @@ impl SpeedFilter {
         if lowest != here {
             self.held_m = reach_m;
         }
-        lowest
+        Ok(lowest)
     }
 
-    /// The point of the path that is nearest, from where the robot was on it.
+    /// The start of the segment of the path that is nearest, from where the robot was on it.
     fn nearest(&self, robot: Pose2) -> usize {
-        let distance = |index: &usize| {
-            let [x_m, y_m] = self.path[*index];
-            libm::hypot(x_m - robot.x_m, y_m - robot.y_m)
-        };
         let from = if self.reached < self.path.len() { self.reached } else { 0 };
-        (from..self.path.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+        let mut found = (f64::INFINITY, from);
+        for index in from..self.path.len().saturating_sub(1) {
+            let distance_m = distance_to_segment(robot, self.path[index], self.path[index + 1]);
+            if distance_m < found.0 {
+                found = (distance_m, index);
+            }
+        }
+        found.1
     }
 
     fn complain(&mut self, why: &'static str) {
@@ -153,6 +157,19 @@ impl SpeedFilter {
                 .note("the last limit holds"),
         );
     }
+}
+
+/// Distance of a robot from the line between two points \[m\].
+fn distance_to_segment(robot: Pose2, start: [f64; 2], end: [f64; 2]) -> f64 {
+    let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
+    let (dx, dy) = (robot.x_m - start[0], robot.y_m - start[1]);
+    let length_squared = along_x * along_x + along_y * along_y;
+    let part = if length_squared > 0.0 {
+        ((dx * along_x + dy * along_y) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    libm::hypot(dx - part * along_x, dy - part * along_y)
 }
 
 impl Masked for SpeedFilter {
@@ -187,14 +204,16 @@ impl Layer for SpeedFilter {
         if !self.is_enabled || self.mask.is_none() || self.info.is_none() {
             return;
         }
-        let looks_ahead = self.values.flag("enable_path_lookahead").unwrap_or_default();
+        let looks_ahead = moment.compat.looks_ahead_on_paths()
+            && self.values.flag("enable_path_lookahead").unwrap_or_default();
         let limit = if looks_ahead && !self.path.is_empty() {
             self.limit_ahead(moment)
         } else {
-            match self.limit_at(moment, moment.robot) {
-                Ok(limit) => limit,
-                Err(why) => return self.complain(why),
-            }
+            self.limit_at(moment, moment.robot)
+        };
+        let limit = match limit {
+            Ok(limit) => limit,
+            Err(why) => return self.complain(why),
         };
         self.complained_of = None;
         if limit != self.last {

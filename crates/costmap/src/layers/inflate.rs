@@ -94,10 +94,14 @@ impl Layer for InflationLayer {
         &self.name
     }
 
-    fn bounds(&mut self, _moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
         let last = std::mem::replace(&mut self.last, *bounds);
         if std::mem::take(&mut self.must_redo) {
             *bounds = Bounds::ALL;
+            if moment.compat.forgets_bounds_when_redone() {
+                // The whole map has just been inflated: nothing of this update must be done again.
+                self.last = Bounds::EMPTY;
+            }
         } else {
             // What has gone must lose its costs, too.
             bounds.include(&last);

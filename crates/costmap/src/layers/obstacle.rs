@@ -8,6 +8,7 @@ use periplus_params::Values;
 
 use super::repeats::Repeats;
 use super::sight::{Sight, complain_of_sensor, delegate_to_sight};
+use crate::compat::RangeMeasure;
 use crate::cost::{FREE, LETHAL};
 use crate::observation::{Counters, Span};
 use crate::trace::Pen;
@@ -185,9 +186,14 @@ impl Marker {
         counters: &mut Counters,
         bounds: &mut Bounds,
     ) {
-        let [ox, oy, _] = seen.origin;
+        let [ox, oy, oz] = seen.origin;
         let finder = grid.finder();
-        let Some(start) = finder.cell_of(ox, oy) else { return };
+        let measure = self.compat.range_measure();
+        // Cells from the sensor are counted where it has one; measured in space it needs none.
+        let start = finder.cell_of(ox, oy).filter(|_| measure != RangeMeasure::Space);
+        if start.is_none() && measure != RangeMeasure::Space {
+            return;
+        }
         let width = grid.lattice().width;
         let Span { min_m, max_m } = seen.marks;
         let (nearest, furthest) = (grid.cells_along(min_m), grid.cells_along(max_m));
@@ -202,31 +208,42 @@ impl Marker {
                 counters.layer_too_high += 1;
                 continue;
             }
-            if self.compat.measures_marks_in_metres() {
-                let squared = (px - ox) * (px - ox) + (py - oy) * (py - oy);
-                if squared > max_m * max_m {
-                    counters.too_far += 1;
-                    continue;
+            let (dx, dy, dz) = (px - ox, py - oy, pz - oz);
+            let (is_too_far, is_too_near) = match measure {
+                RangeMeasure::Cells => (false, false),
+                RangeMeasure::GroundAndCells => {
+                    let squared = dx * dx + dy * dy;
+                    (squared > max_m * max_m, squared < min_m * min_m)
                 }
-                if squared < min_m * min_m {
-                    counters.too_near += 1;
-                    continue;
+                RangeMeasure::Space => {
+                    let squared = dx * dx + dy * dy + dz * dz;
+                    (squared >= max_m * max_m, squared < min_m * min_m)
                 }
+            };
+            if is_too_far {
+                counters.too_far += 1;
+                continue;
+            }
+            if is_too_near {
+                counters.too_near += 1;
+                continue;
             }
             let Some((x, y)) = finder.cell_of(px, py) else {
                 counters.outside += 1;
                 continue;
             };
-            // The same measure by which rays are cut.
-            let (columns, rows) = (x.abs_diff(start.0) as f64, y.abs_diff(start.1) as f64);
-            let cells = (columns * columns + rows * rows).sqrt() as u32;
-            if cells > furthest {
-                counters.too_far += 1;
-                continue;
-            }
-            if cells < nearest {
-                counters.too_near += 1;
-                continue;
+            if let Some(start) = start {
+                // The same measure by which rays are cut.
+                let (columns, rows) = (x.abs_diff(start.0) as f64, y.abs_diff(start.1) as f64);
+                let cells = (columns * columns + rows * rows).sqrt() as u32;
+                if cells > furthest {
+                    counters.too_far += 1;
+                    continue;
+                }
+                if cells < nearest {
+                    counters.too_near += 1;
+                    continue;
+                }
             }
             counters.marked += 1;
             let index = y * width + x;

@@ -385,7 +385,6 @@ impl Layer for RangeLayer {
     fn reset(&mut self) {
         self.grid.reset();
         self.readings.clear();
-        self.extra = Some(Bounds::of(self.grid.lattice()));
         self.is_waiting = true;
     }
 

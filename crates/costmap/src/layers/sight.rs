@@ -21,6 +21,8 @@ pub(crate) struct Sight {
     clears_footprint: bool,
     pub(crate) heights: Span,
     combination: Combination,
+    /// A number that Humble does not know: there the layer writes nothing.
+    is_late_combination: bool,
     pub(crate) grid: Costmap,
     pub(crate) sources: Vec<Source>,
     pub(crate) trace: Trace,
@@ -45,6 +47,7 @@ impl Sight {
             clears_footprint: true,
             heights: Span::default(),
             combination: Combination::Max,
+            is_late_combination: false,
             grid: Costmap::empty(if tracks_unknown { UNKNOWN } else { FREE }),
             sources,
             trace: Trace::default(),
@@ -66,6 +69,7 @@ impl Sight {
             Span { min_m: number("min_obstacle_height"), max_m: number("max_obstacle_height") };
         let method = values.integer("combination_method").unwrap_or(1);
         self.combination = Combination::from_number(method);
+        self.is_late_combination = !(0..=1).contains(&method);
         if !(0..=2).contains(&method) {
             self.complaints.push(
                 Diagnostic::warning(
@@ -73,7 +77,7 @@ impl Sight {
                     format!("`{}.combination_method` is {method}, taken as 1", self.name),
                 )
                 .at(values.origin("combination_method"))
-                .note("0 overwrites, 1 is the maximum, 2 the maximum of what is known"),
+                .note("0 overwrites, 1 is the maximum, 2 the maximum of what is known; with `compat: humble` only 0 and 1 write anything"),
             );
         }
         self.values = values;
@@ -115,7 +119,7 @@ impl Sight {
         }
     }
 
-    pub(crate) fn costs(&mut self, master: &mut Costmap, window: Window) {
+    pub(crate) fn costs(&mut self, compat: Compat, master: &mut Costmap, window: Window) {
         if !self.is_enabled {
             return;
         }
@@ -127,15 +131,15 @@ impl Sight {
                 self.grid.set(cell, FREE);
             }
         }
-        self.combination.apply(master, &self.grid, &window);
+        if compat.knows_max_of_known() || !self.is_late_combination {
+            self.combination.apply(master, &self.grid, &window);
+        }
     }
 
     pub(crate) fn reset(&mut self) {
         self.grid.reset();
         self.trace.forget();
         self.is_waiting = true;
-        let all = Bounds::of(self.grid.lattice());
-        self.extra = Some(all);
     }
 
     pub(crate) fn clear_area(
@@ -251,8 +255,8 @@ macro_rules! delegate_to_sight {
         fn sources_mut(&mut self) -> &mut [Source] {
             &mut self.sight.sources
         }
-        fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
-            self.sight.costs(master, window);
+        fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+            self.sight.costs(moment.compat, master, window);
         }
         fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
             self.sight.clear_area(start, end, invert, compat);

@@ -9,6 +9,7 @@ use periplus_grid::{Cell, Lattice, OccupancyGrid};
 use periplus_params::Values;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
+use crate::costmap::half_size_m;
 use crate::polygon::Columns;
 use crate::{Bounds, Combination, Compat, Costmap, Explanation, Layer, Moment, Window};
 
@@ -77,6 +78,7 @@ pub struct StaticLayer {
     name: String,
     values: Values,
     meaning: MapMeaning,
+    compat: Compat,
     is_enabled: bool,
     clears_footprint: bool,
     restores_footprint: bool,
@@ -98,11 +100,17 @@ pub struct StaticLayer {
 impl StaticLayer {
     /// From parameters of [`crate::tables::STATIC`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values, meaning: MapMeaning) -> Self {
+    pub fn new(
+        name: impl Into<String>,
+        values: Values,
+        meaning: MapMeaning,
+        compat: Compat,
+    ) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
             meaning,
+            compat,
             is_enabled: true,
             clears_footprint: false,
             restores_footprint: true,
@@ -124,8 +132,9 @@ impl StaticLayer {
     fn take(&mut self, values: Values) {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
+        self.restores_footprint =
+            self.compat.restores_cleared_footprint() && flag("restore_cleared_footprint");
         self.clears_footprint = flag("footprint_clearing_enabled");
-        self.restores_footprint = flag("restore_cleared_footprint");
         self.values = values;
         self.has_changed = true;
     }
@@ -294,8 +303,10 @@ impl Layer for StaticLayer {
         if !moment.is_rolling && !std::mem::take(&mut self.has_changed) {
             return;
         }
-        if moment.is_rolling {
-            bounds.include(&Bounds::of(&moment.lattice));
+        if moment.is_rolling && moment.compat.follows_robot_with_map() {
+            let (half_width_m, half_height_m) = half_size_m(&moment.lattice, moment.compat);
+            bounds.touch(moment.robot.x_m - half_width_m, moment.robot.y_m - half_height_m);
+            bounds.touch(moment.robot.x_m + half_width_m, moment.robot.y_m + half_height_m);
         } else {
             // As far as the reference goes: the centres of the first cell and of one past the last.
             let lattice = self.grid.lattice();
@@ -394,6 +405,15 @@ impl Layer for StaticLayer {
             if values.get(fixed) != self.values.get(fixed) {
                 return Err(format!("`{fixed}` cannot be changed while the costmap runs"));
             }
+        }
+        let restores = values.get("restore_cleared_footprint");
+        if self.compat.guards_restore_parameter()
+            && !self.clears_footprint
+            && restores != self.values.get("restore_cleared_footprint")
+        {
+            return Err("`restore_cleared_footprint` cannot be changed while \
+                 `footprint_clearing_enabled` is false; set that first"
+                .into());
         }
         self.take(values);
         Ok(())

@@ -120,6 +120,11 @@ impl VoxelLayer {
         self.sight.sources.push(source);
     }
 
+    /// Its own cells, to be changed by hand; the voxels stay.
+    pub fn grid_mut(&mut self) -> &mut Costmap {
+        &mut self.sight.grid
+    }
+
     /// The voxels.
     #[must_use]
     pub fn voxels(&self) -> &VoxelGrid {
@@ -187,7 +192,7 @@ impl VoxelLayer {
         }
     }
 
-    fn mark(&mut self, bounds: &mut Bounds) {
+    fn mark(&mut self, compat: Compat, bounds: &mut Bounds) {
         let sight = &mut self.sight;
         for source in sight.sources.iter_mut().filter(|source| source.settings.is_marking) {
             for (index, seen) in source.observations.iter().enumerate() {
@@ -195,7 +200,11 @@ impl VoxelLayer {
                 let is_first = index < source.fresh;
                 let counters = if is_first { &mut source.counters } else { &mut unseen };
                 let pen = sight.trace.pen(&source.name, seen, true);
-                let marker = Marker { columns: self.columns, heights: sight.heights };
+                let mut heights = sight.heights;
+                if !compat.has_lowest_voxel_height() {
+                    heights.min_m = f64::NEG_INFINITY;
+                }
+                let marker = Marker { columns: self.columns, heights };
                 marker.mark(&mut sight.grid, &mut self.voxels, pen, seen, counters, bounds);
             }
         }
@@ -217,7 +226,7 @@ impl Layer for VoxelLayer {
             ends.clear();
         }
         self.clear(moment, bounds);
-        self.mark(bounds);
+        self.mark(moment.compat, bounds);
         self.sight.end(moment, bounds);
     }
 
@@ -342,6 +351,8 @@ struct Rays {
     low: [f64; 3],
     high: [f64; 3],
     shorter_m: f64,
+    /// Part of a cut ray that is left out at its end.
+    margin: f64,
 }
 
 impl Rays {
@@ -350,7 +361,8 @@ impl Rays {
         let low = [lattice.origin.x_m, lattice.origin.y_m, columns.origin_z_m];
         let high =
             [low[0] + length(lattice.width), low[1] + length(lattice.height), columns.top_m()];
-        Self { origin, low, high, shorter_m: 2.0 * lattice.resolution_m }
+        let margin = if compat.shortens_cut_rays() { WITHIN_EDGE } else { 0.0 };
+        Self { origin, low, high, shorter_m: 2.0 * lattice.resolution_m, margin }
     }
 
     /// The end of the ray to a point: two cells before it, so that it does not clear the obstacle
@@ -388,9 +400,9 @@ impl Rays {
             return end;
         }
         if t > 0.0 {
-            t -= WITHIN_EDGE;
+            t -= self.margin;
         } else if t < 0.0 {
-            t += WITHIN_EDGE;
+            t += self.margin;
         }
         [ox + along[0] * t, oy + along[1] * t, oz + along[2] * t]
     }

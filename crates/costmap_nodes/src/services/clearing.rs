@@ -24,7 +24,7 @@ pub(super) fn serve(actor: &mut Actor<State>, name: &str, forms: Compat) -> Resu
     let around = format!("clear_around_{name}");
     let except = format!("clear_except_{name}");
     let around_pose = format!("clear_around_pose_{name}");
-    if forms == Compat::Main {
+    if forms.clears_by_name() {
         use nav2_msgs_main::{
             ClearCostmapAroundPose, ClearCostmapAroundPoseResponse, ClearCostmapAroundRobot,
             ClearCostmapAroundRobotResponse, ClearCostmapExceptRegion,
@@ -93,7 +93,7 @@ pub(super) fn serve(actor: &mut Actor<State>, name: &str, forms: Compat) -> Resu
             },
             |_| Default::default(),
         )?;
-        if forms == Compat::Humble {
+        if !forms.clears_around_poses() {
             return Ok(());
         }
         one::<ClearCostmapAroundPose>(
@@ -141,6 +141,11 @@ impl State {
             (_, None) => Err("nobody knows where that is: a transform is missing".to_owned()),
             (Some(costmap), Some(region)) => clear(costmap, region, wish.plugins),
         };
+        if wish.region == Some(Region::Everything)
+            && let Some(outputs) = &mut self.outputs
+        {
+            outputs.start_over();
+        }
         match &done {
             Ok(()) => node.log(Level::Info, "cleared"),
             Err(why) => node.log(Level::Error, format_args!("cannot clear: {why}")),
