@@ -2,10 +2,12 @@
 
 use serde_json::Value;
 
+use crate::expected::Expected;
 use crate::reader::{Reader, Unreadable};
+use crate::used::Used;
 
 /// What a case says.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Case {
     /// The name of the file.
     pub file: String,
@@ -20,6 +22,7 @@ pub struct Case {
     /// How far a number may be off; without it whole numbers are exact and others to 1e-6.
     pub tolerance: Option<f64>,
     content: Value,
+    used: Used,
 }
 
 /// How far numbers that are not whole may be off.
@@ -33,33 +36,41 @@ impl Case {
     pub fn read(file: &str, text: &str) -> Result<Self, Unreadable> {
         let content: Value =
             serde_json::from_str(text).map_err(|error| Unreadable(format!("no JSON: {error}")))?;
-        let reader = Reader::new(&content, "case");
+        let used = Used::default();
+        let reader = Reader::new(&content, &used, "case");
         let word = |name: &str| Ok(reader.get(name)?.text()?.to_owned());
+        for about in ["source", "basis", "title"] {
+            if let Some(about) = reader.find(about) {
+                about.skip();
+            }
+        }
         let applies_to = match reader.find("applies_to") {
             Some(list) => list.each(|it| Ok(it.text()?.to_owned()))?,
             None => Vec::new(),
         };
-        Ok(Self {
-            file: file.to_owned(),
-            id: word("id")?,
-            kind: word("kind")?,
-            title: word("title").unwrap_or_default(),
-            applies_to,
-            tolerance: reader.find("tolerance").map(|it| it.number()).transpose()?,
-            content,
-        })
+        let (id, kind) = (word("id")?, word("kind")?);
+        let title = word("title").unwrap_or_default();
+        let tolerance = reader.find("tolerance").map(|it| it.number()).transpose()?;
+        Ok(Self { file: file.to_owned(), id, kind, title, applies_to, tolerance, content, used })
     }
 
     /// What is given.
     #[must_use]
     pub fn given(&self) -> Reader<'_> {
-        Reader::new(&self.content["given"], "given")
+        Reader::new(&self.content["given"], &self.used, "given")
     }
 
     /// What to expect.
     #[must_use]
-    pub fn expect(&self) -> Reader<'_> {
-        Reader::new(&self.content["expect"], "expect")
+    pub fn expect(&self) -> Expected<'_> {
+        Expected::new(Reader::new(&self.content["expect"], &self.used, "expect"))
+    }
+
+    /// The paths of what no check of this case has used yet.
+    #[must_use]
+    pub fn unused(&self) -> Vec<String> {
+        let unused = self.used.unused(&self.content, "");
+        unused.into_iter().map(|path| path.trim_start_matches('.').to_owned()).collect()
     }
 
     /// How far a number that is not whole may be off.

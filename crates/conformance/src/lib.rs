@@ -22,14 +22,18 @@
 
 mod case;
 mod differences;
+mod expected;
 pub mod kinds;
 mod reader;
 mod report;
 mod run;
+mod used;
 
 pub use case::Case;
-pub use differences::Differences;
+pub use differences::{Differences, number, numbers};
+pub use expected::Expected;
 pub use kinds::{Check, Setting};
 pub use reader::{Reader, Unreadable};
 pub use report::{Report, Tally};
-pub use run::{NoCases, Outcome, Verdict, run};
+pub use run::{NoCases, Outcome, Verdict, run, run_text};
+pub use used::Used;

@@ -93,7 +93,8 @@ impl Report {
             let words = match result.verdict {
                 Verdict::Failed => "failed",
                 Verdict::Unreadable => "not understood",
-                Verdict::Passed | Verdict::Unknown => continue,
+                Verdict::Unknown => "not checked",
+                Verdict::Passed => continue,
             };
             let _ = writeln!(text, "\n{} ({}): {words}", result.id, result.file);
             for difference in &result.differences {
@@ -109,7 +110,7 @@ impl Report {
         let tally = |it: Tally| {
             json!({
                 "cases": it.all(), "passed": it.passed, "failed": it.failed + it.unreadable,
-                "not_checked": it.unknown,
+                "not_checked": it.unknown, "not_understood": it.unreadable,
             })
         };
         let kinds: serde_json::Map<String, Value> =

@@ -18,7 +18,7 @@ pub enum Verdict {
     Passed,
     /// Something is not.
     Failed,
-    /// Nobody checks this kind yet.
+    /// No check has this kind.
     Unknown,
     /// The file is no case, or not one that its check understands.
     Unreadable,
@@ -77,21 +77,49 @@ fn one(file: &str, setting: &Setting<'_>) -> Outcome {
     let text = text
         .map_err(|error| error.to_string())
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text".to_owned()));
-    let case = text.and_then(|text| Case::read(file, &text).map_err(|error| error.0));
-    match case {
-        Ok(case) => judge(&case, setting),
-        Err(words) => Outcome {
-            file: file.into(),
-            id: file.trim_end_matches(".json").into(),
-            kind: String::new(),
-            title: String::new(),
-            verdict: Verdict::Unreadable,
-            differences: vec![words],
-        },
+    match text {
+        Ok(text) => run_text(file, &text, setting),
+        Err(words) => no_case(file, words),
     }
 }
 
-/// A case is passed when it is for every distribution that it names.
+/// Runs the case that a text holds, as a file of that name would.
+#[must_use]
+pub fn run_text(file: &str, text: &str, setting: &Setting<'_>) -> Outcome {
+    match Case::read(file, text) {
+        Ok(case) => judge(&case, setting),
+        Err(error) => no_case(file, error.0),
+    }
+}
+
+fn no_case(file: &str, words: String) -> Outcome {
+    Outcome {
+        file: file.into(),
+        id: file.trim_end_matches(".json").into(),
+        kind: String::new(),
+        title: String::new(),
+        verdict: Verdict::Unreadable,
+        differences: vec![words],
+    }
+}
+
+/// Distributions that cases may name.
+const DISTROS: [&str; 11] = [
+    "kinetic",
+    "melodic",
+    "noetic",
+    "humble",
+    "iron",
+    "jazzy-1.3.10",
+    "jazzy",
+    "kilted",
+    "lyrical",
+    "rolling",
+    "main",
+];
+
+/// A case is passed when it is for every distribution that it names, and when nothing in it has gone
+/// without influence.
 fn judge(case: &Case, setting: &Setting<'_>) -> Outcome {
     let outcome = |verdict, differences| Outcome {
         file: case.file.clone(),
@@ -102,33 +130,41 @@ fn judge(case: &Case, setting: &Setting<'_>) -> Outcome {
         differences,
     };
     let Some((_, check)) = KINDS.iter().find(|(kind, _)| *kind == case.kind) else {
-        return outcome(Verdict::Unknown, Vec::new());
+        let known: Vec<&str> = KINDS.iter().map(|(kind, _)| *kind).collect();
+        let words = format!("the kind `{}` is not known; known: {}", case.kind, known.join(", "));
+        return outcome(Verdict::Unknown, vec![words]);
     };
-    let mut distros = case.applies_to.clone();
-    if distros.is_empty() {
-        distros.push("main".into());
+    let (mut puzzles, mut words, mut is_empty) = (BTreeSet::new(), Vec::new(), true);
+    if case.applies_to.is_empty() {
+        puzzles.insert("`applies_to` names no distribution".to_owned());
     }
-    let (mut told, mut verdict) = (BTreeSet::new(), Verdict::Passed);
-    let mut words = Vec::new();
-    for distro in &distros {
+    for distro in &case.applies_to {
+        if !DISTROS.contains(&distro.as_str()) {
+            puzzles.insert(format!(
+                "the distribution `{distro}` is not known; known: {}",
+                DISTROS.join(", ")
+            ));
+            continue;
+        }
         let mut differences = Differences::new(case);
-        match check(case, distro, setting, &mut differences) {
-            Err(error) => {
-                verdict = Verdict::Unreadable;
-                words.push(error.0);
-                break;
-            }
-            Ok(()) if differences.is_passed() => {}
-            Ok(()) => {
-                verdict = verdict.max(Verdict::Failed);
-                for difference in differences.into_words() {
-                    // Those that all have are said once.
-                    if told.insert(difference.clone()) {
-                        words.push(format!("{distro}: {difference}"));
-                    }
-                }
-            }
+        if let Err(error) = check(case, distro, setting, &mut differences) {
+            puzzles.insert(error.0);
+            continue;
+        }
+        is_empty &= differences.is_empty();
+        puzzles.extend(differences.unknown().iter().map(|name| format!("unknown name: {name}")));
+        words.extend(differences.into_words().into_iter().map(|it| format!("{distro}: {it}")));
+    }
+    // What a check does not get to because it gives up is no news.
+    if puzzles.is_empty() {
+        puzzles.extend(case.unused().iter().map(|path| format!("nothing reads `{path}`")));
+        if is_empty {
+            puzzles.insert("nothing was compared".to_owned());
         }
     }
+    if !puzzles.is_empty() {
+        return outcome(Verdict::Unreadable, puzzles.into_iter().chain(words).collect());
+    }
+    let verdict = if words.is_empty() { Verdict::Passed } else { Verdict::Failed };
     outcome(verdict, words)
 }

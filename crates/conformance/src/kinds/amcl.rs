@@ -3,17 +3,20 @@
 use periplus_base::{Pose2, normalize_angle};
 use periplus_grid::{Grid, Lattice};
 use periplus_localization::{
-    BIN_M, BIN_RAD, CellPlace, CellState, Compat, Glide, KnownMap, Mixture, Model, Recovery,
+    AMCL, BIN_M, BIN_RAD, CellPlace, CellState, Compat, Glide, KnownMap, Mixture, Model, Recovery,
     SampleSize, SavedPose, Settings, TurnWayTurn, has_moved, weight_of_cubes, weight_of_product,
 };
 
+use periplus_params::Value as Parameter;
+use serde_json::{Value, json};
+
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Reader, Unreadable, number, numbers};
 
 type Checked = Result<(), Unreadable>;
 
 /// A number, or what it is by default.
-fn number(given: &Reader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
+fn usual(given: &Reader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
     given.find(name).map_or(Ok(usual), |it| it.number())
 }
 
@@ -22,15 +25,27 @@ fn count(given: &Reader<'_>, name: &str, usual: usize) -> Result<usize, Unreadab
     given.find(name).map_or(Ok(usual), |it| it.count())
 }
 
+/// Parameters of AMCL that a case lists for the record count as used: which of them have an influence
+/// depends on the kind.
+fn use_parameters(given: &Reader<'_>) -> Result<(), Unreadable> {
+    for parameter in AMCL.parameters {
+        let Some(value) = given.find(parameter.name) else { continue };
+        Parameter::read(parameter, &value.written()).map_err(|why| {
+            value.unreadable(&format!("a value for `{}`: it {why}", parameter.name))
+        })?;
+    }
+    Ok(())
+}
+
 fn mixture(given: &Reader<'_>) -> Result<Mixture, Unreadable> {
     let usual = Settings::default().mixture;
     Ok(Mixture {
-        hit: number(given, "z_hit", usual.hit)?,
-        short: number(given, "z_short", usual.short)?,
-        max: number(given, "z_max", usual.max)?,
-        random: number(given, "z_rand", usual.random)?,
-        sigma_m: number(given, "sigma_hit", usual.sigma_m)?,
-        lambda: number(given, "lambda_short", usual.lambda)?,
+        hit: self::usual(given, "z_hit", usual.hit)?,
+        short: self::usual(given, "z_short", usual.short)?,
+        max: self::usual(given, "z_max", usual.max)?,
+        random: self::usual(given, "z_rand", usual.random)?,
+        sigma_m: self::usual(given, "sigma_hit", usual.sigma_m)?,
+        lambda: self::usual(given, "lambda_short", usual.lambda)?,
     })
 }
 
@@ -42,7 +57,7 @@ fn pose(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
 /// Which model a case is about: it says so, or its name does.
 fn model(case: &Case) -> Result<Model, Unreadable> {
     let given = case.given();
-    let named = ["laser_model_type", "model"].iter().find_map(|name| given.find(name));
+    let named = given.find_any(&["laser_model_type", "model"]);
     let word = named.map_or(Ok(case.id.as_str()), |it| it.text())?;
     Ok(if word.contains("prob") { Model::LikelihoodFieldProb } else { Model::LikelihoodField })
 }
@@ -55,17 +70,19 @@ pub(super) fn check_beam(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
+    use_parameters(&given)?;
     let mixture = mixture(&given)?;
     let range_max_m = given.get("range_max")?.number()?;
     let pairs = given.get("pairs")?.each(Reader::array::<2>)?;
     let likelihoods: Vec<f64> =
         pairs.iter().map(|[measured, map]| mixture.beam(*measured, *map, range_max_m)).collect();
-    if let Some(expected) = expect.find("p") {
-        differences.all_near("p", &likelihoods, &expected.numbers()?);
-    }
-    if let Some(expected) = expect.find("weight") {
-        differences.near("weight", weight_of_cubes(likelihoods), expected.number()?);
-    }
+    differences.compare_members(
+        &[
+            (&["p"], numbers(likelihoods.iter().copied())),
+            (&["weight"], number(weight_of_cubes(likelihoods))),
+        ],
+        &expect,
+    );
     Ok(())
 }
 
@@ -77,24 +94,20 @@ pub(super) fn check_likelihood(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
+    use_parameters(&given)?;
     let mixture = mixture(&given)?;
     let range_max_m = given.get("range_max")?.number()?;
-    let outside_m =
-        number(&given, "laser_likelihood_max_dist", Settings::default().distance_max_m)?;
+    let outside_m = usual(&given, "laser_likelihood_max_dist", Settings::default().distance_max_m)?;
     let likelihoods = given.get("occ_dist")?.each(|distance| {
         let distance_m = if distance.is_null() { outside_m } else { distance.number()? };
         Ok(mixture.field(distance_m, range_max_m))
     })?;
-    if let Some(expected) = expect.find("p") {
-        differences.all_near("p", &likelihoods, &expected.numbers()?);
-    }
-    if let Some(expected) = expect.find("weight") {
-        let weight = match model(case)? {
-            Model::LikelihoodFieldProb => weight_of_product(likelihoods),
-            Model::LikelihoodField | Model::Beam => weight_of_cubes(likelihoods),
-        };
-        differences.near("weight", weight, expected.number()?);
-    }
+    let weight = match model(case)? {
+        Model::LikelihoodFieldProb => weight_of_product(likelihoods.iter().copied()),
+        Model::LikelihoodField | Model::Beam => weight_of_cubes(likelihoods.iter().copied()),
+    };
+    differences
+        .compare_members(&[(&["p"], numbers(likelihoods)), (&["weight"], number(weight))], &expect);
     Ok(())
 }
 
@@ -106,24 +119,24 @@ pub(super) fn check_beams(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
-    let names = ["range_count", "beams", "count", "n"];
-    let total = match (names.iter().find_map(|name| given.find(name)), given.find("ranges")) {
+    use_parameters(&given)?;
+    let named = given.find_any(&["range_count", "beams", "count", "n"]);
+    let total = match (named, given.find("ranges")) {
         (Some(total), _) => total.count()?,
-        (None, Some(ranges)) => ranges.list()?.len(),
+        (None, Some(ranges)) => ranges.numbers()?.len(),
         (None, None) => return Err(given.unreadable("an object with `range_count` or `ranges`")),
     };
     let most = count(&given, "max_beams", Settings::default().beams.most)?;
     let stride = model(case)?.thinning().stride(total, most);
-    if let Some(expected) = ["step", "stride"].iter().find_map(|name| expect.find(name)) {
-        differences.same("step", &stride, &expected.count()?);
-    }
     let used: Vec<usize> = (0..total).step_by(stride).collect();
-    if let Some(expected) = ["indices", "used"].iter().find_map(|name| expect.find(name)) {
-        differences.same("beams used", &used, &expected.each(Reader::count)?);
-    }
-    if let Some(expected) = ["used_beams", "count"].iter().find_map(|name| expect.find(name)) {
-        differences.same("how many are used", &used.len(), &expected.count()?);
-    }
+    differences.compare_members(
+        &[
+            (&["step", "stride"], json!(stride)),
+            (&["used_beams", "count"], json!(used.len())),
+            (&["indices", "used"], json!(used)),
+        ],
+        &expect,
+    );
     Ok(())
 }
 
@@ -135,19 +148,20 @@ pub(super) fn check_kld(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
+    use_parameters(&given)?;
     let usual = Settings::default().size;
     let size = SampleSize {
-        error: number(&given, "pf_err", usual.error)?,
-        quantile: number(&given, "pf_z", usual.quantile)?,
+        error: self::usual(&given, "pf_err", usual.error)?,
+        quantile: self::usual(&given, "pf_z", usual.quantile)?,
         least: count(&given, "min_particles", usual.least)?,
         most: count(&given, "max_particles", usual.most)?,
     };
-    let needed: Vec<usize> =
-        given.get("k")?.each(Reader::count)?.into_iter().map(|bins| size.needed(bins)).collect();
-    differences.same("samples", &needed, &expect.get("samples")?.each(Reader::count)?);
-    if let Some(expected) = expect.find("bin_size") {
-        differences.all_near("bin_size", &[BIN_M, BIN_M, BIN_RAD], &expected.numbers()?);
-    }
+    let bins = given.get("k")?.each(Reader::count)?;
+    let needed: Vec<usize> = bins.into_iter().map(|bins| size.needed(bins)).collect();
+    differences.compare_members(
+        &[(&["samples"], json!(needed)), (&["bin_size"], numbers([BIN_M, BIN_M, BIN_RAD]))],
+        &expect,
+    );
     Ok(())
 }
 
@@ -159,13 +173,27 @@ pub(super) fn check_motion(
     differences: &mut Differences,
 ) -> Checked {
     let given = case.given();
+    use_parameters(&given)?;
     let mut alphas = [0.0; 5];
-    let written = given.get("alpha")?;
-    for (alpha, value) in alphas.iter_mut().zip(written.numbers()?) {
+    let written = given.get_any(&["alpha", "alphas"])?;
+    let values = written.numbers()?;
+    if values.len() > alphas.len() {
+        return Err(written.unreadable("five numbers at most"));
+    }
+    for (alpha, value) in alphas.iter_mut().zip(values) {
         *alpha = value;
     }
-    let (moves, results) = (given.get("moves")?.list()?, case.expect().get("result")?.list()?);
-    differences.same("number of results", &results.len(), &moves.len());
+    let is_omni = match given.find_any(&["robot_model_type", "model"]) {
+        Some(name) => Some(name.text()?.to_ascii_lowercase().contains("omni")),
+        None => None,
+    };
+    let moves = given.get("moves")?.list()?;
+    let expect = case.expect();
+    for (name, expected) in expect.members()?.into_iter().filter(|(name, _)| *name != "result") {
+        differences.not_known(format!("`{name}` at {} (known: `result`)", expected.path()));
+    }
+    let results = expect.get("result")?.list()?;
+    differences.same_count("results", moves.len(), results.len());
     for (index, (motion, expected)) in moves.iter().zip(&results).enumerate() {
         let old = pose(&motion.get("old_pose")?)?;
         let delta = pose(&motion.get("delta")?)?;
@@ -175,8 +203,9 @@ pub(super) fn check_motion(
         let (turns, turns_spread) = (turns, turns.spread(&alphas));
         let glide = Glide::between(old, new);
         let glide_spread = glide.spread(&alphas);
-        let is_glide = ["sd_strafe", "sd_rot", "rot"].iter().any(|it| expected.find(it).is_some());
-        for (name, value) in expected.members()? {
+        let has = |name: &&str| expected.has(name);
+        let is_glide = is_omni.unwrap_or(["sd_strafe", "sd_rot", "rot"].iter().any(has));
+        for (name, expected) in expected.members()? {
             let (got, is_angle) = match name {
                 "rot1" => (turns.first_rad, true),
                 "rot2" => (turns.second_rad, true),
@@ -189,15 +218,19 @@ pub(super) fn check_motion(
                 "sd_strafe" => (glide_spread.strafe_m, false),
                 "rot" => (glide.turn_rad, true),
                 "bearing" => (glide.bearing_rad, true),
-                _ => return Err(value.unreadable("a part of a motion that is known")),
+                _ => {
+                    differences.not_known(format!("`{}`", expected.path()));
+                    continue;
+                }
             };
             let what = format!("move {index}: {name}");
-            let expected = value.number()?;
             if is_angle {
                 // Half a turn to the left is half a turn to the right.
-                differences.near(what, expected + normalize_angle(got - expected), expected);
+                let wanted = expected.input().number()?;
+                let got = wanted + normalize_angle(got - wanted);
+                differences.compare(what, &number(got), &expected);
             } else {
-                differences.near(what, got, expected);
+                differences.compare(what, &number(got), &expected);
             }
         }
     }
@@ -212,10 +245,12 @@ pub(super) fn check_update(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
+    use_parameters(&given)?;
+    let mut named: Vec<(&[&str], Value)> = Vec::new();
     if let Some(means) = given.find("w_avg") {
         let alphas = [
-            number(&given, "recovery_alpha_slow", 0.0)?,
-            number(&given, "recovery_alpha_fast", 0.0)?,
+            usual(&given, "recovery_alpha_slow", 0.0)?,
+            usual(&given, "recovery_alpha_fast", 0.0)?,
         ];
         let mut recovery = Recovery::default();
         let mut lists = [Vec::new(), Vec::new(), Vec::new()];
@@ -224,21 +259,17 @@ pub(super) fn check_update(
             let values = [recovery.slow, recovery.fast, recovery.share()];
             lists.iter_mut().zip(values).for_each(|(list, value)| list.push(value));
         }
-        for (name, got) in ["w_slow", "w_fast", "w_diff"].iter().zip(&lists) {
-            if let Some(expected) = expect.find(name) {
-                differences.all_near(name, got, &expected.numbers()?);
-            }
-        }
+        let names: [&[&str]; 3] = [&["w_slow"], &["w_fast"], &["w_diff"]];
+        named.extend(names.into_iter().zip(lists.map(numbers)));
     }
-    let moves = ["moves", "deltas"].iter().find_map(|name| given.find(name));
-    let updates = ["update", "updates", "result"].iter().find_map(|name| expect.find(name));
-    if let (Some(moves), Some(expected)) = (moves, updates) {
-        let usual = Settings::default().update_min;
+    if let Some(moves) = given.find_any(&["moves", "deltas"]) {
+        let default = Settings::default().update_min;
         let least =
-            (number(&given, "update_min_d", usual.0)?, number(&given, "update_min_a", usual.1)?);
+            (usual(&given, "update_min_d", default.0)?, usual(&given, "update_min_a", default.1)?);
         let got = moves.each(|delta| Ok(has_moved(Pose2::IDENTITY, pose(delta)?, least)))?;
-        differences.same("updates", &got, &expected.each(Reader::truth)?);
+        named.push((&["update", "updates", "result"], json!(got)));
     }
+    differences.compare_members(&named, &expect);
     Ok(())
 }
 
@@ -250,23 +281,32 @@ pub(super) fn check_map(
     differences: &mut Differences,
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
-    let values = ["data", "values", "occupancy"].iter().find_map(|name| given.find(name));
-    let states = ["states", "occ_state", "cells"].iter().find_map(|name| expect.find(name));
-    if let (Some(values), Some(states)) = (values, states) {
-        // -1 may be written as 255.
-        let value = |it: &Reader<'_>| Ok(it.integer()? as i8);
-        let got: Vec<i64> =
-            values.each(value)?.into_iter().map(|it| CellState::of(it).number().into()).collect();
-        differences.same("states of cells", &got, &states.each(Reader::integer)?);
+    use_parameters(&given)?;
+    let mut named: Vec<(&[&str], Value)> = Vec::new();
+    // The grid may be described also where only the states of its cells are asked for.
+    for name in ["width", "height", "size_x", "size_y", "resolution", "origin_x", "origin_y"] {
+        given.find(name).map_or(Ok(0.0), |it| it.number())?;
     }
-    let points = ["points", "world"].iter().find_map(|name| given.find(name));
-    let cells = ["cells", "map", "indices"].iter().find_map(|name| expect.find(name));
-    if let (Some(points), Some(cells)) = (points, cells) {
+    let values = given.find_any(&["data", "values", "occupancy"]);
+    let points = given.find_any(&["points", "world"]);
+    if let Some(values) = &values {
+        // -1 may be written as 255.
+        let state = |it: &Reader<'_>| Ok(CellState::of(it.integer()? as i8).number());
+        let names: &[&str] = match points {
+            Some(_) => &["states", "occ_state"],
+            None => &["states", "occ_state", "cells"],
+        };
+        named.push((names, json!(values.each(state)?)));
+    }
+    if let Some(points) = points {
         let size = |name: &str, other: &str| count(&given, name, count(&given, other, 100)?);
         let (width, height) = (size("width", "size_x")?, size("height", "size_y")?);
         let [x_m, y_m] = match given.find("origin") {
-            Some(origin) => [0, 1].map(|at| origin.value()[at].as_f64().unwrap_or_default()),
-            None => [number(&given, "origin_x", 0.0)?, number(&given, "origin_y", 0.0)?],
+            Some(origin) => match *origin.numbers()?.as_slice() {
+                [x_m, y_m, ..] => [x_m, y_m],
+                _ => return Err(origin.unreadable("two numbers")),
+            },
+            None => [usual(&given, "origin_x", 0.0)?, usual(&given, "origin_y", 0.0)?],
         };
         let resolution_m = given.get("resolution")?.number()?;
         let lattice = Lattice::new(resolution_m, width, height, Pose2::new(x_m, y_m, 0.0))
@@ -277,10 +317,9 @@ pub(super) fn check_map(
             .map_err(|error| Unreadable(error.message))?;
         let got =
             points.each(|point| point.array::<2>().map(|[x_m, y_m]| map.cell_at(x_m, y_m)))?;
-        let expected =
-            cells.each(|cell| cell.array::<2>().map(|it| (it[0] as i64, it[1] as i64)))?;
-        differences.same("cells of points", &got, &expected);
+        named.push((&["cells", "map", "indices"], json!(got)));
     }
+    differences.compare_members(&named, &expect);
     Ok(())
 }
 
@@ -303,10 +342,11 @@ pub(super) fn check_pose_file(
         pose: Pose2::new(number("x")?, number("y")?, number("yaw")?),
         z_m: given.find("z").map_or(Ok(0.0), |it| it.number())?,
     };
-    let text = expect.get("text")?.text()?;
-    differences.same("text", saved.to_text().as_str(), text);
-    match SavedPose::read(text) {
-        Ok(read) => differences.same("text written again", read.to_text().as_str(), text),
+    let text = saved.to_text();
+    differences.compare_members(&[(&["text"], json!(text))], &expect);
+    match SavedPose::read(&text) {
+        Ok(read) if read.to_text() == text => {}
+        Ok(read) => differences.push(format!("read again it is {:?}", read.to_text())),
         Err(error) => differences.push(error.to_string()),
     }
     Ok(())

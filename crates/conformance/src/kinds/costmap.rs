@@ -27,31 +27,94 @@ use serde_json::Value;
 
 use crate::{Reader, Unreadable};
 
-/// Whose habits a distribution has.
-fn compat_of(distro: &str) -> Compat {
-    distro.parse().unwrap_or_default()
+/// The release of Nav2 that a distribution has.
+fn compat_of(distro: &str) -> Result<Compat, Unreadable> {
+    distro.parse().map_err(|why| Unreadable(format!("`applies_to`: {why}")))
 }
 
-/// A value of JSON as a user would write it in YAML.
-fn written(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
-}
-
-/// Parameters of a table; those that it does not have are left out.
-fn values_of(table: &'static Table, params: Option<&Reader<'_>>) -> Result<Values, Unreadable> {
+/// Parameters of a table from the members of an object.
+///
+/// # Errors
+/// When a member is no parameter of this table or one of the `others`, or its value does not fit.
+fn values_of(
+    table: &'static Table,
+    others: &[&'static Table],
+    params: Option<&Reader<'_>>,
+) -> Result<Values, Unreadable> {
     let mut given: Vec<(&str, String)> = Vec::new();
     if let Some(params) = params {
         for (name, value) in params.members()? {
             if table.find(name).is_some() {
-                given.push((name, written(value.value())));
+                given.push((name, value.written()));
+            } else if !others.iter().any(|other| other.find(name).is_some()) {
+                let known: Vec<&str> = table.parameters.iter().map(|it| it.name).collect();
+                let known = known.join(", ");
+                return Err(value.unreadable(&format!("a parameter of {}: {known}", table.name)));
             }
         }
     }
+    let mut diagnostics = Diagnostics::new();
     let given = given.iter().map(|(name, text)| Given::new(name, text.as_str()));
-    Ok(table.check(given, None, &mut Diagnostics::new()))
+    let values = table.check(given, None, &mut diagnostics);
+    // What is missing has a default; what is given must fit.
+    let wrong = diagnostics.iter().find(|it| it.code != "missing-parameter");
+    match (wrong, params) {
+        (Some(wrong), Some(params)) => Err(params.unreadable(&wrong.message)),
+        _ => Ok(values),
+    }
+}
+
+/// The parameters of a table among the members of an object that holds other things as well.
+fn values_among(table: &'static Table, given: &Reader<'_>) -> Result<Values, Unreadable> {
+    let mut diagnostics = Diagnostics::new();
+    let mut found: Vec<(&str, String)> = Vec::new();
+    for parameter in table.parameters {
+        if let Some(value) = given.find(parameter.name) {
+            found.push((parameter.name, value.written()));
+        }
+    }
+    let found = found.iter().map(|(name, text)| Given::new(name, text.as_str()));
+    let values = table.check(found, None, &mut diagnostics);
+    match diagnostics.iter().find(|it| it.code != "missing-parameter") {
+        Some(wrong) => Err(given.unreadable(&wrong.message)),
+        None => Ok(values),
+    }
+}
+
+/// The costs of a grid as rows, the lowest first.
+fn rows_of(costmap: &Costmap) -> Value {
+    let width = costmap.lattice().width.max(1);
+    costmap.costs().chunks(width).map(|row| Value::from(row.to_vec())).collect()
+}
+
+/// How many cells have each cost, by the cost.
+fn counts_of(costmap: &Costmap) -> Value {
+    let mut counts = [0_u64; 256];
+    for cost in costmap.costs() {
+        counts[usize::from(*cost)] += 1;
+    }
+    let named = counts.iter().enumerate().map(|(cost, count)| (cost.to_string(), (*count).into()));
+    Value::Object(named.collect())
+}
+
+/// The cells of a grid for which something holds, as pairs, or with their cost.
+fn cells_where(costmap: &Costmap, with_cost: bool, holds: impl Fn(u8) -> bool) -> Vec<Value> {
+    let listed = costmap.costs().iter().enumerate().filter(|(_, cost)| holds(**cost));
+    let listed = listed.map(|(index, cost)| {
+        let (x, y) = costmap.lattice().cell(index);
+        if with_cost {
+            Value::from(vec![x, y, usize::from(*cost)])
+        } else {
+            Value::from(vec![x, y])
+        }
+    });
+    listed.collect()
+}
+
+/// A cell written `x,y`.
+fn cell_named(text: &str) -> Option<(usize, usize)> {
+    let (x, y) = text.split_once(',')?;
+    Some((x.trim().parse().ok()?, y.trim().parse().ok()?))
 }
 
 /// A truth value that may be left out.

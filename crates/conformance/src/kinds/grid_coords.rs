@@ -2,9 +2,10 @@
 
 use periplus_base::Pose2;
 use periplus_grid::{Grid, Lattice};
+use serde_json::{Value, json};
 
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Unreadable, numbers};
 
 /// Cells of points, points of cells, and windows that roll.
 pub(super) fn check(
@@ -19,57 +20,54 @@ pub(super) fn check(
     let [x_m, y_m] = given.get("origin")?.array()?;
     let lattice = Lattice::new(resolution.number()?, width, height, Pose2::new(x_m, y_m, 0.0))
         .map_err(|error| resolution.unreadable(&error.to_string()))?;
-    if let (Some(points), Some(cells)) = (given.find("world"), expect.find("cells")) {
-        let cells = cells.list()?;
-        differences.same("number of cells", &points.list()?.len(), &cells.len());
-        for (point, expected) in points.list()?.iter().zip(&cells) {
+    let default = given.find("default").map_or(Ok(0), |it| it.integer())?;
+    let mut named: Vec<(&[&str], Value)> = Vec::new();
+    if let Some(points) = given.find_any(&["world", "points"]) {
+        let cells = points.each(|point| {
             let [x_m, y_m] = point.array()?;
-            let expected = if expected.is_null() { None } else { Some(expected.cell()?) };
-            differences.same(
-                format_args!("cell of ({x_m}, {y_m})"),
-                &lattice.cell_of(x_m, y_m),
-                &expected,
-            );
+            Ok(json!(lattice.cell_of(x_m, y_m)))
+        })?;
+        named.push((&["cells"], Value::Array(cells)));
+    }
+    if let Some(cells) = given.find_any(&["cells", "map"]) {
+        let points = cells.each(|cell| {
+            // Cells beside the grid have centres, too.
+            let [column, row] = cell.array()?;
+            let (x_m, y_m) = lattice.point_at(column + 0.5, row + 0.5);
+            Ok(numbers([x_m, y_m]))
+        })?;
+        named.push((&["world", "centres", "centers", "points"], Value::Array(points)));
+    }
+    let Some(moves) = expect.find("moves") else {
+        differences.compare_members(&named, &expect);
+        return Ok(());
+    };
+    if let Some(fill) = given.find("fill") {
+        let formula = format!("cell value = 1 + x + {width}*y");
+        if fill.text()? != formula {
+            return Err(fill.unreadable(&format!("`{formula}`")));
         }
     }
-    if let Some(cells) = given.find("cells").or(given.find("map")) {
-        let names = ["world", "centres", "centers", "points"];
-        let points = names.iter().find_map(|name| expect.find(name));
-        let points = points.ok_or_else(|| expect.unreadable("points of the cells"))?.list()?;
-        differences.same("number of points", &cells.list()?.len(), &points.len());
-        for (cell, expected) in cells.list()?.iter().zip(&points) {
-            let (x_m, y_m) = lattice.centre_of(cell.cell()?);
-            let what = format!("centre of {}", cell.value());
-            differences.all_near(what, &[x_m, y_m], &expected.array::<2>()?);
+    for (name, expected) in expect.members()?.into_iter().filter(|(name, _)| *name != "moves") {
+        let found = named.iter().find(|(names, _)| names.contains(&name));
+        match found {
+            Some((_, got)) => differences.compare(name, got, &expected),
+            None => differences.not_known(format!("`{}`", expected.path())),
         }
     }
-    if let Some(moves) = expect.find("moves") {
-        let fresh = given.find("default").map_or(Ok(0), |it| it.integer())?;
-        for step in moves.list()? {
-            roll(lattice, fresh, &step, differences)?;
-        }
+    for step in moves.distinct()? {
+        let [x_m, y_m] = step.get("new_origin")?.input().array()?;
+        let cells = (1..=lattice.len() as i64).collect();
+        let mut grid = Grid { lattice, cells };
+        grid.roll_to(x_m, y_m, default);
+        let origin = grid.lattice.origin;
+        let rows: Value = grid.rows().map(|row| json!(row)).collect();
+        let got = json!({
+            "new_origin": step.get("new_origin")?.input().whole(),
+            "grid_origin": numbers([origin.x_m, origin.y_m]),
+            "grid": rows,
+        });
+        differences.compare(format_args!("moved to ({x_m}, {y_m})"), &got, &step);
     }
-    Ok(())
-}
-
-/// Each cell holds its number, and the window moves.
-fn roll(
-    lattice: Lattice,
-    fresh: i64,
-    step: &Reader<'_>,
-    differences: &mut Differences,
-) -> Result<(), Unreadable> {
-    let cells = (1..=lattice.len() as i64).collect();
-    let mut grid = Grid { lattice, cells };
-    let [x_m, y_m] = step.get("new_origin")?.array()?;
-    grid.roll_to(x_m, y_m, fresh);
-    let to = format!("moved to ({x_m}, {y_m})");
-    let origin = [grid.lattice.origin.x_m, grid.lattice.origin.y_m];
-    differences.all_near(&to, &origin, &step.get("grid_origin")?.array::<2>()?);
-    let rows = step.get("grid")?.each(|row| row.each(Reader::integer))?;
-    for (row, (got, expected)) in grid.rows().zip(&rows).enumerate() {
-        differences.same(format_args!("{to}, row {row}"), got, expected);
-    }
-    differences.same(format_args!("{to}, rows"), &grid.lattice.height, &rows.len());
     Ok(())
 }

@@ -1,12 +1,14 @@
 //! Loading map files.
 
 use periplus_base::{Pose, Pose2};
-use periplus_maps::{Description, grid_of, load};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_maps::{Description, Distro, grid_of, load, read_description};
 use periplus_pictures::Raster;
+use serde_json::{Value, json};
 
 use super::Setting;
 use super::map_pixel::{distro_of, rule_of};
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Reader, Unreadable, number, numbers};
 
 /// A picture with what its YAML would say, or paths of YAMLs and how loading each ends.
 pub(super) fn check(
@@ -15,8 +17,11 @@ pub(super) fn check(
     setting: &Setting<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    if case.given().find("inputs").is_some() {
+    let given = case.given();
+    if given.find("inputs").is_some() {
         ends(case, distro, setting, differences)
+    } else if let Some(yaml) = given.find_any(&["yaml", "yaml_text"]) {
+        values(case, &yaml, distro, differences)
     } else {
         cells(case, distro, setting, differences)
     }
@@ -40,13 +45,44 @@ fn ends(
         names.push(status.name());
         codes.push(i64::from(status.code()));
     }
-    if let Some(expected) = expect.find("result") {
-        differences.same("results", &names, &expected.each(|it| it.text())?);
-    }
-    if let Some(expected) = expect.find("service_code") {
-        differences.same("codes", &codes, &expected.each(Reader::integer)?);
-    }
+    differences.compare_members(
+        &[(&["result"], json!(names)), (&["service_code"], json!(codes))],
+        &expect,
+    );
     Ok(())
+}
+
+/// What a YAML says, or that it is none that can be used.
+fn values(
+    case: &Case,
+    yaml: &Reader<'_>,
+    distro: &str,
+    differences: &mut Differences,
+) -> Result<(), Unreadable> {
+    let found = values_of_yaml(yaml.text()?, distro_of(case, distro)?);
+    let is_valid = json!(found.is_some());
+    let mut got = found.unwrap_or_else(|| json!({}));
+    got["valid"] = is_valid.clone();
+    got["success"] = is_valid;
+    differences.compare("", &got, &case.expect());
+    Ok(())
+}
+
+/// The values of a map's YAML; none if it cannot be used.
+pub(super) fn values_of_yaml(yaml: &str, distro: Distro) -> Option<Value> {
+    let mut sources = SourceMap::new();
+    let file = sources.add("map.yaml", yaml);
+    let found = read_description(file, &sources, distro, &mut Diagnostics::new())?;
+    let origin = found.origin;
+    Some(json!({
+        "image": found.image,
+        "resolution": number(found.resolution_m),
+        "origin": numbers([origin.x_m, origin.y_m, origin.yaw_rad]),
+        "negate": u8::from(found.negate),
+        "occupied_thresh": number(found.occupied_thresh),
+        "free_thresh": number(found.free_thresh),
+        "mode": found.mode.name(),
+    }))
 }
 
 fn cells(
@@ -85,25 +121,18 @@ fn cells(
         }
     };
     let lattice = grid.lattice;
-    for (name, got) in [("width", lattice.width), ("height", lattice.height)] {
-        if let Some(expected) = expect.find(name) {
-            differences.same(name, &got, &expected.count()?);
-        }
-    }
-    if let Some(expected) = expect.find("resolution") {
-        differences.near("resolution", lattice.resolution_m, expected.number()?);
-    }
-    if let Some(expected) = expect.find("data") {
-        let got: Vec<i64> = grid.cells.iter().map(|&cell| i64::from(cell)).collect();
-        let expected = expected.each(Reader::integer)?;
-        differences.same("cells", &got.len(), &expected.len());
-        for (index, (got, expected)) in got.iter().zip(expected).enumerate() {
-            differences.whole(format_args!("cell {:?}", lattice.cell(index)), *got, expected);
-        }
-    }
-    if let Some(expected) = expect.find("origin_quaternion_z_w") {
-        let rotation = Pose::from(lattice.origin).rotation;
-        differences.all_near("orientation", &[rotation.z, rotation.w], &expected.array::<2>()?);
-    }
+    let rotation = Pose::from(lattice.origin).rotation;
+    let origin = lattice.origin;
+    differences.compare_members(
+        &[
+            (&["width"], json!(lattice.width)),
+            (&["height"], json!(lattice.height)),
+            (&["resolution"], number(lattice.resolution_m)),
+            (&["data"], json!(grid.cells)),
+            (&["origin"], numbers([origin.x_m, origin.y_m, origin.yaw_rad])),
+            (&["origin_quaternion_z_w"], numbers([rotation.z, rotation.w])),
+        ],
+        &expect,
+    );
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! `~/` in paths.
 
 use periplus_maps::expand_home;
+use serde_json::json;
 
 use super::Setting;
 use crate::{Case, Differences, Unreadable};
@@ -12,17 +13,12 @@ pub(super) fn check(
     _setting: &Setting<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    let (pairs, paths) = (case.given().get("pairs")?, case.expect().get("paths")?);
-    differences.same("number of paths", &pairs.list()?.len(), &paths.list()?.len());
-    for (pair, expected) in pairs.list()?.iter().zip(paths.list()?) {
+    let paths = case.given().get("pairs")?.each(|pair| {
         let [path, home] = pair.each(|it| it.text())?[..] else {
             return Err(pair.unreadable("a path and a home"));
         };
-        differences.same(
-            format_args!("`{path}` at `{home}`"),
-            expand_home(path, home).as_str(),
-            expected.text()?,
-        );
-    }
+        Ok(expand_home(path, home))
+    })?;
+    differences.compare_members(&[(&["paths"], json!(paths))], &case.expect());
     Ok(())
 }

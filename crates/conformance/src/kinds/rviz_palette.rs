@@ -1,9 +1,10 @@
 //! The colours of maps.
 
 use periplus_maps::palette::Scheme;
+use serde_json::json;
 
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Unreadable};
 
 /// A colour for each value.
 pub(super) fn check(
@@ -20,10 +21,7 @@ pub(super) fn check(
         Some(threshold) => scheme.binary(threshold.byte()?),
         None => scheme.palette(),
     };
-    let expected = case.expect().get("rgba")?.each(|colour| colour.each(Reader::byte))?;
-    differences.same("number of colours", &palette.len(), &expected.len());
-    for (value, (got, expected)) in palette.iter().zip(&expected).enumerate() {
-        differences.same(format_args!("colour of {value}"), got.as_slice(), expected);
-    }
+    let colours: Vec<&[u8]> = palette.iter().map(<[u8; 4]>::as_slice).collect();
+    differences.compare_members(&[(&["rgba"], json!(colours))], &case.expect());
     Ok(())
 }

@@ -1,9 +1,12 @@
 //! Driving by keys.
 
+use std::cell::RefCell;
+
 use periplus_teleop::Keyboard;
+use serde_json::{Value, json};
 
 use super::Setting;
-use crate::{Case, Differences, Unreadable};
+use crate::{Case, Differences, Unreadable, number, numbers};
 
 /// A velocity after each key.
 pub(super) fn check(
@@ -13,22 +16,24 @@ pub(super) fn check(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let given = case.given();
-    let mut keyboard = Keyboard {
+    let keyboard = RefCell::new(Keyboard {
         speed_m_s: given.get("speed")?.number()?,
         turn_rad_s: given.get("turn")?.number()?,
         ..Keyboard::default()
-    };
-    let (keys, twists) = (given.get("keys")?.list()?, case.expect().get("twists")?.list()?);
-    differences.same("number of twists", &keys.len(), &twists.len());
-    for (at, (key, twist)) in keys.iter().zip(&twists).enumerate() {
+    });
+    let twists = given.get("keys")?.each(|key| {
         let key = key.text()?.chars().next().ok_or_else(|| key.unreadable("a key"))?;
-        keyboard.press(key);
-        let velocity = keyboard.velocity();
-        let expected = twist.get("linear")?.array::<3>()?;
-        let what = format!("key {at} `{key}`");
-        differences.all_near(format_args!("{what}, linear"), &velocity.linear_m_s, &expected);
-        let expected = twist.get("angular_z")?.number()?;
-        differences.near(format_args!("{what}, angular"), velocity.angular_z_rad_s, expected);
-    }
+        keyboard_press(&keyboard, key)
+    })?;
+    differences.compare_members(&[(&["twists"], Value::Array(twists))], &case.expect());
     Ok(())
+}
+
+/// The velocity after a key.
+fn keyboard_press(keyboard: &RefCell<Keyboard>, key: char) -> Result<Value, Unreadable> {
+    let mut keyboard = keyboard.borrow_mut();
+    keyboard.press(key);
+    let velocity = keyboard.velocity();
+    let linear = numbers(velocity.linear_m_s);
+    Ok(json!({ "linear": linear, "angular_z": number(velocity.angular_z_rad_s) }))
 }

@@ -3,8 +3,10 @@
 use periplus_base::{DQuat, DVec3};
 use periplus_tf::{Buffer, CACHE_NS, Found, Kind, Lookup, LookupError, Sample, Samples, Stamped};
 
+use serde_json::{Value, json};
+
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Expected, Reader, Unreadable, number, numbers};
 
 /// Seconds of a case as nanoseconds. Cases have them as decimal numbers.
 fn ns(seconds: f64) -> i64 {
@@ -31,7 +33,8 @@ fn buffer(given: &Reader<'_>) -> Result<Buffer, Unreadable> {
     for one in given.get("transforms")?.list()? {
         let (stamped, kind) = transform(&one)?;
         // What is refused is left out; whether it should be is another kind's question.
-        let _ = buffer.set(&stamped, authority, kind);
+        let own = one.find("authority").map(|it| it.text()).transpose()?;
+        let _ = buffer.set(&stamped, own.unwrap_or(authority), kind);
     }
     Ok(buffer)
 }
@@ -43,19 +46,15 @@ pub(super) fn check_set(
     _setting: &Setting<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    let (given, expected) = (case.given(), case.expect().get("accepted")?.list()?);
-    let transforms = given.get("transforms")?.list()?;
-    differences.same("number of transforms", &transforms.len(), &expected.len());
-    let mut buffer = Buffer::default();
-    for (at, (one, expected)) in transforms.iter().zip(&expected).enumerate() {
-        let (stamped, kind) = transform(one)?;
-        let result = buffer.set(&stamped, "default_authority", kind);
-        differences.same(
-            format_args!("transform {at} {result:?} is taken"),
-            &result.is_ok(),
-            &expected.truth()?,
-        );
+    let given = case.given();
+    let span_ns = given.find("cache_time").map_or(Ok(CACHE_NS), |it| it.number().map(ns))?;
+    let mut buffer = Buffer::new(span_ns);
+    let mut accepted = Vec::new();
+    for one in given.get("transforms")?.list()? {
+        let (stamped, kind) = transform(&one)?;
+        accepted.push(buffer.set(&stamped, "default_authority", kind).is_ok());
     }
+    differences.compare_members(&[(&["accepted"], json!(accepted))], &case.expect());
     Ok(())
 }
 
@@ -66,7 +65,7 @@ pub(super) fn check_cache(
     _setting: &Setting<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    let (given, expect) = (case.given(), case.expect());
+    let given = case.given();
     let mut samples = Samples::<&str>::new(given.get("max_storage")?.integer()?);
     let inserted = |name: &str| {
         let list = given.get(name)?;
@@ -79,28 +78,28 @@ pub(super) fn check_cache(
         let (translation, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
         samples.insert(Sample { stamp_ns, parent, translation, rotation })
     };
-    let mut compare = |name: &str, samples: &Samples<&str>| {
-        let order: Vec<&str> = samples.newest_first().map(|sample| sample.parent).collect();
-        differences.same(name, &order, &expect.get(name)?.each(|it| it.text())?);
-        Ok::<_, Unreadable>(())
+    let order = |samples: &Samples<&str>| -> Value {
+        samples.newest_first().map(|sample| json!(sample.parent)).collect()
     };
+    let mut named: Vec<(&[&str], Value)> = Vec::new();
     let first = inserted("insert")?;
     for &(name, stamp_ns) in &first {
         insert(&mut samples, name, stamp_ns);
     }
-    compare("order_newest_first", &samples)?;
-    if given.find("insert_again_reverse").is_some() {
+    named.push((&["order_newest_first"], order(&samples)));
+    if given.find("insert_again_reverse").map_or(Ok(false), |it| it.truth())? {
         for &(name, stamp_ns) in first.iter().rev() {
             insert(&mut samples, name, stamp_ns);
         }
-        compare("after_repeat", &samples)?;
+        named.push((&["after_repeat"], order(&samples)));
     }
     if given.find("then_insert").is_some() {
         for (name, stamp_ns) in inserted("then_insert")? {
             insert(&mut samples, name, stamp_ns);
         }
-        compare("after_more", &samples)?;
+        named.push((&["after_more"], order(&samples)));
     }
+    differences.compare_members(&named, &case.expect());
     Ok(())
 }
 
@@ -113,12 +112,19 @@ pub(super) fn check_lookup(
 ) -> Result<(), Unreadable> {
     let given = case.given();
     let buffer = buffer(&given)?;
-    let (queries, results) = (given.get("queries")?.list()?, case.expect().get("results")?.list()?);
+    let queries = given.get("queries")?.list()?;
     let order = given.find("query_fields").map(|it| it.text()).transpose()?;
-    differences.same("number of results", &queries.len(), &results.len());
-    for (query, expected) in queries.iter().zip(&results) {
-        let got = Query::read(query, order)?.ask(&buffer);
-        compare(query, &got, expected, distro, differences)?;
+    for (name, expected) in case.expect().members()? {
+        if name != "results" {
+            differences.not_known(format!("`{}` (known: `results`)", expected.path()));
+            continue;
+        }
+        let results = expected.list()?;
+        differences.same_count("results", queries.len(), results.len());
+        for (query, expected) in queries.iter().zip(&results) {
+            let got = Query::read(query, order)?.ask(&buffer);
+            compare(query, &got, expected, distro, differences)?;
+        }
     }
     Ok(())
 }
@@ -200,58 +206,68 @@ fn names(order: Option<&str>, count: usize) -> Option<Vec<String>> {
 fn compare(
     query: &Reader<'_>,
     got: &Result<Found, LookupError>,
-    expected: &Reader<'_>,
+    expected: &Expected<'_>,
     distro: &str,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    let what = query.value().to_string();
+    let what = query.shown();
     if expected.is_null() {
-        differences.same(format_args!("{what} is found"), &got.is_ok(), &false);
+        differences.compare(format_args!("{what} is found"), &found_value(got), expected);
         return Ok(());
     }
-    // An exception by name, or by name and words.
-    let exception = expected.value().as_str();
-    let exception = exception.or(expected.find("exception").and_then(|it| it.value().as_str()));
-    match (got, exception) {
-        (Err(error), Some(name)) => {
-            let mut class = error.kind.exception();
-            // One class for all of them, wherever the case says so, and always in humble.
-            if error.kind.is_extrapolation()
-                && (name == "ExtrapolationException"
-                    || distro == "humble" && name.ends_with("ExtrapolationException"))
-            {
-                class = name;
+    let is_humble = distro == "humble";
+    match got {
+        Err(error) => {
+            let class = error.kind.exception();
+            // The base class stands for its subclasses, which Humble does not have.
+            let is_same = |name: &Value| {
+                let name = name.as_str().unwrap_or_default();
+                let is_base = name == "ExtrapolationException" && error.kind.is_extrapolation();
+                name == class || is_base
+            };
+            let shown = if is_humble { format!("{class} (or its base)") } else { class.to_owned() };
+            if !expected.is_object() {
+                differences.hold(&what, shown, expected, is_same);
+                return Ok(());
             }
-            differences.same(&what, class, name);
-            if let Some(words) = expected.find("message") {
-                differences.same(&what, error.message.as_str(), words.text()?);
+            for (name, expected) in expected.members()? {
+                match name {
+                    "exception" => differences.hold(&what, &shown, &expected, is_same),
+                    "message" => differences.compare(&what, &json!(error.message), &expected),
+                    // A pose was expected.
+                    "translation" | "rotation" | "stamp" => {
+                        differences.compare(&what, &json!(error.message), &expected);
+                    }
+                    _ => differences.not_known(format!("`{}`", expected.path())),
+                }
             }
         }
-        (Err(error), None) => differences.push(format!("{what}: {error}")),
-        (Ok(_), Some(name)) => differences.push(format!("{what}: found, expected {name}")),
-        (Ok(found), None) => {
+        Ok(found) if expected.is_object() => {
             let pose = found.target_from_source;
-            if let Some(translation) = expected.find("translation") {
-                let got = pose.translation.to_array();
-                differences.all_near(
-                    format_args!("{what}, translation"),
-                    &got,
-                    &translation.array::<3>()?,
-                );
-            }
+            let mut got = json!({
+                "translation": numbers(pose.translation.to_array()),
+                "stamp": number(found.time_ns as f64 / 1e9),
+            });
             if let Some(rotation) = expected.find("rotation") {
-                let expected = DQuat::from_array(rotation.array()?);
+                let wanted = DQuat::from_array(rotation.input().array()?);
                 // Both signs are the same rotation.
-                let sign = if pose.rotation.dot(expected) < 0.0 { -1.0 } else { 1.0 };
-                let got = (pose.rotation * sign).to_array();
-                differences.all_near(format_args!("{what}, rotation"), &got, &expected.to_array());
+                let sign = if pose.rotation.dot(wanted) < 0.0 { -1.0 } else { 1.0 };
+                got["rotation"] = numbers((pose.rotation * sign).to_array());
             }
-            if let Some(stamp) = expected.find("stamp") {
-                differences.whole(format_args!("{what}, time"), found.time_ns, ns(stamp.number()?));
+            if expected.has("exception") {
+                got["exception"] = Value::Null;
+                got["message"] = Value::Null;
             }
+            differences.compare(&what, &got, expected);
         }
+        Ok(_) => differences.compare(&what, &json!("found"), expected),
     }
     Ok(())
+}
+
+/// Null where nothing was found.
+fn found_value(got: &Result<Found, LookupError>) -> Value {
+    if got.is_ok() { json!("found") } else { Value::Null }
 }
 
 /// What is told of all frames.
@@ -272,21 +288,25 @@ pub(super) fn check_frames_yaml(
             names.push(name);
         }
     }
-    if let Some(expected) = expect.find("fields") {
-        differences.same("fields", &names, &expected.each(|it| it.text())?);
-    }
-    if let Some(expected) = expect.find("text") {
-        differences.same("text", text.as_str(), expected.text()?);
-    }
-    for name in
-        ["rate", "buffer_length", "most_recent_transform", "oldest_transform", "transform_delay"]
-    {
-        let Some(expected) = expect.find(name) else { continue };
-        let found = fields.iter().find(|(field, _)| *field == name);
-        match found.and_then(|(_, value)| value.parse::<f64>().ok()) {
-            Some(number) => differences.near(name, number, expected.number()?),
-            None => differences.push(format!("`{name}` is missing in {text}")),
-        }
-    }
+    let mut named: Vec<(&[&str], Value)> =
+        vec![(&["fields"], json!(names)), (&["text"], json!(text))];
+    let value = |wanted: &str| {
+        let found = fields.iter().find(|(field, _)| *field == wanted);
+        found.map_or(Value::Null, |(_, text)| match text.parse::<f64>() {
+            Ok(value) => number(value),
+            Err(_) => json!(text.trim_matches('\'')),
+        })
+    };
+    let all: [&[&str]; 7] = [
+        &["rate"],
+        &["buffer_length"],
+        &["most_recent_transform"],
+        &["oldest_transform"],
+        &["transform_delay"],
+        &["parent"],
+        &["broadcaster"],
+    ];
+    named.extend(all.map(|names| (names, value(names[0]))));
+    differences.compare_members(&named, &expect);
     Ok(())
 }

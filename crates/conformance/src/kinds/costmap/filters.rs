@@ -8,10 +8,15 @@ use periplus_costmap::{
     Bounds, Costmap, Footprint, Frames, Layer, Moment, NoFrames, Window, tables,
 };
 use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_params::{Table, Values};
+use serde_json::{Value, json};
 
 use super::super::Setting;
-use super::{compat_of, costmap_of, map_of, number, pose_of, truth, values_of, window_of};
-use crate::{Case, Differences, Reader, Unreadable};
+use super::{
+    compat_of, costmap_of, counts_of, map_of, points_of, pose_of, rows_of, values_among, values_of,
+    window_of,
+};
+use crate::{Case, Differences, Reader, Unreadable, number, numbers};
 
 const GLOBAL: &str = "map";
 const MASK: &str = "mask";
@@ -35,17 +40,17 @@ fn with_moment<T>(
     lattice: Lattice,
     frames: &dyn Frames,
     use_it: impl FnOnce(&Moment<'_>) -> T,
-) -> T {
-    use_it(&Moment {
+) -> Result<T, Unreadable> {
+    Ok(use_it(&Moment {
         now_ns: 0,
         robot,
         footprint: &Footprint::default(),
         lattice,
         is_rolling: false,
-        compat: compat_of(distro),
+        compat: compat_of(distro)?,
         global_frame: GLOBAL,
         frames,
-    })
+    }))
 }
 
 /// Kind `keepout_filter`: windows one after the other.
@@ -62,41 +67,64 @@ pub(in super::super) fn check_keepout(
     let [x_m, y_m] = shift.map_or(Ok([0.0, 0.0]), |it| it.array())?;
     let frames = Shifted(Pose::from_xyz(x_m, y_m, 0.0));
     let frame = if [x_m, y_m] == [0.0, 0.0] { GLOBAL } else { MASK };
-    let values = values_of(&tables::KEEPOUT, given.find("params").as_ref())?;
+    let values = values_of(&tables::KEEPOUT, &[], given.find("params").as_ref())?;
     let mut filter = KeepoutFilter::new("keepout", values);
+    filter.set_info(info_of(&given, FilterKind::Keepout)?);
     filter.set_mask(Mask { grid: map_of(&given.get("mask")?)?, frame: frame.to_owned() });
-    let robot = given.find("pose").map_or(Ok(Pose2::IDENTITY), |it| pose_of(&it))?;
-    let mut changed = Vec::new();
-    for window in given.get("windows")?.list()? {
-        let window = window_of(&window)?;
+    let windows = given.get("windows")?.each(window_of)?;
+    let poses = match (given.find("poses"), given.find("pose")) {
+        (Some(poses), _) => poses.each(pose_of)?,
+        (None, Some(pose)) => vec![pose_of(&pose)?; windows.len()],
+        (None, None) => vec![Pose2::IDENTITY; windows.len()],
+    };
+    if poses.len() != windows.len() {
+        return Err(given.unreadable("one with a pose for each window"));
+    }
+    let (mut counts, mut grids) = (Vec::new(), Vec::new());
+    for (window, robot) in windows.into_iter().zip(poses) {
         with_moment(distro, robot, *master.lattice(), &frames, |moment| {
             filter.bounds(moment, &mut Bounds::default());
             filter.costs(moment, &mut master, window);
-        });
+        })?;
         let pairs = before.costs().iter().zip(master.costs());
-        changed.push(pairs.filter(|(old, new)| old != new).count());
+        counts.push(pairs.filter(|(old, new)| old != new).count());
+        grids.push(rows_of(&master));
     }
-    if let Some(counts) = expect.find("changed_cells_after_each_window") {
-        differences.same("changed cells", &changed, &counts.each(Reader::count)?);
-    }
-    if let Some(cells) = expect.find("changed_cells") {
-        let cells = cells.each(Reader::cell)?;
-        let value = |name: &str| expect.find(name).map(|it| it.byte()).transpose();
-        let (new, other) = (value("changed_value")?, value("other_value")?);
-        for index in 0..master.lattice().len() {
-            let cell = master.lattice().cell(index);
-            let wanted = if cells.contains(&cell) { new } else { other };
-            if let Some(wanted) = wanted {
-                let got = master.costs()[index].into();
-                differences.whole(format_args!("{cell:?}"), got, wanted.into());
-            }
+    let (mut changed, mut new_costs, mut other_costs) = (Vec::new(), Vec::new(), Vec::new());
+    for index in 0..master.lattice().len() {
+        let (x, y) = master.lattice().cell(index);
+        let cost = master.costs()[index];
+        if cost == before.costs()[index] {
+            other_costs.push(cost);
+        } else {
+            changed.push(json!([x, y]));
+            new_costs.push(cost);
         }
     }
-    if let Some(rows) = expect.find("grid") {
-        let rows: Vec<u8> = rows.each(|row| row.each(Reader::byte))?.concat();
-        differences.same("costs", master.costs(), rows.as_slice());
+    for (name, expected) in expect.members()? {
+        match name {
+            "changed_cells_after_each_window" => {
+                differences.compare("changed cells", &json!(counts), &expected);
+            }
+            "changed_cells" => differences.compare_sets(name, changed.clone(), &expected),
+            "changed_value" => differences.compare(name, &only(&new_costs), &expected),
+            "other_value" => differences.compare(name, &only(&other_costs), &expected),
+            "grid" => differences.compare("costs", &rows_of(&master), &expected),
+            "grid_after_each_window" => differences.compare(name, &json!(grids), &expected),
+            "counts" => differences.compare(name, &counts_of(&master), &expected),
+            _ => differences.not_known(format!("`{}`", expected.path())),
+        }
     }
     Ok(())
+}
+
+/// The cost that all of some cells have; null if there are none, and all costs if they differ.
+fn only(costs: &[u8]) -> Value {
+    match costs {
+        [] => Value::Null,
+        [first, rest @ ..] if rest.iter().all(|cost| cost == first) => json!(first),
+        _ => json!(costs),
+    }
 }
 
 /// A mask with one cell for each of some values, and the robot on each of them in turn; or a mask and
@@ -123,18 +151,43 @@ fn info_of(given: &Reader<'_>, kind: FilterKind) -> Result<FilterInfo, Unreadabl
     };
     Ok(FilterInfo {
         kind,
-        base: number(given, "base", 0.0)?,
-        multiplier: number(given, "multiplier", 1.0)?,
+        base: super::number(given, "base", 0.0)?,
+        multiplier: super::number(given, "multiplier", 1.0)?,
     })
 }
 
-/// What a filter does to a costmap that nobody looks at.
-fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) {
+/// Lets a filter look at the mask where the robot is; it has no costmap to change.
+fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) -> Result<(), Unreadable> {
     let mut master = Costmap::empty(0);
     with_moment(distro, robot, *master.lattice(), &NoFrames, |moment| {
         filter.bounds(moment, &mut Bounds::default());
         filter.costs(moment, &mut master, Window::default());
-    });
+    })
+}
+
+/// Parameters of a filter, in `params` or among what is given.
+fn filter_values(table: &'static Table, given: &Reader<'_>) -> Result<Values, Unreadable> {
+    match given.find("params") {
+        Some(params) => values_of(table, &[], Some(&params)),
+        None => values_among(table, given),
+    }
+}
+
+/// A value for each of some poses: a list, or one number for all.
+fn per_pose(
+    given: &Reader<'_>,
+    names: &[&str],
+    count: usize,
+) -> Result<Option<Vec<f64>>, Unreadable> {
+    let Some(found) = given.find_any(names) else { return Ok(None) };
+    let values = match found.number() {
+        Ok(value) => vec![value; count],
+        Err(_) => found.numbers()?,
+    };
+    if values.len() != count {
+        return Err(found.unreadable("a number for each pose"));
+    }
+    Ok(Some(values))
 }
 
 /// Kind `speed_filter`: limits on the way over a mask.
@@ -145,38 +198,48 @@ pub(in super::super) fn check_speed(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let mut filter = SpeedFilter::new("speed", values_of(&tables::SPEED, None)?);
+    let mut filter = SpeedFilter::new("speed", filter_values(&tables::SPEED, &given)?);
     filter.set_info(info_of(&given, FilterKind::SpeedPercent)?);
-    let (mut limits, mut published) = (Vec::new(), Vec::new());
+    if let Some(path) = given.find_any(&["path", "plan"]) {
+        filter.set_path(points_of(&path)?);
+    }
+    let places = masks_and_poses(&given)?;
+    let speeds =
+        per_pose(&given, &["speed", "speeds", "velocity", "linear_velocity"], places.len())?;
+    let (mut limits, mut published, mut percentages) = (Vec::new(), Vec::new(), Vec::new());
     let mut limit = 0.0;
-    for (mask, robot) in masks_and_poses(&given)? {
+    for (at, (mask, robot)) in places.into_iter().enumerate() {
+        if let Some(speeds) = &speeds {
+            filter.set_speed(speeds[at]);
+        }
         filter.set_mask(mask);
-        run(&mut filter, distro, robot);
+        run(&mut filter, distro, robot)?;
         let outgoing = filter.take_limit();
         published.push(outgoing.is_some());
+        percentages.extend(outgoing.map(|outgoing| outgoing.is_percentage));
         limit = outgoing.map_or(limit, |outgoing| outgoing.limit);
         limits.push(limit);
     }
-    if let Some(expected) = expect.find("limits") {
-        differences.all_near("limits", &limits, &expected.numbers()?);
-    }
-    if let Some(expected) = expect.find("published") {
-        differences.same("published", &published, &expected.each(Reader::truth)?);
-    }
-    if let Some(expected) = expect.find("limit_first") {
-        differences.near(
-            "first limit",
-            limits.first().copied().unwrap_or(f64::NAN),
-            expected.number()?,
-        );
-    }
-    if let Some(expected) = expect.find("limit_last") {
-        differences.near(
-            "last limit",
-            limits.last().copied().unwrap_or(f64::NAN),
-            expected.number()?,
-        );
-    }
+    let end = |limit: Option<&f64>| limit.map_or(Value::Null, |limit| number(*limit));
+    // One answer for all messages, or one for each.
+    let percentage = match expect.find("percentage") {
+        Some(expected) if !expected.is_list() => {
+            percentages.dedup();
+            if percentages.len() == 1 { json!(percentages[0]) } else { json!(percentages) }
+        }
+        _ => json!(percentages),
+    };
+    differences.compare_members(
+        &[
+            (&["limits"], numbers(limits.iter().copied())),
+            (&["published"], json!(published)),
+            (&["limit_first"], end(limits.first())),
+            (&["limit_last"], end(limits.last())),
+            (&["percentage"], percentage),
+            (&["published_count"], json!(published.iter().filter(|it| **it).count())),
+        ],
+        &expect,
+    );
     Ok(())
 }
 
@@ -188,17 +251,29 @@ pub(in super::super) fn check_binary(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let mut filter = BinaryFilter::new("binary", values_of(&tables::BINARY, Some(&given))?);
+    let values = filter_values(&tables::BINARY, &given)?;
+    let default_state = values.flag("default_state").unwrap_or_default();
+    let mut filter = BinaryFilter::new("binary", values);
     filter.set_info(info_of(&given, FilterKind::Binary)?);
     let first = filter.take_state();
-    differences.same("state at the start", &first, &Some(truth(&given, "default_state", false)?));
-    let mut states = Vec::new();
+    if first != Some(default_state) {
+        differences.push(format!("state at the start: {first:?}, expected {default_state}"));
+    }
+    let (mut states, mut published) = (Vec::new(), Vec::new());
     for (mask, robot) in masks_and_poses(&given)? {
         filter.set_mask(mask);
-        run(&mut filter, distro, robot);
+        run(&mut filter, distro, robot)?;
+        published.push(filter.take_state().is_some());
         states.push(filter.state());
     }
-    let expected = expect.get("state").or(expect.get("states"))?.each(Reader::truth)?;
-    differences.same("states", &states, &expected);
+    differences.compare_members(
+        &[
+            (&["state", "states"], json!(states)),
+            (&["published"], json!(published)),
+            (&["state_first", "initial_state"], json!(first)),
+            (&["state_last"], json!(states.last())),
+        ],
+        &expect,
+    );
     Ok(())
 }

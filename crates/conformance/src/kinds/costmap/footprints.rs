@@ -2,10 +2,11 @@
 
 use periplus_base::Pose2;
 use periplus_costmap::{Costmap, Footprint, footprint};
+use serde_json::{Value, json};
 
 use super::super::Setting;
-use super::{costmap_of, number, points_of, pose_of, window_of};
-use crate::{Case, Differences, Reader, Unreadable};
+use super::{costmap_of, points_of, pose_of, window_of};
+use crate::{Case, Differences, Reader, Unreadable, number, numbers};
 
 /// Kind `footprint`: corners and radii.
 pub(in super::super) fn check_footprint(
@@ -15,7 +16,7 @@ pub(in super::super) fn check_footprint(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let radius_m = number(&given, "robot_radius", 0.1)?;
+    let radius_m = super::number(&given, "robot_radius", 0.1)?;
     let read = match (given.find("points"), given.find("footprint")) {
         (Some(points), _) => Ok(Footprint::new(points_of(&points)?)),
         (None, Some(text)) => match text.text() {
@@ -25,14 +26,10 @@ pub(in super::super) fn check_footprint(
         },
         (None, None) => Ok(Footprint::circle(radius_m)),
     };
-    for name in ["valid", "accepted", "parsed", "success"] {
-        if let Some(valid) = expect.find(name) {
-            differences.same(name, &read.is_ok(), &valid.truth()?);
-        }
-    }
+    let is_valid = read.is_ok();
     // What cannot be read gives way to the circle.
     let outline = read.unwrap_or_else(|_| Footprint::circle(radius_m));
-    let outline = match given.find("footprint_padding").or(given.find("padding")) {
+    let outline = match given.find_any(&["footprint_padding", "padding"]) {
         Some(padding) => outline.padded(padding.number()?),
         None => outline,
     };
@@ -40,28 +37,18 @@ pub(in super::super) fn check_footprint(
         Some(pose) => outline.placed(pose_of(&pose)?),
         None => outline.points().to_vec(),
     };
-    if let Some(count) = expect.find("count") {
-        differences.same("corners", &corners.len(), &count.count()?);
-    }
-    for name in ["points", "transformed"] {
-        let Some(points) = expect.find(name) else { continue };
-        let expected = points_of(&points)?;
-        differences.same("corners", &corners.len(), &expected.len());
-        for (at, (got, expected)) in corners.iter().zip(&expected).enumerate() {
-            differences.all_near(format_args!("corner {at}"), got, expected);
-        }
-    }
     let radii = footprint::radii(outline.points());
-    for (names, got) in [
-        (["inscribed", "inscribed_radius"], radii.0),
-        (["circumscribed", "circumscribed_radius"], radii.1),
-    ] {
-        let Some(expected) = expect.find(names[0]).or(expect.find(names[1])) else { continue };
-        match expected.text() {
-            Ok("DBL_MAX") => differences.same(names[0], &got, &f64::MAX),
-            _ => differences.near(names[0], got, expected.number()?),
-        }
-    }
+    let points: Value = corners.iter().map(|corner| numbers(*corner)).collect();
+    differences.compare_members(
+        &[
+            (&["valid", "accepted", "parsed", "success"], json!(is_valid)),
+            (&["count"], json!(corners.len())),
+            (&["points", "transformed"], points),
+            (&["inscribed", "inscribed_radius"], number(radii.0)),
+            (&["circumscribed", "circumscribed_radius"], number(radii.1)),
+        ],
+        &expect,
+    );
     Ok(())
 }
 
@@ -79,24 +66,19 @@ pub(in super::super) fn check_cost(
         Some(points) => Footprint::new(points.clone()).cost(&costmap, pose),
         None => costmap.cost_at(pose.x_m, pose.y_m).unwrap_or(254),
     };
-    let poses = given.get("poses").or(given.get("points"))?.each(pose_of)?;
-    if let Some(costs) = expect.find("cost").or(expect.find("costs")) {
-        let costs = costs.numbers()?;
-        differences.same("costs", &costs.len(), &poses.len());
-        for (pose, expected) in poses.iter().zip(costs) {
-            differences.near(format_args!("cost at {pose:?}"), cost(*pose).into(), expected);
-        }
-    }
-    for name in ["collision_free", "is_collision_free", "free", "collision"] {
-        let Some(expected) = expect.find(name) else { continue };
-        let expected = expected.each(Reader::truth)?;
-        for (pose, expected) in poses.iter().zip(expected) {
-            // Unknown counts as a collision, as lethal does.
-            let is_free = cost(*pose) < 254;
-            let got = if name == "collision" { !is_free } else { is_free };
-            differences.same(format_args!("{name} at {pose:?}"), &got, &expected);
-        }
-    }
+    let poses = given.get_any(&["poses", "points"])?.each(pose_of)?;
+    let costs: Vec<u8> = poses.iter().map(|pose| cost(*pose)).collect();
+    // Unknown counts as a collision, as lethal does.
+    let free: Vec<bool> = costs.iter().map(|cost| *cost < 254).collect();
+    let collides: Vec<bool> = free.iter().map(|is_free| !is_free).collect();
+    differences.compare_members(
+        &[
+            (&["cost", "costs"], numbers(costs.iter().map(|cost| f64::from(*cost)))),
+            (&["collision_free", "is_collision_free", "free"], json!(free)),
+            (&["collision"], json!(collides)),
+        ],
+        &expect,
+    );
     Ok(())
 }
 

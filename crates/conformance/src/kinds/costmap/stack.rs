@@ -1,8 +1,9 @@
 //! Layers over each other, and what comes of readings.
 
-use std::collections::BTreeMap;
+use std::any::Any;
 
 use periplus_base::{Pose, Pose2};
+use periplus_costmap::clear::clear;
 use periplus_costmap::layers::{
     ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
     RangeReading, StaticLayer, VoxelLayer,
@@ -11,13 +12,24 @@ use periplus_costmap::{
     Compat, Costmap, Footprint, Frame, Layer, LayeredCostmap, NoFrames, Observation, Source, Span,
     Window, tables,
 };
-use periplus_grid::{Cell, Lattice};
-use periplus_params::{Given, Table};
-use serde_json::Value;
+use periplus_grid::Lattice;
+use periplus_params::{Table, Value as Parameter, flag};
+use serde_json::{Value, json};
 
 use super::super::Setting;
-use super::{compat_of, map_of, number, points_of, pose_of, truth, values_of, window_of, written};
-use crate::{Case, Differences, Reader, Unreadable};
+use super::layers::region_of;
+use super::{
+    cell_named, cells_where, compat_of, counts_of, map_of, number, points_of, pose_of, rows_of,
+    truth, values_of, window_of,
+};
+use crate::{Case, Differences, Expected, Reader, Unreadable, numbers};
+
+/// The parameter of the costmap that obstacle and voxel layers read as well.
+static UNKNOWN_SPACE: Table = Table {
+    name: "the costmap",
+    doc: "What layers read of the costmap.",
+    parameters: &[flag("track_unknown_space", "Whether unseen cells are unknown.").or("false")],
+};
 
 /// The frame of everything.
 const FRAME: &str = "map";
@@ -30,41 +42,70 @@ pub(in super::super) fn check_layered(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let compat = compat_of(distro);
-    let mut stack = Stack::new(&given, compat)?;
-    for step in given.get("steps")?.list()? {
-        stack.step(&step)?;
+    let compat = compat_of(distro)?;
+    let stack = Stack::after(&given, compat, compat)?;
+    let exact = expect.stated("cells_that_differ_with_exact_distance");
+    // Where a case says how both ways to measure distances differ, its grids are those of main.
+    let rounded = exact.as_ref().map(|_| Stack::after(&given, compat, Compat::Main)).transpose()?;
+    if let (Some(expected), Some(rounded)) = (&exact, &rounded) {
+        let exact = Stack::after(&given, compat, Compat::Humble)?;
+        compare_exact(rounded, &exact, expected, differences)?;
     }
-    let is_exact = !compat.rounds_distances();
-    let exact = expect.find("cells_that_differ_with_exact_distance").filter(|_| is_exact);
-    if let Some(states) = expect.find("after_each_update") {
-        let states = states.list()?;
-        differences.same("updates", &stack.states.len(), &states.len());
-        for (at, (got, expected)) in stack.states.iter().zip(&states).enumerate() {
-            let others = match &exact {
-                Some(exact) => match exact.list()?.get(at) {
-                    Some(cells) => cells.each(Reader::array::<3>)?,
-                    None => Vec::new(),
-                },
-                None => Vec::new(),
-            };
-            compare(&format!("update {}", at + 1), got, expected, &others, differences)?;
-        }
-    }
-    if let Some(asserts) = expect.find("peer_asserts") {
-        // One for each update, or one for the last.
-        match asserts.list() {
-            Ok(list) => {
-                for (got, expected) in stack.states.iter().zip(&list) {
-                    assert_as_peer(got, expected, differences)?;
+    let told = rounded.as_ref().unwrap_or(&stack);
+    for (name, expected) in expect.members()? {
+        match name {
+            "after_each_update" => {
+                let states = expected.list()?;
+                differences.same_count("updates", told.states.len(), states.len());
+                for (at, (got, expected)) in told.states.iter().zip(&states).enumerate() {
+                    compare_state(&format!("update {}", at + 1), got, expected, differences)?;
                 }
             }
-            Err(_) => {
+            // One for each update, or one for the last.
+            "peer_asserts" if expected.is_list() => {
+                let asserts = expected.list()?;
+                differences.same_count("peer_asserts", stack.states.len(), asserts.len());
+                for (got, expected) in stack.states.iter().zip(&asserts) {
+                    if expected.is_null() {
+                        expected.input().skip();
+                    } else {
+                        assert_as_peer(&got.costmap, expected, differences)?;
+                    }
+                }
+            }
+            "peer_asserts" => {
                 if let Some(got) = stack.states.last() {
-                    assert_as_peer(got, &asserts, differences)?;
+                    assert_as_peer(&got.costmap, &expected, differences)?;
                 }
             }
+            "cells_that_differ_with_exact_distance" => {}
+            _ => stack.compare_end(name, &expected, differences)?,
         }
+    }
+    stack.refuse_silent(&expect)
+}
+
+/// The cells that have another cost with exact distances, after each update.
+fn compare_exact(
+    rounded: &Stack,
+    exact: &Stack,
+    expected: &Expected<'_>,
+    differences: &mut Differences,
+) -> Result<(), Unreadable> {
+    let updates = expected.list()?;
+    differences.same_count("cells that differ", rounded.states.len(), updates.len());
+    for (at, expected) in updates.iter().enumerate() {
+        let (Some(rounded), Some(exact)) = (rounded.states.get(at), exact.states.get(at)) else {
+            continue;
+        };
+        let costs = rounded.costmap.costs().iter().zip(exact.costmap.costs()).enumerate();
+        let others = costs.filter(|(_, (rounded, exact))| rounded != exact);
+        let others = others.map(|(index, (_, cost))| {
+            let (x, y) = exact.costmap.lattice().cell(index);
+            json!([x, y, cost])
+        });
+        let what = format!("update {}, cells that differ", at + 1);
+        differences.compare_sets(what, others.collect(), expected);
     }
     Ok(())
 }
@@ -77,10 +118,8 @@ pub(in super::super) fn check_obstacle(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let mut stack = Stack::new(&given, compat_of(distro))?;
-    for step in given.get("steps")?.list()? {
-        stack.step(&step)?;
-    }
+    let compat = compat_of(distro)?;
+    let mut stack = Stack::after(&given, compat, compat)?;
     if stack.states.is_empty() {
         stack.update(Pose2::IDENTITY);
     }
@@ -89,57 +128,91 @@ pub(in super::super) fn check_obstacle(
     let Some(grid) = grid else {
         return Err(given.unreadable("a stack with a layer that has seen something"));
     };
-    let width = grid.lattice().width;
-    let cells = |wanted: &dyn Fn(u8) -> bool| {
-        let all = grid.costs().iter().enumerate().filter(|(_, cost)| wanted(**cost));
-        let listed = all.map(|(at, cost)| (at % width, at / width, *cost));
-        listed.collect::<Vec<_>>()
-    };
-    if let Some(counts) = expect.find("counts") {
-        compare_counts("the layer", grid.costs(), &counts, differences)?;
-    }
-    if let (Some(cell), Some(lethal)) = (expect.find("cell"), expect.find("lethal")) {
-        let is_lethal = grid.cost(cell.cell()?) == Some(254);
-        differences.same("lethal", &is_lethal, &lethal.truth()?);
-    }
-    if let Some(marked) = expect.find("nonfree_cells") {
-        let mut expected = Vec::new();
-        for cell in marked.list()? {
-            match *cell.each(Reader::count)?.as_slice() {
-                [x, y, cost] => expected.push((x, y, cost as u8)),
-                _ => return Err(cell.unreadable("a column, a row and a cost")),
-            }
+    for (name, expected) in expect.members()? {
+        // Null states nothing of these.
+        let may_be_null = ["cell", "lethal", "nonfree_cells", "free_cells", "lethal_cells", "grid"];
+        if expected.is_null() && may_be_null.contains(&name) {
+            expected.input().skip();
+            continue;
         }
-        expected.sort_by_key(|(x, y, _)| (*y, *x));
-        differences.same("cells that are not free", &cells(&|cost| cost != 0), &expected);
+        match name {
+            "counts" => differences.compare("the layer", &counts_of(&grid), &expected),
+            // A cell that is not lethal must be the one of the point that was observed, or the case
+            // would say nothing.
+            "cell" => {
+                let cell = expected.input().cell()?;
+                let is_lethal = grid.cost(cell) == Some(254);
+                let seen = stack.last_cell(&grid).unwrap_or([cell.0, cell.1]);
+                let got = if is_lethal { json!([cell.0, cell.1]) } else { json!(seen) };
+                differences.compare(name, &got, &expected);
+            }
+            "lethal" => {
+                let cell = expect.get("cell")?.input().cell()?;
+                differences.compare(name, &json!(grid.cost(cell) == Some(254)), &expected);
+            }
+            "nonfree_cells" => {
+                differences.compare_sets(name, cells_where(&grid, true, |it| it != 0), &expected);
+            }
+            "free_cells" => {
+                differences.compare_sets(name, cells_where(&grid, false, |it| it == 0), &expected);
+            }
+            "lethal_cells" => {
+                let lethal = cells_where(&grid, false, |it| it == 254);
+                differences.compare_sets(name, lethal, &expected);
+            }
+            "grid" => differences.compare("the layer", &rows_of(&grid), &expected),
+            "window_cells" => {
+                let window = stack.states.last().and_then(|state| state.window);
+                differences.compare(name, &window_value(window), &expected);
+            }
+            "peer_asserts" => assert_as_peer(&grid, &expected, differences)?,
+            "after_each_update" => {
+                let states = expected.list()?;
+                differences.same_count("updates", stack.states.len(), states.len());
+                for (at, (got, expected)) in stack.states.iter().zip(&states).enumerate() {
+                    compare_state(&format!("update {}", at + 1), got, expected, differences)?;
+                }
+            }
+            _ => stack.compare_end(name, &expected, differences)?,
+        }
     }
-    if let Some(free) = expect.find("free_cells") {
-        let mut expected = free.each(Reader::cell)?;
-        expected.sort_by_key(|(x, y)| (*y, *x));
-        let free: Vec<Cell> = cells(&|cost| cost == 0).iter().map(|(x, y, _)| (*x, *y)).collect();
-        differences.same("free cells", &free, &expected);
-    }
-    if let Some(rows) = expect.find("grid") {
-        compare_rows("the layer", &grid, &rows, &[], differences)?;
-    }
-    Ok(())
+    stack.refuse_silent(&expect)
 }
 
 /// The costmap at some time.
 struct State {
     costmap: Costmap,
     window: Option<Window>,
+    layers: Vec<(String, Costmap)>,
+    columns: Vec<(String, Vec<u32>)>,
+    is_current: bool,
 }
 
 struct Stack {
     costmap: LayeredCostmap,
-    /// What was set by hand of each layer.
-    params: BTreeMap<String, BTreeMap<String, String>>,
+    /// How inflation layers measure distances, as that release does.
+    distances: Compat,
     states: Vec<State>,
+    /// The point that was observed last, and did not come from a list of several.
+    last_point: Option<[f32; 3]>,
+    /// Whether parameters were accepted.
+    accepted: Vec<bool>,
+    refusals: Vec<String>,
+    /// What clear services answered.
+    success: Vec<bool>,
 }
 
 impl Stack {
-    fn new(given: &Reader<'_>, compat: Compat) -> Result<Self, Unreadable> {
+    /// All steps done.
+    fn after(given: &Reader<'_>, compat: Compat, distances: Compat) -> Result<Self, Unreadable> {
+        let mut stack = Self::new(given, compat, distances)?;
+        for step in given.get("steps")?.list()? {
+            stack.step(&step)?;
+        }
+        Ok(stack)
+    }
+
+    fn new(given: &Reader<'_>, compat: Compat, distances: Compat) -> Result<Self, Unreadable> {
         let about = given.get("costmap")?;
         let count = |name: &str| about.get(name)?.count();
         let origin =
@@ -155,8 +228,12 @@ impl Stack {
         };
         let mut stack = Self {
             costmap: LayeredCostmap::new(frame, lattice),
-            params: BTreeMap::new(),
+            distances,
             states: Vec::new(),
+            last_point: None,
+            accepted: Vec::new(),
+            refusals: Vec::new(),
+            success: Vec::new(),
         };
         let layers = given.get("layers")?.list()?;
         for layer in &layers {
@@ -171,17 +248,52 @@ impl Stack {
         Ok(stack)
     }
 
+    /// The cell of the point that was observed last, in its single precision.
+    fn last_cell(&self, grid: &Costmap) -> Option<[usize; 2]> {
+        let [x, y, _] = self.last_point?;
+        let (x, y) = grid.finder().cell_of(f64::from(x), f64::from(y))?;
+        Some([x, y])
+    }
+
+    /// What is expected at the end, whatever the kind.
+    fn compare_end(
+        &self,
+        name: &str,
+        expected: &Expected<'_>,
+        differences: &mut Differences,
+    ) -> Result<(), Unreadable> {
+        match name {
+            "accepted" => differences.compare(name, &json!(self.accepted), expected),
+            "success" => differences.compare(name, &json!(self.success), expected),
+            "layers" => {
+                let end = self.state(None);
+                compare_layers("at the end", &end, expected, differences)?;
+            }
+            "costmap" => {
+                let end = self.state(None);
+                compare_state("at the end", &end, expected, differences)?;
+            }
+            _ => differences.not_known(format!("`{}`", expected.path())),
+        }
+        Ok(())
+    }
+
+    /// A case in which a parameter is refused must say so.
+    fn refuse_silent(&self, expect: &Expected<'_>) -> Result<(), Unreadable> {
+        match self.refusals.first() {
+            Some(why) if !expect.has("accepted") => Err(Unreadable(format!(
+                "a parameter was refused ({why}), and `expect.accepted` does not say so"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     fn layer(&mut self, about: &Reader<'_>, compat: Compat) -> Result<Box<dyn Layer>, Unreadable> {
         let name = about.get("name")?.text()?.to_owned();
         let params = about.find("params");
-        let mut texts = BTreeMap::new();
-        if let Some(params) = &params {
-            for (param, value) in params.members()? {
-                texts.insert(param.to_owned(), written(value.value()));
-            }
-        }
-        self.params.insert(name.clone(), texts);
-        let of = |table: &'static Table| values_of(table, params.as_ref());
+        let of = |table: &'static Table, others: &[&'static Table]| {
+            values_of(table, others, params.as_ref())
+        };
         let tracks_unknown = match &params {
             Some(params) => truth(params, "track_unknown_space", false)?,
             None => false,
@@ -189,30 +301,34 @@ impl Stack {
         let kind = about.get("type")?;
         Ok(match kind.text()? {
             "static" => {
-                let meaning = MapMeaning::read(&of(&tables::COSTMAP)?, compat);
-                let mut layer = StaticLayer::new(name, of(&tables::STATIC)?, meaning);
+                let meaning = of(&tables::COSTMAP, &[&tables::STATIC])?;
+                let meaning = MapMeaning::read(&meaning, compat);
+                let values = of(&tables::STATIC, &[&tables::COSTMAP])?;
+                let mut layer = StaticLayer::new(name, values, meaning, compat);
                 if let Some(map) = about.find("map") {
                     layer.set_map(map_of(&map)?, FRAME).map_err(|why| map.unreadable(&why))?;
                 }
                 Box::new(layer)
             }
             "obstacle" => {
-                let values = of(&tables::OBSTACLE)?;
+                let values = of(&tables::OBSTACLE, &[&UNKNOWN_SPACE])?;
                 Box::new(ObstacleLayer::new(name, values, tracks_unknown, Vec::new()))
             }
             "voxel" => {
-                let values = of(&tables::VOXEL)?;
+                let values = of(&tables::VOXEL, &[&UNKNOWN_SPACE])?;
                 Box::new(VoxelLayer::new(name, values, tracks_unknown, Vec::new()))
             }
-            "inflation" => Box::new(InflationLayer::new(name, of(&tables::INFLATION)?, compat)),
-            "range" => Box::new(RangeLayer::new(name, of(&tables::RANGE)?)),
-            "denoise" => Box::new(DenoiseLayer::new(name, of(&tables::DENOISE)?)),
+            "inflation" => {
+                Box::new(InflationLayer::new(name, of(&tables::INFLATION, &[])?, self.distances))
+            }
+            "range" => Box::new(RangeLayer::new(name, of(&tables::RANGE, &[])?)),
+            "denoise" => Box::new(DenoiseLayer::new(name, of(&tables::DENOISE, &[])?)),
             "plugin_container" => {
                 let mut children = Vec::new();
                 for child in about.get("plugins")?.list()? {
                     children.push(self.layer(&child, compat)?);
                 }
-                Box::new(ContainerLayer::new(name, of(&tables::CONTAINER)?, children))
+                Box::new(ContainerLayer::new(name, of(&tables::CONTAINER, &[])?, children))
             }
             _ => return Err(kind.unreadable("a layer that is known")),
         })
@@ -230,6 +346,8 @@ impl Stack {
             }
             let name = about.get("name")?.text()?;
             let grid = if let Some(layer) = self.costmap.find_as::<ObstacleLayer>(name) {
+                layer.grid_mut()
+            } else if let Some(layer) = self.costmap.find_as::<VoxelLayer>(name) {
                 layer.grid_mut()
             } else if let Some(layer) = self.costmap.find_as::<RangeLayer>(name) {
                 layer.grid_mut()
@@ -258,8 +376,19 @@ impl Stack {
             self.costmap.set_footprint(Footprint::new(points_of(&footprint)?));
             return Ok(());
         }
+        if let Some(clear) = step.find("clear") {
+            return self.clear(&clear);
+        }
         let named = step.get("layer")?;
         let name = named.text()?;
+        if let Some(map) = step.find("set_map") {
+            let layer = self.costmap.find_as::<StaticLayer>(name);
+            let layer = layer.ok_or_else(|| named.unreadable("a static layer"))?;
+            return layer.set_map(map_of(&map)?, FRAME).map_err(|why| map.unreadable(&why));
+        }
+        if let Some(part) = step.find("map_update") {
+            return self.update_map(&named, &part);
+        }
         if let Some(observed) = step.find("observe") {
             return self.observe(&named, &observed);
         }
@@ -277,7 +406,7 @@ impl Stack {
             if !self.costmap.apply_layer(name, window, 0, Pose2::IDENTITY, &NoFrames) {
                 return Err(named.unreadable("a layer that is there"));
             }
-            self.states.push(State { costmap: self.costmap.costmap().clone(), window: None });
+            self.states.push(self.state(None));
             return Ok(());
         }
         if truth(step, "reset", false)? {
@@ -290,12 +419,65 @@ impl Stack {
 
     fn update(&mut self, pose: Pose2) {
         let window = self.costmap.update(0, pose, &NoFrames);
-        self.states.push(State { costmap: self.costmap.costmap().clone(), window });
+        self.states.push(self.state(window));
+    }
+
+    /// Everything as it is now.
+    fn state(&self, window: Option<Window>) -> State {
+        let (mut layers, mut columns) = (Vec::new(), Vec::new());
+        for layer in self.costmap.all() {
+            if let Some(grid) = layer.grid() {
+                layers.push((layer.name().to_owned(), grid.clone()));
+            }
+            if let Some(voxels) = (layer as &dyn Any).downcast_ref::<VoxelLayer>() {
+                let cells = voxels.voxels().columns().to_vec();
+                columns.push((layer.name().to_owned(), cells));
+            }
+        }
+        State {
+            costmap: self.costmap.costmap().clone(),
+            window,
+            layers,
+            columns,
+            is_current: self.costmap.is_current(0),
+        }
+    }
+
+    /// Calls a clear service: which one, where, how far, and for which layers.
+    fn clear(&mut self, about: &Reader<'_>) -> Result<(), Unreadable> {
+        let place = about.find_any(&["pose", "robot"]);
+        let place = place.map_or(Ok(Pose2::IDENTITY), |it| pose_of(&it))?;
+        let side_m = number(about, "reset_distance", 0.0)?;
+        let region = region_of(&about.get("service")?, [place.x_m, place.y_m], side_m)?;
+        let names = match about.find("plugins") {
+            Some(names) => names.each(|name| Ok(name.text()?.to_owned()))?,
+            None => Vec::new(),
+        };
+        self.success.push(clear(&mut self.costmap, region, &names).is_ok());
+        Ok(())
+    }
+
+    /// Takes a part of a map that has changed: its lower left cell, its size and its cells.
+    fn update_map(&mut self, named: &Reader<'_>, part: &Reader<'_>) -> Result<(), Unreadable> {
+        let count = |name: &str| part.get(name)?.count();
+        let (x0, y0) = (count("x")?, count("y")?);
+        let window = Window { x0, y0, xn: x0 + count("width")?, yn: y0 + count("height")? };
+        let cells = part.get("data")?.each(|cell| {
+            i8::try_from(cell.integer()?).map_err(|_| cell.unreadable("a number from -128 to 127"))
+        })?;
+        let layer = self.costmap.find_as::<StaticLayer>(named.text()?);
+        let layer = layer.ok_or_else(|| named.unreadable("a static layer"))?;
+        // A part that does not fit is ignored.
+        let _ = layer.update_map(window, &cells, FRAME);
+        Ok(())
     }
 
     fn observe(&mut self, named: &Reader<'_>, observed: &Reader<'_>) -> Result<(), Unreadable> {
         let points = observed.get("points")?.each(Reader::array::<3>)?;
         let range = |name: &str, usual: f64| number(observed, name, usual);
+        if let [point] = points[..] {
+            self.last_point = Some(point.map(|at| at as f32));
+        }
         let seen = Observation {
             time_ns: 0,
             origin: observed.get("sensor_origin")?.array()?,
@@ -323,40 +505,48 @@ impl Stack {
         Ok(())
     }
 
-    /// Sets parameters of a layer, as `{name: value}` or as `[name, value]`.
+    /// Sets parameters of a layer, as `{name: value}`, as `[name, value]`, or with both named.
     fn set(&mut self, named: &Reader<'_>, set: &Reader<'_>) -> Result<(), Unreadable> {
-        let name = named.text()?;
-        let changes: Vec<(String, String)> = match set.value() {
+        let layer_name = named.text()?;
+        let changes: Vec<(&str, Reader<'_>)> = match set.raw() {
             Value::Array(_) => match set.list()?.as_slice() {
-                [param, value] => vec![(param.text()?.to_owned(), written(value.value()))],
+                [param, value] => vec![(param.text()?, value.clone())],
                 _ => return Err(set.unreadable("a name and a value")),
             },
             Value::Object(map) if map.contains_key("name") && map.contains_key("value") => {
-                vec![(set.get("name")?.text()?.to_owned(), written(set.get("value")?.value()))]
+                vec![(set.get("name")?.text()?, set.get("value")?)]
             }
-            _ => {
-                let members = set.members()?;
-                let pair =
-                    |(name, value): (&str, Reader<'_>)| (name.to_owned(), written(value.value()));
-                members.into_iter().map(pair).collect()
-            }
+            _ => set.members()?,
         };
-        let texts = self.params.entry(name.to_owned()).or_default();
-        for (param, text) in changes {
-            // With or without the name of the layer.
-            let param = param.strip_prefix(&format!("{name}.")).unwrap_or(&param).to_owned();
-            texts.insert(param, text);
-        }
-        let texts = texts.clone();
-        let layer =
-            self.costmap.find_mut(name).ok_or_else(|| named.unreadable("a layer that is there"))?;
-        let Some(table) = layer.values().map(periplus_params::Values::table) else {
+        let layer = self.costmap.find_mut(layer_name);
+        let layer = layer.ok_or_else(|| named.unreadable("a layer that is there"))?;
+        let Some(mut values) = layer.values().cloned() else {
             return Err(named.unreadable("a layer with parameters"));
         };
-        let known = texts.iter().filter(|(param, _)| table.find(param).is_some());
-        let given = known.map(|(param, text)| Given::new(param, text.as_str()));
-        let values = table.check(given, None, &mut periplus_diagnostics::Diagnostics::new());
-        layer.configure(values).map_err(|why| set.unreadable(&why))
+        let prefix = format!("{layer_name}.");
+        for (param, value) in changes {
+            // With or without the name of the layer.
+            let param = param.strip_prefix(&prefix).unwrap_or(param);
+            let table = values.table();
+            let parameter = table.find(param).ok_or_else(|| {
+                let known: Vec<&str> = table.parameters.iter().map(|it| it.name).collect();
+                value.unreadable(&format!("a parameter of {}: {}", table.name, known.join(", ")))
+            })?;
+            match Parameter::read(parameter, &value.written()) {
+                Ok(fitting) => {
+                    values.set(param, fitting);
+                }
+                Err(why) => {
+                    self.accepted.push(false);
+                    self.refusals.push(format!("`{param}` {why}"));
+                    return Ok(());
+                }
+            }
+        }
+        let answer = layer.configure(values);
+        self.accepted.push(answer.is_ok());
+        self.refusals.extend(answer.err());
+        Ok(())
     }
 }
 
@@ -382,109 +572,150 @@ fn set_cell(grid: &mut Costmap, cell: &Reader<'_>) -> Result<(), Unreadable> {
     }
 }
 
-/// Compares a state; `others` are cells that are otherwise with exact distances.
-fn compare(
-    when: &str,
-    got: &State,
-    expected: &Reader<'_>,
-    others: &[[f64; 3]],
-    differences: &mut Differences,
-) -> Result<(), Unreadable> {
-    if let Some(window) = expected.find("window_cells") {
-        let window = window_of(&window)?;
-        differences.same(format_args!("{when}, window"), &got.window, &Some(window));
-    }
-    if let Some(rows) = expected.find("grid") {
-        return compare_rows(when, &got.costmap, &rows, others, differences);
-    }
-    for [x, y, cost] in others {
-        let cell = (*x as usize, *y as usize);
-        let cost = Some(*cost as u8);
-        differences.same(format_args!("{when}, {cell:?}"), &got.costmap.cost(cell), &cost);
-    }
-    if let Some(counts) = expected.find("counts") {
-        compare_counts(when, got.costmap.costs(), &counts, differences)?;
-    }
-    Ok(())
+/// Four numbers of a window; null for no update.
+fn window_value(window: Option<Window>) -> Value {
+    json!(window.map(|Window { x0, y0, xn, yn }| [x0, y0, xn, yn]))
 }
 
-fn compare_rows(
+fn compare_state(
     when: &str,
-    got: &Costmap,
-    rows: &Reader<'_>,
-    others: &[[f64; 3]],
+    got: &State,
+    expected: &Expected<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    let rows = rows.each(|row| row.each(Reader::byte))?;
-    differences.same(format_args!("{when}, rows"), &got.lattice().height, &rows.len());
-    for (y, row) in rows.iter().enumerate() {
-        differences.same(format_args!("{when}, columns"), &got.lattice().width, &row.len());
-        for (x, cost) in row.iter().enumerate() {
-            let other = others.iter().find(|[ox, oy, _]| (*ox as usize, *oy as usize) == (x, y));
-            let cost = other.map_or(*cost, |[_, _, cost]| *cost as u8);
-            let got = got.cost((x, y)).map(i64::from);
-            differences.whole(format_args!("{when}, ({x}, {y})"), got.unwrap_or(-1), cost.into());
+    for (name, expected) in expected.members()? {
+        let what = format!("{when}, {name}");
+        match name {
+            "window_cells" => differences.compare(what, &window_value(got.window), &expected),
+            "grid" => differences.compare(what, &rows_of(&got.costmap), &expected),
+            "counts" => differences.compare(what, &counts_of(&got.costmap), &expected),
+            "cells" => compare_cells(&what, &got.costmap, &expected, differences)?,
+            "current" => differences.compare(what, &json!(got.is_current), &expected),
+            "origin" => {
+                let origin = got.costmap.lattice().origin;
+                differences.compare(what, &numbers([origin.x_m, origin.y_m]), &expected);
+            }
+            "layers" => compare_layers(&what, got, &expected, differences)?,
+            _ => differences.not_known(format!("`{}`", expected.path())),
         }
     }
     Ok(())
 }
 
-fn compare_counts(
+/// The own cells of layers, by the layers' names.
+fn compare_layers(
     when: &str,
-    costs: &[u8],
-    counts: &Reader<'_>,
+    got: &State,
+    expected: &Expected<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    for (name, expected) in counts.members()? {
-        let cost: u8 = name.parse().map_err(|_| counts.unreadable("counts of costs"))?;
-        let got = costs.iter().filter(|it| **it == cost).count();
-        differences.same(format_args!("{when}, cells with {cost}"), &got, &expected.count()?);
+    for (layer, expected) in expected.members()? {
+        let found = got.layers.iter().find(|(name, _)| name == layer);
+        let Some((_, grid)) = found else {
+            differences.not_known(format!("`{}`", expected.path()));
+            continue;
+        };
+        for (name, expected) in expected.members()? {
+            let what = format!("{when}, {layer}, {name}");
+            match name {
+                "grid" => differences.compare(what, &rows_of(grid), &expected),
+                "counts" => differences.compare(what, &counts_of(grid), &expected),
+                "cells" => compare_cells(&what, grid, &expected, differences)?,
+                "unknown_cells" => {
+                    differences.compare_sets(
+                        what,
+                        cells_where(grid, false, |it| it == 255),
+                        &expected,
+                    );
+                }
+                "lethal_cells" => {
+                    differences.compare_sets(
+                        what,
+                        cells_where(grid, false, |it| it == 254),
+                        &expected,
+                    );
+                }
+                "free_cells" => {
+                    differences.compare_sets(
+                        what,
+                        cells_where(grid, false, |it| it == 0),
+                        &expected,
+                    );
+                }
+                "nonfree_cells" => {
+                    differences.compare_sets(
+                        what,
+                        cells_where(grid, true, |it| it != 0),
+                        &expected,
+                    );
+                }
+                "columns" => {
+                    let columns = got.columns.iter().find(|(name, _)| name == layer);
+                    let Some((_, columns)) = columns else {
+                        differences.not_known(format!("`{}`", expected.path()));
+                        continue;
+                    };
+                    for (cell, expected) in expected.members()? {
+                        let at = cell_named(cell).filter(|at| grid.lattice().contains(*at));
+                        let at = at.ok_or_else(|| expected.unreadable("the column of a cell"))?;
+                        let got = columns.get(grid.lattice().index(at));
+                        differences.compare(format_args!("{what} {cell}"), &json!(got), &expected);
+                    }
+                }
+                _ => differences.not_known(format!("`{}`", expected.path())),
+            }
+        }
     }
     Ok(())
 }
+
+/// Costs of cells, by `x,y`.
+fn compare_cells(
+    what: &str,
+    costmap: &Costmap,
+    expected: &Expected<'_>,
+    differences: &mut Differences,
+) -> Result<(), Unreadable> {
+    for (cell, cost) in expected.members()? {
+        let at = cell_named(cell).ok_or_else(|| cost.unreadable("the cost of a cell `x,y`"))?;
+        differences.compare(format_args!("{what} {cell}"), &json!(costmap.cost(at)), &cost);
+    }
+    Ok(())
+}
+
+/// The only bound that the peer's tests have: inscribed.
+const BOUND: u8 = 253;
 
 /// What the tests of the peer assert.
 fn assert_as_peer(
-    got: &State,
-    asserts: &Reader<'_>,
+    costmap: &Costmap,
+    asserts: &Expected<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    if asserts.is_null() {
-        return Ok(());
-    }
-    let costmap = &got.costmap;
     for (name, expected) in asserts.members()? {
         match name {
-            "note" => {}
-            "counts" => compare_counts("the peer's test", costmap.costs(), &expected, differences)?,
+            "counts" => differences.compare("the peer's test", &counts_of(costmap), &expected),
             "non_free" => {
                 let count = costmap.costs().iter().filter(|cost| **cost != 0).count();
-                differences.same("cells that are not free", &count, &expected.count()?);
+                differences.compare("cells that are not free", &json!(count), &expected);
             }
-            "cells" | "at_least" | "less_than" => {
-                for (cell, cost) in expected.members()? {
-                    let at = cell_named(cell).ok_or_else(|| expected.unreadable("cells"))?;
-                    let (got, cost) = (costmap.cost(at), cost.byte()?);
-                    let holds = got.is_some_and(|got| match name {
-                        "cells" => got == cost,
-                        "at_least" => got >= cost,
-                        _ => got < cost,
-                    });
-                    differences.same(
-                        format_args!("{name} {cost} at {cell}: {got:?}"),
-                        &holds,
-                        &true,
-                    );
+            "cells" => compare_cells("the peer's test", costmap, &expected, differences)?,
+            "at_least" | "less_than" => {
+                for (cell, bound) in expected.members()? {
+                    let at = cell_named(cell).ok_or_else(|| bound.unreadable("a bound"))?;
+                    if bound.input().byte().ok() != Some(BOUND) {
+                        return Err(
+                            bound.unreadable("253 (inscribed): other bounds say too little")
+                        );
+                    }
+                    let got = costmap.cost(at);
+                    let is_met = got.is_some_and(|got| (got >= BOUND) == (name == "at_least"));
+                    differences
+                        .hold(format_args!("{name} at {cell}"), json!(got), &bound, |_| is_met);
                 }
             }
-            _ => return Err(asserts.unreadable("assertions that are known")),
+            _ => differences.not_known(format!("`{}`", expected.path())),
         }
     }
     Ok(())
-}
-
-/// A cell written `x,y`.
-fn cell_named(text: &str) -> Option<Cell> {
-    let (x, y) = text.split_once(',')?;
-    Some((x.trim().parse().ok()?, y.trim().parse().ok()?))
 }

@@ -3,10 +3,11 @@
 use periplus_costmap::inflation::CostTable;
 use periplus_costmap::layers::MapMeaning;
 use periplus_costmap::{Compat, Footprint, cost, tables};
+use serde_json::json;
 
 use super::super::Setting;
-use super::{compat_of, number, points_of, values_of};
-use crate::{Case, Differences, Reader, Unreadable};
+use super::{compat_of, points_of, values_of};
+use crate::{Case, Differences, Reader, Unreadable, number};
 
 fn occupancy(it: &Reader<'_>) -> Result<i8, Unreadable> {
     i8::try_from(it.integer()?).map_err(|_| it.unreadable("a number from -128 to 127"))
@@ -14,8 +15,7 @@ fn occupancy(it: &Reader<'_>) -> Result<i8, Unreadable> {
 
 /// A list under the first of some names that is there.
 fn list<'v>(reader: &Reader<'v>, names: &[&str]) -> Result<Reader<'v>, Unreadable> {
-    let found = names.iter().find_map(|name| reader.find(name));
-    found.ok_or_else(|| reader.unreadable(&format!("one that has `{}`", names.join("` or `"))))
+    reader.get_any(names)
 }
 
 /// Kind `static_layer_value`: costs of a map's cells.
@@ -26,15 +26,11 @@ pub(in super::super) fn check_static(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let values = values_of(&tables::COSTMAP, given.find("params").as_ref())?;
-    let meaning = MapMeaning::read(&values, compat_of(distro));
-    let occupancies = given.get("occupancy")?.each(occupancy)?;
-    let costs = expect.get("cost")?.each(Reader::integer)?;
-    differences.same("costs", &costs.len(), &occupancies.len());
-    for (occupancy, expected) in occupancies.iter().zip(costs) {
-        let got = meaning.cost(*occupancy).into();
-        differences.whole(format_args!("cost of {occupancy}"), got, expected);
-    }
+    let values = values_of(&tables::COSTMAP, &[], given.find("params").as_ref())?;
+    let meaning = MapMeaning::read(&values, compat_of(distro)?);
+    let occupancies = list(&given, &["occupancy", "values", "data"])?.each(occupancy)?;
+    let got: Vec<u8> = occupancies.iter().map(|occupancy| meaning.cost(*occupancy)).collect();
+    differences.compare_members(&[(&["cost", "costs", "values", "data"], json!(got))], &expect);
     Ok(())
 }
 
@@ -48,12 +44,8 @@ pub(in super::super) fn check_to_cost(
     let (given, expect) = (case.given(), case.expect());
     let names = ["occupancy", "mask", "mask_values", "values", "data"];
     let occupancies = list(&given, &names)?.each(occupancy)?;
-    let costs = list(&expect, &["cost", "costs", "values", "data"])?.each(Reader::integer)?;
-    differences.same("costs", &costs.len(), &occupancies.len());
-    for (occupancy, expected) in occupancies.iter().zip(costs) {
-        let got = cost::cost_of(*occupancy).into();
-        differences.whole(format_args!("cost of {occupancy}"), got, expected);
-    }
+    let got: Vec<u8> = occupancies.iter().map(|occupancy| cost::cost_of(*occupancy)).collect();
+    differences.compare_members(&[(&["cost", "costs", "values", "data"], json!(got))], &expect);
     Ok(())
 }
 
@@ -66,13 +58,8 @@ pub(in super::super) fn check_to_occupancy(
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
     let costs = list(&given, &["cost", "costs", "values", "data"])?.each(Reader::byte)?;
-    let names = ["occupancy", "values", "data"];
-    let occupancies = list(&expect, &names)?.each(Reader::integer)?;
-    differences.same("occupancies", &occupancies.len(), &costs.len());
-    for (cost, expected) in costs.iter().zip(occupancies) {
-        let got = cost::occupancy_of(*cost).into();
-        differences.whole(format_args!("occupancy of {cost}"), got, expected);
-    }
+    let got: Vec<i8> = costs.iter().map(|cost| cost::occupancy_of(*cost)).collect();
+    differences.compare_members(&[(&["occupancy", "values", "data"], json!(got))], &expect);
     Ok(())
 }
 
@@ -84,12 +71,13 @@ pub(in super::super) fn check_inflation(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let footprint = match given.find("footprint_unpadded").or(given.find("footprint")) {
+    let radius_m = super::number(&given, "robot_radius", 0.1)?;
+    let footprint = match given.find_any(&["footprint_unpadded", "footprint"]) {
         Some(points) => Footprint::new(points_of(&points)?),
-        None => Footprint::circle(number(&given, "robot_radius", 0.1)?),
+        None => Footprint::circle(radius_m),
     };
-    let footprint = footprint.padded(number(&given, "footprint_padding", 0.0)?);
-    let inscribed_m = number(&given, "inscribed_radius", footprint.inscribed_radius_m)?;
+    let footprint = footprint.padded(super::number(&given, "footprint_padding", 0.0)?);
+    let inscribed_m = super::number(&given, "inscribed_radius", footprint.inscribed_radius_m)?;
     let resolution_m = given.get("resolution")?.number()?;
     let table = |compat: Compat| -> Result<CostTable, Unreadable> {
         Ok(CostTable::new(
@@ -101,28 +89,31 @@ pub(in super::super) fn check_inflation(
         ))
     };
     let (rounded, exact) = (table(Compat::Main)?, table(Compat::Humble)?);
-    if let Some(expected) = expect.find("inscribed_radius") {
-        differences.near("inscribed radius", inscribed_m, expected.number()?);
-    }
-    if let Some(expected) = expect.find("cell_inflation_radius") {
-        let got = i64::from(rounded.radius_cells());
-        differences.whole("radius in cells", got, expected.integer()?);
-    }
-    for offset in expect.get("offsets")?.list()? {
-        let (dx, dy) = (offset.get("dx")?.integer()?, offset.get("dy")?.integer()?);
-        let square = u32::try_from(dx * dx + dy * dy).map_err(|_| offset.unreadable("near"))?;
-        // Both are known whatever the distribution; the one that it uses is `table`.
-        let used = table(compat_of(distro))?.cost(square);
-        let pairs = [
-            ("cost_main", rounded.cost(square)),
-            ("cost_exact", exact.cost(square)),
-            ("cost", used),
-        ];
-        for (name, got) in pairs {
-            if let Some(expected) = offset.find(name) {
-                let what = format_args!("{name} at ({dx}, {dy})").to_string();
-                differences.whole(what, got.into(), expected.integer()?);
+    // Both are known whatever the distribution; the one that it uses is `table`.
+    let used = table(compat_of(distro)?)?;
+    for (name, expected) in expect.members()? {
+        match name {
+            "inscribed_radius" => differences.compare(name, &number(inscribed_m), &expected),
+            "cell_inflation_radius" => {
+                differences.compare(name, &json!(rounded.radius_cells()), &expected);
             }
+            "offsets" => {
+                for offset in expected.distinct()? {
+                    let part = |name: &str| offset.get(name)?.input().integer();
+                    let (dx, dy) = (part("dx")?, part("dy")?);
+                    let square = dx.checked_mul(dx).zip(dy.checked_mul(dy));
+                    let square = square.and_then(|(x, y)| u32::try_from(x.checked_add(y)?).ok());
+                    let square = square.ok_or_else(|| offset.unreadable("near"))?;
+                    let got = json!({
+                        "dx": dx, "dy": dy,
+                        "cost_main": rounded.cost(square),
+                        "cost_exact": exact.cost(square),
+                        "cost": used.cost(square),
+                    });
+                    differences.compare(format_args!("at ({dx}, {dy})"), &got, &offset);
+                }
+            }
+            _ => differences.not_known(format!("`{}`", expected.path())),
         }
     }
     Ok(())

@@ -3,9 +3,10 @@
 use periplus_base::Pose2;
 use periplus_costmap::{Line3, MOST_VOXELS, Voxel, VoxelGrid};
 use periplus_grid::Lattice;
+use serde_json::{Value, json};
 
 use super::super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, Differences, Expected, Reader, Unreadable};
 
 /// Kind `voxel_grid`: marks, then clears, then what is left.
 pub(in super::super) fn check(
@@ -23,9 +24,6 @@ pub(in super::super) fn check(
     let lattice = Lattice::new(1.0, width, height, Pose2::IDENTITY)
         .map_err(|error| size.unreadable(&error.to_string()))?;
     let mut grid = VoxelGrid::new(lattice, u32::try_from(depth).unwrap_or(u32::MAX));
-    if let Some(size_z) = expect.find("size_z") {
-        differences.whole("voxels in a column", grid.height().into(), size_z.integer()?);
-    }
     for (start, end) in lines(&given, &["mark_lines"])? {
         grid.mark_line(start, end);
     }
@@ -39,9 +37,14 @@ pub(in super::super) fn check(
         }
         grid.mark(cell, z, 0);
     }
-    compare(&grid, column, &expect, When::Marked, differences)?;
+    let marked = grid.clone();
+    let length = |name: &str, usual: u32| -> Result<u32, Unreadable> {
+        let count = given.find(name).map(|it| it.count()).transpose()?;
+        Ok(count.map_or(usual, |count| u32::try_from(count).unwrap_or(u32::MAX)))
+    };
+    let (shortest, longest) = (length("min_length", 0)?, length("max_length", u32::MAX)?);
     for (start, end) in lines(&given, &["then_clear_lines", "clear_lines"])? {
-        grid.clear_line(start, end);
+        grid.clear_along(start, end, shortest, longest, |_, _| {});
     }
     for name in ["then_clear_voxels", "clear_voxels"] {
         let voxels = given.find(name).map_or(Ok(Vec::new()), |it| it.list())?;
@@ -56,56 +59,63 @@ pub(in super::super) fn check(
     if given.find("reset").map_or(Ok(false), |it| it.truth())? {
         grid.reset();
     }
-    compare(&grid, column, &expect, When::Cleared, differences)?;
-    compare_columns(&grid, &given, &expect, differences)?;
-    compare_rays(&lattice, &expect, differences)
-}
-
-/// After which of the two.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum When {
-    Marked,
-    Cleared,
-}
-
-/// What is expected at some time, by names such as `raw_column_after_mark`, `status_before` and
-/// `marked_count_after_clear`.
-fn compare(
-    grid: &VoxelGrid,
-    column: (usize, usize),
-    expect: &Reader<'_>,
-    when: When,
-    differences: &mut Differences,
-) -> Result<(), Unreadable> {
+    let columns = columns_of(&grid, &given)?;
     for (name, expected) in expect.members()? {
         let words: Vec<&str> = name.split('_').collect();
         let is_early = words.contains(&"before") || words.contains(&"mark");
-        if is_early != (when == When::Marked) {
+        let seen = if is_early { &marked } else { &grid };
+        if !words.iter().all(|word| WORDS.contains(word)) {
+            differences.not_known(format!("`{}` (words: {})", expected.path(), WORDS.join(", ")));
             continue;
         }
-        if name.starts_with("raw_column") {
-            let got = grid.columns().get(grid.lattice().index(column)).copied();
-            differences.same(name, &got.map(i64::from), &Some(expected.integer()?));
+        if name == "size_z" {
+            differences.compare(name, &json!(grid.height()), &expected);
+        } else if name == "status" {
+            match &columns {
+                Some(columns) => differences.compare(name, &json!(columns), &expected),
+                None => return Err(given.unreadable("one that has `columns`")),
+            }
+        } else if name == "rays" {
+            compare_rays(&lattice, &expected, differences)?;
+        } else if name.starts_with("raw_columns") {
+            differences.compare(name, &json!(seen.columns()), &expected);
+        } else if name.starts_with("raw_column") {
+            let got = seen.columns().get(seen.lattice().index(column)).copied();
+            differences.compare(name, &json!(got), &expected);
         } else if name.starts_with("status_") {
             for (voxel, status) in expected.members()? {
                 let place: Vec<usize> =
                     voxel.split(',').filter_map(|it| it.trim().parse().ok()).collect();
-                let [x, y, z] = place[..] else { return Err(expected.unreadable("voxels")) };
-                let got = grid.voxel((x, y), z as u32);
-                differences.same(format_args!("{name} of {voxel}"), name_of(got), status.text()?);
+                let [x, y, z] = place[..] else {
+                    return Err(expected.unreadable("statuses of voxels `x,y,z`"));
+                };
+                let got = json!(name_of(seen.voxel((x, y), z as u32)));
+                differences.compare(format_args!("{name} of {voxel}"), &got, &status);
             }
         } else if let Some(kind) = words.iter().find_map(|word| kind_named(word)) {
-            differences.same(name, &count(grid, kind), &expected.count()?);
+            differences.compare(name, &json!(count(seen, kind)), &expected);
         } else if words.contains(&"counts") {
-            for (kind, expected) in expected.members()? {
-                let kind = kind_named(&kind.to_ascii_lowercase())
-                    .ok_or_else(|| expected.unreadable("a count of a status"))?;
-                differences.same(name, &count(grid, kind), &expected.count()?);
+            let all = [Voxel::Marked, Voxel::Unknown, Voxel::Free];
+            let mut counts = serde_json::Map::new();
+            for kind in all {
+                let number = json!(count(seen, kind));
+                counts.insert(name_of(kind).to_owned(), number.clone());
+                counts.insert(name_of(kind).to_ascii_lowercase(), number);
             }
+            differences.compare(name, &Value::Object(counts), &expected);
+        } else {
+            differences.not_known(format!("`{}`", expected.path()));
         }
     }
     Ok(())
 }
+
+/// Words of which the names of expectations are made, such as `status_before`.
+const WORDS: [&str; 26] = [
+    "raw", "column", "columns", "status", "size", "z", "rays", "count", "counts", "marked",
+    "unknown", "free", "before", "after", "mark", "clear", "reset", "of", "voxels", "voxel",
+    "number", "total", "all", "cleared", "lines", "line",
+];
 
 fn kind_named(word: &str) -> Option<Voxel> {
     match word {
@@ -131,50 +141,44 @@ fn name_of(voxel: Voxel) -> &'static str {
     }
 }
 
-/// Columns, by thresholds that are 0 unless given.
-fn compare_columns(
+/// Statuses of the columns that are asked for, by thresholds that are 0 unless given.
+fn columns_of(
     grid: &VoxelGrid,
     given: &Reader<'_>,
-    expect: &Reader<'_>,
-    differences: &mut Differences,
-) -> Result<(), Unreadable> {
-    let (Some(columns), Some(expected)) = (given.find("columns"), expect.find("status")) else {
-        return Ok(());
-    };
+) -> Result<Option<Vec<&'static str>>, Unreadable> {
     let threshold = |name: &str| -> Result<u32, Unreadable> {
         let count = given.find(name).map_or(Ok(0), |it| it.count())?;
         Ok(u32::try_from(count).unwrap_or(u32::MAX))
     };
     let unknown = threshold("unknown_threshold")?;
     let marked = threshold("marked_threshold")?.max(threshold("mark_threshold")?);
-    for (cell, expected) in columns.each(Reader::cell)?.into_iter().zip(expected.list()?) {
-        let got = grid.column(cell, unknown, marked);
-        differences.same(format_args!("column {cell:?}"), name_of(got), expected.text()?);
-    }
-    Ok(())
+    let Some(columns) = given.find("columns") else { return Ok(None) };
+    let columns = columns.each(Reader::cell)?.into_iter();
+    Ok(Some(columns.map(|cell| name_of(grid.column(cell, unknown, marked))).collect()))
 }
 
 fn compare_rays(
     lattice: &Lattice,
-    expect: &Reader<'_>,
+    expected: &Expected<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
-    for ray in expect.find("rays").map_or(Ok(Vec::new()), |it| it.list())? {
+    for ray in expected.distinct()? {
+        let input = ray.input();
         let length = |name: &str, usual: u32| -> Result<u32, Unreadable> {
-            let count = ray.find(name).map(|it| it.count()).transpose()?;
+            let count = input.find(name).map(|it| it.count()).transpose()?;
             Ok(count.map_or(usual, |count| u32::try_from(count).unwrap_or(u32::MAX)))
         };
-        let (start, end) = (ray.get("start")?.array()?, ray.get("end")?.array()?);
+        let (start, end) = (input.get("start")?.array()?, input.get("end")?.array()?);
         let (shortest, longest) = (length("min_length", 0)?, length("max_length", u32::MAX)?);
         let mut voxels = Vec::new();
         if let Some(line) = Line3::within(lattice.width, start, end, shortest, longest) {
             line.walk(|index, z| {
                 let (x, y) = lattice.cell(index);
-                voxels.push(vec![x, y, z as usize]);
+                voxels.push(json!([x, y, z]));
             });
         }
-        let expected = ray.get("voxels")?.each(|voxel| voxel.each(Reader::count))?;
-        differences.same(format_args!("voxels from {start:?} to {end:?}"), &voxels, &expected);
+        let what = format!("voxels from {start:?} to {end:?}");
+        differences.compare(what, &Value::Array(voxels), &ray.get("voxels")?);
     }
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use periplus_costmap::{Outgoing, Publication, Window, cost};
 
+use serde_json::{Value, json};
+
 use super::super::Setting;
 use super::costmap_of;
 use crate::{Case, Differences, Reader, Unreadable};
@@ -15,9 +17,8 @@ pub(in super::super) fn check(
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
     let always = given.get("always_send_full_costmap")?.each(Reader::truth)?;
-    let full = expect.get("full_messages")?.each(Reader::count)?;
-    let parts = expect.get("update_messages")?.each(Reader::count)?;
-    for (always_full, (full, parts)) in always.into_iter().zip(full.into_iter().zip(parts)) {
+    let (mut full, mut parts, mut payloads) = (Vec::new(), Vec::new(), Vec::new());
+    for always_full in always {
         let mut costmap = costmap_of(&given, "initial_cost")?;
         let mut publication = Publication::new();
         let mut sent_full = 0;
@@ -25,7 +26,9 @@ pub(in super::super) fn check(
         for change in given.get("changes")?.list()? {
             for cell in change.get("set")?.list()? {
                 match *cell.each(Reader::count)?.as_slice() {
-                    [x, y, cost @ 0..=255] => costmap.set((x, y), cost as u8),
+                    [x, y, cost @ 0..=255] if costmap.lattice().contains((x, y)) => {
+                        costmap.set((x, y), cost as u8);
+                    }
                     _ => return Err(cell.unreadable("a column, a row and a cost")),
                 }
             }
@@ -39,35 +42,29 @@ pub(in super::super) fn check(
                     let spans = window.spans(costmap.lattice().width);
                     let data: Vec<u8> =
                         spans.flat_map(|span| costmap.costs()[span].to_vec()).collect();
-                    updates.push((window, data));
+                    let occupancy: Vec<i8> =
+                        data.iter().map(|cost| cost::occupancy_of(*cost)).collect();
+                    updates.push(json!({
+                        "x": window.x0, "y": window.y0,
+                        "width": window.width(), "height": window.height(),
+                        "data_raw": data, "data_occupancy": occupancy,
+                    }));
                 }
             }
         }
-        let when = format!("always_send_full_costmap {always_full}");
-        differences.same(format_args!("{when}, full"), &sent_full, &full);
-        differences.same(format_args!("{when}, updates"), &updates.len(), &parts);
-        if parts == 0 {
-            continue;
-        }
-        let Some(payloads) = expect.find("update_payloads") else { continue };
-        for ((window, data), expected) in updates.iter().zip(payloads.list()?) {
-            let [x, y, width, height] =
-                ["x", "y", "width", "height"].map(|name| expected.get(name));
-            let place = [x?.count()?, y?.count()?, width?.count()?, height?.count()?];
-            let got = [window.x0, window.y0, window.width(), window.height()];
-            differences.same(format_args!("{when}, place"), &got, &place);
-            if let Some(raw) = expected.find("data_raw") {
-                differences.same(format_args!("{when}, raw"), data, &raw.each(Reader::byte)?);
-            }
-            if let Some(occupancy) = expected.find("data_occupancy") {
-                let got: Vec<i64> = data.iter().map(|it| cost::occupancy_of(*it).into()).collect();
-                differences.same(
-                    format_args!("{when}, map"),
-                    &got,
-                    &occupancy.each(Reader::integer)?,
-                );
-            }
+        full.push(sent_full);
+        parts.push(updates.len());
+        if !updates.is_empty() {
+            payloads = updates;
         }
     }
+    differences.compare_members(
+        &[
+            (&["full_messages"], json!(full)),
+            (&["update_messages"], json!(parts)),
+            (&["update_payloads"], Value::Array(payloads)),
+        ],
+        &expect,
+    );
     Ok(())
 }
