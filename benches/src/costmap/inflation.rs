@@ -8,13 +8,13 @@ use periplus_costmap::inflation::{CostTable, Inflation, Scratch, inflate};
 use periplus_costmap::{Compat, Costmap, Window};
 use periplus_grid::Lattice;
 
-use super::wavefront::{self, Waiting};
-use super::{Row, fastest, number, seconds};
+use super::{Row, fastest, number, seconds, wavefront};
 
 const SIDE: usize = 4000;
 const RESOLUTION_M: f64 = 0.05;
 const RADIUS_M: f64 = 0.55;
 const TURNS: usize = 7;
+const WAVEFRONT_TURNS: usize = 3;
 
 pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
@@ -38,20 +38,15 @@ pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>,
             seconds(|| inflate(&mut ours, &all, &table, Inflation::default(), &mut scratch))
         });
         row("Periplus", taken);
-        // The heap takes so long that one turn says enough.
-        for (who, waiting, turns) in
-            [("wavefront, heap", Waiting::Heap, 1), ("wavefront, bins", Waiting::Bins, 3)]
-        {
-            let mut theirs = cells.clone();
-            let taken = fastest(turns, || {
-                theirs.copy_from_slice(&cells);
-                seconds(|| wavefront::inflate(&mut theirs, SIDE, table.costs(), waiting))
-            });
-            row(who, taken);
-            let differing = theirs.iter().zip(ours.costs()).filter(|(a, b)| a != b).count();
-            if differing * 100 > cells.len() {
-                return Err(format!("{who}: {differing} cells differ from ours"));
-            }
+        let mut theirs = cells.clone();
+        let taken = fastest(WAVEFRONT_TURNS, || {
+            theirs.copy_from_slice(&cells);
+            seconds(|| wavefront::inflate(&mut theirs, SIDE, table.costs()))
+        });
+        row("wavefront, bins", taken);
+        let differing = theirs.iter().zip(ours.costs()).filter(|(a, b)| a != b).count();
+        if differing * 100 > cells.len() {
+            return Err(format!("wavefront: {differing} cells differ from ours"));
         }
         let file = work.join("cells.bin");
         std::fs::write(&file, &cells).map_err(|error| format!("{}: {error}", file.display()))?;

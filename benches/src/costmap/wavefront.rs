@@ -1,21 +1,9 @@
-//! Inflation as the reference does it: a wavefront from all obstacles, nearest cells first, each with
-//! the obstacle that it came from. Written from the description in `inflation_layer.cpp` of Nav2's
-//! humble branch: a priority queue over Euclidean distances, or bins in its place.
-
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
-/// How cells wait for their turn.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Waiting {
-    /// In a binary heap.
-    Heap,
-    /// In a list for each distance, as the reference has had it since 2018.
-    Bins,
-}
+//! Inflation as Nav2 does it up to Kilted: a wavefront from all obstacles, nearest cells first, each with
+//! the obstacle that it came from, and a list of cells for each distance. Written from the description in
+//! `inflation_layer.cpp`.
 
 /// A cell in the wavefront and the obstacle that it came from.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy)]
 struct Front {
     square: u32,
     x: u16,
@@ -25,21 +13,16 @@ struct Front {
 }
 
 /// Raises the costs around lethal cells; `table` has costs by squared distance.
-pub(crate) fn inflate(cells: &mut [u8], width: usize, table: &[u8], waiting: Waiting) {
+pub(crate) fn inflate(cells: &mut [u8], width: usize, table: &[u8]) {
     let height = cells.len() / width;
     let mut seen = vec![false; cells.len()];
-    let mut heap = BinaryHeap::new();
     let mut bins: Vec<Vec<Front>> = vec![Vec::new(); table.len()];
     let start = |x: usize, y: usize| {
         let (x, y) = (x as u16, y as u16);
         Front { square: 0, x, y, from_x: x, from_y: y }
     };
     for (index, _) in cells.iter().enumerate().filter(|(_, cost)| **cost == 254) {
-        let front = start(index % width, index / width);
-        match waiting {
-            Waiting::Heap => heap.push(Reverse(front)),
-            Waiting::Bins => bins[0].push(front),
-        }
+        bins[0].push(start(index % width, index / width));
     }
     let mut visit = |front: Front, push: &mut dyn FnMut(Front)| {
         let index = usize::from(front.y) * width + usize::from(front.x);
@@ -62,21 +45,12 @@ pub(crate) fn inflate(cells: &mut [u8], width: usize, table: &[u8], waiting: Wai
             }
         }
     };
-    match waiting {
-        Waiting::Heap => {
-            while let Some(Reverse(front)) = heap.pop() {
-                visit(front, &mut |next| heap.push(Reverse(next)));
-            }
-        }
-        Waiting::Bins => {
-            for bin in 0..bins.len() {
-                let mut next = 0;
-                while let Some(&front) = bins[bin].get(next) {
-                    next += 1;
-                    // A cell never comes into a bin before its own.
-                    visit(front, &mut |ahead| bins[(ahead.square as usize).max(bin)].push(ahead));
-                }
-            }
+    for bin in 0..bins.len() {
+        let mut next = 0;
+        while let Some(&front) = bins[bin].get(next) {
+            next += 1;
+            // A cell never comes into a bin before its own.
+            visit(front, &mut |ahead| bins[(ahead.square as usize).max(bin)].push(ahead));
         }
     }
 }
