@@ -223,8 +223,7 @@ fn tell(
     Ok(*successful)
 }
 
-/// Sets a parameter; the value is YAML, or a text where a parameter cannot hold what it is: a mapping or
-/// a list of lists, as footprints are.
+/// Sets a parameter; the value is YAML. A list of lists, as footprints are, is set as a text.
 ///
 /// # Errors
 /// When there is no such node, it refuses the value, or the output cannot be written.
@@ -247,13 +246,9 @@ fn typed_value(text: &str) -> Outcome<ParameterValue> {
     };
     let mut sources = SourceMap::new();
     let file = sources.add("value", text);
+    let is_list = |node: &Yaml| matches!(node.value, YamlValue::List(_));
     let is_nested = periplus_yaml::parse(file, &sources).ok().flatten().is_some_and(|node| {
-        let is_scalar = |node: &Yaml| matches!(node.value, YamlValue::Scalar { .. });
-        match &node.value {
-            YamlValue::Map(_) => true,
-            YamlValue::List(items) => !items.iter().all(is_scalar),
-            YamlValue::Scalar { .. } => false,
-        }
+        matches!(&node.value, YamlValue::List(items) if !items.is_empty() && items.iter().all(is_list))
     });
     match is_nested {
         true => Ok(ParameterValue {

@@ -155,19 +155,18 @@ fn parameters_are_set() {
 }
 
 #[test]
-fn what_no_parameter_can_hold_is_set_as_text() {
+fn a_list_of_lists_is_set_as_text() {
     let bench = Bench { all: true, ..Bench::new() };
     let _lidar = lidar(&bench);
-    for text in ["[[0.3, 0.3], [0.3, -0.3], [-0.3, 0.0]]", "{x: 1}"] {
-        bench.check(
-            |session| param::set(session, "/lidar", "footprint", text),
-            expect![[r#"
-            Set parameter successful
-        "#]],
-        );
-        let got = bench.run(|session| param::get(session, "/lidar", "footprint", true));
-        assert_eq!(got, format!("{text}\n"));
-    }
+    let text = "[[0.3, 0.3], [0.3, -0.3], [-0.3, 0.0]]";
+    bench.check(
+        |session| param::set(session, "/lidar", "footprint", text),
+        expect![[r#"
+        Set parameter successful
+    "#]],
+    );
+    let got = bench.run(|session| param::get(session, "/lidar", "footprint", true));
+    assert_eq!(got, format!("{text}\n"));
     for text in ["[1, 2", "[1, 2.5]"] {
         let wrong = bench.run(|session| param::set(session, "/lidar", "footprint", text));
         assert!(wrong.starts_with(&format!("! the value `{text}`")), "{wrong}");
