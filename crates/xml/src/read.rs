@@ -1,6 +1,7 @@
 //! Text to tree.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, Origin, SourceMap, Span};
 use quick_xml::events::attributes::AttrError;
@@ -14,6 +15,10 @@ use crate::tree::{Attribute, Document, Element, Node, Text};
 /// Deepest nesting that is read. Real robot files stay below 30; the readers above recurse.
 pub const DEEPEST: usize = 200;
 
+/// Attributes of one element that are compared one by one; beyond them an index finds repetitions,
+/// so that a hostile tag costs no quadratic time.
+const FEW_ATTRIBUTES: usize = 16;
+
 /// Reads one text of `sources`. What is forgiven becomes a warning; when the text is not XML at
 /// all, an error, and no document.
 pub fn parse(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -> Option<Document> {
@@ -24,6 +29,7 @@ pub fn parse(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -
         diagnostics,
         entities: Entities::default(),
         open: Vec::new(),
+        run: None,
         document: Parts::default(),
     };
     builder.run()
@@ -36,12 +42,22 @@ struct Parts {
     after: Vec<Node>,
 }
 
+/// Pieces of one run of text: the first, and all further ones.
+struct Run {
+    first: SmolStr,
+    rest: String,
+    span: Span,
+}
+
 struct Builder<'a> {
     text: &'a str,
     whole: Span,
     diagnostics: &'a mut Diagnostics,
     entities: Entities,
     open: Vec<Element>,
+    /// Text of the innermost open element that is not a node yet: text around entities and CDATA
+    /// sections arrives in pieces, and one run is one node.
+    run: Option<Run>,
     document: Parts,
 }
 
@@ -105,7 +121,9 @@ impl Builder<'_> {
             );
             return None;
         }
+        self.end_run();
         let mut attributes: Vec<Attribute> = Vec::new();
+        let mut places: BTreeMap<SmolStr, usize> = BTreeMap::new();
         let mut iterator = tag.attributes();
         iterator.with_checks(false);
         for attribute in iterator {
@@ -126,7 +144,15 @@ impl Builder<'_> {
             let value_span = self.span(value_start, value_start + raw.len());
             let value = self.attribute_value(raw, value_span)?;
             let full = self.span(start, (value_start + raw.len() + 1).min(self.text.len()));
-            if let Some(earlier) = attributes.iter().find(|earlier| earlier.name == name) {
+            let earlier = if attributes.len() < FEW_ATTRIBUTES {
+                attributes.iter().find(|earlier| earlier.name == name)
+            } else {
+                for (place, known) in attributes.iter().enumerate().skip(places.len()) {
+                    places.insert(known.name.clone(), place);
+                }
+                places.get(name).map(|&place| &attributes[place])
+            };
+            if let Some(earlier) = earlier {
                 let diagnostic = Diagnostic::error(
                     "malformed-xml",
                     format!("the attribute `{name}` is given twice"),
@@ -208,13 +234,25 @@ impl Builder<'_> {
         }
     }
 
+    /// Makes a node of the text that has been gathered.
+    fn end_run(&mut self) {
+        if let Some(Run { first, rest, span }) = self.run.take()
+            && let Some(parent) = self.open.last_mut()
+        {
+            let text = if rest.is_empty() { first } else { format!("{first}{rest}").into() };
+            parent.children.push(Node::Text(Text { text, origin: span.into() }));
+        }
+    }
+
     fn close(&mut self) {
+        self.end_run();
         if let Some(element) = self.open.pop() {
             self.node(Node::Element(element));
         }
     }
 
     fn node(&mut self, node: Node) {
+        self.end_run();
         match (self.open.last_mut(), node) {
             (Some(parent), node) => parent.children.push(node),
             (None, Node::Element(element)) => match &self.document.root {
@@ -240,7 +278,7 @@ impl Builder<'_> {
     }
 
     fn characters(&mut self, characters: &str, span: Span) -> Option<()> {
-        let Some(parent) = self.open.last_mut() else {
+        if self.open.is_empty() {
             if characters.trim().is_empty() || characters == "\u{feff}" {
                 return Some(());
             }
@@ -258,16 +296,16 @@ impl Builder<'_> {
             .label("not read");
             self.error(outside);
             return self.document.root.is_some().then_some(());
-        };
-        // Text around an entity arrives in pieces; one run is one node.
-        match parent.children.last_mut() {
-            Some(Node::Text(last)) => {
-                last.text = SmolStr::new(format!("{}{characters}", last.text));
-                if let Some(whole) = &mut last.origin.0 {
-                    whole.end = span.end;
-                }
+        }
+        match &mut self.run {
+            Some(run) => {
+                run.rest.push_str(characters);
+                run.span.end = span.end;
             }
-            _ => parent.children.push(Node::Text(plain(characters, span))),
+            None => {
+                let first = SmolStr::new(characters);
+                self.run = Some(Run { first, rest: String::new(), span });
+            }
         }
         Some(())
     }

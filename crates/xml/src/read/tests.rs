@@ -214,3 +214,26 @@ proptest! {
         let _ = read(&text);
     }
 }
+
+/// With a search through all attributes for each this takes a minute, with a copy of the text for
+/// each entity as long.
+#[test]
+fn many_attributes_and_entities_cost_linear_time() {
+    use std::fmt::Write as _;
+    let mut text = String::from("<a");
+    for index in 0..60_000 {
+        let _ = write!(text, " n{index}='1'");
+    }
+    text.push_str(" n59999='2'>");
+    text.push_str(&"&amp;<![CDATA[b]]>".repeat(100_000));
+    text.push_str("</a>");
+    let mut sources = SourceMap::new();
+    let file = sources.add("a.xml", text);
+    let mut diagnostics = Diagnostics::new();
+    let document = parse(file, &sources, &mut diagnostics).expect("a document");
+    assert_eq!(document.root.attributes.len(), 60_000);
+    assert_eq!(document.root.children.len(), 1);
+    assert_eq!(document.root.text().len(), 200_000);
+    let messages: Vec<_> = diagnostics.iter().map(|one| one.message.as_str()).collect();
+    assert_eq!(messages, ["the attribute `n59999` is given twice"]);
+}
