@@ -24,6 +24,11 @@ pub(crate) struct Corner {
 const VERTEX_BYTES: usize = 44;
 const TRIANGLE_BYTES: usize = 12;
 
+/// Bytes of one vertex and one triangle while a part is read: the part's own, those of its first
+/// instance, and the entry by which equal corners are found.
+const READ_VERTEX_BYTES: usize = 2 * VERTEX_BYTES + 32;
+const READ_TRIANGLE_BYTES: usize = 2 * TRIANGLE_BYTES;
+
 /// A part under construction, in its own frame and unit.
 #[derive(Default)]
 pub(crate) struct Part {
@@ -49,7 +54,7 @@ impl Part {
         budget: &mut Budget,
     ) -> Result<(), MeshError> {
         budget.triangles(1)?;
-        budget.bytes(TRIANGLE_BYTES)?;
+        budget.bytes(READ_TRIANGLE_BYTES)?;
         let mut triangle = [0; 3];
         for (index, corner) in triangle.iter_mut().zip(corners) {
             *index = self.vertex(corner, budget)?;
@@ -65,7 +70,7 @@ impl Part {
         if !corner.position.is_finite() {
             return Err(not_finite(corner.position));
         }
-        budget.bytes(VERTEX_BYTES)?;
+        budget.bytes(READ_VERTEX_BYTES)?;
         // Cannot overflow: 2^32 vertices are beyond any byte budget below 176 GiB.
         let index = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
         self.positions.push(corner.position);

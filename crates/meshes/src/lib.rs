@@ -78,6 +78,7 @@ pub fn read_within(
     side_files: &mut SideFiles<'_>,
 ) -> Result<Mesh, MeshError> {
     let mut budget = limits::Budget::new(limits);
+    budget.grant(bytes.len());
     let mesh = match format {
         MeshFormat::Stl => stl::read(bytes, &mut budget),
         MeshFormat::Obj => obj::read(bytes, &mut budget, side_files),

@@ -11,9 +11,18 @@ pub struct Limits {
     pub visits_max: usize,
     /// Nesting of scene nodes.
     pub depth_max: usize,
-    /// Memory of the finished mesh: vertices, indices and names \[bytes\].
+    /// Memory that reading may take, the finished mesh included \[bytes\]. A small file is
+    /// allowed less: see [`BYTES_OF_ANY_FILE`] and [`BYTES_PER_BYTE`].
     pub bytes_max: usize,
 }
+
+/// Memory that reading the smallest file may take \[bytes\]: instances and implied values let
+/// honest files of a few kilobytes unfold to megabytes.
+const BYTES_OF_ANY_FILE: usize = 128 << 20;
+
+/// Memory that each further byte of a file may take. The most compact honest vertex is three
+/// 16-bit numbers, six bytes, and takes about 110 bytes while it is read.
+const BYTES_PER_BYTE: usize = 24;
 
 impl Default for Limits {
     /// Ten million triangles, a million visits, 128 levels, 2 GiB:
@@ -37,6 +46,8 @@ pub(crate) struct Budget {
     triangles: usize,
     visits: usize,
     bytes: usize,
+    /// Memory that has been allowed so far.
+    granted: usize,
     /// Steps left for cutting ears off concave polygons, which takes quadratic
     /// to cubic time in the number of corners.
     pub(crate) ear_steps: usize,
@@ -46,7 +57,23 @@ impl Budget {
     pub(crate) fn new(limits: Limits) -> Self {
         let Limits { triangles_max, visits_max, bytes_max, .. } = limits;
         let ear_steps = 40usize.saturating_mul(triangles_max);
-        Budget { limits, triangles: triangles_max, visits: visits_max, bytes: bytes_max, ear_steps }
+        let bytes = bytes_max.min(BYTES_OF_ANY_FILE);
+        Budget {
+            limits,
+            triangles: triangles_max,
+            visits: visits_max,
+            bytes,
+            granted: bytes,
+            ear_steps,
+        }
+    }
+
+    /// Allows more memory for the bytes of a file that takes part, up to the limit.
+    pub(crate) fn grant(&mut self, file_bytes: usize) {
+        let more = file_bytes.saturating_mul(BYTES_PER_BYTE);
+        let more = more.min(self.limits.bytes_max - self.granted);
+        self.granted += more;
+        self.bytes += more;
     }
 
     pub(crate) fn triangles(&mut self, count: usize) -> Result<(), MeshError> {
@@ -68,9 +95,10 @@ impl Budget {
     }
 
     pub(crate) fn bytes(&mut self, count: usize) -> Result<(), MeshError> {
+        let granted = self.granted;
         spend(&mut self.bytes, count, || {
             MeshError::new(
-                format!("the mesh unfolds to more than {} MiB", self.limits.bytes_max >> 20),
+                format!("the mesh unfolds to more than {} MiB", granted >> 20),
                 "decimate it, or check for instances of instances",
             )
         })

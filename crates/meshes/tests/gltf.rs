@@ -238,3 +238,48 @@ fn a_flood_of_empty_objects_is_stopped_before_it_unfolds() {
     let error = read_within(limits, json.as_bytes(), MeshFormat::Gltf, &mut |_| None).unwrap_err();
     assert_eq!(error.message, "the mesh unfolds to more than 1 MiB");
 }
+
+#[test]
+fn a_count_without_data_is_refused_before_memory_is_taken() {
+    let file = |primitive: &str, accessors: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"scenes":[{{"nodes":[0]}}],
+            "meshes":[{{"primitives":[{{{primitive}}}]}}],"accessors":[{accessors}],
+            "bufferViews":[{{"buffer":0,"byteLength":16}}],"buffers":[{{"byteLength":16,
+            "uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAA=="}}]}}"#
+        )
+    };
+    let plain = r#"{"componentType":5126,"count":1000000000,"type":"VEC3"}"#;
+    let sparse = r#"{"componentType":5126,"count":1000000000,"type":"VEC3","sparse":{"count":1,
+        "indices":{"bufferView":0,"componentType":5121},"values":{"bufferView":0}}}"#;
+    let indices = r#"{"componentType":5125,"count":900000000,"type":"SCALAR"}"#;
+    let indexed = format!("{plain},{indices}");
+    for (primitive, accessors) in [
+        (r#""attributes":{"POSITION":0}"#, plain),
+        (r#""attributes":{"POSITION":0}"#, sparse),
+        (r#""attributes":{"POSITION":0},"indices":1"#, &indexed),
+    ] {
+        let text = file(primitive, accessors);
+        let error = read(text.as_bytes(), MeshFormat::Gltf, &mut |_| None).unwrap_err();
+        assert!(error.message.ends_with("corners and has no data for them"), "{}", error.message);
+    }
+}
+
+/// What may be taken grows with the file, so that a small one stays small.
+#[test]
+fn overlapping_elements_unfold_no_further_than_their_file_allows() {
+    // One element a byte: elements that overlap because of the stride, all of them different.
+    let bytes: Vec<u8> =
+        (0..3_000_000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8 & 0x3f).collect();
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"scenes":[{{"nodes":[0]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5120,"count":2999990,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":3000000,"byteStride":1}}],
+        "buffers":[{{"byteLength":3000000,"uri":"a.bin"}}]}}"#
+    );
+    let mut side = |_: &str| Some(bytes.clone());
+    let error =
+        read_within(Limits::default(), json.as_bytes(), MeshFormat::Gltf, &mut side).unwrap_err();
+    assert!(error.message.starts_with("the mesh unfolds to more than"), "{}", error.message);
+}

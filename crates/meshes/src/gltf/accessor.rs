@@ -87,6 +87,11 @@ impl Accessor {
         Ok(Accessor { count, component, components, normalized: json.normalized, view, sparse })
     }
 
+    /// Whether no data stand behind the count, so that all elements are zeros or sparse.
+    pub(super) fn is_implied(&self) -> bool {
+        self.view.is_none()
+    }
+
     /// The first `N` components at an index; `None` beyond the count or when
     /// there are fewer.
     pub(super) fn vector<const N: usize>(&self, index: usize) -> Option<[f64; N]> {

@@ -1,6 +1,6 @@
 //! Buffers: the BIN chunk, `data:` URIs and files beside the glTF file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use ::gltf::json::{Index, Root, buffer};
@@ -15,6 +15,8 @@ pub(super) struct Buffers<'a> {
     binary: Option<Rc<[u8]>>,
     side_files: &'a mut SideFiles<'a>,
     fetched: BTreeMap<usize, Rc<[u8]>>,
+    /// Files beside the glTF file that have been read.
+    sides: BTreeSet<String>,
 }
 
 /// Bytes of a buffer that a view covers.
@@ -40,7 +42,7 @@ impl<'a> Buffers<'a> {
         side_files: &'a mut SideFiles<'_>,
     ) -> Self {
         let binary = binary.map(Rc::from);
-        Buffers { root, binary, side_files, fetched: BTreeMap::new() }
+        Buffers { root, binary, side_files, fetched: BTreeMap::new(), sides: BTreeSet::new() }
     }
 
     /// The bytes of a buffer view.
@@ -87,7 +89,10 @@ impl<'a> Buffers<'a> {
                         "put it beside the glTF file, or export a single .glb",
                     )
                 })?;
-                // Many buffers may name one large file.
+                // Many buffers may name one large file, which counts once.
+                if self.sides.insert(path) {
+                    budget.grant(bytes.len());
+                }
                 budget.bytes(bytes.len())?;
                 bytes.into()
             }

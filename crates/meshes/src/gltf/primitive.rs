@@ -12,6 +12,10 @@ use crate::error::MeshError;
 use crate::limits::Budget;
 use crate::notes::Notes;
 
+/// Corners of a part whose accessor has no data and therefore stands for zeros. Exporters leave
+/// data out for a few vertices at most; a count without bytes behind it must stay cheap.
+const IMPLIED_MAX: usize = 100_000;
+
 /// Reads one primitive; points and lines give an empty part and a note.
 pub(super) fn read(
     root: &Root,
@@ -47,6 +51,13 @@ pub(super) fn read(
     let indices = primitive.indices.map(|i| Accessor::new(root, buffers, budget, i)).transpose()?;
 
     let places = indices.as_ref().map_or(positions.count, |indices| indices.count);
+    let is_implied = indices.as_ref().unwrap_or(&positions).is_implied();
+    if is_implied && places > IMPLIED_MAX {
+        return Err(MeshError::new(
+            format!("a part counts {places} corners and has no data for them"),
+            "the file is damaged: export it again",
+        ));
+    }
     let triangles = match mode {
         Mode::Triangles => places / 3,
         _ => places.saturating_sub(2),
