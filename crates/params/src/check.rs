@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
 
 use crate::value::quote;
 use crate::values::Located;
-use crate::{Default, Kind, Table, Value, Values};
+use crate::{Default, Kind, Parameter, Table, Value, Values};
 
 /// One parameter as somebody wrote it.
 #[derive(Clone, Debug)]
@@ -69,8 +69,15 @@ impl Table {
                 Err(reason) => diagnostics.push(self.unreadable(&given, &reason)),
             }
         }
+        let is_waived = |parameter: &Parameter| {
+            let flag = parameter.unless.and_then(|flag| values.get(flag)?.first());
+            flag.is_some_and(|flag| flag.value == Value::Bool(true))
+        };
         for parameter in self.parameters {
-            if parameter.default == Default::Required && !written.contains_key(parameter.name) {
+            if parameter.default == Default::Required
+                && !written.contains_key(parameter.name)
+                && !is_waived(parameter)
+            {
                 let mut diagnostic = Diagnostic::error(
                     "missing-parameter",
                     format!("{} needs `{}`", self.name, parameter.name),
@@ -222,6 +229,28 @@ mod tests {
                   = note: joint: What turns it.
             "#]],
         );
+    }
+
+    #[test]
+    fn a_flag_can_make_a_parameter_optional() {
+        static CAR: Table = Table {
+            name: "the car",
+            doc: "A car.",
+            parameters: &[
+                text("wheel", "What drives it.").required().unless("steering_only"),
+                flag("steering_only", "Whether it only steers.").or("false"),
+            ],
+        };
+        let errors = |given: &[(&'static str, &'static str)]| {
+            let given = given.iter().map(|(name, text)| Given::new(name, *text));
+            let mut diagnostics = Diagnostics::new();
+            CAR.check(given, None, &mut diagnostics);
+            diagnostics.errors()
+        };
+        assert_eq!(errors(&[]), 1);
+        assert_eq!(errors(&[("steering_only", "false")]), 1);
+        assert_eq!(errors(&[("steering_only", "true")]), 0);
+        assert_eq!(errors(&[("wheel", "w")]), 0);
     }
 
     #[test]

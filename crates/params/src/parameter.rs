@@ -77,6 +77,8 @@ pub struct Parameter {
     pub repeated: bool,
     /// What its text names.
     pub names: Option<Names>,
+    /// The flag that makes a required parameter optional when it is true.
+    pub unless: Option<&'static str>,
 }
 
 /// Parameters that belong together.
@@ -101,6 +103,7 @@ const fn plain(name: &'static str, kind: Kind, doc: &'static str) -> Parameter {
         aliases: &[],
         repeated: false,
         names: None,
+        unless: None,
     }
 }
 
@@ -171,6 +174,12 @@ impl Parameter {
     #[must_use]
     pub const fn required(self) -> Self {
         Self { default: Default::Required, ..self }
+    }
+
+    /// It need not be set when this flag is true.
+    #[must_use]
+    pub const fn unless(self, flag: &'static str) -> Self {
+        Self { unless: Some(flag), ..self }
     }
 
     /// It may be set several times.

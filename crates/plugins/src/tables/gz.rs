@@ -277,7 +277,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Tells when a link has lost energy at once.",
         [
-            text("base_link_name", "The link.").required().naming(Names::Link),
+            text("link_name", "The link.").required().naming(Names::Link),
             number("kinetic_energy_threshold", "J", "Loss that is told.").or("7"),
             topic("topic", "Topic of the news."),
         ]

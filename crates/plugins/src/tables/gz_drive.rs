@@ -149,8 +149,8 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Drives and steers a car.",
         [
-            wheels("left_joint", "The joint of a left wheel."),
-            wheels("right_joint", "The joint of a right wheel."),
+            wheels("left_joint", "The joint of a left wheel.").unless("steering_only"),
+            wheels("right_joint", "The joint of a right wheel.").unless("steering_only"),
             joint("left_steering_joint", "Steers the left wheel.").required(),
             joint("right_steering_joint", "Steers the right wheel.").required(),
             WHEEL_SEPARATION,
