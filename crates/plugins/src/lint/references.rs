@@ -137,6 +137,30 @@ fn has(names: &BTreeSet<String>, name: &str) -> bool {
     names.contains(name)
 }
 
+/// The name that was meant: a slip of the written one, or one that differs only in a word such as
+/// `_link` or `_frame` at its end.
+fn meant<'a>(written: &str, known: &[&'a str]) -> Option<&'a str> {
+    let near = periplus_diagnostics::closest(written, known.iter().copied());
+    near.or_else(|| known.iter().copied().find(|name| core(name) == core(written)))
+}
+
+fn suggest(diagnostic: Diagnostic, origin: Origin, written: &str, known: &[&str]) -> Diagnostic {
+    match meant(written, known) {
+        Some(near) => diagnostic.replace(origin, near, format!("did you mean `{near}`?")),
+        None => diagnostic,
+    }
+}
+
+/// A name without the words for what it names.
+fn core(name: &str) -> &str {
+    const KINDS: [&str; 6] = ["_link", "_frame", "_joint", "_sensor", "_optical", "_base"];
+    let mut core = name;
+    while let Some(shorter) = KINDS.iter().find_map(|kind| core.strip_suffix(kind)) {
+        core = shorter;
+    }
+    core
+}
+
 fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     // A joint may be named with its model before it.
     let last = name.rsplit("::").next().unwrap_or(name);
@@ -159,11 +183,8 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
             )),
         );
     }
-    Some(
-        Diagnostic::error("unknown-joint", format!("the model has no joint `{name}`"))
-            .at(origin)
-            .did_you_mean(origin, name, things.offered(&[&things.joints])),
-    )
+    let error = Diagnostic::error("unknown-joint", format!("the model has no joint `{name}`"));
+    Some(suggest(error.at(origin), origin, name, &things.offered(&[&things.joints])))
 }
 
 fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Option<Diagnostic> {
@@ -184,11 +205,8 @@ fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Op
         });
     }
     let links = things.offered(&[&things.links, &things.merged_links]);
-    Some(
-        Diagnostic::error("unknown-link", format!("the model has no link `{name}`"))
-            .at(origin)
-            .did_you_mean(origin, name, links),
-    )
+    let error = Diagnostic::error("unknown-link", format!("the model has no link `{name}`"));
+    Some(suggest(error.at(origin), origin, name, &links))
 }
 
 fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
@@ -205,13 +223,10 @@ fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
         return None;
     }
     let frames = things.offered(&all[..3]);
-    if periplus_diagnostics::closest(name, frames.iter().copied()).is_some() {
+    if meant(name, &frames).is_some() {
         let message = format!("the model has no link or frame `{name}`");
-        return Some(
-            Diagnostic::warning("unknown-frame", message)
-                .at(origin)
-                .did_you_mean(origin, name, frames),
-        );
+        let warning = Diagnostic::warning("unknown-frame", message).at(origin);
+        return Some(suggest(warning, origin, name, &frames));
     }
     Some(
         Diagnostic::hint(
@@ -320,6 +335,42 @@ mod tests {
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
                   = note: Gazebo runs with one of the two and fails to load the other's plugins
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_name_with_another_word_at_its_end_is_suggested() {
+        check(
+            "<model name='m'><link name='base'/><link name='laser'/><joint name='left_wheel_joint'/>
+<plugin name='p' filename='libgazebo_ros_ray_sensor.so'>
+  <frame_name>laser_frame</frame_name>
+</plugin>
+<plugin name='q' filename='libgazebo_ros_joint_state_publisher.so'>
+  <joint_name>left_wheel</joint_name>
+</plugin></model>",
+            expect![[r#"
+                warning[unknown-frame]: the model has no link or frame `laser_frame`
+                 --> test.sdf:3:15
+                  |
+                3 |   <frame_name>laser_frame</frame_name>
+                  |               ^^^^^^^^^^^
+                  |
+                help: did you mean `laser`?
+                  |
+                3 -   <frame_name>laser_frame</frame_name>
+                3 +   <frame_name>laser</frame_name>
+                  |
+                error[unknown-joint]: the model has no joint `left_wheel`
+                 --> test.sdf:6:15
+                  |
+                6 |   <joint_name>left_wheel</joint_name>
+                  |               ^^^^^^^^^^
+                  |
+                help: did you mean `left_wheel_joint`?
+                  |
+                6 |   <joint_name>left_wheel_joint</joint_name>
+                  |                         ++++++
             "#]],
         );
     }

@@ -7,6 +7,33 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use crate::library::{class_id, library_id};
 use crate::{Family, Place, Role, Site, known, recognise};
 
+/// Names that people expect, each with the library that does it. The first part is what
+/// [`distinctive`] leaves of a name.
+const EXPECTED: [(u8, &str, &str); 22] = [
+    (1, "lidar", "gazebo_ros_ray_sensor"),
+    (1, "lidar_sensor", "gazebo_ros_ray_sensor"),
+    (1, "laser_sensor", "gazebo_ros_ray_sensor"),
+    (1, "laserscan", "gazebo_ros_ray_sensor"),
+    (1, "gpu_lidar", "gazebo_ros_ray_sensor"),
+    (1, "sonar", "gazebo_ros_ray_sensor"),
+    (1, "ultrasonic", "gazebo_ros_ray_sensor"),
+    (1, "velodyne_laser", "gazebo_ros_ray_sensor"),
+    (1, "gps", "gazebo_ros_gps_sensor"),
+    (1, "navsat", "gazebo_ros_gps_sensor"),
+    (1, "rgbd_camera", "gazebo_ros_camera"),
+    (1, "stereo_camera", "gazebo_ros_camera"),
+    (1, "contact", "gazebo_ros_bumper"),
+    (1, "contact_sensor", "gazebo_ros_bumper"),
+    (1, "odometry", "gazebo_ros_p3d"),
+    (1, "ground_truth", "gazebo_ros_p3d"),
+    (1, "differential_drive", "gazebo_ros_diff_drive"),
+    (1, "mecanum_drive", "gazebo_ros_planar_move"),
+    (1, "omni_drive", "gazebo_ros_planar_move"),
+    (2, "lidar", "gz-sim-sensors-system"),
+    (2, "camera", "gz-sim-sensors-system"),
+    (2, "odometry", "gz-sim-odometry-publisher-system"),
+];
+
 /// Unknown plugins for which a known name is searched.
 const MOST_SUGGESTED: usize = 200;
 
@@ -43,6 +70,10 @@ fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
         let alike = || known().map(|known| known.id).filter(|id| distinctive(id).0 == kind);
         if core.len() < 3 || !suggest {
             return None;
+        }
+        let expected = EXPECTED.iter().find(|(of, name, _)| *of == kind && *name == core);
+        if let Some((_, _, library)) = expected {
+            return Some(*library);
         }
         // The same core with other trimmings: `gz-sim-imu` for `gz-sim-imu-system`.
         let same = alike().find(|id| distinctive(id).1 == core);
@@ -143,6 +174,45 @@ mod tests {
                   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
             "#]],
         );
+    }
+
+    #[test]
+    fn a_name_that_people_expect_leads_to_the_library_that_does_it() {
+        check(
+            "<model name='m'>
+  <plugin name='a' filename='libgazebo_ros_lidar.so'/>
+  <plugin name='b' filename='libgazebo_ros_gps.so'/>
+</model>",
+            expect![[r#"
+                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_lidar.so`; it is kept, not run
+                 --> test.sdf:2:3
+                  |
+                2 |   <plugin name='a' filename='libgazebo_ros_lidar.so'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: did you mean `libgazebo_ros_ray_sensor.so`?
+                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_gps.so`; it is kept, not run
+                 --> test.sdf:3:3
+                  |
+                3 |   <plugin name='b' filename='libgazebo_ros_gps.so'/>
+                  |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+                  |
+                  = help: did you mean `libgazebo_ros_gps_sensor.so`?
+            "#]],
+        );
+    }
+
+    #[test]
+    fn every_expected_name_leads_to_a_known_library() {
+        for (kind, name, library) in super::EXPECTED {
+            let is_known = |id: &str| crate::known().any(|known| known.id == id);
+            assert!(is_known(library), "{library}");
+            let written = match kind {
+                1 => format!("gazebo_ros_{name}"),
+                _ => format!("gz-sim-{name}-system"),
+            };
+            assert!(!is_known(&written), "{written}");
+        }
     }
 
     #[test]
