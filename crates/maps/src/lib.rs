@@ -19,6 +19,7 @@
 //! ```
 
 mod align;
+mod boxes;
 mod compare;
 mod description;
 mod distro;
@@ -32,6 +33,7 @@ mod truth;
 mod words;
 
 pub use align::{Alignment, align};
+pub use boxes::{MIN_WALL_PERCENT, WallBox, wall_boxes};
 pub use compare::{Comparison, Options, Overlap, Walls, compare, picture};
 pub use description::{Description, read_description};
 pub use distro::{Distro, Mode};

@@ -178,6 +178,14 @@ fn picture(
 ) -> Result<Map, Failed> {
     let span = description.image_span;
     let shown = image_path.display();
+    let ending = image_path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if !PICTURES.contains(&ending.to_ascii_lowercase().as_str()) {
+        // A map from elsewhere must not make anything else of this machine be opened.
+        let wrong =
+            format!("the picture `{shown}` of the map is not opened: it is no picture file");
+        let wrong = failed(Status::InvalidMapData, wrong, span);
+        return Err(wrong.help(format!("its name must end in one of {}", PICTURES.join(", "))));
+    }
     let bytes = host.read(&image_path).map_err(|error| {
         let wrong = format!("cannot read the picture `{shown}` of the map: {error}");
         let wrong = failed(Status::InvalidMapData, wrong, span);
