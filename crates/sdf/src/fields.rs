@@ -217,6 +217,24 @@ impl<'a, 'd> Fields<'a, 'd> {
         })
     }
 
+    /// A finite rate. Gazebo takes one that is not above zero for "without limit", which is 0 here.
+    pub(crate) fn rate(&mut self, name: &'static str, default: f64) -> f64 {
+        let rate = self.number(name, default);
+        if rate < 0.0
+            && let Some(child) = self.element.child(name)
+        {
+            self.diagnostics.push(
+                Diagnostic::hint(
+                    "negative-rate",
+                    format!("`<{name}>` is below 0, which counts as 0: without limit"),
+                )
+                .at(child.text_origin())
+                .help(format!("write `<{name}>0</{name}>`")),
+            );
+        }
+        rate.max(0.0)
+    }
+
     /// A number that may be infinite.
     pub(crate) fn limit(&mut self, name: &'static str, default: f64) -> f64 {
         self.leaf(name, default, value::number_or_infinite)

@@ -10,6 +10,7 @@ mod draft;
 mod fields;
 mod frames;
 mod inertia;
+mod plain_names;
 mod pose;
 mod read;
 mod upgrade;
@@ -19,6 +20,7 @@ mod version;
 mod write;
 
 pub use inertia::check as check_inertia;
+pub use plain_names::use_plain_names;
 pub use pose::{Placed, Reference, read_pose};
 pub use read::{
     Context, Includes, NoIncludes, Opened, PlacedSensor, read_collision, read_document,

@@ -143,7 +143,21 @@ pub(crate) fn boolean_word(
 
 pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Option<i64> {
     let value = number(element, diagnostics)?;
-    if value.fract() != 0.0 || value.abs() > 2f64.powi(53) {
+    if value.fract() != 0.0 && value.abs() <= 2f64.powi(53) {
+        // What comes after the digits is left unread by libsdformat too (`std::stoul`).
+        diagnostics.push(
+            Diagnostic::warning(
+                "not-a-whole-number",
+                format!(
+                    "`<{}>` takes a whole number; {} is read as {}",
+                    element.name,
+                    format_number(value),
+                    format_number(value.trunc())
+                ),
+            )
+            .at(element.text_origin()),
+        );
+    } else if value.fract() != 0.0 || value.abs() > 2f64.powi(53) {
         diagnostics.push(
             Diagnostic::error(
                 "not-a-whole-number",
@@ -153,12 +167,18 @@ pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Optio
         );
         return None;
     }
-    #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "at most 2^53; the fraction is meant to go"
+    )]
     Some(value as i64)
 }
 
 pub(crate) fn count(element: &Element, diagnostics: &mut Diagnostics) -> Option<u32> {
     let value = hexadecimal(&element.text()).map_or_else(|| integer(element, diagnostics), Some)?;
+    // All bits of a mask, as C writes it.
+    let is_mask = ["mask", "flags"].iter().any(|end| element.name.ends_with(end));
+    let value = if value == -1 && is_mask { i64::from(u32::MAX) } else { value };
     let count = u32::try_from(value).ok();
     if count.is_none() {
         diagnostics.push(

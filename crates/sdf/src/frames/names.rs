@@ -40,7 +40,8 @@ impl Names {
                     )
                     .at(origin)
                     .related(*first, format!("the {first_kind}"))
-                    .note(format!("it is called `{fresh}`; since SDF 1.7 this is an error")),
+                    .note(format!("it is called `{fresh}` here and in Gazebo"))
+                    .help("since SDF 1.7 names must differ; rename one of them"),
                 );
                 self.taken.insert(fresh.clone(), (kind, origin));
                 *name = fresh;
@@ -131,8 +132,9 @@ pub(super) fn make_unique_in_world(draft: &mut WorldDraft, diagnostics: &mut Dia
         names.take("actor", &mut actor.name, actor.origin, true, diagnostics);
     }
     for frame in &mut draft.frames {
+        // Libsdformat renames frames of a world in files of every version (`World::Load`).
         let frame = &mut frame.frame;
-        names.take("frame", &mut frame.name, frame.origin, false, diagnostics);
+        names.take("frame", &mut frame.name, frame.origin, true, diagnostics);
     }
     for joint in &mut draft.joints {
         let joint = &mut joint.joint;

@@ -156,9 +156,15 @@ fn load(uri: &str, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
 }
 
 fn tell_missing(uri: &str, from: Origin, tried: Vec<String>, reader: &mut Reader<'_>) {
+    let is_new = !reader.missing.contains_key(uri);
+    reader.missing.entry(uri.to_owned()).or_insert(from);
+    if is_on_fuel(uri) {
+        // All of them are told together: see `tell_missing_from_fuel`.
+        return;
+    }
     let mut told = Diagnostic::error("missing-include", format!("`{uri}` is not found")).at(from);
     // The places need to be listed only once.
-    if reader.missing.insert(uri.to_owned()) {
+    if is_new {
         for place in tried {
             told = told.note(format!("looked at {place}"));
         }
@@ -166,6 +172,54 @@ fn tell_missing(uri: &str, from: Origin, tried: Vec<String>, reader: &mut Reader
     for (_, site) in reader.chain.iter().rev() {
         told = told.related(*site, "included here");
     }
+    reader.diagnostics.push(told);
+}
+
+/// Whether an address is one of Gazebo's model server.
+fn is_on_fuel(uri: &str) -> bool {
+    let Some((_, rest)) = uri.split_once("://") else { return false };
+    let host = rest.split('/').next().unwrap_or_default().to_ascii_lowercase();
+    [
+        "fuel.gazebosim.org",
+        "app.gazebosim.org",
+        "fuel.ignitionrobotics.org",
+        "app.ignitionrobotics.org",
+    ]
+    .contains(&host.as_str())
+}
+
+/// Models of Fuel that a message lists.
+const MAX_LISTED_MODELS: usize = 12;
+
+/// One finding for all models that are not in the cache of Fuel: nothing is downloaded here.
+pub(crate) fn tell_missing_from_fuel(reader: &mut Reader<'_>) {
+    let missing: Vec<(&String, &Origin)> =
+        reader.missing.iter().filter(|(uri, _)| is_on_fuel(uri)).collect();
+    let Some((_, first)) = missing.first() else { return };
+    let count = missing.len();
+    let (what, are) = if count == 1 { ("model", "is") } else { ("models", "are") };
+    let mut told = Diagnostic::error(
+        "missing-from-fuel",
+        format!("{count} {what} of Fuel {are} not on this machine and left out"),
+    )
+    .at(**first);
+    for (_, site) in missing.iter().skip(1).take(MAX_LISTED_MODELS - 1) {
+        told = told.related(**site, "and this one");
+    }
+    let mut commands = String::from("with Gazebo's tools, once for each:");
+    for (uri, _) in missing.iter().take(MAX_LISTED_MODELS) {
+        commands.push_str(&format!("\n  gz fuel download -u \"{}\"", uri.trim()));
+    }
+    if count > MAX_LISTED_MODELS {
+        commands.push_str(&format!("\n  and {} more", count - MAX_LISTED_MODELS));
+    }
+    let told = told
+        .note("Gazebo downloads such models; Periplus uses no network and looks into ~/.gz/fuel")
+        .help(commands)
+        .help(
+            "without these tools open each address in a browser, download the model, unpack it to \
+             MODELS/NAME, write model://NAME in the world, and give --resource-path MODELS",
+        );
     reader.diagnostics.push(told);
 }
 

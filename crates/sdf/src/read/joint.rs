@@ -117,11 +117,12 @@ fn read_axis(
         };
         if wanted {
             fields.diagnostics.push(
-                Diagnostic::error(
+                Diagnostic::warning(
                     "missing-element",
                     format!("a joint of this kind needs its `<{name}>`"),
                 )
                 .at(joint_origin)
+                .note("the default is used: z of the joint's frame, without limits")
                 .help(format!("add `<{name}><xyz>0 0 1</xyz></{name}>`")),
             );
         }

@@ -62,7 +62,7 @@ fn axis(scan: &mut Fields<'_, '_>, name: &'static str, default: ScanAxis) -> Sca
         axis.resolution = 1.0;
     }
     if axis.max_angle_rad < axis.min_angle_rad {
-        let told = Diagnostic::error("out-of-range", "`<max_angle>` lies below `<min_angle>`")
+        let told = Diagnostic::warning("out-of-range", "`<max_angle>` lies below `<min_angle>`")
             .at(place(&fields, "max_angle"))
             .related(place(&fields, "min_angle"), "the least angle")
             .note("angles are in radians; the two are exchanged");

@@ -164,11 +164,13 @@ fn geometry(fields: &mut Fields<'_, '_>) -> Shape {
         return read_geometry(geometry, fields.diagnostics);
     }
     fields.diagnostics.push(
-        Diagnostic::error(
+        Diagnostic::warning(
             "missing-element",
             format!("`<{}>` lacks its `<geometry>`", fields.element.name),
         )
-        .at(fields.origin()),
+        .at(fields.origin())
+        .label("nothing is touched or seen here")
+        .help("add `<geometry><box><size>1 1 1</size></box></geometry>`"),
     );
     Shape::Empty
 }

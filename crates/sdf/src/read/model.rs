@@ -31,11 +31,20 @@ pub(crate) fn read_model(element: &Element, reader: &mut Reader<'_>) -> Option<M
     }
     let mut draft = read_own(element, reader);
     reader.depth += 1;
+    // Links of merged models count where their include is: the first link of all is canonical.
+    let mut links_before = 0;
     for child in element.elements() {
         match &*child.name {
+            "link" => links_before += 1,
             "model" => draft.models.extend(read_model(child, reader)),
             "include" => match read_include(child, reader) {
-                Some((Entity::Model(included), true)) => merge(*included, &mut draft, reader),
+                Some((Entity::Model(included), true)) => {
+                    let links = draft.links.len();
+                    merge(*included, &mut draft, reader);
+                    let merged = draft.links.len() - links;
+                    draft.links[links_before..].rotate_right(merged);
+                    links_before += merged;
+                }
                 Some((Entity::Model(included), false)) => draft.models.push(*included),
                 Some(_) => reader.diagnostics.push(
                     Diagnostic::error("misplaced-include", "a model can include only models")

@@ -20,8 +20,8 @@ pub(crate) fn read_physics(element: &Element, diagnostics: &mut Diagnostics) -> 
         }),
         engine,
         max_step_size_s: fields.magnitude("max_step_size", defaults.max_step_size_s),
-        real_time_factor: fields.magnitude("real_time_factor", 1.0),
-        real_time_update_rate_hz: fields.magnitude("real_time_update_rate", 1000.0),
+        real_time_factor: fields.rate("real_time_factor", 1.0),
+        real_time_update_rate_hz: fields.rate("real_time_update_rate", 1000.0),
         max_contacts: fields.count("max_contacts", 20),
         extra: Vec::new(),
     };

@@ -1,13 +1,13 @@
 //! `<sdf>`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_scene::Scene;
 use periplus_xml::{Document, Element};
 
 use super::actor::read_actor;
-use super::include::{Entity, Includes, Loaded, read_include};
+use super::include::{Entity, Includes, Loaded, read_include, tell_missing_from_fuel};
 use super::light::read_light;
 use super::model::read_model;
 use super::world::read_world;
@@ -37,8 +37,8 @@ pub(crate) struct Reader<'a> {
     pub(crate) chain: Vec<(String, Origin)>,
     /// What was read from files that are included, for they are often included many times.
     pub(crate) loaded: BTreeMap<String, Option<Loaded>>,
-    /// What was told to be missing already.
-    pub(crate) missing: BTreeSet<String>,
+    /// What was told to be missing already, and where it is included first.
+    pub(crate) missing: BTreeMap<String, Origin>,
     pub(crate) includes_left: usize,
     pub(crate) parts_left: usize,
     /// How many models are around the place at hand.
@@ -58,7 +58,7 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
         version: Version::NEWEST,
         chain: Vec::new(),
         loaded: BTreeMap::new(),
-        missing: BTreeSet::new(),
+        missing: BTreeMap::new(),
         includes_left: super::include::MOST_INCLUDES,
         parts_left: super::include::MOST_PARTS,
         depth: 0,
@@ -105,6 +105,7 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
             _ => unknown_in_root(child, reader.diagnostics),
         }
     }
+    tell_missing_from_fuel(&mut reader);
     if scene == Scene::default() && !reader.diagnostics.has_errors() {
         reader.diagnostics.push(
             Diagnostic::error("empty-file", "this file holds no world, model, light or actor")

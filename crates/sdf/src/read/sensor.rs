@@ -72,7 +72,7 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PlacedSe
         name: name.unwrap_or_else(|| type_name.clone()),
         parent_from_sensor,
         kind: SensorKind::Other,
-        update_rate_hz: fields.magnitude("update_rate", 0.0),
+        update_rate_hz: fields.rate("update_rate", 0.0),
         always_on: fields.boolean("always_on", false),
         visualize: fields.boolean("visualize", false),
         enable_metrics: fields.boolean("enable_metrics", false),
