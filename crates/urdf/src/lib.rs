@@ -3,6 +3,7 @@
 //! [`read`] turns a document into a [`Robot`]: plain data close to the file, checked as
 //! `check_urdf` checks. [`write()`] goes back.
 
+mod advice;
 mod check;
 mod convert;
 mod export;
@@ -12,6 +13,7 @@ mod robot;
 mod tree;
 mod write;
 
+pub use advice::advise;
 pub use convert::{Options, to_model, to_sdf};
 pub use export::from_model;
 pub use read::read;

@@ -6,6 +6,7 @@ mod link;
 mod material;
 mod xacro;
 
+use periplus_base::format_number;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_sdf::keep;
 use periplus_xml::{Document, Element};
@@ -146,13 +147,39 @@ fn placement(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
             );
             Rotation::default()
         }
-        None => Rotation::Rpy(vector(element, "rpy", diagnostics).unwrap_or_default()),
+        None => {
+            let rpy = vector(element, "rpy", diagnostics).unwrap_or_default();
+            check_radians(element, rpy, diagnostics);
+            Rotation::Rpy(rpy)
+        }
     };
     Placement {
         xyz_m: vector(element, "xyz", diagnostics).unwrap_or_default(),
         rotation,
         extra: extra(element, &["xyz", "rpy", "quat_xyzw"], &[], &[], diagnostics),
     }
+}
+
+/// Angles beyond a whole turn are nearly always degrees.
+fn check_radians(element: &Element, rpy: [f64; 3], diagnostics: &mut Diagnostics) {
+    // A little more than 2 pi, for those who round it.
+    const MAX_ANGLE_RAD: f64 = 6.3;
+    if rpy.iter().all(|angle| angle.abs() <= MAX_ANGLE_RAD) {
+        return;
+    }
+    let Some(written) = element.attribute("rpy") else { return };
+    let radians = rpy.map(|degrees| {
+        let rounded = format!("{:.4}", degrees.to_radians());
+        format_number(rounded.parse::<f64>().unwrap_or_default() + 0.0)
+    });
+    diagnostics.push(
+        Diagnostic::warning(
+            "degrees",
+            "angles of `rpy` are in radians, and these look like degrees",
+        )
+        .at(written.value_origin)
+        .replace(written.value_origin, radians.join(" "), "in radians, degrees would be"),
+    );
 }
 
 /// Reads the `<origin>` of an element, or takes none for no shift.
@@ -181,4 +208,4 @@ fn not_a_robot(root: &Element) -> Diagnostic {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -21,11 +21,12 @@ pub(super) fn mimics(robot: &Robot, diagnostics: &mut Diagnostics) {
             );
         } else if !names.contains(&*mimic.joint) {
             diagnostics.push(
-                Diagnostic::error(
+                Diagnostic::warning(
                     "unknown-joint",
                     format!("`{}` mimics `{}`, which is no joint", joint.name, mimic.joint),
                 )
                 .at(mimic.origin)
+                .note("ROS and Gazebo accept the robot; the joint moves by itself")
                 .did_you_mean(
                     mimic.origin,
                     &mimic.joint,

@@ -2,7 +2,6 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity};
 
-use super::extension::{For, purpose};
 use super::situation::Situation;
 use crate::lump::{Fate, WORLD};
 
@@ -29,7 +28,7 @@ impl Situation<'_> {
         self.check_merged_joints(diagnostics);
     }
 
-    /// A link that cannot be simulated; an error if more than a frame goes with it.
+    /// A link that cannot be simulated; an error if the whole robot goes with it.
     fn massless(&self, link: usize) -> Diagnostic {
         let name = &self.link(link).name;
         let branch: Vec<usize> = self
@@ -52,8 +51,13 @@ impl Situation<'_> {
         count(total(&settings), "setting of Gazebo", "settings of Gazebo");
         // A robot without any mass was written to be looked at, and can be.
         let only_shown = self.plan.massless.len() == 1 && self.is_only_shown();
-        let severity =
-            if lost.is_empty() || only_shown { Severity::Warning } else { Severity::Error };
+        // Below the root Gazebo loads the robot without the branch; without a root it loads nothing.
+        let has_rest = self.joint_above(link).is_some();
+        let severity = if lost.is_empty() || only_shown || has_rest {
+            Severity::Warning
+        } else {
+            Severity::Error
+        };
         let what = match self.joint_above(link) {
             Some(joint) => format!(
                 "the link `{name}` has no mass, and its joint `{}` does not merge it into another",
@@ -75,10 +79,7 @@ impl Situation<'_> {
                 format!("lost: {}", lost.join(", "))
             })
             .note(format!("Gazebo leaves it out{with}; here frames stay, at joint position zero"));
-        told.help(
-            "give it an <inertial> with a mass; 0.001 kg and 1e-6 kg m² about each axis are \
-             customary for a link that only marks a place",
-        )
+        told.help(crate::advice::mass::advised(self.link(link)))
     }
 
     /// Whether no link of the robot has a mass.
@@ -125,13 +126,8 @@ impl Situation<'_> {
                 if ["preserveFixedJoint", "disableFixedJointLumping"].contains(&&*setting.name) {
                     continue;
                 }
-                let severity = match purpose(&setting.name) {
-                    Some(For::Joint) => Severity::Warning,
-                    _ => Severity::Error,
-                };
                 diagnostics.push(
-                    Diagnostic::new(
-                        severity,
+                    Diagnostic::warning(
                         "merged-joint",
                         format!("the fixed joint `{}` is merged away", joint.name),
                     )

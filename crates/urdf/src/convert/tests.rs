@@ -214,7 +214,7 @@ fn a_link_without_mass_is_lost_only_behind_a_joint_that_moves() {
             frame turn MergedJoint on a at 0 0 0
             frame e MergedLink on turn at 0 0 0
             warning[massless-link]: the link `d` has no mass, so its fixed joint is not kept
-            error[massless-link]: the link `b` has no mass, and its joint `spin` does not merge it into another
+            warning[massless-link]: the link `b` has no mass, and its joint `spin` does not merge it into another
             warning[massless-link]: the link `e` has no mass, and its joint `turn` does not merge it into another
         "#]],
     );

@@ -98,18 +98,23 @@ fn collision(element: &Element, diagnostics: &mut Diagnostics) -> Option<Collisi
     })
 }
 
+/// What liburdfdom makes of a shape that it cannot read.
+const REST_OF_LINK: &str = "ROS and Gazebo accept the robot, but leave out all shapes of this link \
+                            that follow";
+
 const SHAPES: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "capsule"];
 
 fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry> {
     let example = "write <geometry><box size=\"1 1 1\"/></geometry>";
     let Some(geometry) = only_child(parent, "geometry", diagnostics) else {
         diagnostics.push(
-            Diagnostic::error(
+            Diagnostic::warning(
                 "missing-element",
                 format!("this `{}` has no `geometry`", parent.name),
             )
             .at(parent.origin)
             .label("left out")
+            .note(REST_OF_LINK)
             .help(example),
         );
         return None;
@@ -117,18 +122,19 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
     let mut shapes = geometry.elements();
     let Some(shape) = shapes.next() else {
         diagnostics.push(
-            Diagnostic::error("missing-element", "this `geometry` holds no shape")
+            Diagnostic::warning("missing-element", "this `geometry` holds no shape")
                 .at(geometry.origin)
                 .label("left out")
+                .note(REST_OF_LINK)
                 .help(example),
         );
         return None;
     };
     if let Some(second) = shapes.next() {
         diagnostics.push(
-            Diagnostic::error("two-shapes", "a `geometry` holds one shape, and here is another")
+            Diagnostic::warning("two-shapes", "a `geometry` holds one shape, and here is another")
                 .at(second.origin)
-                .label("lost")
+                .label("not read, in other readers too")
                 .related(shape.origin, "this one counts")
                 .help(format!("write a second `{}` for it", parent.name)),
         );

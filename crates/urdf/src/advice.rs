@@ -1,0 +1,40 @@
+//! Findings about robots that are valid, and yet do not do in a simulation what was meant.
+
+mod axis;
+mod balance;
+pub(crate) mod mass;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use crate::robot::Robot;
+
+/// Looks for the usual mistakes of a first robot: no collision shapes, a joint without an axis, two
+/// wheels without a caster. None of them is an error in URDF.
+pub fn advise(robot: &Robot, diagnostics: &mut Diagnostics) {
+    without_collisions(robot, diagnostics);
+    axis::check(robot, diagnostics);
+    balance::check(robot, diagnostics);
+}
+
+/// A robot with a mass and something to look at, but nothing to touch.
+fn without_collisions(robot: &Robot, diagnostics: &mut Diagnostics) {
+    let has_mass = robot.links.iter().any(|link| link.inertial.is_some());
+    let shown = robot.links.iter().find(|link| !link.visuals.is_empty());
+    let (true, Some(shown)) = (has_mass, shown) else { return };
+    if robot.links.iter().any(|link| !link.collisions.is_empty()) {
+        return;
+    }
+    diagnostics.push(
+        Diagnostic::warning("no-collision", "no link of the robot has a `collision`")
+            .at(shown.origin)
+            .label("for example this one has only a `visual`")
+            .note("in a simulation the robot falls through the floor and drives through walls")
+            .help(
+                "give each wheel, caster and the body a <collision> with the <origin> and \
+                 <geometry> of its <visual>; simple shapes are best",
+            ),
+    );
+}
+
+#[cfg(test)]
+mod tests;
