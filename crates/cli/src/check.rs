@@ -1,9 +1,10 @@
 //! `periplus check`.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_diagnostics::{Severity, to_json};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, to_json};
 use periplus_formats::{Language, Loaded, describe, load, summarise};
 use serde_json::{Value, json};
 
@@ -23,19 +24,25 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
         let mut failed = false;
         let mut reports = Vec::new();
         for (index, file) in files.iter().enumerate() {
-            let loaded = load(file, setting);
+            let mut loaded = load(file, setting);
+            let more = beyond(file, &mut loaded);
             let severities: &[Severity] = if options.strict {
                 &[Severity::Error, Severity::Warning]
             } else {
                 &[Severity::Error]
             };
-            failed |= severities.iter().any(|severity| loaded.diagnostics.count(*severity) > 0);
+            let is_bad = |found: &Diagnostics| severities.iter().any(|it| found.count(*it) > 0);
+            failed |= is_bad(&loaded.diagnostics);
+            failed |= more.iter().any(|(found, _)| is_bad(found));
             let name = file.display().to_string();
             if options.json {
-                reports.push(report(&name, &loaded));
+                reports.push(report(&name, &loaded, &more));
             } else {
                 if index > 0 && !options.quiet {
                     writeln!(out)?;
+                }
+                for (found, sources) in &more {
+                    terminal::diagnostics(&mut out, found, sources)?;
                 }
                 show(&mut out, &name, &loaded, options.quiet)?;
             }
@@ -67,23 +74,50 @@ fn show(out: &mut dyn Write, name: &str, loaded: &Loaded, quiet: bool) -> io::Re
             mesh.submeshes.join(", ")
         )?;
     }
+    for line in &loaded.contents {
+        writeln!(out, "  {line}")?;
+    }
+    if let Some(advice) = loaded.language.advice() {
+        writeln!(out, "  {advice}")?;
+    }
     if loaded.language == Language::Xacro && loaded.scene.is_none() && loaded.document.is_some() {
         writeln!(out, "  macros and properties for others to include")?;
     }
     Ok(())
 }
 
-fn report(name: &str, loaded: &Loaded) -> Value {
-    let findings = loaded.diagnostics.iter().map(|finding| to_json(finding, &loaded.sources));
+/// Findings of readers that only the command has: what the nodes say of their parameters.
+fn beyond(file: &Path, loaded: &mut Loaded) -> Vec<(Diagnostics, SourceMap)> {
+    if loaded.language != Language::Parameters || loaded.diagnostics.has_errors() {
+        return Vec::new();
+    }
+    match crate::doctor::examine_parameters(file) {
+        Ok(found) => found,
+        Err(why) => {
+            loaded.diagnostics.push(Diagnostic::error("bad-parameters", why));
+            Vec::new()
+        }
+    }
+}
+
+fn report(name: &str, loaded: &Loaded, more: &[(Diagnostics, SourceMap)]) -> Value {
+    let own = std::iter::once((&loaded.diagnostics, &loaded.sources));
+    let all = own.chain(more.iter().map(|(found, sources)| (found, sources)));
+    let findings: Vec<Value> = all
+        .clone()
+        .flat_map(|(found, sources)| found.iter().map(|finding| to_json(finding, sources)))
+        .collect();
+    let count = |severity| all.clone().map(|(found, _)| found.count(severity)).sum::<usize>();
     json!({
         "file": name,
         "language": loaded.language,
-        "errors": loaded.diagnostics.count(Severity::Error),
-        "warnings": loaded.diagnostics.count(Severity::Warning),
-        "hints": loaded.diagnostics.count(Severity::Hint),
-        "findings": findings.collect::<Vec<_>>(),
+        "errors": count(Severity::Error),
+        "warnings": count(Severity::Warning),
+        "hints": count(Severity::Hint),
+        "findings": findings,
         "contents": loaded.scene.as_ref().map(summarise),
         "mesh": loaded.mesh,
+        "lines": loaded.contents,
         "files": loaded.files,
     })
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
-use periplus_formats::{Language, Loaded, load, rebase};
+use periplus_formats::{Language, Loaded, Setting, load, load_bytes, map_world, rebase};
+use periplus_maps::Distro;
 use periplus_scene::Scene;
 use periplus_xml::write_document;
 
@@ -21,6 +22,17 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     };
     let mut loaded =
         with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
+    if matches!(loaded.language, Language::Map | Language::Picture) {
+        loaded = match with_setting(&options.search.resource_path, Vec::new(), |setting| {
+            walls(&loaded, options, setting)
+        }) {
+            Ok(world) => world,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::from(2));
+            }
+        };
+    }
     if let Some(name) = &options.model {
         keep_model(&mut loaded, name);
     }
@@ -28,11 +40,16 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     if let Some(scene) = &mut loaded.scene {
         rebase(scene, &loaded.sources, &working_folder(), &target);
     }
-    // Half a file must not pass for a whole one.
-    let text =
-        if loaded.diagnostics.has_errors() { None } else { convert(&mut loaded, options.to) };
+    // Half a file must not pass for a whole one. An expansion is whole whatever it describes, as
+    // the one of the program `xacro` is.
+    let is_expansion = options.to == Format::Urdf
+        && options.model.is_none()
+        && matches!(loaded.language, Language::Xacro | Language::Urdf)
+        && loaded.is_expanded;
+    let may_write = |loaded: &Loaded| is_expansion || !loaded.diagnostics.has_errors();
+    let text = if may_write(&loaded) { convert(&mut loaded, options.to) } else { None };
     terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
-    let Some(text) = text.filter(|_| !loaded.diagnostics.has_errors()) else {
+    let Some(text) = text.filter(|_| may_write(&loaded)) else {
         terminal::complain(&format!("{} is not converted", file.display()));
         return Ok(ExitCode::FAILURE);
     };
@@ -49,7 +66,62 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
             out.flush()?;
         }
     }
+    if loaded.diagnostics.has_errors() {
+        terminal::say("the file is expanded; the errors are about the robot that it describes");
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Boxes beyond which a world is slow to load and to look at.
+const MANY_BOXES: usize = 20_000;
+
+/// The world of a map or floor plan. `Err` for wrong usage.
+fn walls(
+    loaded: &Loaded,
+    options: &ConvertOptions,
+    setting: &Setting<'_>,
+) -> Result<Loaded, String> {
+    let path = loaded.path.to_string_lossy();
+    let read = match (loaded.language, options.resolution) {
+        (Language::Map, None) => periplus_maps::load(&path, Distro::Jazzy, setting.host),
+        (Language::Map, Some(_)) => {
+            return Err("`--resolution` is for pictures; the YAML of a map has its own".into());
+        }
+        (_, Some(metres)) => periplus_maps::load_image(&path, metres, Distro::Jazzy, setting.host),
+        (_, None) => {
+            return Err(format!(
+                "the scale of {path} is not known: give `--resolution METRES`, the side of a pixel"
+            ));
+        }
+    };
+    let Some(map) = read.map else {
+        return Ok(Loaded {
+            diagnostics: read.diagnostics,
+            sources: read.sources,
+            ..loaded.clone()
+        });
+    };
+    let name = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
+    let (text, boxes) = map_world(&map.grid, &name, options.wall_height);
+    let mut world = load_bytes(&loaded.path.with_extension("sdf"), text.as_bytes(), setting);
+    world.diagnostics.append(read.diagnostics);
+    if boxes == 0 {
+        world.diagnostics.push(
+            Diagnostic::warning(
+                "no-walls",
+                "no cell of this map is occupied, so there are no walls",
+            )
+            .help("dark pixels are walls; with `negate: 1` in the YAML light ones are"),
+        );
+    } else if boxes > MANY_BOXES {
+        world.diagnostics.push(
+            Diagnostic::warning("many-boxes", format!("the walls take {boxes} boxes"))
+                .note("noise and slanted walls need many")
+                .help("clean the picture in an image editor, or take a coarser resolution"),
+        );
+    }
+    terminal::say(&format!("{boxes} boxes make the walls"));
+    Ok(world)
 }
 
 /// The folder of a file; what goes to stdout counts as lying beside the file it came from.
@@ -100,7 +172,9 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
             None
         }
         (Format::Sdf, Some(scene)) => {
-            Some(write_document(&periplus_sdf::write(scene, &mut diagnostics)))
+            let mut document = periplus_sdf::write(scene, &mut diagnostics);
+            periplus_sdf::use_plain_names(&mut document, &mut diagnostics);
+            Some(write_document(&document))
         }
         (Format::Json, Some(scene)) => {
             serde_json::to_string_pretty(scene).ok().map(|text| text + "\n")

@@ -4,6 +4,8 @@ mod files;
 mod parameters;
 mod surroundings;
 
+pub(crate) use parameters::examine as examine_parameters;
+
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Duration;

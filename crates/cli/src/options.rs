@@ -103,9 +103,12 @@ pub(crate) struct CheckOptions {
     pub(crate) search: SearchOptions,
 }
 
-/// Convert a file: expand xacro, turn URDF into SDF, upgrade old SDF, resolve every pose
+/// Convert a file: expand xacro, turn URDF into SDF, upgrade old SDF, resolve every pose, make a
+/// world of a map or floor plan
 ///
-/// The result goes to stdout or to `--output`, findings to stderr.
+/// The result goes to stdout or to `--output`, findings to stderr. Of the YAML of a map, or of a
+/// picture with `--resolution`, the occupied cells become walls, merged to boxes; the world's frame
+/// is that of the map.
 #[derive(Debug, Args)]
 pub(crate) struct ConvertOptions {
     /// The file, and `name:=value` for xacro
@@ -120,8 +123,24 @@ pub(crate) struct ConvertOptions {
     /// Where to write it
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Side of a pixel of a floor plan [m]; dark pixels become walls
+    #[arg(long, value_name = "METRES", value_parser = positive_metres)]
+    pub(crate) resolution: Option<f64>,
+    /// Height of the walls of a map or floor plan [m]
+    #[arg(long, value_name = "METRES", default_value_t = 2.5, value_parser = positive_metres)]
+    pub(crate) wall_height: f64,
     #[command(flatten)]
     pub(crate) search: SearchOptions,
+}
+
+/// Longest length that an option takes [m].
+const MAX_LENGTH_M: f64 = 1e4;
+
+fn positive_metres(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length_m) if length_m > 0.0 && length_m <= MAX_LENGTH_M => Ok(length_m),
+        _ => Err(format!("a length above 0 and at most {MAX_LENGTH_M} m is needed")),
+    }
 }
 
 #[derive(Debug, Args)]

@@ -21,6 +21,32 @@ pub enum Language {
     ModelConfig,
     /// Triangles.
     Mesh,
+    /// A picture: a map, a floor plan, a texture.
+    Picture,
+    /// The YAML of a map.
+    Map,
+    /// Parameters of ROS nodes in YAML.
+    Parameters,
+    /// Topics of a bridge between ROS and Gazebo in YAML.
+    Bridge,
+    /// The configuration of `RViz`.
+    Rviz,
+    /// A launch file in YAML.
+    LaunchYaml,
+    /// A launch file in Python.
+    LaunchPython,
+    /// Any other program in Python.
+    Python,
+    /// Any other YAML.
+    Yaml,
+    /// A recording.
+    Recording,
+    /// Packed files.
+    Archive,
+    /// The manifest of a package.
+    Package,
+    /// A folder that is no model.
+    Folder,
     /// None of these.
     Unknown,
 }
@@ -36,8 +62,57 @@ impl Language {
             Self::Launch => "launch file",
             Self::ModelConfig => "model.config",
             Self::Mesh => "mesh",
+            Self::Picture => "picture",
+            Self::Map => "map",
+            Self::Parameters => "file of node parameters",
+            Self::Bridge => "file of bridged topics",
+            Self::Rviz => "configuration of RViz",
+            Self::LaunchYaml => "launch file in YAML",
+            Self::LaunchPython => "launch file in Python",
+            Self::Python => "program in Python",
+            Self::Yaml => "YAML file",
+            Self::Recording => "recording",
+            Self::Archive => "archive",
+            Self::Package => "package manifest",
+            Self::Folder => "folder",
             Self::Unknown => "unknown format",
         }
+    }
+}
+
+impl Language {
+    /// What to do with a file that holds neither robot nor world; none for those that do.
+    #[must_use]
+    pub fn advice(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Xacro | Self::Urdf | Self::Sdf | Self::ModelConfig | Self::Unknown => {
+                return None;
+            }
+            Self::Launch | Self::LaunchYaml | Self::LaunchPython => {
+                "`periplus launch FILE` runs it, `periplus launch FILE --print` shows its plan"
+            }
+            Self::Mesh => "name it in the <mesh> of a robot or world",
+            Self::Picture => {
+                "a map needs a YAML beside it; `periplus convert FILE --to sdf --resolution 0.05` \
+                 makes a world of a floor plan"
+            }
+            Self::Map => {
+                "`periplus convert FILE --to sdf` makes a world of it, `periplus map` shows and \
+                 serves it, `periplus localize` finds a robot on it"
+            }
+            Self::Parameters => {
+                "give it to the nodes that it is for: `periplus costmap`, `localize` and `slam \
+                 --live`, or `params_file:=FILE` of a launch file; `periplus doctor FILE` examines it"
+            }
+            Self::Bridge => "`periplus bridge --config FILE` connects these topics",
+            Self::Rviz => "open it on the page: `periplus view`, then Open beside the displays",
+            Self::Python => "run it with python3 beside `periplus sim`",
+            Self::Yaml => "none of Periplus's commands knows what it is for",
+            Self::Recording => "`periplus bag info FILE` shows what it holds, `bag play` plays it",
+            Self::Archive => "unpack it, and give the file in it",
+            Self::Package => "give a robot, world or launch file of the package",
+            Self::Folder => "give a file in it",
+        })
     }
 }
 
@@ -63,6 +138,7 @@ pub(crate) fn language(path: &Path, document: &Document) -> Language {
         "robot" => Language::Urdf,
         "sdf" | "gazebo" => Language::Sdf,
         "launch" => Language::Launch,
+        "package" => Language::Package,
         "model" if path.file_name().is_some_and(|name| name == "model.config") => {
             Language::ModelConfig
         }

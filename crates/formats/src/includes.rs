@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin, SourceMap};
-use periplus_resources::Kind;
+use periplus_resources::{Kind, Miss, MissKind, Resolver};
 use periplus_sdf::{Includes, Opened};
 
 use crate::documents::{model_of, read_xml};
@@ -70,6 +70,23 @@ impl<'s, 'a> Files<'s, 'a> {
     }
 }
 
+/// What an include names. A path that leads nowhere may be the name of a model: Gazebo looks for
+/// `<uri>NAME</uri>` and `<uri>file://NAME</uri>` in the folders of models too.
+fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
+    resolver.resolve(uri, from).or_else(|miss| {
+        let bare = uri.trim().strip_prefix("file://").unwrap_or(uri.trim());
+        let is_name = !bare.contains("://") && !bare.starts_with(['/', '.']);
+        if miss.kind != MissKind::Missing || !is_name {
+            return Err(miss);
+        }
+        resolver.resolve(&format!("model://{bare}"), from).map_err(|mut by_name| {
+            by_name.uri = miss.uri;
+            by_name.tried.splice(0..0, miss.tried);
+            by_name
+        })
+    })
+}
+
 impl Includes for Files<'_, '_> {
     fn open(
         &mut self,
@@ -80,7 +97,7 @@ impl Includes for Files<'_, '_> {
     ) -> Opened {
         let mentioned_in = mentioned_in(from, sources, &self.setting.working_folder);
         let resolver = self.setting.resolver;
-        let found = resolver.resolve(uri, &mentioned_in).and_then(|path| {
+        let found = resolve_model(resolver, uri, &mentioned_in).and_then(|path| {
             match self.setting.host.kind(&path) {
                 Some(Kind::Folder) => resolver.model_file(&path),
                 _ => Ok(path),

@@ -5,20 +5,25 @@
 
 mod detect;
 mod documents;
+mod example_worlds;
 mod images;
 mod includes;
 mod interfaces;
 mod load;
+mod map_world;
 mod mesh_files;
+mod other_files;
 mod rebase;
 mod setting;
 mod shapes;
 mod summary;
 
 pub use detect::Language;
+pub use example_worlds::names as example_worlds;
 pub use images::settle_images;
 pub use interfaces::{Interfaces, load_interfaces};
 pub use load::{Loaded, load, load_bytes};
+pub use map_world::map_world;
 pub use mesh_files::{MeshSummary, read_beside, read_mesh};
 pub use rebase::rebase;
 pub use setting::Setting;

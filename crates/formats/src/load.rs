@@ -2,16 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_resources::{ReadError, nearest};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_resources::{Kind, ReadError, nearest};
 use periplus_scene::Scene;
 use periplus_urdf::Robot;
 use periplus_xml::Document;
 
 use crate::detect::{Language, language, promised};
 use crate::documents::{model_of, read_xml};
+use crate::example_worlds::{self, Example};
 use crate::includes::Files;
 use crate::mesh_files::{self, MeshSummary};
+use crate::other_files;
 use crate::setting::{Setting, shown};
 
 /// What a file gave.
@@ -27,12 +29,16 @@ pub struct Loaded {
     pub diagnostics: Diagnostics,
     /// The XML, with xacro expanded. None when it is not XML, or does not expand.
     pub document: Option<Document>,
+    /// Whether the document is what its macros make of it: no error came before it was interpreted.
+    pub is_expanded: bool,
     /// The robot, of a URDF.
     pub robot: Option<Robot>,
     /// What it means. None for files that describe no scene.
     pub scene: Option<Scene>,
     /// What a mesh file holds.
     pub mesh: Option<MeshSummary>,
+    /// What other files hold, a line each.
+    pub contents: Vec<String>,
     /// Other files that took part, in order of use.
     pub files: Vec<PathBuf>,
 }
@@ -40,32 +46,105 @@ pub struct Loaded {
 /// Reads a file of any kind that is known.
 #[must_use]
 pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
+    let written = path;
     let path = setting.working_folder.join(path);
+    if setting.host.kind(&path) == Some(Kind::Folder) {
+        return load_folder(path, setting);
+    }
+    // Large files of which only the name counts.
+    if let Some(Language::Recording | Language::Archive) = other_files::recognise(&path, &[])
+        && setting.host.kind(&path).is_some()
+    {
+        return load_bytes(&path, &[], setting);
+    }
     match setting.host.read(&path) {
         Ok(bytes) => load_bytes(&path, &bytes, setting),
+        Err(ReadError::Missing) if let Some(found) = on_resource_path(written, setting) => {
+            load(&found, setting)
+        }
+        Err(ReadError::Missing)
+            if let Some(Example::BuiltIn(text)) = example_worlds::find(written) =>
+        {
+            let mut loaded = load_bytes(&path, text.as_bytes(), setting);
+            let name = written.display();
+            loaded.diagnostics.push(
+                Diagnostic::hint("example-world", format!("`{name}` is the built-in world of that name"))
+                    .note("it has the models, sensors and topics of Gazebo's example, in shapes of our own"),
+            );
+            loaded
+        }
         Err(error) => {
+            let found = example_worlds::find(written).filter(|_| error == ReadError::Missing);
             let mut loaded = empty(path);
             let near = match error {
                 ReadError::Missing => nearest(setting.host, &loaded.path),
                 _ => None,
             };
-            let help = match near {
-                Some(near) => format!("did you mean `{}`?", shown(&near, &setting.working_folder)),
-                None => "check the path; it is taken from the folder you stand in".to_owned(),
+            let helped = match found {
+                Some(Example::OfGazebo) => Some(
+                    "Gazebo has an example of that name, which is not built in: copy it from a \
+                     machine with Gazebo (`/usr/share/gz/gz-sim8/worlds`, or \
+                     `/usr/share/gazebo-11/worlds`) and put its folder on GZ_SIM_RESOURCE_PATH"
+                        .to_owned(),
+                ),
+                _ if near.is_some() => near.map(|near| {
+                    format!("did you mean `{}`?", shown(&near, &setting.working_folder))
+                }),
+                Some(Example::Unknown(Some(near))) => {
+                    Some(format!("did you mean `{near}.sdf`, which is built in?"))
+                }
+                _ => None,
             };
-            loaded.diagnostics.push(
-                Diagnostic::error(
-                    "unreadable-file",
-                    format!(
-                        "`{}` cannot be read: {error}",
-                        shown(&loaded.path, &setting.working_folder)
-                    ),
-                )
-                .help(help),
+            let told = Diagnostic::error(
+                "unreadable-file",
+                format!(
+                    "`{}` cannot be read: {error}",
+                    shown(&loaded.path, &setting.working_folder)
+                ),
             );
+            loaded.diagnostics.push(told.help(helped.unwrap_or_else(|| {
+                "check the path; it is taken from the folder you stand in".to_owned()
+            })));
             loaded
         }
     }
+}
+
+/// A file of a relative path in the folders of resources, where Gazebo looks for worlds too.
+fn on_resource_path(written: &Path, setting: &Setting<'_>) -> Option<PathBuf> {
+    if written.is_absolute() || written.starts_with("..") {
+        return None;
+    }
+    let found = setting.resolver.resolve(written.to_str()?, &setting.working_folder).ok()?;
+    (setting.host.kind(&found) == Some(Kind::File)).then_some(found)
+}
+
+/// Reads the model that a folder holds.
+fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
+    let has = |name: &str| setting.host.kind(&path.join(name)) == Some(Kind::File);
+    if has("model.config") || has("model.sdf") {
+        match setting.resolver.model_file(&path) {
+            Ok(file) => return load(&file, setting),
+            Err(miss) => {
+                let mut loaded = empty(path);
+                loaded.diagnostics.push(miss.into_diagnostic(Origin::default()));
+                return loaded;
+            }
+        }
+    }
+    let what = if has("metadata.yaml") {
+        (Language::Recording, "a recording")
+    } else if has("package.xml") {
+        (Language::Folder, "a package")
+    } else {
+        (Language::Folder, "a folder without a model.config")
+    };
+    let mut loaded = empty(path);
+    loaded.language = what.0;
+    let told = format!("`{}` is {}", shown(&loaded.path, &setting.working_folder), what.1);
+    let advice = what.0.advice().unwrap_or_default();
+    loaded.diagnostics.push(Diagnostic::error("folder", told).help(advice));
+    loaded
 }
 
 /// Reads what a file of this name would hold: a text that came over a wire, or is built in. What it
@@ -77,6 +156,11 @@ pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
     if mesh_files::is_mesh(&path) {
         loaded.language = Language::Mesh;
         loaded.mesh = mesh_files::summarise(&path, bytes, setting, &mut loaded.diagnostics);
+        return loaded;
+    }
+    if let Some(language) = other_files::recognise(&path, bytes) {
+        loaded.language = language;
+        other_files::read(bytes, setting, &mut loaded);
         return loaded;
     }
     if let Some(document) =
@@ -96,10 +180,23 @@ fn empty(path: PathBuf) -> Loaded {
         sources: SourceMap::new(),
         diagnostics: Diagnostics::new(),
         document: None,
+        is_expanded: false,
         robot: None,
         scene: None,
         mesh: None,
+        contents: Vec::new(),
         files: Vec::new(),
+    }
+}
+
+/// Whether an expanded file is one of macros and properties for others to include: a robot
+/// without links, or any other root such as `<root>` or `<xacro>`.
+fn is_for_inclusion(document: &Document) -> bool {
+    let root = &document.root;
+    match root.local_name() {
+        "robot" => root.value("name").is_none() || root.child("link").is_none(),
+        "sdf" | "gazebo" | "launch" => false,
+        _ => true,
     }
 }
 
@@ -124,12 +221,19 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
     } else {
         document
     };
+    loaded.is_expanded = !loaded.diagnostics.has_errors();
     match document.root.local_name() {
-        // A file of macros for others to include is a `robot` without a name.
-        "robot" if loaded.language == Language::Xacro && document.root.value("name").is_none() => {}
+        _ if loaded.language == Language::Xacro && is_for_inclusion(&document) => {
+            loaded.diagnostics.push(
+                Diagnostic::hint("macros-only", "this file holds no link, so it is no robot yet")
+                    .at(document.root.origin)
+                    .help("include it in a robot: <xacro:include filename=\"...\"/>"),
+            );
+        }
         "robot" => {
             loaded.robot = periplus_urdf::read(&document, &mut loaded.diagnostics);
             if let Some(robot) = &loaded.robot {
+                periplus_urdf::advise(robot, &mut loaded.diagnostics);
                 let model = model_of(robot, &mut loaded.sources, &mut loaded.diagnostics);
                 loaded.scene = Some(Scene { models: vec![model], ..Scene::default() });
             }
@@ -145,6 +249,10 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
             loaded.files.extend(files.into_paths());
         }
         _ if matches!(loaded.language, Language::Launch | Language::ModelConfig) => {}
+        _ if loaded.language == Language::Package => {
+            let name = document.root.child("name").map(|name| name.text().into_owned());
+            loaded.contents.extend(name.map(|name| format!("package {name}")));
+        }
         other => {
             let origin = document.root.name_origin();
             loaded.diagnostics.push(

@@ -108,10 +108,10 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
     settle(&mut first, setting);
     if first.scene.is_none() && !first.diagnostics.has_errors() {
         let what = first.language.name();
-        first.diagnostics.push(
-            Diagnostic::error("no-world", format!("a {what} holds no world to simulate"))
-                .help("give an SDF world, or a robot: it will stand on a plane in the sun"),
-        );
+        let told = Diagnostic::error("no-world", format!("a {what} holds no world to simulate"));
+        let told = first.language.advice().into_iter().fold(told, Diagnostic::help);
+        let told = told.help("give an SDF world, or a robot: it will stand on a plane in the sun");
+        first.diagnostics.push(told);
     }
     let mut scene = first.scene.take().unwrap_or_default();
     if scene.worlds.len() > 1 {

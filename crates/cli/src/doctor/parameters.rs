@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_yaml::Node;
 
 /// What is wrong with a file; in words why it cannot be read.
-pub(super) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
+pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
     let text = crate::paths::text(path)?;
     let mut sources = SourceMap::new();
     let mut found = Diagnostics::new();
