@@ -149,7 +149,7 @@ mod tests {
                 || x == 79
                 || y == 59
                 || (x + 2 * y == 130)
-                || (x * 7 + y * 13) % 211 == 0
+                || (x * 7 + y * 13).is_multiple_of(211)
         };
         let cells = (0..4800).map(|i| if is_wall(i % 80, i / 80) { 100 } else { 0 }).collect();
         let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");

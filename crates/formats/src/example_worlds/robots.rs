@@ -122,7 +122,7 @@ pub(super) fn mecanum(name: &str, colour: Rgb) -> String {
         let joint = format!("{end}_{side}_wheel_joint");
         text.push_str(&hinge(&joint, "chassis", &format!("{end}_{side}_wheel"), None));
     }
-    let _ = write!(
+    let _ = writeln!(
         text,
         "<plugin filename=\"gz-sim-mecanum-drive-system\" name=\"gz::sim::systems::MecanumDrive\">\
          <front_left_joint>front_left_wheel_joint</front_left_joint>\
@@ -131,7 +131,7 @@ pub(super) fn mecanum(name: &str, colour: Rgb) -> String {
          <back_right_joint>rear_right_wheel_joint</back_right_joint>\
          <wheel_separation>{WHEEL_SEPARATION_M}</wheel_separation>\
          <wheelbase>{WHEEL_BASE_M}</wheelbase><wheel_radius>{WHEEL_RADIUS_M}</wheel_radius>\
-         </plugin></model>\n"
+         </plugin></model>"
     );
     text
 }
@@ -158,7 +158,7 @@ pub(super) fn car(name: &str, colour: Rgb) -> String {
         };
         text.push_str(&hinge(&format!("{wheel_name}_joint"), &parent, &wheel_name, None));
     }
-    let _ = write!(
+    let _ = writeln!(
         text,
         "<plugin filename=\"gz-sim-ackermann-steering-system\" \
          name=\"gz::sim::systems::AckermannSteering\">\
@@ -171,7 +171,7 @@ pub(super) fn car(name: &str, colour: Rgb) -> String {
          <kingpin_width>{WHEEL_SEPARATION_M}</kingpin_width><steering_limit>0.5</steering_limit>\
          <wheel_base>{WHEEL_BASE_M}</wheel_base>\
          <wheel_separation>{WHEEL_SEPARATION_M}</wheel_separation>\
-         <wheel_radius>{WHEEL_RADIUS_M}</wheel_radius></plugin></model>\n"
+         <wheel_radius>{WHEEL_RADIUS_M}</wheel_radius></plugin></model>"
     );
     text
 }

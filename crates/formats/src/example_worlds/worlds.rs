@@ -10,7 +10,10 @@ use super::robots::{
 };
 
 /// Name without `.sdf`, and what makes the text.
-pub(super) const WORLDS: [(&str, fn() -> String); 30] = [
+type Entry = (&'static str, fn() -> String);
+
+/// All worlds.
+pub(super) const WORLDS: [Entry; 30] = [
     ("empty", || world("empty", &[CONTACT], "")),
     ("default", || world("default", &[CONTACT, RENDERING, IMU], "")),
     ("shapes", || world("shapes", &[], &shapes(0.0))),
