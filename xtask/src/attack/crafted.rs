@@ -233,8 +233,7 @@ pub(super) fn mesh() -> Vec<Input> {
     glb.extend(u32::MAX.to_le_bytes());
     glb.extend(u32::MAX.to_le_bytes());
     glb.extend(b"JSON{}");
-    let obj: String =
-        "v 0 0 0\n".repeat(3) + &"f 1 2 3 1 2 3 1 2 3 ".repeat(1) + &"1 ".repeat(300_000);
+    let obj: String = "v 0 0 0\n".repeat(3) + "f 1 2 3 1 2 3 1 2 3 " + &"1 ".repeat(300_000);
     let dae = |count: &str| {
         format!(
             "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"s\"><float_array id=\"a\" count=\"{count}\">0 0 0</float_array><technique_common><accessor source=\"#a\" count=\"{count}\" stride=\"{count}\"/></technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" source=\"#s\"/></vertices><triangles count=\"{count}\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"{count}\"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries></COLLADA>"

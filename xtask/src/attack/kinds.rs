@@ -171,7 +171,6 @@ pub(super) const KINDS: &[Kind] = &[
         beside: &[("room.yaml", "xtask/src/attack/seeds/room.yaml")],
         words: &["map", "info", "room.yaml"],
         batch: 1,
-        ..KIND
     },
     Kind {
         name: "map-diff",

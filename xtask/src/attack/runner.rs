@@ -29,7 +29,7 @@ pub(super) struct Limits {
 
 /// Limits of one input.
 pub(super) const ONE: Limits =
-    Limits { cpu_s: 10, wall_s: 60, memory_mb: 500, address_mb: 6000, file_mb: 200 };
+    Limits { cpu_s: 10, wall_s: 120, memory_mb: 500, address_mb: 6000, file_mb: 200 };
 
 /// Limits of several inputs in one process.
 pub(super) const SEVERAL: Limits = Limits { cpu_s: 20, ..ONE };
