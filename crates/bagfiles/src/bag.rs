@@ -1,6 +1,6 @@
 //! The one door.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use periplus_bags::{BagTopic, Metadata, Selection, Style, read_metadata};
@@ -92,13 +92,14 @@ impl Bag {
     }
 
     fn join_topics(&mut self) {
+        let mut index = TopicIndex::default();
         for part in &self.parts {
             for (topic, count) in part.topics.iter().zip(&part.counts) {
-                let at = find(&self.topics, topic).unwrap_or_else(|| {
+                let at = index.add(topic);
+                if at == self.topics.len() {
                     self.topics.push(topic.clone());
                     self.counts.push(0);
-                    self.topics.len() - 1
-                });
+                }
                 self.counts[at] = self.counts[at].saturating_add(*count);
                 if self.topics[at].schema.is_empty() {
                     self.topics[at].schema.clone_from(&topic.schema);
@@ -244,14 +245,33 @@ impl Bag {
     }
 }
 
-/// Which of the topics is the same as another file's.
-pub(crate) fn find<'a>(
-    topics: impl IntoIterator<Item = &'a BagTopic>,
-    topic: &BagTopic,
-) -> Option<usize> {
-    topics.into_iter().position(|one| {
-        one.name == topic.name && one.type_name == topic.type_name && one.encoding == topic.encoding
-    })
+/// Numbers of topics by name, type and encoding. Topics of several files that agree in these are
+/// one.
+#[derive(Default)]
+pub(crate) struct TopicIndex(BTreeMap<[String; 3], usize>);
+
+impl TopicIndex {
+    pub(crate) fn of<'a>(topics: impl IntoIterator<Item = &'a BagTopic>) -> Self {
+        let mut index = Self::default();
+        for topic in topics {
+            index.add(topic);
+        }
+        index
+    }
+
+    /// The number of a topic; the next one for a new topic.
+    pub(crate) fn add(&mut self, topic: &BagTopic) -> usize {
+        let next = self.0.len();
+        *self.0.entry(Self::key(topic)).or_insert(next)
+    }
+
+    pub(crate) fn find(&self, topic: &BagTopic) -> Option<usize> {
+        self.0.get(&Self::key(topic)).copied()
+    }
+
+    fn key(topic: &BagTopic) -> [String; 3] {
+        [&topic.name, &topic.type_name, &topic.encoding].map(Clone::clone)
+    }
 }
 
 /// The files of a folder, by its description or without.

@@ -11,8 +11,9 @@ pub(crate) fn packing_of(data: &[u8]) -> Option<Packing> {
     [Packing::Zstd, Packing::Lz4].into_iter().find(|packing| data.starts_with(&packing.magic()))
 }
 
-/// Larger messages are refused \[bytes\].
-const LARGEST: u64 = 1 << 30;
+/// Larger messages are refused \[bytes\]: those of ROS are far smaller, and a few kilobytes may
+/// unpack to this.
+const LARGEST: u64 = 256 << 20;
 
 /// Unpacks a message into `out`.
 pub(crate) fn unpack(packing: Packing, data: &[u8], out: &mut Vec<u8>) -> Result<(), String> {

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use periplus_bags::{BagTopic, Message, Selection};
 
 use crate::BagError;
-use crate::bag::find;
+use crate::bag::TopicIndex;
 use crate::message_packing::{packing_of, unpack};
 use crate::part::{Open, Part};
 
@@ -17,7 +17,7 @@ pub type BagMessage<'a> = Message<'a>;
 /// files.
 pub struct BagMessages {
     selection: Selection,
-    topics: Vec<BagTopic>,
+    topics: TopicIndex,
     /// Files that are not open yet, the earliest last.
     waiting: Vec<(usize, Part)>,
     open: Vec<Option<Input>>,
@@ -50,7 +50,7 @@ impl BagMessages {
         let open = parts.iter().map(|_| None).collect();
         Self {
             selection,
-            topics: topics.to_vec(),
+            topics: TopicIndex::of(topics),
             waiting,
             open,
             heads: BinaryHeap::new(),
@@ -71,7 +71,7 @@ impl BagMessages {
                 break;
             }
             let Some((number, part)) = self.waiting.pop() else { break };
-            let topics = part.topics.iter().map(|topic| find(&self.topics, topic));
+            let topics = part.topics.iter().map(|topic| self.topics.find(topic));
             let input = Input {
                 topics: topics.map(Option::unwrap_or_default).collect(),
                 is_cdr: part.topics.iter().map(|topic| topic.encoding == "cdr").collect(),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use periplus_bags::{BagInfo, BagTopic, FileInfo, Stamp, Stored, TopicInfo};
 
 use crate::BagError;
-use crate::bag::METADATA;
+use crate::bag::{METADATA, TopicIndex};
 use crate::profile::topic_info;
 use file::FileWriter;
 
@@ -29,6 +29,7 @@ pub struct BagWriter {
     file: Option<FileWriter>,
     path: PathBuf,
     topics: Vec<(BagTopic, TopicInfo)>,
+    index: TopicIndex,
     /// What a topic is called in the open file.
     ids: Vec<usize>,
     files: Vec<FileInfo>,
@@ -66,6 +67,7 @@ impl BagWriter {
             file: None,
             path: path.to_owned(),
             topics: Vec::new(),
+            index: TopicIndex::default(),
             ids: Vec::new(),
             files: Vec::new(),
             current: FileInfo { path: String::new(), span_ns: None, messages: 0 },
@@ -111,14 +113,14 @@ impl BagWriter {
     /// # Errors
     /// When the recording cannot hold it.
     pub fn topic(&mut self, topic: &BagTopic) -> Result<usize, BagError> {
-        if let Some(at) = crate::bag::find(self.topics.iter().map(|(topic, _)| topic), topic) {
+        if let Some(at) = self.index.find(topic) {
             return Ok(at);
         }
         if let Some(file) = &mut self.file {
             self.ids.push(file.topic(topic)?);
         }
         self.topics.push((topic.clone(), topic_info(topic)));
-        Ok(self.topics.len() - 1)
+        Ok(self.index.add(topic))
     }
 
     /// Records a message of a topic.

@@ -110,9 +110,26 @@ pub(crate) fn unpack_some(
     (bytes, outcome)
 }
 
-fn read(source: impl Read, length: u64, bytes: &mut Vec<u8>) -> io::Result<()> {
-    // One byte more than announced shows that there are too many.
-    source.take(length.saturating_add(1)).read_to_end(bytes).map(|_| ())
+/// Least memory that is asked for at one time \[bytes\].
+const READ_STEP: usize = 1 << 20;
+
+/// Reads at most one byte more than `length`, which shows that there are too many. Memory is at most
+/// doubled at a time, and never exceeds what was announced, so that a few bytes that unpack to
+/// gigabytes cost what `length` allows.
+pub(crate) fn read(mut source: impl Read, length: u64, bytes: &mut Vec<u8>) -> io::Result<()> {
+    let most = usize::try_from(length.saturating_add(1)).unwrap_or(usize::MAX);
+    while bytes.len() < most {
+        let step = bytes.len().clamp(READ_STEP, READ_STEP * 16).min(most - bytes.len());
+        let before = bytes.len();
+        if bytes.capacity() - before < step {
+            bytes.try_reserve_exact(before.max(step).min(most - before))?;
+        }
+        let read = source.by_ref().take(step as u64).read_to_end(bytes)?;
+        if read < step {
+            break;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -138,5 +155,17 @@ mod tests {
             assert_eq!(Compression::from_name(compression.name()), Some(compression));
         }
         assert_eq!(Compression::from_name("bz2"), None);
+    }
+
+    #[test]
+    fn memory_grows_with_what_is_announced() {
+        let zeros = zstd::bulk::compress(&vec![0; 64 << 20], 1).unwrap();
+        for length in [1_000, 20 << 20, 64 << 20] {
+            let (bytes, outcome) = unpack_some(Compression::Zstd, &zeros, length);
+            assert!(outcome.is_ok());
+            let most = usize::try_from(length).unwrap() + 1;
+            assert_eq!(bytes.len(), most.min(64 << 20));
+            assert!(bytes.capacity() <= most + 64, "{} for {most}", bytes.capacity());
+        }
     }
 }

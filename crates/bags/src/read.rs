@@ -36,9 +36,10 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// 256 MiB and 1 GiB: far above what recorders write (1 to 10 MiB).
+    /// 256 MiB and 384 MiB: far above what recorders write (1 to 10 MiB), and together with the
+    /// growth of one chunk below half a gigabyte.
     fn default() -> Self {
-        Self { chunk: 256 << 20, unpacked: 1 << 30 }
+        Self { chunk: 256 << 20, unpacked: 384 << 20 }
     }
 }
 

@@ -7,6 +7,23 @@ use periplus_base::Pose2;
 /// A lattice has no more cells: 16,384 by 16,384, at a byte for each what a reader takes in.
 pub const MOST_CELLS: usize = 1 << 28;
 
+/// Shortest and longest side of a cell \[m\].
+pub const RESOLUTION_RANGE_M: [f64; 2] = [1e-6, 1e5];
+/// Largest coordinate of an origin \[m\]: beyond it, distances of a micrometre are lost.
+pub const MAX_ORIGIN_M: f64 = 1e9;
+
+/// True for a side of a cell that is a number within [`RESOLUTION_RANGE_M`].
+#[must_use]
+pub fn is_resolution(resolution_m: f64) -> bool {
+    (RESOLUTION_RANGE_M[0]..=RESOLUTION_RANGE_M[1]).contains(&resolution_m)
+}
+
+/// True for an origin whose numbers are finite and within [`MAX_ORIGIN_M`].
+#[must_use]
+pub fn is_origin(origin: Pose2) -> bool {
+    origin.is_finite() && origin.x_m.abs().max(origin.y_m.abs()) <= MAX_ORIGIN_M
+}
+
 /// Column and row of a cell, from the lower left corner.
 pub type Cell = (usize, usize);
 
@@ -30,9 +47,9 @@ pub struct Lattice {
 /// Why a lattice makes no sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LatticeError {
-    /// The side of a cell is not positive and finite \[m\].
+    /// The side of a cell is outside of [`RESOLUTION_RANGE_M`] \[m\].
     Resolution(f64),
-    /// A number of the origin is not finite.
+    /// A number of the origin is not finite, or beyond [`MAX_ORIGIN_M`].
     Origin(Pose2),
     /// There are more than [`MOST_CELLS`]; columns and rows.
     TooLarge(usize, usize),
@@ -42,10 +59,19 @@ impl fmt::Display for LatticeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Resolution(resolution_m) => {
-                write!(f, "the resolution is {resolution_m} m; it must be finite and positive")
+                let [shortest_m, longest_m] = RESOLUTION_RANGE_M;
+                write!(
+                    f,
+                    "the resolution is {resolution_m:?} m; it must be from {shortest_m:?} m to \
+                     {longest_m} m"
+                )
             }
             Self::Origin(Pose2 { x_m, y_m, yaw_rad }) => {
-                write!(f, "the origin is [{x_m}, {y_m}, {yaw_rad}]; all must be finite")
+                write!(
+                    f,
+                    "the origin is [{x_m:?}, {y_m:?}, {yaw_rad:?}]; all must be finite, and x and y at \
+                 most {MAX_ORIGIN_M:?} m"
+                )
             }
             Self::TooLarge(width, height) => write!(
                 f,
@@ -69,10 +95,10 @@ impl Lattice {
         height: usize,
         origin: Pose2,
     ) -> Result<Self, LatticeError> {
-        if !(resolution_m.is_finite() && resolution_m > 0.0) {
+        if !is_resolution(resolution_m) {
             return Err(LatticeError::Resolution(resolution_m));
         }
-        if !origin.is_finite() {
+        if !is_origin(origin) {
             return Err(LatticeError::Origin(origin));
         }
         match width.checked_mul(height) {

@@ -29,6 +29,9 @@ pub mod occupancy;
 
 pub use distance::{NOWHERE, squared_distances};
 pub use grid::Grid;
-pub use lattice::{Cell, CellFinder, Lattice, LatticeError, MOST_CELLS};
+pub use lattice::{
+    Cell, CellFinder, Lattice, LatticeError, MAX_ORIGIN_M, MOST_CELLS, RESOLUTION_RANGE_M,
+    is_origin, is_resolution,
+};
 pub use line::Line;
 pub use occupancy::OccupancyGrid;

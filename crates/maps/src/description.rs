@@ -2,6 +2,7 @@
 
 use periplus_base::Pose2;
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span};
+use periplus_grid::{MAX_ORIGIN_M, RESOLUTION_RANGE_M, is_origin, is_resolution};
 use periplus_yaml::Node;
 
 use crate::distro::{Distro, Mode};
@@ -169,11 +170,19 @@ impl<'a> Reader<'a> {
 
     fn resolution(&mut self) -> Option<f64> {
         let resolution_m = self.number("resolution", "0.05")?;
-        if resolution_m > 0.0 {
+        if is_resolution(resolution_m) {
             return Some(resolution_m);
         }
         let span = self.map.get("resolution").map_or(self.whole, |node| node.span);
-        let wrong = format!("the resolution is {resolution_m}; it must be positive");
+        let [shortest_m, longest_m] = RESOLUTION_RANGE_M;
+        let wrong = if resolution_m > 0.0 {
+            format!(
+                "the resolution is {resolution_m:?} m; it must be from {shortest_m:?} m to \
+                 {longest_m} m"
+            )
+        } else {
+            format!("the resolution is {resolution_m}; it must be positive")
+        };
         self.wrong(wrong, span, "it is the length of a pixel's side in metres: `resolution: 0.05`");
         None
     }
@@ -203,7 +212,13 @@ impl<'a> Reader<'a> {
         }
         let mut numbers = list.iter().map_while(number_of);
         let mut next = || numbers.next().unwrap_or(0.0);
-        Some(Pose2::new(next(), next(), next()))
+        let origin = Pose2::new(next(), next(), next());
+        if !is_origin(origin) {
+            let wrong = format!("`origin` is beyond {MAX_ORIGIN_M:?} m");
+            self.wrong(wrong, span, help);
+            return None;
+        }
+        Some(origin)
     }
 
     fn negate(&mut self) -> Option<bool> {

@@ -130,12 +130,14 @@ impl Database {
         let mut counts = vec![0; self.ids.len()];
         let query = "SELECT topic_id, count(*), min(timestamp), max(timestamp) FROM messages \
                      GROUP BY topic_id";
+        let places: BTreeMap<i64, usize> =
+            self.ids.iter().enumerate().rev().map(|(place, id)| (*id, place)).collect();
         let mut statement = self.connection.prepare(query)?;
         let mut rows = statement.query([])?;
         let mut span: Option<(i64, i64)> = None;
         while let Some(row) = rows.next()? {
             let id: i64 = row.get(0)?;
-            let Some(topic) = self.ids.iter().position(|one| *one == id) else { continue };
+            let Some(&topic) = places.get(&id) else { continue };
             counts[topic] = u64::try_from(row.get::<_, i64>(1)?).unwrap_or(0);
             let (from, to) = (row.get(2)?, row.get(3)?);
             span = Some(span.map_or((from, to), |(start, end)| (start.min(from), end.max(to))));

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Faults, record_at};
+use crate::Limits;
 use crate::compression::{Compression, unpack};
 use crate::record::{
     Channel, ChunkHead, ChunkIndex, Cursor, MAGIC, MessageHead, PREFIX, Schema, Statistics, op,
@@ -143,7 +144,16 @@ impl Data {
         faults.unless(packed.len() as u64 == head.packed, at, "the length of a chunk is wrong");
         let records = Compression::from_name(&head.compression)
             .ok_or_else(|| format!("`{}` is no known compression", head.compression))
-            .and_then(|kind| unpack(kind, packed, head.length).map_err(|error| error.to_string()));
+            .and_then(|kind| {
+                let limit = Limits::default().chunk;
+                if head.length > limit {
+                    return Err(format!(
+                        "a chunk announces {} bytes, more than the {limit} that are read",
+                        head.length
+                    ));
+                }
+                unpack(kind, packed, head.length).map_err(|error| error.to_string())
+            });
         let records = match records {
             Ok(records) => records,
             Err(error) => {

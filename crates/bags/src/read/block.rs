@@ -121,7 +121,10 @@ pub(super) fn unpack_chunk(
     let compression = Compression::from_name(&head.compression)
         .ok_or_else(|| wrong(format!("`{}` is no known compression", head.compression)))?;
     if head.length > most {
-        return Err(wrong(format!("a chunk holds {} bytes, more than is allowed", head.length)));
+        return Err(wrong(format!(
+            "a chunk announces {} bytes, more than the {most} that are read",
+            head.length
+        )));
     }
     if is_cut {
         return Ok(unpack_some(compression, packed, head.length).0);

@@ -32,13 +32,13 @@ pub(super) fn gap<R: Read + Seek>(
     source: &mut Source<R>,
     from: u64,
     to: u64,
-    contents: Contents,
+    mut contents: Contents,
     faults: &mut Vec<Fault>,
 ) -> Result<Contents, ReadError> {
-    let counts = contents.counts.clone();
+    // The summary's own numbers have these in them.
+    let counts = std::mem::take(&mut contents.counts);
     let mut walk = Walk { contents, count: 0, plain: None };
     walk.range(source, from, to, None, faults)?;
-    // The summary's own numbers have these in them.
     Ok(Contents { counts, ..walk.contents })
 }
 

@@ -1,12 +1,13 @@
 //! How the bytes of a chunk are packed.
 
-use std::io::{self, Read, Write as _};
+use std::io::{self, Write as _};
 
 use bzip2::read::BzDecoder;
 use bzip2::write::BzEncoder;
 use lz4_flex::frame::{BlockMode, BlockSize, FrameDecoder, FrameEncoder, FrameInfo};
 
 use super::{op, record};
+use crate::compression::read;
 use crate::record::Cursor;
 
 /// How the chunks of a bag of ROS 1 are packed.
@@ -64,13 +65,12 @@ impl Ros1Compression {
     /// As much as comes out, at most one byte more than `length`, and why no more.
     fn unpack_some(self, packed: &[u8], length: u64) -> (Vec<u8>, io::Result<()>) {
         let mut bytes = Vec::new();
-        let most = length.saturating_add(1);
         let outcome = match self {
-            Self::None => packed.take(most).read_to_end(&mut bytes),
-            Self::Bz2 => BzDecoder::new(packed).take(most).read_to_end(&mut bytes),
-            Self::Lz4 => FrameDecoder::new(packed).take(most).read_to_end(&mut bytes),
+            Self::None => read(packed, length, &mut bytes),
+            Self::Bz2 => read(BzDecoder::new(packed), length, &mut bytes),
+            Self::Lz4 => read(FrameDecoder::new(packed), length, &mut bytes),
         };
-        (bytes, outcome.map(|_| ()))
+        (bytes, outcome)
     }
 }
 

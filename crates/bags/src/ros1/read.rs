@@ -26,6 +26,8 @@ pub(crate) fn read<R: Read + Seek>(
 pub(super) struct Topics {
     pub(super) topics: Vec<BagTopic>,
     pub(super) by_connection: BTreeMap<u32, usize>,
+    /// The topic of a name, type and sum.
+    by_name: BTreeMap<[String; 3], usize>,
 }
 
 impl Topics {
@@ -47,11 +49,9 @@ impl Topics {
             schema: about.get("message_definition").unwrap_or_default().to_vec(),
             metadata,
         };
-        let is_same = |one: &BagTopic| {
-            let sum = |topic: &BagTopic| topic.metadata.get("md5sum").cloned();
-            one.name == topic.name && one.type_name == topic.type_name && sum(one) == sum(&topic)
-        };
-        let at = self.topics.iter().position(is_same).unwrap_or(self.topics.len());
+        let sum = topic.metadata.get("md5sum").cloned().unwrap_or_default();
+        let key = [topic.name.clone(), topic.type_name.clone(), sum];
+        let at = *self.by_name.entry(key).or_insert(self.topics.len());
         if at == self.topics.len() {
             self.topics.push(topic);
         }
@@ -117,7 +117,7 @@ fn by_index<R: Read + Seek>(
         }
     }
     let messages = Some(counts.iter().fold(0, |sum, one| u64::saturating_add(sum, *one)));
-    let Topics { topics, by_connection: by_channel } = topics;
+    let Topics { topics, by_connection: by_channel, .. } = topics;
     Ok(Some(Found { topics, by_channel, counts, blocks, messages, has_summary: true }))
 }
 

@@ -110,7 +110,7 @@ impl Walk {
     }
 
     fn found(self) -> Found {
-        let Topics { topics, by_connection } = self.topics;
+        let Topics { topics, by_connection, .. } = self.topics;
         let mut counts = vec![0; topics.len()];
         for (connection, count) in &self.counts {
             if let Some(&topic) = by_connection.get(connection) {

@@ -40,6 +40,8 @@ pub struct Ros1Writer<W> {
     settings: Ros1Settings,
     at: u64,
     topics: Vec<(BagTopic, TopicInfo)>,
+    /// Numbers of topics by name and type.
+    ids: BTreeMap<(String, String), u32>,
     chunk: Chunk,
     chunks: Vec<Chunk>,
     packed: Vec<u8>,
@@ -76,6 +78,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
             settings,
             at: head.len() as u64,
             topics: Vec::new(),
+            ids: BTreeMap::new(),
             chunk: Chunk::default(),
             chunks: Vec::new(),
             packed: Vec::new(),
@@ -89,11 +92,9 @@ impl<W: Write + Seek> Ros1Writer<W> {
     /// # Errors
     /// When a text is too long.
     pub fn topic(&mut self, topic: &BagTopic) -> Result<u32, WriteError> {
-        let same = |(one, _): &(BagTopic, TopicInfo)| {
-            one.name == topic.name && one.type_name == topic.type_name
-        };
-        if let Some(at) = self.topics.iter().position(same) {
-            return Ok(u32::try_from(at).unwrap_or(u32::MAX));
+        let key = (topic.name.clone(), topic.type_name.clone());
+        if let Some(&id) = self.ids.get(&key) {
+            return Ok(id);
         }
         if topic.schema.len() + topic.name.len() + topic.type_name.len() > 1 << 28 {
             return Err(WriteError::TooLong("a name or type".into()));
@@ -109,6 +110,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
             messages: 0,
         };
         self.topics.push((topic.clone(), info));
+        self.ids.insert(key, id);
         Ok(id)
     }
 
