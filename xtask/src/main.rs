@@ -145,6 +145,8 @@ enum Page {
 enum Contest {
     /// Large recordings
     Bags,
+    /// Carts between casters that are too low, in three engines
+    Casters,
     /// Costmaps: inflation and updates
     Costmap,
     Loading,
@@ -186,6 +188,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Corpus => corpus::run_all(),
         Task::Bench { only, load } => match only {
             Some(Contest::Bags) => bags::bench(),
+            Some(Contest::Casters) => physics::casters(),
             Some(Contest::Costmap) => costmap::bench(),
             Some(Contest::Loading) => corpus::bench(),
             Some(Contest::Page) => viewer::bench(),
