@@ -271,13 +271,11 @@ fn overlapping_elements_unfold_no_further_than_their_file_allows() {
     // One element a byte: elements that overlap because of the stride, all of them different.
     let bytes: Vec<u8> =
         (0..3_000_000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8 & 0x3f).collect();
-    let json = format!(
-        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],"scenes":[{{"nodes":[0]}}],
-        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
-        "accessors":[{{"bufferView":0,"componentType":5120,"count":2999990,"type":"VEC3"}}],
-        "bufferViews":[{{"buffer":0,"byteLength":3000000,"byteStride":1}}],
-        "buffers":[{{"byteLength":3000000,"uri":"a.bin"}}]}}"#
-    );
+    let json = r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5120,"count":2999990,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":3000000,"byteStride":1}],
+        "buffers":[{"byteLength":3000000,"uri":"a.bin"}]}"#;
     let mut side = |_: &str| Some(bytes.clone());
     let error =
         read_within(Limits::default(), json.as_bytes(), MeshFormat::Gltf, &mut side).unwrap_err();
