@@ -101,7 +101,7 @@ fn shown(examples: &[Example]) -> StyledStr {
 fn top(command: &Command) -> StyledStr {
     let bold = clap::builder::styling::Style::new().bold();
     let title = bold.underline();
-    let mut text = format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n");
+    let mut text = String::from("{about-with-newline}\n{usage-heading} {usage}\n");
     for (group, names) in GROUPS {
         let _ = write!(text, "\n{title}{group}:{title:#}\n");
         for name in names {
