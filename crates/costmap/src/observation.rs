@@ -358,6 +358,13 @@ impl Source {
         self.last_ns
     }
 
+    /// Drops all observations: the clock jumped, and they are of another time.
+    pub fn forget(&mut self, now_ns: i64) {
+        self.observations.clear();
+        self.fresh = 0;
+        self.restart(now_ns);
+    }
+
     /// From now on silence counts again.
     pub fn restart(&mut self, now_ns: i64) {
         self.last_ns = Some(now_ns);

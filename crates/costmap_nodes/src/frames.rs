@@ -35,6 +35,12 @@ impl Listener {
         }
     }
 
+    /// Drops transforms of before a jump of the clock; frames that never move stay.
+    pub(crate) fn forget(&mut self) {
+        let _ = self.moving.drain();
+        self.frames.forget();
+    }
+
     /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
     pub(crate) fn at(
         &self,

@@ -50,6 +50,22 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Inputs {
+    /// Drops messages that wait for their transforms, and those that have not been looked at.
+    pub(crate) fn forget(&mut self) {
+        for port in &mut self.sources {
+            port.scans.messages.clear();
+            port.clouds.messages.clear();
+            match &port.messages {
+                Messages::Scans(scans) => drop(scans.drain()),
+                Messages::Clouds(clouds) => drop(clouds.drain()),
+            }
+        }
+        for port in &mut self.ranges {
+            port.waiting.messages.clear();
+            port.ranges.iter().for_each(|ranges| drop(ranges.drain()));
+        }
+    }
+
     /// Listens for all layers and filters. Topics that cannot be are told, and the rest works.
     pub(crate) fn new(node: &Node, config: &Config) -> (Self, Vec<GraphError>) {
         let mut inputs = Self::default();

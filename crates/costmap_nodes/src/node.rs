@@ -141,6 +141,7 @@ impl CostmapNode {
             actor.timer(period_ns, |state, io| state.update(io.now_ns(), io.node()))?;
         }
         actor.timer(EVERY_NS, |state, io| state.report(io.now_ns(), io.node()))?;
+        actor.on_jump(|state, io| state.jump(io.now_ns(), io.node()));
         Ok(Self { actor, life })
     }
 
@@ -286,6 +287,24 @@ impl State {
         for complaint in complaints {
             self.tell(&complaint, now_ns, node);
         }
+    }
+
+    /// The clock jumped: transforms and messages of before are of another time. What is marked stays
+    /// until it is cleared, as in Nav2.
+    fn jump(&mut self, now_ns: i64, node: &Node) {
+        self.tf.forget();
+        self.inputs.forget();
+        self.published_ns = None;
+        self.told.clear();
+        for layer in self.costmap.iter_mut().flat_map(LayeredCostmap::all_mut) {
+            for source in layer.sources_mut() {
+                source.forget(now_ns);
+            }
+        }
+        node.log(
+            Level::Warn,
+            "the clock jumped: transforms and observations of before are dropped",
+        );
     }
 
     /// Tells how it is.

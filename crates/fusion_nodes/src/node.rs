@@ -144,6 +144,7 @@ impl State {
 
     fn tick(&mut self, node: &Node) {
         let now_ns = node.now_ns();
+        self.last_ns = now_ns;
         if !self.is_enabled || !self.ekf.run_until(now_ns) {
             return;
         }
@@ -296,6 +297,7 @@ impl State {
 
     /// The clock jumped.
     fn jump(&mut self, node: &Node) {
+        // Time goes on from tick to tick; what is before the last one is back.
         let now_ns = node.now_ns();
         let went_back = now_ns < std::mem::replace(&mut self.last_ns, now_ns);
         self.frames.forget();
@@ -303,6 +305,10 @@ impl State {
         // The state is of a time that has not come yet; without a reset it would never go on.
         if went_back || self.values.flag("reset_on_time_jump") == Some(true) {
             self.reset();
+            node.log(
+                Level::Warn,
+                "time went back: the filter starts again with the next measurements",
+            );
         }
     }
 }

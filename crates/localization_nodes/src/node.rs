@@ -509,9 +509,8 @@ impl State {
         if let Some(inputs) = &mut self.inputs {
             inputs.forget(node.now_ns());
         }
-        if let Some(amcl) = &mut self.amcl {
-            amcl.forget_odometry();
-        }
+        // As in Nav2 the particles stay, and make the step of odometry: a reset sets the robot and its
+        // odometry back together.
         self.shown = None;
         self.saved_ns = None;
     }

@@ -10,6 +10,7 @@ use periplus_graph::{
     Transition,
 };
 use periplus_grid::OccupancyGrid;
+use periplus_matching::Symmetric3;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
@@ -30,6 +31,9 @@ use crate::{Files, Program};
 
 /// How often it is looked for what waits \[ns\]; transforms that come are a reason, too.
 const LOOK_NS: i64 = 20_000_000;
+/// Variances of the position \[m²\] and the heading \[rad²\] that are expected after a jump of the clock
+/// back: what odometry has drifted until then.
+const AFTER_RESET_VARIANCES: (f64, f64) = (0.25, 0.03);
 /// How often a slice of work in the background is done in live \[ns\]. A slice takes some
 /// milliseconds, and a scan waits for one at most.
 const SLICE_NS: i64 = 4_000_000;
@@ -104,6 +108,8 @@ pub(crate) struct State {
     /// Remarks of the engine that have been told.
     remarked: usize,
     last: Option<Last>,
+    /// Whether the clock has gone back since the last scan.
+    is_back_in_time: bool,
     drawer: Drawer,
     /// The map as it was drawn last.
     pub(crate) map: Option<OccupancyGrid>,
@@ -169,6 +175,7 @@ impl SlamNode {
             scans: 0,
             remarked: 0,
             last: None,
+            is_back_in_time: false,
             drawer: Drawer::new(is_live),
             map: None,
             drawn: None,
@@ -210,6 +217,12 @@ impl SlamNode {
                 inputs.forget(now_ns);
             }
             state.published_ns = None;
+            if state.last.as_ref().is_some_and(|last| now_ns < last.time_ns) {
+                state.is_back_in_time = true;
+                let words = "time went back: transforms and scans of before are dropped; the robot is \
+                             expected where odometry has it on this map";
+                io.node().log(Level::Warn, words);
+            }
         });
         // `slam_gmapping` does not listen to it; whoever tells it a pose should hear why that does nothing.
         actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
@@ -402,6 +415,16 @@ impl State {
             self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
             return;
         };
+        if std::mem::take(&mut self.is_back_in_time)
+            && let Some(last) = &self.last
+        {
+            // A reset sets robot and odometry back together, so the map is still where it was in
+            // odometry. The engine alone would take that step for a slip.
+            let map_from_odom = engine.mapper().map_from_base() * last.odom_from_base.inverse();
+            let map_from_base = (map_from_odom * placed.places.odom_from_base).normalized();
+            let (place_m2, yaw_rad2) = AFTER_RESET_VARIANCES;
+            engine.place(map_from_base, Symmetric3::diagonal(place_m2, place_m2, yaw_rad2));
+        }
         let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
         let scan = scan(&placed.message, placed.places.base_from_laser, is_inverted);
         let update = engine.add_scan(&scan, placed.places.odom_from_base);
@@ -455,7 +478,8 @@ impl State {
         else {
             return;
         };
-        if !self.is_active {
+        // After a jump back the time of the last scan has not come yet.
+        if !self.is_active || self.is_back_in_time {
             return;
         }
         let number = |name: &str| number(&self.values, name);
