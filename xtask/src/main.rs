@@ -22,6 +22,7 @@ mod pictures;
 mod rays;
 mod runs;
 mod slam;
+mod soak;
 mod step;
 #[cfg(test)]
 mod tidy;
@@ -99,7 +100,8 @@ enum Task {
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
-    /// An hour of simulated time among moving things: memory and marks of costmaps
+    /// Long runs: an hour of costmaps among moving things, and ten hours of a robot that drives with a
+    /// map and costmaps; memory stays flat
     Soak,
     /// The pictures in the documentation, from the program itself
     Pictures,
@@ -213,7 +215,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             every: *every,
             program: program.clone(),
         }),
-        Task::Soak => costmap::soak(),
+        Task::Soak => costmap::soak().and_then(|()| soak::kbot()),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Viewer(Page::Build) => viewer::build(),

@@ -294,7 +294,7 @@ impl Slam {
                 self.loops.notice(&self.keys, &self.graph, self.work.tied_m);
             }
         }
-        self.tracks.push(Track {
+        self.push_track(Track {
             time_ns: scan.time_ns,
             key: next.key,
             key_from_base: next.key_from_base,
@@ -305,6 +305,19 @@ impl Slam {
             (true, true) => Taken::Kept,
             (true, false) => Taken::Passed,
         }
+    }
+
+    /// Keeps the pose of a scan, in the place of the one before where only the newest is asked for.
+    fn push_track(&mut self, track: Track) {
+        if let [.., before, last] = self.tracks.as_mut_slice()
+            && !self.settings.keeps_each_pose
+            && before.key == last.key
+            && last.key == track.key
+        {
+            *last = track;
+            return;
+        }
+        self.tracks.push(track);
     }
 
     /// The first scan: the map begins where odometry has the robot, or where it is said to be.

@@ -40,6 +40,9 @@ pub struct Settings {
     /// Whether kept scans go when a newer one shows the same from the same place: in a bounded area the
     /// map then stays bounded, however long the robot drives, and follows what changes.
     pub is_lifelong: bool,
+    /// Whether the pose of each scan stays known. Without it there are at most two for each kept scan, so
+    /// that a robot that stands still costs no memory: for runs without an end.
+    pub keeps_each_pose: bool,
 }
 
 impl Settings {
@@ -79,6 +82,7 @@ impl Default for Settings {
             slices_per_scan: usize::MAX,
             solve_steps: 8,
             is_lifelong: false,
+            keeps_each_pose: true,
         }
     }
 }

@@ -43,7 +43,13 @@ pub(crate) const SURE: Symmetric3 = Symmetric3::diagonal(0.25, 0.25, 0.07);
 
 /// The settings of the graph for a program of `slam_toolbox`.
 pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize) -> Settings {
-    Settings { is_lifelong: program == Program::Lifelong, slices_per_scan, ..Settings::of(values) }
+    Settings {
+        is_lifelong: program == Program::Lifelong,
+        slices_per_scan,
+        // A node may run for weeks.
+        keeps_each_pose: false,
+        ..Settings::of(values)
+    }
 }
 
 impl Engine {
