@@ -17,7 +17,12 @@ pub(crate) struct Pair {
     /// As ROS does, before its names are replaced.
     pub(crate) ros: String,
     pub(crate) direction: Direction,
+    /// Whether it is `TwistStamped` in ROS, which Gazebo has as a plain `Twist`.
+    pub(crate) is_stamped_velocity: bool,
 }
+
+/// The type of ROS that has no time and frame in Gazebo.
+const STAMPED_VELOCITY: &str = "geometry_msgs/msg/TwistStamped";
 
 /// Which way messages go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +54,12 @@ pub(crate) fn of_words(words: &[String]) -> Result<Vec<Pair>, String> {
             ']' => Direction::RosToGz,
             _ => Direction::Both,
         };
-        pairs.push(Pair { gz: topic.to_owned(), ros: topic.to_owned(), direction });
+        pairs.push(Pair {
+            gz: topic.to_owned(),
+            ros: topic.to_owned(),
+            direction,
+            is_stamped_velocity: types.starts_with(STAMPED_VELOCITY),
+        });
     }
     Ok(pairs)
 }
@@ -80,7 +90,12 @@ pub(crate) fn of_file(path: &Path) -> Result<Vec<Pair>, String> {
             Some("ROS_TO_GZ") => Direction::RosToGz,
             _ => Direction::Both,
         };
-        Some(Pair { gz: gz.unwrap_or(ros_or_gz.clone()), ros: ros.unwrap_or(ros_or_gz), direction })
+        Some(Pair {
+            gz: gz.unwrap_or(ros_or_gz.clone()),
+            ros: ros.unwrap_or(ros_or_gz),
+            direction,
+            is_stamped_velocity: text(item, "ros_type_name").as_deref() == Some(STAMPED_VELOCITY),
+        })
     };
     Ok(items.iter().filter_map(pair).collect())
 }

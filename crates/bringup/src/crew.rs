@@ -4,15 +4,21 @@ use std::any::Any;
 use std::path::PathBuf;
 
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
+use periplus_host::Machine;
 use periplus_launch::{Dialect, Plan, Trigger};
 use periplus_msgs::lifecycle_msgs::TransitionEvent;
+use periplus_resources::Host as _;
 use periplus_sim::{Search, Simulation};
 
+use crate::environment;
+use crate::guard::Guard;
 use crate::hands::{Changer, Child, Done, Hand, Stage};
 use crate::make::{Made, make};
-use crate::parts::{self, Ask, Part, Work};
+use crate::parts::{self, Ask, Part, Program, Work, own_folder};
+use crate::preparation::{self, LONGEST_WAIT_NS};
 use crate::told::{Became, Kind, Line, Said};
 use crate::world::WorldWish;
+use crate::xacro::xacro;
 
 /// How a plan is run.
 #[derive(Clone, Debug)]
@@ -25,6 +31,9 @@ pub struct Settings {
     pub is_wired: bool,
     /// Whether the run keeps pace with the wall.
     pub is_paced: bool,
+    /// The program that ends what is left when this one is killed: its own file, which runs
+    /// [`crate::guard`] when it is given [`crate::GUARD_VERB`].
+    pub guarding_program: Option<PathBuf>,
 }
 
 /// Something that happened.
@@ -61,7 +70,12 @@ pub struct Bringup {
     settings: Settings,
     /// Names of nodes that nothing here stands for.
     lacking: Vec<String>,
+    /// Where things are looked for that the world and what is spawned into it mention.
+    world_search: Search,
+    guard: Guard,
     is_over: bool,
+    /// The time of the last call \[ns\].
+    last_ns: i64,
 }
 
 impl Bringup {
@@ -85,8 +99,12 @@ impl Bringup {
             said: Vec::new(),
             settings,
             lacking: Vec::new(),
+            world_search: Search::default(),
+            guard: Guard::default(),
             is_over: false,
+            last_ns: 0,
         };
+        bringup.world_search = bringup.search_of_world(plan);
         bringup.lacking = bringup
             .asks()
             .filter(|(_, ask)| ask.entry.role == crate::catalogue::Role::Lacking)
@@ -104,13 +122,80 @@ impl Bringup {
     /// several the first that names a file counts.
     #[must_use]
     pub fn world(&self) -> Option<&WorldWish> {
+        match &self.waiting[self.world_part()?].part.work {
+            Work::World(wish) => Some(wish),
+            _ => None,
+        }
+    }
+
+    /// The part that starts the world.
+    fn world_part(&self) -> Option<usize> {
         let worlds = || {
-            self.waiting.iter().filter_map(|waiting| match &waiting.part.work {
-                Work::World(wish) => Some(wish),
-                _ => None,
+            self.waiting.iter().enumerate().filter_map(|(index, waiting)| {
+                match &waiting.part.work {
+                    Work::World(wish) => Some((index, wish)),
+                    _ => None,
+                }
             })
         };
-        worlds().find(|wish| wish.file.is_some()).or_else(|| worlds().next())
+        let named = worlds().find(|(_, wish)| wish.file.is_some());
+        named.or_else(|| worlds().next()).map(|(index, _)| index)
+    }
+
+    /// Where things are looked for that the world and what is spawned into it mention: the
+    /// environment and the folder in which the launch files start it.
+    #[must_use]
+    pub fn search(&self) -> &Search {
+        &self.world_search
+    }
+
+    fn search_of_world(&self, plan: &Plan) -> Search {
+        let mut search = self.settings.search.clone();
+        let Some(wish) = self.world() else { return search };
+        search.variables.extend(wish.environment.clone());
+        if let Some(folder) = &wish.folder {
+            search.working_folder = search.working_folder.join(folder);
+        }
+        search.advice = Some(environment::advice(&environment::settings(&plan.steps), wish));
+        search
+    }
+
+    /// Runs the processes that must have ended before the world can be loaded: those that it waits
+    /// for, and those that write its file. Call it again until it returns true; time is that of the
+    /// wall \[ns\].
+    pub fn prepare(&mut self, graph: &Graph, wall_ns: i64) -> bool {
+        let Some(world) = self.world_part() else { return true };
+        let wanted = preparation::of_world(&self.waiting_parts(), world);
+        if wanted.is_empty() {
+            return true;
+        }
+        let is_wanted = |index: usize| wanted.contains(&index);
+        while self.begin_some(graph, wall_ns, &is_wanted) {}
+        self.work_hands(graph, wall_ns, None);
+        while self.begin_some(graph, wall_ns, &is_wanted) {}
+        let runs = self.hands.iter().any(|(part, _)| is_wanted(*part));
+        let may_come = wanted.iter().any(|index| {
+            let waiting = &self.waiting[*index];
+            let next = waiting.part.after.get(waiting.come);
+            !waiting.is_begun && matches!(next, Some(Trigger::Seconds(_)))
+        });
+        let has_file = self.world_file().is_some_and(|file| Machine.kind(&file).is_some());
+        let is_ready = !(runs || may_come) || (has_file && wall_ns > LONGEST_WAIT_NS);
+        if is_ready {
+            // From here on time is that of the world.
+            self.waiting.iter_mut().for_each(|waiting| waiting.since_ns = 0);
+        }
+        is_ready
+    }
+
+    fn waiting_parts(&self) -> Vec<&Part> {
+        self.waiting.iter().map(|waiting| &waiting.part).collect()
+    }
+
+    /// The file of the world as a path.
+    fn world_file(&self) -> Option<PathBuf> {
+        let file = self.world()?.file.as_deref()?;
+        Some(self.world_search.working_folder.join(file))
     }
 
     /// Whether a node of the plan tells where joints are, so that nobody else has to.
@@ -133,7 +218,9 @@ impl Bringup {
             let words = &ask.told.own;
             let file = crate::words::option(words, "d")
                 .or_else(|| crate::words::option(words, "display-config"));
-            file.filter(|_| is_view).map(PathBuf::from)
+            let file = file.filter(|_| is_view)?;
+            let folder = &self.settings.search.working_folder;
+            Some(folder.join(ask.path(folder, file)))
         };
         self.asks().filter_map(of_view).collect()
     }
@@ -188,17 +275,29 @@ impl Bringup {
     }
 
     /// Does what is due at this time \[ns\].
-    pub fn work(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
+    pub fn work(&mut self, graph: &Graph, now_ns: i64, simulation: Option<&mut Simulation>) {
+        if now_ns < self.last_ns {
+            // A reset of the world: timers of the launch go on from where they are.
+            let back_ns = self.last_ns - now_ns;
+            self.waiting.iter_mut().for_each(|waiting| waiting.since_ns -= back_ns);
+            self.hands.iter_mut().for_each(|(_, hand)| hand.time_went_back(back_ns));
+        }
+        self.last_ns = now_ns;
         self.hear();
         // What begins may let others begin; a plan has an end, so this has one.
         while self.begin(graph, now_ns) {}
+        self.work_hands(graph, now_ns, simulation);
+        while self.begin(graph, now_ns) {}
+    }
+
+    fn work_hands(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
         let mut ended = Vec::new();
         for (part, hand) in &mut self.hands {
             let mut stage = Stage {
                 graph,
                 now_ns,
                 simulation: simulation.as_deref_mut(),
-                search: &self.settings.search,
+                search: &self.world_search,
                 said: &mut self.said,
                 has_printed: false,
             };
@@ -215,16 +314,15 @@ impl Bringup {
         for part in ended {
             self.end(part);
         }
-        while self.begin(graph, now_ns) {}
     }
 
     /// Ends all programs; what the plan wants to be said at the end is said.
     pub fn end_all(&mut self, graph: &Graph, now_ns: i64) {
         self.events.push(Event::Shutdown);
         while self.begin(graph, now_ns) {}
-        for (_, hand) in &mut self.hands {
-            hand.stop();
-        }
+        // All at once, so that they end side by side.
+        self.hands.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
+        self.hands.iter_mut().for_each(|(_, hand)| hand.stop());
         self.hands.clear();
     }
 
@@ -253,8 +351,12 @@ impl Bringup {
         if self.watched.is_empty() {
             self.watch(graph);
         }
+        self.begin_some(graph, now_ns, &|_| true)
+    }
+
+    fn begin_some(&mut self, graph: &Graph, now_ns: i64, wanted: &dyn Fn(usize) -> bool) -> bool {
         let mut has_begun = false;
-        for index in 0..self.waiting.len() {
+        for index in (0..self.waiting.len()).filter(|index| wanted(*index)) {
             let waiting = &mut self.waiting[index];
             if waiting.is_begun || !waiting.is_due(&self.events, now_ns) {
                 continue;
@@ -304,21 +406,18 @@ impl Bringup {
                 let made = make(ask, graph, now_ns, &self.settings, &self.lacking);
                 self.take(index, &part, ask, made);
             }
-            Work::Program(program) => {
-                let environment = &program.running;
-                match Child::start(program, &self.settings, now_ns, environment) {
-                    Ok(child) => {
-                        self.became(&part, Kind::Program, None, child.told());
-                        self.hands.push((index, Box::new(child)));
-                    }
-                    Err(why) => {
-                        self.said
-                            .push(Said::error(format!("`{}` does not run: {why}", part.asked)));
-                        self.became(&part, Kind::Missing, None, why);
-                        self.end(index);
-                    }
+            Work::Xacro(program) => self.xacro(index, &part, program),
+            Work::Program(program) => match Child::start(program, &self.settings, &self.guard) {
+                Ok(child) => {
+                    self.became(&part, Kind::Program, None, child.told());
+                    self.hands.push((index, Box::new(child)));
                 }
-            }
+                Err(why) => {
+                    self.said.push(Said::error(format!("`{}` does not run: {why}", part.asked)));
+                    self.became(&part, Kind::Missing, None, why);
+                    self.end(index);
+                }
+            },
             Work::Transition { step, transition } => {
                 let targets: Vec<String> = self
                     .asks()
@@ -347,6 +446,36 @@ impl Bringup {
                 self.became(&part, Kind::Missing, None, why.clone());
             }
         }
+    }
+
+    /// Runs the built-in `xacro`; it ends at once.
+    fn xacro(&mut self, index: usize, part: &Part, program: &Program) {
+        let mut search = self.settings.search.clone();
+        search.variables.extend(environment::of_running(&program.running));
+        if let Some(folder) = own_folder(&program.running) {
+            search.working_folder = search.working_folder.join(folder);
+        }
+        let (kind, told) = match xacro(&program.words[1..], &search) {
+            Ok(ran) if ran.is_success => {
+                if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
+                    self.said.push(Said::info(text));
+                    self.events.push(Event::Printed(part.step));
+                }
+                let file = ran.file.map(|file| format!(" writes {}", file.display()));
+                (Kind::BuiltIn, format!("the built-in xacro{}", file.unwrap_or_default()))
+            }
+            Ok(ran) => {
+                let why = ran.errors.trim_end();
+                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                (Kind::Missing, "xacro could not expand its file".to_owned())
+            }
+            Err(why) => {
+                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                (Kind::Missing, why)
+            }
+        };
+        self.became(part, kind, None, told);
+        self.end(index);
     }
 
     fn take(&mut self, index: usize, part: &Part, ask: &Ask, made: Result<Made, String>) {

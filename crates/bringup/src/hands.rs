@@ -7,6 +7,7 @@ mod manager;
 mod relay;
 mod saver;
 mod spawner;
+mod unstamp;
 
 use periplus_graph::Graph;
 use periplus_sim::{Search, Simulation};
@@ -19,6 +20,7 @@ pub(crate) use manager::Manager;
 pub(crate) use relay::Relay;
 pub(crate) use saver::Saver;
 pub(crate) use spawner::Spawner;
+pub(crate) use unstamp::Unstamp;
 
 use crate::told::Said;
 
@@ -48,6 +50,12 @@ pub(crate) trait Hand: Send {
     /// Does what can be done now.
     fn work(&mut self, stage: &mut Stage<'_>) -> Done;
 
-    /// Everything ends.
+    /// Time went back by this \[ns\]; times that are waited for come as much earlier.
+    fn time_went_back(&mut self, _by_ns: i64) {}
+
+    /// Everything ends: asks for it, and waits for nothing.
+    fn ask_to_stop(&mut self) {}
+
+    /// Everything ends: waits for it.
     fn stop(&mut self) {}
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use periplus_costmap_nodes::{VoxelCloud, VoxelMarkers};
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
 use periplus_fusion_nodes::EkfNode;
-use periplus_graph::{Graph, GraphError, Node, NodeSettings, parameters_to_yaml};
+use periplus_graph::{Graph, GraphError, LifecycleState, Node, NodeSettings, parameters_to_yaml};
 use periplus_host::Machine;
 use periplus_localization_nodes::AmclNode;
 use periplus_map_nodes::{MapSaver, MapServer, MapServerSettings};
@@ -26,7 +26,7 @@ use crate::bridge::{self, Direction};
 use crate::catalogue::Role;
 use crate::costmaps::{self, Host};
 use crate::crew::Settings;
-use crate::hands::{Described, Hand, Manager, Relay, Saver, Spawner, robot};
+use crate::hands::{Described, Hand, Manager, Relay, Saver, Spawner, Unstamp, robot};
 use crate::parameters::{self, Named, text_of, texts_of, truth_of};
 use crate::parts::{Ask, searched};
 use crate::told::Kind;
@@ -86,9 +86,10 @@ pub(crate) fn make(
     let words = &ask.told.own;
     match ask.entry.role {
         Role::RobotStatePublisher => {
-            let text = description(ask, &named)?.ok_or_else(|| {
-                "the parameter `robot_description` is missing: it is to hold a URDF".to_owned()
-            })?;
+            let text =
+                description(ask, &named, &settings.search.working_folder)?.ok_or_else(|| {
+                    "the parameter `robot_description` is missing: it is to hold a URDF".to_owned()
+                })?;
             let options = RobotStateOptions::default();
             if is_urdf(&text) {
                 made.keep(RobotStatePublisher::of_urdf(node, text, options)?);
@@ -108,7 +109,7 @@ pub(crate) fn make(
                     options.zeros.insert(joint.to_owned(), zero);
                 }
             }
-            match description(ask, &named)? {
+            match description(ask, &named, &settings.search.working_folder)? {
                 Some(text) => {
                     let model = robot(&text, &settings.search)?;
                     made.keep(JointStateSource::new(node, &model, options).map_err(failed)?);
@@ -127,7 +128,10 @@ pub(crate) fn make(
                 let value = searched(&ask.server, &namespace, name)?;
                 value.as_str().map(str::to_owned)
             };
-            let spawner = Spawner::new(&node, words, &named, &parameter, now_ns)?;
+            let folder = &settings.search.working_folder;
+            let path = |file: &str| ask.path(folder, file);
+            let given = (words.as_slice(), &named);
+            let spawner = Spawner::new(&node, given, &parameter, &path, now_ns)?;
             made.told = spawner.told();
             // It hears as long as it waits.
             made.hand(spawner);
@@ -135,7 +139,9 @@ pub(crate) fn make(
         }
         Role::Bridge => bridged(ask, graph, node, &named, &mut made)?,
         Role::Slam(program) => slam(ask, node, program, &named, settings, &mut made)?,
-        Role::MapServer { .. } | Role::MapSaver(_) => maps(ask, node, &named, &mut made)?,
+        Role::MapServer { .. } | Role::MapSaver(_) => {
+            maps(ask, node, &named, settings, &mut made)?;
+        }
         Role::MapSaverServer => {
             let saver = MapSaver::new(node, Distro::Jazzy, Arc::new(Machine)).map_err(failed)?;
             made.keep(saver);
@@ -283,7 +289,7 @@ fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Res
 }
 
 /// The description of a robot: a parameter, one of ROS 1's server, or a file that the words name.
-fn description(ask: &Ask, named: &Named) -> Result<Option<String>, String> {
+fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<String>, String> {
     const NAME: &str = "robot_description";
     if let Some(text) = text_of(named, NAME) {
         return Ok(Some(text));
@@ -300,6 +306,7 @@ fn description(ask: &Ask, named: &Named) -> Result<Option<String>, String> {
     let Some(file) = ask.told.own.iter().find(|word| !word.starts_with('-')) else {
         return Ok(None);
     };
+    let file = &ask.path(launch_folder, file);
     let bytes = Machine.read(Path::new(file));
     let bytes = bytes.map_err(|error| format!("{file} cannot be read: {error}"))?;
     String::from_utf8(bytes).map(Some).map_err(|_| format!("{file} is no text"))
@@ -330,8 +337,15 @@ fn slam(
     Ok(())
 }
 
-fn maps(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), String> {
-    let words = &ask.told.own;
+fn maps(
+    ask: &Ask,
+    node: Node,
+    named: &Named,
+    settings: &Settings,
+    made: &mut Made,
+) -> Result<(), String> {
+    let folder = &settings.search.working_folder;
+    let words = &with_paths(ask, folder);
     let is_managed = ask.entry.role == Role::MapServer { is_managed: true };
     if let Role::MapSaver(distro) = ask.entry.role {
         made.hand(Saver::new(&node, words, distro)?);
@@ -346,18 +360,46 @@ fn maps(ask: &Ask, node: Node, named: &Named, made: &mut Made) -> Result<(), Str
     let usual = MapServerSettings::default();
     let distro = if is_managed { Distro::Jazzy } else { Distro::Noetic };
     let file = words.iter().find(|word| !word.starts_with('-'));
-    let settings = MapServerSettings {
-        yaml_filename: file.cloned().or(text_of(named, "yaml_filename")).unwrap_or_default(),
-        distro,
-        ..usual
+    let parameter = || {
+        text_of(named, "yaml_filename").map(|file| match file.as_str() {
+            "" => file,
+            _ => ask.path(folder, &file),
+        })
     };
+    let file_of_map = file.cloned().or_else(parameter).unwrap_or_default();
+    let settings = MapServerSettings { yaml_filename: file_of_map.clone(), distro, ..usual };
     let server = MapServer::new(node, settings, Arc::new(Machine));
     let server = server.map_err(|error| error.to_string())?;
     if !ask.is_managed {
         server.start();
+        if server.life().state() != LifecycleState::Active {
+            // The server has logged why; the launch needs it in words of its own.
+            return Err(match file_of_map.as_str() {
+                "" => "it is given no map: name its YAML, `args=\"MAP.yaml\"`".into(),
+                file => match Machine.read(Path::new(file)) {
+                    Err(why) => format!("the map {file} cannot be read: {why}"),
+                    Ok(_) => format!(
+                        "{file} is no map that can be used; `periplus map info {file}` says why"
+                    ),
+                },
+            });
+        }
     }
     made.keep(server);
     Ok(())
+}
+
+/// The words of a program that reads or writes a map, with paths as the program means them.
+fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
+    let words = &ask.told.own;
+    let is_saved = |index: usize| index > 0 && words[index - 1] == "-f";
+    let is_served =
+        |index: usize| ask.entry.role == Role::MapServer { is_managed: false } && index == 0;
+    let path = |(index, word): (usize, &String)| {
+        let is_path = !word.starts_with('-') && (is_saved(index) || is_served(index));
+        if is_path { ask.path(launch_folder, word) } else { word.clone() }
+    };
+    words.iter().enumerate().map(path).collect()
 }
 
 /// Topics of Gazebo have their names in the simulation already; those that get another one are passed
@@ -376,6 +418,7 @@ fn bridged(
             gz: topic.clone(),
             ros: topic.clone(),
             direction: Direction::GzToRos,
+            is_stamped_velocity: false,
         };
         topics.map(pair).collect()
     } else {
@@ -390,6 +433,11 @@ fn bridged(
         let ros = node.names().topic(&pair.ros).map_err(|error| error.to_string())?;
         // The simulation tells the time itself.
         if gz == ros || ros == "/clock" {
+            continue;
+        }
+        if pair.is_stamped_velocity && pair.direction != Direction::GzToRos {
+            passed_on.push(format!("{ros} is {gz} without its time and frame"));
+            made.hand(Unstamp::new(&node, &pair.ros, graph, &gz)?);
             continue;
         }
         let (there, back) = ((gz.clone(), ros.clone()), (ros.clone(), gz.clone()));

@@ -1,11 +1,13 @@
 //! A plan, part by part: each step with what stands for it here.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use periplus_launch::{Component, Identity, Node, Plan, Process, Running, Step, Trigger, What};
 use serde_json::{Value, json};
 
 use crate::catalogue::{Entry, Role, of_plugin, of_program};
+use crate::environment;
 use crate::includes;
 use crate::words::{self, Told};
 use crate::world::{self, WorldWish};
@@ -34,6 +36,8 @@ pub(crate) enum Work {
     Ours(Box<Ask>),
     /// A program of the machine's.
     Program(Box<Program>),
+    /// The built-in `xacro`.
+    Xacro(Box<Program>),
     /// A managed node is asked for a transition.
     Transition { step: Option<usize>, transition: String },
     /// Something is said.
@@ -54,9 +58,21 @@ pub(crate) struct Ask {
     pub(crate) is_managed: bool,
     /// ROS 1's parameter server.
     pub(crate) server: BTreeMap<String, Value>,
+    /// How the program would run.
+    pub(crate) running: Running,
 }
 
 impl Ask {
+    /// A path as the program means it: from the folder in which it runs.
+    pub(crate) fn path(&self, launch_folder: &Path, path: &str) -> String {
+        match own_folder(&self.running) {
+            Some(folder) if !path.contains("://") => {
+                launch_folder.join(folder).join(path).display().to_string()
+            }
+            _ => path.to_owned(),
+        }
+    }
+
     /// The name that its node has.
     pub(crate) fn full_name(&self) -> String {
         words::full_name(&self.identity, &self.told, self.entry.node)
@@ -85,9 +101,35 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<Part> {
     parts
 }
 
+/// The folder that a launch file names for a program. `node`, `ROS_HOME` and `ros-root` of ROS 1 are
+/// no folders here.
+pub(crate) fn own_folder(running: &Running) -> Option<&str> {
+    let folder = running.folder.as_deref()?;
+    let is_named = !matches!(folder, "" | "node" | "ROS_HOME" | "ros-root");
+    is_named.then_some(folder)
+}
+
+/// A world as the program that simulates it is run.
+fn placed(work: Work, running: &Running) -> Work {
+    match work {
+        Work::World(wish) => Work::World(WorldWish {
+            environment: environment::of_running(running),
+            folder: own_folder(running).map(str::to_owned),
+            ..wish
+        }),
+        work => work,
+    }
+}
+
 fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &mut Vec<Part>) {
     let mut add = |asked: String, is_required: bool, work: Work| {
         let after = step.after.clone();
+        let work = match work {
+            Work::World(wish) => {
+                Work::World(WorldWish { step: step.id, written: step.written.clone(), ..wish })
+            }
+            work => work,
+        };
         parts.push(Part { step: step.id, after, work, asked, is_required });
     };
     match what {
@@ -96,19 +138,22 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
                 Some(package) => format!("{package} {}", node.executable),
                 None => node.executable.clone(),
             };
-            add(asked, node.running.is_required, of_node(step.id, node, server));
+            add(asked, node.running.is_required, placed(of_node(node, server), &node.running));
             for component in &node.components {
-                add(component.plugin.clone(), false, of_component(component, server));
+                let work = of_component(component, server, &node.running);
+                add(component.plugin.clone(), false, placed(work, &node.running));
             }
         }
         What::Load { components, .. } => {
             for component in components {
-                add(component.plugin.clone(), false, of_component(component, server));
+                let work = of_component(component, server, &Running::default());
+                add(component.plugin.clone(), false, work);
             }
         }
         What::Process(process) => {
             let is_required = process.running.is_required;
-            add(shortly(&process.command), is_required, of_process(step.id, process));
+            let work = placed(of_process(process), &process.running);
+            add(shortly(&process.command), is_required, work);
         }
         What::Transition { step, transition } => add(
             transition.clone(),
@@ -121,9 +166,11 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
         What::Shutdown { reason } => {
             add(reason.clone(), false, Work::Shutdown { reason: reason.clone() });
         }
-        What::Include { file, arguments } => match includes::stand_in(file, arguments) {
+        What::Include { file, arguments } => match includes::stand_in(file, arguments)
+        {
             Some(includes::StandIn::World(wish)) => {
-                add(file.clone(), false, Work::World(WorldWish { step: step.id, ..wish }));
+                let environment = environment::of_step(step);
+                add(file.clone(), false, Work::World(WorldWish { environment, ..wish }));
             }
             Some(includes::StandIn::Steps(steps)) => {
                 for what in &steps {
@@ -142,35 +189,44 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
     }
 }
 
-fn of_node(step: usize, node: &Node, server: &BTreeMap<String, Value>) -> Work {
+fn of_node(node: &Node, server: &BTreeMap<String, Value>) -> Work {
     let told = words::read(&node.arguments, &node.ros_arguments);
     let Some(entry) = of_program(node.package.as_deref(), &node.executable) else {
         let mut words = vec![node.executable.clone()];
         words.extend(node.arguments.iter().cloned());
         words.extend(node.ros_arguments.iter().cloned());
-        return Work::Program(Box::new(Program {
+        let program = Box::new(Program {
             package: node.package.clone(),
             words,
             is_shell: false,
             identity: node.identity.clone(),
             running: node.running.clone(),
-        }));
+        });
+        return match node.package.as_deref() {
+            Some("xacro") => Work::Xacro(program),
+            _ => Work::Program(program),
+        };
     };
     if entry.role == Role::Gazebo {
         let is_gz = node.package.as_deref().is_some_and(|package| package.starts_with("ros_"));
         let wish = if is_gz { server_wish(&node.identity) } else { world::classic(&told.own) };
         let has_window = wish.has_window && !node.executable.contains("server");
-        return Work::World(WorldWish { step, has_window, ..wish });
+        return Work::World(WorldWish { has_window, ..wish });
     }
     let starts_itself = told.own.iter().any(|word| word == "--autostart")
         || node.ros_arguments.iter().any(|word| word == "--autostart");
-    ours(entry, &node.identity, told, node.is_lifecycle && !starts_itself, server)
+    let is_lifecycle = node.is_lifecycle && !starts_itself;
+    ours(entry, &node.identity, told, is_lifecycle, server, &node.running)
 }
 
-fn of_component(component: &Component, server: &BTreeMap<String, Value>) -> Work {
+fn of_component(
+    component: &Component,
+    server: &BTreeMap<String, Value>,
+    running: &Running,
+) -> Work {
     match of_plugin(&component.package, &component.plugin) {
         Some(entry) if entry.role == Role::Gazebo => Work::World(server_wish(&component.identity)),
-        Some(entry) => ours(entry, &component.identity, Told::default(), false, server),
+        Some(entry) => ours(entry, &component.identity, Told::default(), false, server, running),
         None => Work::Nothing(format!(
             "the component {} of the package {} is compiled code for ROS; nothing here stands for it",
             component.plugin, component.package
@@ -184,6 +240,7 @@ fn ours(
     told: Told,
     is_lifecycle: bool,
     server: &BTreeMap<String, Value>,
+    running: &Running,
 ) -> Work {
     let is_managed = is_lifecycle
         || matches!(
@@ -194,8 +251,14 @@ fn ours(
                 | Role::CostmapHost { .. }
                 | Role::Costmap
         );
-    let server = server.clone();
-    Work::Ours(Box::new(Ask { entry, identity: identity.clone(), told, is_managed, server }))
+    Work::Ours(Box::new(Ask {
+        entry,
+        identity: identity.clone(),
+        told,
+        is_managed,
+        server: server.clone(),
+        running: running.clone(),
+    }))
 }
 
 /// What `gzserver` of `ros_gz_sim` is asked for by its parameters.
@@ -211,7 +274,7 @@ fn server_wish(identity: &Identity) -> WorldWish {
     wish
 }
 
-fn of_process(step: usize, process: &Process) -> Work {
+fn of_process(process: &Process) -> Work {
     let split;
     let words = if process.is_shell {
         split = process.command.join(" ").split_whitespace().map(str::to_owned).collect();
@@ -220,7 +283,7 @@ fn of_process(step: usize, process: &Process) -> Work {
         &process.command
     };
     if let Some(wish) = world::of_command(words) {
-        return Work::World(WorldWish { step, ..wish });
+        return Work::World(wish);
     }
     let run = match words.as_slice() {
         [ros, run, package, program, rest @ ..] if (is_program(ros, "ros2") && run == "run") => {
@@ -241,7 +304,7 @@ fn of_process(step: usize, process: &Process) -> Work {
             running: process.running.clone(),
             ..Node::default()
         };
-        return of_node(step, &node, &BTreeMap::new());
+        return of_node(&node, &BTreeMap::new());
     }
     let window =
         if world::is_window(words) { of_program(Some("gazebo_ros"), "gzclient") } else { None };
@@ -253,15 +316,23 @@ fn of_process(step: usize, process: &Process) -> Work {
     });
     if let Some(entry) = named {
         let told = words::read(&words[1..], &[]);
-        return ours(entry, &Identity::default(), told, false, &BTreeMap::new());
+        let identity = Identity::default();
+        return ours(entry, &identity, told, false, &BTreeMap::new(), &process.running);
     }
-    Work::Program(Box::new(Program {
+    let is_xacro = words
+        .first()
+        .is_some_and(|program| is_program(program, "xacro") || is_program(program, "xacro.py"));
+    // What a shell does with a line (pipes, redirections) is for the shell.
+    let is_plain = |word: &String| !word.contains(['|', '>', '<', '&', ';', '$', '`']);
+    let is_ours = is_xacro && (!process.is_shell || words.iter().all(is_plain));
+    let program = Box::new(Program {
         package: None,
-        words: process.command.clone(),
+        words: if is_ours { words.clone() } else { process.command.clone() },
         is_shell: process.is_shell,
         identity: Identity { name: process.name.clone(), ..Identity::default() },
         running: process.running.clone(),
-    }))
+    });
+    if is_ours { Work::Xacro(program) } else { Work::Program(program) }
 }
 
 /// The beginning of a command: its program, and what that is to do.

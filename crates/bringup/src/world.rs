@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::environment::Environment;
+
 /// A world that a plan asks for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WorldWish {
@@ -15,6 +17,12 @@ pub struct WorldWish {
     pub seed: Option<u64>,
     /// Whether it is shown.
     pub has_window: bool,
+    /// The environment in which it is started.
+    pub environment: Environment,
+    /// The folder in which it is started, if another than that of the launch.
+    pub folder: Option<String>,
+    /// The line of the launch file that starts it, `file:line`.
+    pub written: Option<String>,
 }
 
 /// Options of Classic that have a value behind them, as `gazebo --help` lists them.

@@ -108,7 +108,8 @@ impl Includes for Files<'_, '_> {
             Err(miss) => {
                 let tried = miss.tried.iter();
                 let tried = tried.map(|place| shown(place, &self.setting.working_folder)).collect();
-                return Opened::Missing { tried };
+                let advice = self.setting.resolver.advice().map(str::to_owned);
+                return Opened::Missing { tried, advice };
             }
         };
         if let Some(opened) = self.opened.get(&path) {

@@ -3,7 +3,9 @@
 //! This is the one place below the programs where files and the environment are touched.
 
 mod machine;
+mod overlay;
 mod stopwatch;
 
 pub use machine::Machine;
+pub use overlay::Overlay;
 pub use stopwatch::{Stopwatch, sleep, unix_ns};

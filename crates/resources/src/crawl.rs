@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 
+use crate::hooks;
 use crate::host::{Host, Kind};
 use crate::manifest::{self, PackageManifest};
 
@@ -67,10 +68,11 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
 /// True for a folder whose `package.xml` has a name.
 fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) -> bool {
     let Ok(bytes) = host.read(&folder.join("package.xml")) else { return false };
-    let manifest = manifest::package(&bytes);
+    let mut manifest = manifest::package(&bytes);
     if manifest.name.is_empty() {
         return false;
     }
+    manifest.gazebo_paths.extend(hooks::paths(host, folder, &manifest.name));
     found.packages.entry(manifest.name.clone()).or_default().push(folder.to_path_buf());
     if !manifest.gazebo_paths.is_empty() {
         found.exports.push((folder.to_path_buf(), manifest));

@@ -2,6 +2,7 @@
 
 mod crawl;
 mod fuel;
+mod hooks;
 mod host;
 mod layout;
 mod manifest;
@@ -19,4 +20,5 @@ pub use manifest::package_name;
 pub use memory::MemoryHost;
 pub use miss::{Miss, MissKind};
 pub use nearest::nearest;
+pub use places::SEARCH_VARIABLES;
 pub use resolver::Resolver;

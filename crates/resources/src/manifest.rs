@@ -10,12 +10,25 @@ use crate::host::Host;
 /// Manifests are a few kilobytes; more than this is not read [bytes].
 const LARGEST: usize = 1 << 20;
 
+/// Elements in `<export>` by which packages name folders for Gazebo (`gazebo_ros` and `ros_gz_sim`
+/// read the first).
+const EXPORT_TAGS: [&str; 3] = ["gazebo_ros", "gz_ros", "ros_gz_sim"];
+
+/// Their attributes that name folders of models, worlds and meshes.
+const EXPORT_PATHS: [&str; 5] = [
+    "gazebo_model_path",
+    "gazebo_media_path",
+    "gazebo_resource_path",
+    "model_path",
+    "resource_path",
+];
+
 /// What a ROS package says of itself (REP 140, REP 149).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PackageManifest {
     pub(crate) name: String,
-    /// `gazebo_model_path` and `gazebo_media_path` of `<export><gazebo_ros/>`, entries of
-    /// colon-separated lists with `${prefix}` for the package's own folder.
+    /// Model and resource paths of `<export><gazebo_ros/>`, entries of colon-separated lists with
+    /// `${prefix}` for the package's own folder, and those of the package's environment hooks.
     pub(crate) gazebo_paths: Vec<String>,
 }
 
@@ -32,10 +45,10 @@ pub(crate) fn package(bytes: &[u8]) -> PackageManifest {
         (["package", "name"], Some(text)) if manifest.name.is_empty() => {
             manifest.name = text.trim().to_owned();
         }
-        (["package", "export", "gazebo_ros"], None) => {
+        (["package", "export", tag], None) if EXPORT_TAGS.contains(tag) => {
             let paths = attributes
                 .iter()
-                .filter(|(name, _)| name == "gazebo_model_path" || name == "gazebo_media_path")
+                .filter(|(name, _)| EXPORT_PATHS.contains(&name.as_str()))
                 .flat_map(|(_, value)| value.split(':'))
                 .filter(|entry| !entry.is_empty());
             manifest.gazebo_paths.extend(paths.map(str::to_owned));

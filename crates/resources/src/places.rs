@@ -24,6 +24,17 @@ pub(crate) enum How {
     Tree(usize),
 }
 
+/// Variables of the environment whose entries are searched as Gazebo searches them: `ENTRY/name`.
+pub const SEARCH_VARIABLES: [&str; 7] = [
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "SDF_PATH",
+    "GAZEBO_MODEL_PATH",
+    "GAZEBO_RESOURCE_PATH",
+    "GZ_FILE_PATH",
+    "IGN_FILE_PATH",
+];
+
 /// How deep packages lie below an entry of `ROS_PACKAGE_PATH`.
 const ROS_DEPTH: usize = 4;
 /// How deep packages lie below a folder above the mentioning file.
@@ -51,13 +62,7 @@ pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
         let value = host.variable(variable).unwrap_or_default();
         value.split(':').filter(|entry| !entry.is_empty()).map(PathBuf::from).collect()
     };
-    for variable in [
-        "GZ_SIM_RESOURCE_PATH",
-        "IGN_GAZEBO_RESOURCE_PATH",
-        "SDF_PATH",
-        "GAZEBO_MODEL_PATH",
-        "GAZEBO_RESOURCE_PATH",
-    ] {
+    for variable in SEARCH_VARIABLES {
         for folder in entries(variable) {
             add(folder, How::Children);
         }

@@ -34,12 +34,12 @@ const MOST_MISSES: usize = 2_000;
 /// For `package://name/rest` and `model://name/rest` alike, in this order:
 /// 1. each `--resource-path`: as the folder itself, `name`, `models/name`, `src/name` in it, and
 ///    any package of that name a few folders below;
-/// 2. `GZ_SIM_RESOURCE_PATH`, `IGN_GAZEBO_RESOURCE_PATH`, `SDF_PATH`, `GAZEBO_MODEL_PATH`,
-///    `GAZEBO_RESOURCE_PATH`, `ROS_PACKAGE_PATH` (also below its entries), `AMENT_PREFIX_PATH`
+/// 2. the [`SEARCH_VARIABLES`](crate::SEARCH_VARIABLES), `ROS_PACKAGE_PATH` (also below its entries), `AMENT_PREFIX_PATH`
 ///    (in `share`), and `~/.gazebo/models`;
 /// 3. upward from the mentioning file, to the repository around it or 8 folders, each folder as
 ///    under 1;
-/// 4. the `gazebo_model_path` that the packages met on the way export.
+/// 4. the `gazebo_model_path` that the packages met on the way export, and the search paths that
+///    their environment hooks would set.
 ///
 /// # What it refuses
 /// Files outside the resource paths, the mentioning file's project, and packages or models found:
@@ -62,6 +62,8 @@ pub struct Resolver<'h> {
     known: RefCell<BTreeMap<usize, Rc<BTreeSet<String>>>>,
     /// How many URIs led nowhere, by mentioning file.
     misses: RefCell<BTreeMap<usize, usize>>,
+    /// What to do about a thing that is missing, beside the resolver's own advice.
+    advice: Option<String>,
 }
 
 impl<'h> Resolver<'h> {
@@ -89,7 +91,22 @@ impl<'h> Resolver<'h> {
             exports: RefCell::default(),
             known: RefCell::default(),
             misses: RefCell::default(),
+            advice: None,
         }
+    }
+
+    /// Adds advice to the message about each thing that cannot be found: the caller knows where the
+    /// search paths come from.
+    #[must_use]
+    pub fn advising(mut self, advice: Option<String>) -> Self {
+        self.advice = advice;
+        self
+    }
+
+    /// The advice that [`Resolver::advising`] has added.
+    #[must_use]
+    pub fn advice(&self) -> Option<&str> {
+        self.advice.as_deref()
     }
 
     /// The file or folder that `uri` names when the file `from` mentions it, as a canonical path.
@@ -108,7 +125,10 @@ impl<'h> Resolver<'h> {
             );
             return Err(Miss::missing(uri, reason));
         }
-        let answer = self.look_up(uri, &around);
+        let answer = self.look_up(uri, &around).map_err(|miss| match &self.advice {
+            Some(advice) if miss.kind == MissKind::Missing => miss.help(advice.clone()),
+            _ => miss,
+        });
         if answer.is_err() {
             *self.misses.borrow_mut().entry(around.id).or_default() += 1;
         }

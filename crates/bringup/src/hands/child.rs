@@ -6,14 +6,16 @@ use std::process::{Child as Running_, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use periplus_host::{Machine, Stopwatch, sleep};
+use periplus_host::{Machine, Overlay, Stopwatch, sleep};
 use periplus_launch::{Dialect, Parameters, Running};
 use periplus_resources::{Host as _, Kind, Resolver};
 
 use super::{Done, Hand, Stage};
 use crate::crew::Settings;
+use crate::environment;
+use crate::guard::{self, Ending, Guard, own_group};
 use crate::parameters::parameter;
-use crate::parts::Program;
+use crate::parts::{Program, own_folder};
 use crate::told::Said;
 
 /// How long a program may take to end when it is asked to.
@@ -30,6 +32,10 @@ pub(crate) struct Child {
     process: Option<Running_>,
     printed: Option<Receiver<String>>,
     respawn_ns: Option<i64>,
+    /// The folder from which relative ones are meant.
+    launch_folder: PathBuf,
+    guard: Guard,
+    guarding_program: Option<PathBuf>,
 }
 
 impl Child {
@@ -40,9 +46,9 @@ impl Child {
     pub(crate) fn start(
         program: &Program,
         settings: &Settings,
-        _now_ns: i64,
-        running: &Running,
+        guard: &Guard,
     ) -> Result<Self, String> {
+        let running = &program.running;
         let is_node = program.package.is_some();
         let mut words = if program.is_shell {
             vec!["sh".to_owned(), "-c".into(), program.words.join(" ")]
@@ -64,7 +70,7 @@ impl Child {
             }
             let package = program.package.as_deref().unwrap_or_default();
             let (first, rest) = words.split_first().ok_or("it has no name")?;
-            let path = find(package, first, settings)?;
+            let path = find(package, first, settings, running)?;
             let mut found = by_path(&path);
             found.extend(rest.iter().cloned());
             found.extend(ros_words(program));
@@ -83,6 +89,9 @@ impl Child {
             process: None,
             printed: None,
             respawn_ns: None,
+            launch_folder: settings.search.working_folder.clone(),
+            guard: guard.clone(),
+            guarding_program: settings.guarding_program.clone(),
         };
         child.spawn()?;
         Ok(child)
@@ -97,7 +106,16 @@ impl Child {
         let mut command = Command::new(&self.words[0]);
         command.args(&self.words[1..]).stdin(Stdio::null());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        if let Some(folder) = &self.running.folder {
+        own_group(&mut command);
+        if let Some(folder) = own_folder(&self.running) {
+            let folder = self.launch_folder.join(folder);
+            if Machine.kind(&folder) != Some(Kind::Folder) {
+                let program = &self.words[0];
+                return Err(format!(
+                    "the folder in which `{program}` is to run (`cwd`) is not there: {}",
+                    folder.display()
+                ));
+            }
             command.current_dir(folder);
         }
         for (name, value) in &self.running.environment {
@@ -118,6 +136,7 @@ impl Child {
                 )
             }
         })?;
+        self.guard.watch(self.guarding_program.as_deref(), process.id());
         let (send, printed) = channel();
         let pipes: [Option<Box<dyn Read + Send>>; 2] = [
             process.stdout.take().map(|pipe| Box::new(pipe) as _),
@@ -171,6 +190,7 @@ impl Hand for Child {
             }
         };
         // Its last words are in the pipe still.
+        self.guard.forget(process.id());
         sleep(Duration::from_millis(5));
         self.pass_on(stage);
         let text = format!("[{}] has ended: {status}", self.name);
@@ -187,14 +207,34 @@ impl Hand for Child {
         }
     }
 
+    fn time_went_back(&mut self, by_ns: i64) {
+        self.respawn_ns = self.respawn_ns.map(|at_ns| at_ns.saturating_sub(by_ns));
+    }
+
+    fn ask_to_stop(&mut self) {
+        if let Some(process) = &self.process {
+            guard::send(process.id(), Ending::Interrupt);
+        }
+    }
+
     fn stop(&mut self) {
         let Some(process) = &mut self.process else { return };
-        // As Ctrl-C does, then harder.
-        for signal in ["-INT", "-TERM"] {
-            let asked = Command::new("kill").args([signal, &process.id().to_string()]).status();
+        let group = process.id();
+        // It was interrupted already; then harder, together with what it has started itself.
+        for ending in [None, Some(Ending::Terminate), Some(Ending::Kill)] {
+            if let Some(ending) = ending {
+                guard::send(group, ending);
+            }
             let since = Stopwatch::start();
-            while asked.is_ok() && since.elapsed() < LAST_WORDS {
-                if !matches!(process.try_wait(), Ok(None)) {
+            while since.elapsed() < LAST_WORDS {
+                let has_ended = !matches!(process.try_wait(), Ok(None));
+                if has_ended && ending.is_none() && guard::has_members(group) {
+                    // A shell goes with Ctrl-C, what it runs in the background does not.
+                    break;
+                }
+                if has_ended && !guard::has_members(group) {
+                    self.guard.forget(group);
+                    self.process = None;
                     return;
                 }
                 sleep(Duration::from_millis(10));
@@ -202,14 +242,17 @@ impl Hand for Child {
         }
         let _ = process.kill();
         let _ = process.wait();
+        self.process = None;
     }
 }
 
 impl Drop for Child {
     fn drop(&mut self) {
         if let Some(process) = &mut self.process {
+            guard::send(process.id(), Ending::Kill);
             let _ = process.kill();
             let _ = process.wait();
+            self.guard.forget(process.id());
         }
     }
 }
@@ -222,8 +265,14 @@ fn by_path(path: &Path) -> Vec<String> {
 }
 
 /// A program of a package: installed, or in its sources.
-fn find(package: &str, name: &str, settings: &Settings) -> Result<PathBuf, String> {
-    let resolver = Resolver::new(&Machine, &settings.search.folders);
+fn find(
+    package: &str,
+    name: &str,
+    settings: &Settings,
+    running: &Running,
+) -> Result<PathBuf, String> {
+    let host = Overlay { variables: environment::of_running(running) };
+    let resolver = Resolver::new(&host, &settings.search.folders);
     let from = settings.search.working_folder.join("launch");
     let mut tried = Vec::new();
     if let Ok(folder) = resolver.find_package(package, &from) {
@@ -237,7 +286,7 @@ fn find(package: &str, name: &str, settings: &Settings) -> Result<PathBuf, Strin
             tried.push(folder.join(inside).join(format!("{name}.py")));
         }
     }
-    for prefix in Machine.variable("AMENT_PREFIX_PATH").unwrap_or_default().split(':') {
+    for prefix in host.variable("AMENT_PREFIX_PATH").unwrap_or_default().split(':') {
         tried.push(Path::new(prefix).join("lib").join(package).join(name));
     }
     let found = tried.into_iter().find(|path| Machine.kind(path) == Some(Kind::File));

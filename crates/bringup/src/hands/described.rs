@@ -2,10 +2,8 @@
 
 use periplus_formats::{Setting, load_bytes};
 use periplus_graph::{Mailbox, Node, Qos};
-use periplus_host::Machine;
 use periplus_msgs::std_msgs;
 use periplus_nodes::states::{JointStateOptions, JointStateSource};
-use periplus_resources::Resolver;
 use periplus_scene::Model;
 use periplus_sim::Search;
 
@@ -61,9 +59,10 @@ pub(crate) fn robot(text: &str, search: &Search) -> Result<Model, String> {
     if text.trim().is_empty() {
         return Err("`robot_description` is empty".into());
     }
-    let resolver = Resolver::new(&Machine, &search.folders);
+    let host = search.host();
+    let resolver = search.resolver(&host);
     let setting = Setting {
-        host: &Machine,
+        host: &host,
         resolver: &resolver,
         working_folder: search.working_folder.clone(),
         arguments: Vec::new(),

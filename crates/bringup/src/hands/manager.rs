@@ -151,6 +151,10 @@ impl Manager {
 }
 
 impl Hand for Manager {
+    fn time_went_back(&mut self, by_ns: i64) {
+        self.waits_since_ns -= by_ns;
+    }
+
     fn work(&mut self, stage: &mut Stage<'_>) -> Done {
         while let Some(call) = self.manage.take() {
             let success = self.order(call.request.command);

@@ -58,22 +58,22 @@ impl Given<'_> {
 
 impl Spawner {
     /// From the words and parameters of the program. `parameter` gives values of ROS 1's parameter
-    /// server.
+    /// server, `path` a path as the program means it.
     ///
     /// # Errors
     /// In words.
     pub(crate) fn new(
         node: &Node,
-        words: &[String],
-        named: &Named,
+        (words, named): (&[String], &Named),
         parameter: &dyn Fn(&str) -> Option<String>,
+        path: &dyn Fn(&str) -> String,
         now_ns: i64,
     ) -> Result<Self, String> {
         let given = Given { words, named };
         let from = if let Some(text) = given.text("string") {
             From::Text(text)
         } else if let Some(file) = given.text("file") {
-            From::File(file)
+            From::File(path(&file))
         } else if let Some(model) = given.text("database") {
             From::File(format!("model://{model}"))
         } else if let Some(name) = given.text("param") {
@@ -126,6 +126,10 @@ impl Spawner {
 }
 
 impl Hand for Spawner {
+    fn time_went_back(&mut self, by_ns: i64) {
+        self.since_ns -= by_ns;
+    }
+
     fn work(&mut self, stage: &mut Stage<'_>) -> Done {
         if stage.simulation.is_none() {
             return self.wait(

@@ -7,13 +7,13 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
 use periplus_bringup::{Bringup, Kind, Settings};
 use periplus_diagnostics::SourceMap;
-use periplus_graph::{Arguments, Level};
+use periplus_graph::{Arguments, Graph, Level};
 use periplus_host::{Stopwatch, sleep};
 use periplus_launch::{Dialect, Plan};
 use periplus_sim::{
@@ -27,7 +27,8 @@ use crate::options::SearchOptions;
 use crate::page::{About, PORT, Page, PageOptions};
 use crate::sim::progress;
 use crate::sim::ros2::{Reach, Ros2};
-use crate::sim::{Factor, Report, factor, positive, tell_findings};
+use crate::sim::{Factor, RecordingWatch, Report, factor, positive, tell_findings};
+use crate::stop;
 use crate::terminal;
 
 /// How often it is looked whether something is due, where no world sets the pace.
@@ -107,6 +108,7 @@ pub(super) fn play(
         dialect: launched.dialect,
         is_wired: false,
         is_paced: !is_free && !matches!(options.rtf, Some(Factor::Max)),
+        guarding_program: std::env::current_exe().ok(),
     };
     let bringup = Bringup::new(&launched.plan, settings);
     let is_alone = match options.ros2 {
@@ -128,11 +130,16 @@ fn in_world(
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> io::Result<ExitCode> {
+    let stop = stop::on_signal();
+    let mut teller = Teller::new(options);
+    prepare(&mut bringup, &mut teller, &stop);
     let wish = bringup.world().cloned().unwrap_or_default();
-    let composed = world::compose(&wish, search);
+    let composed = world::compose(&wish, bringup.search());
     let mut composition = match composed {
         Ok(composition) => composition,
         Err(why) => {
+            bringup.end_all(&Graph::new(), 0);
+            teller.tell(&mut bringup, &|write| drop(write()));
             terminal::complain(&why);
             return Ok(ExitCode::FAILURE);
         }
@@ -161,7 +168,7 @@ fn in_world(
             }
         },
     };
-    let mut services = match Services::new(&simulation, terminal::search(&search.resource_path)) {
+    let mut services = match Services::new(&simulation, bringup.search().clone()) {
         Ok(services) => services,
         Err(error) => {
             terminal::complain(&format!("cannot offer the world's services: {error}"));
@@ -201,7 +208,6 @@ fn in_world(
             "the world would stand still, as it was started; it runs, since nobody could let it go on"
         });
     }
-    let stop = terminal::stop_on_ctrl_c();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
         factor,
@@ -211,8 +217,8 @@ fn in_world(
     let start_up = launched.start.elapsed();
     let mut line = progress::Line::new(options.duration, options.quiet || options.json);
     let stopwatch = Stopwatch::start();
-    let mut teller = Teller::new(options);
     let mut driver = Driver::default();
+    let mut watch = RecordingWatch::default();
     let line_cell = std::cell::RefCell::new(&mut line);
     let ros2_cell = std::cell::RefCell::new(&mut ros2);
     let outcome = run.go_with(
@@ -227,6 +233,7 @@ fn in_world(
         },
         &mut |progress| {
             line_cell.borrow_mut().show(progress);
+            watch.look(recorder.as_ref(), progress, &|write| line_cell.borrow().aside(write));
             let mut ros2 = ros2_cell.borrow_mut();
             if ros2.is_due(progress.wall) {
                 line_cell.borrow().aside(|| ros2.tell());
@@ -251,13 +258,12 @@ fn in_world(
     // What nodes say at their end belongs into the bag.
     let lines = bringup.lines().to_vec();
     drop(bringup);
-    let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {
-        Ok(recording) => recording,
-        Err(error) => {
-            terminal::complain(&format!("the bag is not whole: {error}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
+    let is_recorded = finished.is_ok();
+    let recording = finished.unwrap_or_else(|error| {
+        terminal::complain(&format!("the bag is not whole: {error}"));
+        None
+    });
     let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
     if options.json {
         let mut json = report.to_json();
@@ -273,6 +279,7 @@ fn in_world(
         return Ok(ExitCode::FAILURE);
     }
     match outcome {
+        Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
         Ok(()) if cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole && !teller.has_failed => Ok(ExitCode::SUCCESS),
         Ok(()) => {
@@ -283,6 +290,21 @@ fn in_world(
             terminal::complain(&diverged.to_string());
             Ok(ExitCode::FAILURE)
         }
+    }
+}
+
+/// Runs what must have ended before the world can be loaded.
+fn prepare(bringup: &mut Bringup, teller: &mut Teller, stop: &AtomicBool) {
+    let graph = Graph::new();
+    let since = Stopwatch::start();
+    while !stop.load(Ordering::Relaxed) {
+        let wall_ns = i64::try_from(since.elapsed().as_nanos()).unwrap_or(i64::MAX);
+        let is_ready = bringup.prepare(&graph, wall_ns);
+        teller.tell(bringup, &|write| drop(write()));
+        if is_ready {
+            break;
+        }
+        sleep(LOOK);
     }
 }
 
@@ -297,7 +319,7 @@ fn among_others(
         terminal::complain("this launch simulates no world; record it with `periplus bag record`");
         return Ok(ExitCode::from(2));
     }
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let mut live = match Live::open(launched.arguments) {
         Ok(live) => live,
         Err(words) => {

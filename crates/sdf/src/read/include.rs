@@ -47,6 +47,8 @@ pub enum Opened {
     Missing {
         /// Every place where it could have been.
         tried: Vec<String>,
+        /// Advice of those who know where the search paths come from.
+        advice: Option<String>,
     },
     /// It was found, but it cannot be read, and the diagnostics say why.
     Broken,
@@ -58,7 +60,7 @@ pub struct NoIncludes;
 
 impl Includes for NoIncludes {
     fn open(&mut self, _: &str, _: Origin, _: &mut SourceMap, _: &mut Diagnostics) -> Opened {
-        Opened::Missing { tried: Vec::new() }
+        Opened::Missing { tried: Vec::new(), advice: None }
     }
 }
 
@@ -144,18 +146,23 @@ fn load(uri: &str, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
     match reader.includes.open(uri, from, reader.sources, reader.diagnostics) {
         Opened::Sdf { document, key } => load_document(&document.root, key, from, reader),
         Opened::Model { model, .. } => Some(Loaded::of_model(ModelDraft::from_model(*model))),
-        Opened::Missing { tried } => {
+        Opened::Missing { tried, advice } => {
             if let Some(document) = builtin::find(uri, reader.sources) {
                 return load_document(&document.root, format!("built-in {uri}"), from, reader);
             }
-            tell_missing(uri, from, tried, reader);
+            tell_missing(uri, from, (tried, advice), reader);
             None
         }
         Opened::Broken => None,
     }
 }
 
-fn tell_missing(uri: &str, from: Origin, tried: Vec<String>, reader: &mut Reader<'_>) {
+fn tell_missing(
+    uri: &str,
+    from: Origin,
+    (tried, advice): (Vec<String>, Option<String>),
+    reader: &mut Reader<'_>,
+) {
     let is_new = !reader.missing.contains_key(uri);
     reader.missing.entry(uri.to_owned()).or_insert(from);
     if is_on_fuel(uri) {
@@ -168,6 +175,7 @@ fn tell_missing(uri: &str, from: Origin, tried: Vec<String>, reader: &mut Reader
         for place in tried {
             told = told.note(format!("looked at {place}"));
         }
+        told = advice.into_iter().fold(told, Diagnostic::help);
     }
     for (_, site) in reader.chain.iter().rev() {
         told = told.related(*site, "included here");

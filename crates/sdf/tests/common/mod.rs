@@ -30,7 +30,7 @@ impl Includes for Files {
         diagnostics: &mut Diagnostics,
     ) -> Opened {
         let Some(text) = self.0.get(uri) else {
-            return Opened::Missing { tried: vec![format!("/models/{uri}")] };
+            return Opened::Missing { tried: vec![format!("/models/{uri}")], advice: None };
         };
         let file = sources.add(uri, text.as_str());
         match periplus_xml::parse(file, sources, diagnostics) {

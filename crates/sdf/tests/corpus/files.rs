@@ -37,7 +37,7 @@ impl Includes for Recorded {
             Some(path) if !path.is_empty() => PathBuf::from(path),
             // Built-in models are found under these too, but not by the oracle.
             _ if uri.starts_with("http") => return Opened::Broken,
-            _ => return Opened::Missing { tried: Vec::new() },
+            _ => return Opened::Missing { tried: Vec::new(), advice: None },
         };
         let path = if path.is_dir() { best_file(&path) } else { Some(path) };
         let Some(path) = path else { return Opened::Broken };

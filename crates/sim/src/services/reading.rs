@@ -1,10 +1,11 @@
 //! Models and lights that come as text.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostics, Origin, Severity, SourceMap, Style, render};
 use periplus_formats::{Loaded, Setting, load, load_bytes, settle_images};
-use periplus_host::Machine;
+use periplus_host::Overlay;
 use periplus_resources::Resolver;
 use periplus_scene::{Light, Model, Plugin};
 
@@ -17,6 +18,11 @@ pub struct Search {
     pub folders: Vec<PathBuf>,
     /// The folder that relative paths are taken from.
     pub working_folder: PathBuf,
+    /// Variables of the environment that differ from those of this process; none for a removed one.
+    pub variables: BTreeMap<String, Option<String>>,
+    /// What to do about a thing that cannot be found, from those who know where the variables come
+    /// from.
+    pub advice: Option<String>,
 }
 
 /// What a text or file brings.
@@ -43,14 +49,27 @@ pub(super) enum Found {
 }
 
 impl Search {
+    /// The machine with the variables of the search.
+    #[must_use]
+    pub fn host(&self) -> Overlay {
+        Overlay { variables: self.variables.clone() }
+    }
+
+    /// A resolver over the folders of the search.
+    #[must_use]
+    pub fn resolver<'h>(&self, host: &'h Overlay) -> Resolver<'h> {
+        Resolver::new(host, &self.folders).advising(self.advice.clone())
+    }
+
     /// Reads a model or light.
     ///
     /// # Errors
     /// What is wrong with it, with its places.
     pub(super) fn read(&self, source: &Source<'_>) -> Result<Reading, String> {
-        let resolver = Resolver::new(&Machine, &self.folders);
+        let host = self.host();
+        let resolver = self.resolver(&host);
         let setting = Setting {
-            host: &Machine,
+            host: &host,
             resolver: &resolver,
             working_folder: self.working_folder.clone(),
             arguments: Vec::new(),

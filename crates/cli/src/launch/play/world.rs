@@ -6,29 +6,36 @@ use periplus_bringup::WorldWish;
 use periplus_diagnostics::{Origin, SourceMap, Style, render};
 use periplus_formats::Setting;
 use periplus_resources::Kind;
-use periplus_sim::{Composition, compose as compose_file, compose_plain};
-
-use crate::options::SearchOptions;
-use crate::terminal;
+use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};
 
 /// Worlds that Gazebo brings along and that are a plane in the sun.
 const PLAIN: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
 
-/// Reads it.
+/// Reads it, with the environment and the folder in which it is started.
 ///
 /// # Errors
 /// In words, when there is no such file.
-pub(super) fn compose(wish: &WorldWish, search: &SearchOptions) -> Result<Composition, String> {
-    terminal::with_setting(&search.resource_path, Vec::new(), |setting| {
-        let Some(file) = wish.file.as_deref() else { return Ok(compose_plain(setting)) };
-        match find(file, setting) {
-            Ok(path) => Ok(compose_file(&path, &[], setting)),
-            Err(_) if PLAIN.contains(&file.rsplit('/').next().unwrap_or(file)) => {
-                Ok(compose_plain(setting))
-            }
-            Err(why) => Err(why),
+pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, String> {
+    let host = search.host();
+    let resolver = search.resolver(&host);
+    let setting = Setting {
+        host: &host,
+        resolver: &resolver,
+        working_folder: search.working_folder.clone(),
+        arguments: Vec::new(),
+        open_meshes: true,
+    };
+    let Some(file) = wish.file.as_deref() else { return Ok(compose_plain(&setting)) };
+    match find(file, &setting) {
+        Ok(path) => Ok(compose_file(&path, &[], &setting)),
+        Err(_) if PLAIN.contains(&file.rsplit('/').next().unwrap_or(file)) => {
+            Ok(compose_plain(&setting))
         }
-    })
+        Err(why) => Err(match &wish.written {
+            Some(written) => format!("{why}  = it is started at {written}"),
+            None => why,
+        }),
+    }
 }
 
 fn find(file: &str, setting: &Setting<'_>) -> Result<PathBuf, String> {

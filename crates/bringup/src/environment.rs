@@ -1,0 +1,130 @@
+//! The environment of a world: the search paths that hold where it is started, and which line of the
+//! launch files sets them.
+
+use std::collections::BTreeMap;
+
+use periplus_launch::{Running, Step};
+use periplus_resources::SEARCH_VARIABLES;
+
+use crate::world::WorldWish;
+
+/// Of a value of a variable, at most this many characters are repeated in messages.
+const MAX_SHOWN_CHARS: usize = 200;
+
+/// Environment variables that differ from those of the launch itself; none for a removed one.
+pub type Environment = BTreeMap<String, Option<String>>;
+
+/// A place at which a launch file changes a variable of the environment.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct VariableSetting {
+    name: String,
+    value: Option<String>,
+    written: Option<String>,
+}
+
+/// The places that are known from the steps of a plan, each once.
+pub(crate) fn settings(steps: &[Step]) -> Vec<VariableSetting> {
+    let mut settings = Vec::new();
+    for (name, variable) in steps.iter().flat_map(|step| &step.environment) {
+        let (name, value) = (name.clone(), variable.value.clone());
+        let setting = VariableSetting { name, value, written: variable.written.clone() };
+        if !settings.contains(&setting) {
+            settings.push(setting);
+        }
+    }
+    settings
+}
+
+/// The changes to the environment under which a program runs.
+pub(crate) fn of_running(running: &Running) -> Environment {
+    running.environment.clone()
+}
+
+/// The changes to the environment under which a step begins.
+pub(crate) fn of_step(step: &Step) -> Environment {
+    let changes = step.environment.iter();
+    changes.map(|(name, variable)| (name.clone(), variable.value.clone())).collect()
+}
+
+/// Advice about a model, mesh or world that cannot be found: the lines of the launch files that set
+/// search paths, or the line before which one could.
+pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldWish) -> String {
+    let started = wish.written.as_deref();
+    let mut lines = Vec::new();
+    for name in SEARCH_VARIABLES {
+        let holds = wish.environment.get(name).cloned().flatten();
+        let of_name = || settings.iter().rev().filter(|setting| setting.name == name);
+        if let Some(value) = holds {
+            let setting = of_name().find(|setting| setting.value.as_deref() == Some(&value));
+            let written = setting.and_then(|setting| setting.written.as_deref()).or(started);
+            let at = written.map(|at| format!(", set at {at}")).unwrap_or_default();
+            lines.push(format!("`{name}` is `{}` here{at}", shown(&value)));
+        } else if let Some(setting) = of_name().next() {
+            let at = setting.written.as_deref().unwrap_or("a line of the launch file");
+            let there = started.map(|at| format!(" ({at})")).unwrap_or_default();
+            lines.push(format!(
+                "`{name}` is set at {at}, which does not hold where the world is started{there}: \
+                 set it before, in the same scope"
+            ));
+        }
+    }
+    if lines.is_empty() {
+        let before = started.map_or_else(|| "the world is started".to_owned(), str::to_owned);
+        return format!(
+            "no line of the launch files sets a search path for models in this scope: before \
+             {before}, `SetEnvironmentVariable('GZ_SIM_RESOURCE_PATH', FOLDER)` does, in XML \
+             `<set_env name=\"GZ_SIM_RESOURCE_PATH\" value=\"FOLDER\"/>`, for Gazebo Classic \
+             `GAZEBO_MODEL_PATH`, in ROS 1 `<env name=\"GAZEBO_MODEL_PATH\" value=\"FOLDER\"/>`"
+        );
+    }
+    lines.join("\n")
+}
+
+fn shown(value: &str) -> String {
+    if value.chars().count() <= MAX_SHOWN_CHARS {
+        return value.to_owned();
+    }
+    value.chars().take(MAX_SHOWN_CHARS).chain("...".chars()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(set: &[(&str, &str, &str)], holds: &[(&str, &str)], expected: &str) {
+        let settings: Vec<VariableSetting> = set
+            .iter()
+            .map(|(name, value, at)| VariableSetting {
+                name: (*name).to_owned(),
+                value: Some((*value).to_owned()),
+                written: Some((*at).to_owned()),
+            })
+            .collect();
+        let environment =
+            holds.iter().map(|(name, value)| ((*name).to_owned(), Some((*value).to_owned())));
+        let wish = WorldWish {
+            environment: environment.collect(),
+            written: Some("a.launch.py:20".into()),
+            ..WorldWish::default()
+        };
+        let advice = advice(&settings, &wish);
+        assert!(advice.starts_with(expected), "{advice}");
+    }
+
+    #[test]
+    fn the_line_that_sets_a_path_or_could_set_it_is_named() {
+        let variable = "GZ_SIM_RESOURCE_PATH";
+        check(
+            &[(variable, "/a", "a.launch.py:3"), (variable, "/a:/b", "a.launch.py:12")],
+            &[(variable, "/a:/b")],
+            "`GZ_SIM_RESOURCE_PATH` is `/a:/b` here, set at a.launch.py:12",
+        );
+        check(
+            &[("GAZEBO_MODEL_PATH", "/a", "a.launch.py:31")],
+            &[],
+            "`GAZEBO_MODEL_PATH` is set at a.launch.py:31, which does not hold where the world is \
+             started (a.launch.py:20)",
+        );
+        check(&[("PATH", "/a", "a.launch.py:1")], &[], "no line of the launch files sets");
+    }
+}

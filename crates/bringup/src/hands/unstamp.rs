@@ -1,0 +1,39 @@
+//! Velocities with time and frame, passed on without them, as `ros_gz_bridge` does from
+//! `geometry_msgs/msg/TwistStamped` to `gz.msgs.Twist`.
+
+use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+
+use super::{Done, Hand, Stage};
+
+/// Passes velocities from one topic to another.
+pub(crate) struct Unstamp {
+    stamped: Mailbox<TwistStamped>,
+    plain: Publisher<Twist>,
+}
+
+impl Unstamp {
+    /// From a name as a node means it to a full name.
+    ///
+    /// # Errors
+    /// In words.
+    pub(crate) fn new(node: &Node, from: &str, graph: &Graph, to: &str) -> Result<Self, String> {
+        let words = |error: periplus_graph::GraphError| error.to_string();
+        let stamped = node.mailbox(from, Qos::reliable(10)).map_err(words)?;
+        // A node whose names nothing replaces: the topic of Gazebo has one name.
+        let name = format!("{}_{}", node.names().name(), to.replace('/', "_").trim_matches('_'));
+        let settings = NodeSettings::new(name).namespace(node.names().namespace());
+        let names = graph.node(settings.bare().keep_names()).map_err(words)?;
+        let plain = names.publisher(to, Qos::reliable(10)).map_err(words)?;
+        Ok(Self { stamped, plain })
+    }
+}
+
+impl Hand for Unstamp {
+    fn work(&mut self, _stage: &mut Stage<'_>) -> Done {
+        for message in self.stamped.drain() {
+            self.plain.publish(message.twist.clone());
+        }
+        Done::No
+    }
+}
