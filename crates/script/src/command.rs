@@ -8,8 +8,8 @@ use periplus_msgs::{EncodeError, Message};
 pub struct Command {
     /// When, in simulated time \[ns\].
     pub time_ns: i64,
-    /// On which topic, such as `/cmd_vel`.
-    pub topic: String,
+    /// The topic, such as `/cmd_vel`; none is the one on which the robot listens.
+    pub topic: Option<String>,
     /// What.
     pub body: Body,
 }

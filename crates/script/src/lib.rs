@@ -3,12 +3,14 @@
 //! A script is a YAML list; each entry is a velocity or a goal:
 //!
 //! ```yaml
-//! - {at: 0.0, linear: [0.5, 0, 0], angular: [0, 0, 0.2]}    # once, on /cmd_vel
+//! - {at: 0.0, linear: [0.5, 0, 0], angular: [0, 0, 0.2]}    # once
 //! - {at: 2, until: 5, rate: 10, linear: 0.5}                # from 2 s on, ten times a second, before 5 s
 //! - {at: 5, topic: /demo/cmd_vel, type: geometry_msgs/msg/TwistStamped, frame: base_link}
 //! - {goto: [2.0, 1.0]}                                      # then there [m], in the world's frame
 //! - {goto: [0, 0], speed: 0.3, turn: 0.5, tolerance: 0.05}
 //! ```
+//!
+//! Commands without `topic` go to the one on which the robot listens, in its type.
 //!
 //! Times are seconds of simulated time. `linear: 0.5` is forward, `angular: 0.2` is to the left;
 //! lists are x, y, z; mappings such as `{x: 0.5}` work too. What is not given is zero. Goals are

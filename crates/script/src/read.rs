@@ -16,8 +16,9 @@ pub struct Script {
     pub commands: Vec<Command>,
     /// Goals, in the order in which they are driven to.
     pub goals: Vec<Goal>,
-    /// Where velocities towards the goals are sent; the topic of the first goal.
-    pub goal_topic: String,
+    /// The topic of velocities towards the goals, that of the first goal; none is the one on which
+    /// the robot listens.
+    pub goal_topic: Option<String>,
     /// Whether these are of type `TwistStamped`.
     pub goals_are_stamped: bool,
     /// The frame that these name.
@@ -191,7 +192,7 @@ fn message(twist: &Twist, is_stamped: bool, frame: &str, time_ns: i64) -> Body {
 }
 
 /// Topic, whether messages are stamped, and the frame that they name.
-fn addressee(entry: &Node) -> Outcome<(String, bool, String)> {
+fn addressee(entry: &Node) -> Outcome<(Option<String>, bool, String)> {
     let text = |name: &str| match entry.get(name) {
         None => Ok(None),
         Some(node) => match node.text().filter(|text| !text.is_empty()) {
@@ -202,7 +203,7 @@ fn addressee(entry: &Node) -> Outcome<(String, bool, String)> {
             }
         },
     };
-    let topic = text("topic")?.map_or_else(|| "/cmd_vel".to_owned(), |(topic, _)| topic);
+    let topic = text("topic")?.map(|(topic, _)| topic);
     let frame = text("frame")?;
     let is_stamped = match text("type")? {
         // Only one of the types has a frame.

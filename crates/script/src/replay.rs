@@ -58,7 +58,7 @@ pub fn replay<R: Read + Seek>(
         match decode(message.data) {
             Ok(body) => {
                 let time_ns = message.log_ns - shift_ns;
-                commands.push(Command { time_ns, topic: topic.clone(), body });
+                commands.push(Command { time_ns, topic: Some(topic.clone()), body });
             }
             Err(error) => {
                 let wrong = format!("a message of `{topic}` cannot be read: {error}");

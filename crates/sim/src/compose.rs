@@ -150,7 +150,12 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
             Standing::AsWritten if placed.is_robot => ground::standing(&model, 0.0, 0.0, 0.0),
             Standing::AsWritten => model.parent_from_model,
         };
-        let namespace = placed.namespace.map_or_else(|| "/".to_owned(), absolute);
+        // One of several has the name that it has here: two copies have two.
+        let namespace = match placed.namespace {
+            Some(namespace) => absolute(namespace),
+            None if placed.is_one_of_several => absolute(&name),
+            None => "/".to_owned(),
+        };
         let description = placed.description;
         members.push(Member { model, name, namespace, world_from_model, description, file });
     };
@@ -176,12 +181,10 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
             );
         }
         for model in models {
-            let name = robot.name.as_deref();
-            let own_name = name.unwrap_or(&model.name).to_owned();
-            let namespace = robot.namespace.as_deref().or((robots.len() > 1).then_some(&own_name));
             let placed = Placed {
-                name,
-                namespace,
+                name: robot.name.as_deref(),
+                namespace: robot.namespace.as_deref(),
+                is_one_of_several: robots.len() > 1,
                 standing: robot.pose,
                 is_robot: description.is_some(),
                 description: description.clone(),
@@ -202,6 +205,7 @@ fn plain_world(setting: &Setting<'_>) -> Loaded {
 struct Placed<'a> {
     name: Option<&'a str>,
     namespace: Option<&'a str>,
+    is_one_of_several: bool,
     standing: Standing,
     is_robot: bool,
     description: Option<String>,

@@ -33,6 +33,41 @@ fn lowest_m(model: &Model, up_from_model: Pose) -> Option<f64> {
     own.chain(nested).reduce(f64::min)
 }
 
+/// The radius of the smallest circle around a model's frame that all its collisions are in, seen from
+/// above \[m\]; each collision counts with its bounding sphere. Shapes from files are passed over.
+pub(crate) fn radius_m(model: &Model, base_from_model: Pose) -> Option<f64> {
+    let own = model.links.iter().flat_map(|link| {
+        link.collisions.iter().filter_map(move |collision| {
+            let base_from_shape =
+                base_from_model * link.model_from_link * collision.link_from_collision;
+            let middle = base_from_shape.translation;
+            Some(
+                libm::hypot(middle.x, middle.y) + reach_aside_m(&collision.shape, base_from_shape)?,
+            )
+        })
+    });
+    let nested = model
+        .models
+        .iter()
+        .filter_map(|inner| radius_m(inner, base_from_model * inner.parent_from_model));
+    own.chain(nested).filter(|radius_m| radius_m.is_finite()).reduce(f64::max)
+}
+
+/// How far a shape reaches to the side from its middle, at most \[m\].
+fn reach_aside_m(shape: &Shape, base_from_shape: Pose) -> Option<f64> {
+    let reach_along = |axis: DVec3| {
+        let axis_of_shape = base_from_shape.rotation.conjugate() * axis;
+        let up_from_shape = Pose { rotation: turn_up(axis_of_shape), ..Pose::IDENTITY };
+        reach_down_m(shape, up_from_shape)
+    };
+    Some(libm::hypot(reach_along(DVec3::X)?, reach_along(DVec3::Y)?))
+}
+
+/// A rotation that takes an axis of a shape up.
+fn turn_up(axis: DVec3) -> periplus_base::DQuat {
+    periplus_base::DQuat::from_rotation_arc(axis.normalize_or(DVec3::Z), DVec3::Z)
+}
+
 /// How far a shape reaches down from its middle \[m\].
 fn reach_down_m(shape: &Shape, up_from_shape: Pose) -> Option<f64> {
     // The up axis as the shape sees it.

@@ -18,7 +18,7 @@ mod simulation;
 mod slice;
 
 pub use compose::{Composition, Member, Placement, Standing, compose, compose_plain};
-pub use drive::{Driver, ScriptFindings};
+pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
 pub use files::ShapeFiles;
 pub use hear::hear;
 pub use pace::Pace;

@@ -130,6 +130,13 @@ impl Recorder {
         Ok(Self { path: file, folder, tap, shared })
     }
 
+    /// The file whose recording has failed, and why; none as long as all is written.
+    #[must_use]
+    pub fn failure(&self) -> Option<(PathBuf, String)> {
+        let state = self.shared.lock();
+        state.failure.as_ref().map(|failure| (self.path.clone(), failure.to_string()))
+    }
+
     /// Ends the bag.
     ///
     /// # Errors

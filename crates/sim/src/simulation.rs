@@ -249,6 +249,13 @@ impl Simulation {
         self.motion.model_pose(self.robot()?.model)
     }
 
+    /// The radius of the first robot around its frame, seen from above \[m\]; none where its
+    /// collisions do not say.
+    #[must_use]
+    pub fn robot_radius_m(&self) -> Option<f64> {
+        crate::ground::radius_m(&self.robot()?.member.model, Pose::IDENTITY)
+    }
+
     pub(crate) fn robot(&self) -> Option<&Running> {
         let described = |running: &&Running| running.member.description.is_some();
         let moves = |running: &&Running| !running.member.model.is_static;
