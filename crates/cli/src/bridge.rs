@@ -20,6 +20,7 @@ use periplus_wire_gz::{Direction, Link, Pair, Settings, Transport};
 
 use crate::arguments;
 use crate::live::Live;
+use crate::stop;
 use crate::terminal;
 use services::Services;
 use spec::Spec;
@@ -93,7 +94,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             }
         }
     }
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let (settings, findings) = Settings::from_environment(&Machine);
     tell(&findings)?;
     let opened = Live::open(arguments.clone()).and_then(|live| {

@@ -64,8 +64,18 @@ pub(crate) struct Costmaps {
 
 impl Costmaps {
     /// As nodes of a graph, if they are wanted; none when they cannot be, which has been told.
-    pub(crate) fn join(graph: &Graph, options: &CostmapOptions) -> io::Result<Option<Self>> {
-        let Some(path) = &options.costmap else { return Ok(Some(Self::default())) };
+    /// `usual` are the parameters of those that run where no file is named.
+    pub(crate) fn join(
+        graph: &Graph,
+        options: &CostmapOptions,
+        usual: Option<&str>,
+    ) -> io::Result<Option<Self>> {
+        let Some(path) = &options.costmap else {
+            return match usual {
+                Some(text) => Self::of_text(graph, "the usual costmaps", text, None),
+                None => Ok(Some(Self::default())),
+            };
+        };
         let Some(costmaps) = Self::of_file(graph, path, options.costmap_compat)? else {
             return Ok(None);
         };

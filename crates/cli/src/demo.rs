@@ -21,6 +21,7 @@ use periplus_slam_nodes::Pace;
 use crate::costmap::Costmaps;
 use crate::mapping::Mapping;
 use crate::page::{About, PORT, Page, PageOptions};
+use crate::stop;
 use crate::terminal;
 
 use explorer::Explorer;
@@ -109,7 +110,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         crate::paths::make_folder(out)?;
     }
     let recorder = out.as_deref().map(|out| record(&simulation, out)).transpose()?;
-    let search = Search { folders: Vec::new(), working_folder: terminal::working_folder() };
+    let search = Search { working_folder: terminal::working_folder(), ..Search::default() };
     let mut services = Services::new(&simulation, search).map_err(|error| words(&error))?;
     let graph = simulation.graph().clone();
     let (program, values) = stage::mapping();
@@ -129,7 +130,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         Some(_) => Some(Eyes::join(&graph, end_ns).map_err(|error| words(&error))?),
         None => None,
     };
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let factor = (!options.headless).then_some(1.0);
     let run = Run { end_ns, factor, stop: &stop, paused: false };
     let start_up = start.elapsed();
@@ -195,19 +196,11 @@ fn open(
     services: &mut Services,
 ) -> Result<Page, String> {
     services.show(simulation, Vec::new()).map_err(|error| error.to_string())?;
-    let about = || About { world: Some(stage::WORLD_NAME.to_owned()), ..About::default() };
+    let about = About { world: Some(stage::WORLD_NAME.to_owned()), ..About::default() };
     let token = &options.page.token;
     let usual = std::net::SocketAddr::from(([127, 0, 0, 1], PORT));
     let asked = options.page.page;
-    let opened = Page::open(simulation.graph(), asked.unwrap_or(usual), token.clone(), about());
-    match opened {
-        // Somebody has the usual port: any other will do where none was asked for.
-        Err(_) if asked.is_none() => {
-            let any = std::net::SocketAddr::from(([127, 0, 0, 1], 0));
-            Page::open(simulation.graph(), any, token.clone(), about())
-        }
-        opened => opened,
-    }
+    Page::open(simulation.graph(), asked.unwrap_or(usual), token.clone(), about)
 }
 
 fn tell(options: &DemoOptions, page: &Page) {

@@ -55,7 +55,7 @@ pub(crate) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
     if let Some(DoctorCommand::Costmap(options)) = &options.command {
         return crate::costmap::doctor::run(options);
     }
-    if !options.words.is_empty() {
+    if !options.words.is_empty() || !options.robots.others.is_empty() {
         return files::run(options);
     }
     let mut found = None;

@@ -26,6 +26,7 @@ mod program;
 mod sim;
 mod slam;
 mod spent;
+mod stop;
 mod teleop;
 mod terminal;
 mod verbs;
@@ -35,6 +36,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
+use periplus_bringup::{GUARD_VERB, guard};
 use periplus_diagnostics::plain_words;
 use periplus_graph::split_arguments;
 
@@ -80,6 +82,10 @@ fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
 }
 
 fn main() -> ExitCode {
+    if std::env::args().nth(1).as_deref() == Some(GUARD_VERB) {
+        guard(std::io::stdin().lock());
+        return ExitCode::SUCCESS;
+    }
     let words = match old_words::translate(std::env::args().collect()) {
         Ok(Ok(words)) => words,
         Ok(Err(code)) => return code,
@@ -132,7 +138,9 @@ fn main() -> ExitCode {
 /// How a command ends.
 fn ended(outcome: std::io::Result<ExitCode>) -> ExitCode {
     match outcome {
-        Ok(code) => code,
+        // A failure stays one, however the run was ended.
+        Ok(code) if code == ExitCode::FAILURE => code,
+        Ok(code) => stop::exit_code().map_or(code, ExitCode::from),
         // Whoever read our output has seen enough.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {

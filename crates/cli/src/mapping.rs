@@ -14,6 +14,7 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::{Value, Values};
 use periplus_slam_nodes::{Pace, Program, SlamNode};
 
+use crate::sim::stack::RobotProfile;
 use crate::{picture, terminal};
 
 /// So many of the closures are told one by one.
@@ -40,6 +41,13 @@ pub(crate) struct MoreMapping {
     /// At the end write map.yaml, map.pgm, map.png with the graph's poses, and map.session to a folder
     #[arg(long, value_name = "DIR")]
     slam_out: Option<PathBuf>,
+}
+
+impl MappingOptions {
+    /// Whether a map is to be made.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.slam.is_some()
+    }
 }
 
 impl MoreMapping {
@@ -75,6 +83,13 @@ pub(crate) fn parameters(
     let mut sources = SourceMap::new();
     let file = sources.add(path.display().to_string(), text);
     let read = match periplus_yaml::parse(file, &sources) {
+        Ok(Some(tree)) if tree.entries().is_none() => {
+            terminal::complain(&format!(
+                "{} holds no parameters: `--slam` takes a file of slam_toolbox or slam_gmapping",
+                path.display()
+            ));
+            return Ok(None);
+        }
         Ok(Some(tree)) => Some(periplus_slam_nodes::read(&tree, wanted, &mut diagnostics)),
         Ok(None) => {
             let program = wanted.unwrap_or(Program::Async);
@@ -110,8 +125,10 @@ impl Mapping {
         graph: &Graph,
         options: &MappingOptions,
         is_paced: bool,
+        (is_usual, profile): (bool, Option<&RobotProfile>),
     ) -> io::Result<Result<Option<Self>, ()>> {
-        let Some(path) = &options.slam else {
+        let asked = options.slam.clone().or(is_usual.then_some(None));
+        let Some(path) = &asked else {
             if options.more.slam_node.is_some() || options.more.slam_out.is_some() {
                 terminal::complain("`--slam-node` and `--slam-out` go with `--slam`");
                 return Ok(Err(()));
@@ -122,6 +139,10 @@ impl Mapping {
         else {
             return Ok(Err(()));
         };
+        if let Some(profile) = profile {
+            // Scans have a rule of their own below.
+            profile.fill(&mut values, ["odom_frame", "base_frame", ""]);
+        }
         let mut settings = NodeSettings::new(program.node_name());
         if let Some(topic) = scan_topic(graph, &values) {
             if program.is_toolbox() {
@@ -182,6 +203,13 @@ impl Mapping {
                 "  a graph of {scans} scans and {links} links, {} of them ties",
                 counts.ties
             )?;
+        }
+        if counts.kept <= 1 {
+            terminal::warn(&format!(
+                "the map is made of {}: the robot has not moved, or its scans did not fit; drive it \
+                 (`--cmd FILE`, `periplus teleop`)",
+                if counts.kept == 0 { "no scan" } else { "one scan" }
+            ));
         }
         let lost = [
             (counts.lost, "did not fit"),

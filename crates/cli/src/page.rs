@@ -15,6 +15,8 @@ use periplus_server::{Hub, Server, ServerSettings, token};
 use periplus_wire_live::Settings;
 use periplus_wire_ros2::Remote;
 
+use crate::terminal;
+
 /// The port that Foxglove's programs look at first.
 pub(crate) const PORT: u16 = 8765;
 
@@ -99,12 +101,20 @@ impl Page {
         let hub = Hub::open(graph, settings).map_err(|error| error.to_string())?;
         hub.serve_assets(assets::fetch(about.files, about.resource_path));
         let hub = Arc::new(hub);
-        let server = Server::open(hub.clone(), ServerSettings { address, token });
+        let open = |address, token| Server::open(hub.clone(), ServerSettings { address, token });
+        let is_taken = |error: &std::io::Error| error.kind() == std::io::ErrorKind::AddrInUse;
+        let server = match open(address, token.clone()) {
+            // Another run has the usual port: any other does where none was asked for.
+            Err(error) if is_taken(&error) && address.port() == PORT => {
+                terminal::say(&format!("port {PORT} is taken, the page gets another"));
+                open(SocketAddr::new(address.ip(), 0), token)
+            }
+            opened => opened,
+        };
         let server = server.map_err(|error| {
-            let taken = error.kind() == std::io::ErrorKind::AddrInUse;
             let advice = "; name another port, such as --page=8766, or 0 for any that is free";
             let why = periplus_diagnostics::plain_words(&error);
-            format!("no page at {address}: {why}{}", if taken { advice } else { "" })
+            format!("no page at {address}: {why}{}", if is_taken(&error) { advice } else { "" })
         })?;
         Ok(Self { server, hub })
     }

@@ -2,11 +2,14 @@
 
 mod gazebo;
 pub(crate) mod progress;
+mod recording;
 mod report;
 mod robots;
 pub(crate) mod ros2;
+pub(crate) mod stack;
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -27,11 +30,14 @@ use crate::localize::{BesideOptions, Localization};
 use crate::mapping::{Mapping, MappingOptions};
 use crate::options::{SearchOptions, split};
 use crate::page::{About, Page, PageOptions};
+use crate::stop;
 use crate::terminal;
 
 use gazebo::{Gazebo, GzReach, GzTypes};
 use ros2::{Reach, Ros2};
+use stack::RobotProfile;
 
+pub(crate) use recording::RecordingWatch;
 pub(crate) use report::Report;
 pub(crate) use robots::Robots;
 
@@ -43,7 +49,7 @@ pub(crate) use robots::Robots;
 #[derive(Debug, Args)]
 pub(crate) struct SimOptions {
     /// The world, and `name:=value` for its xacro
-    #[arg(required = true, value_name = "WORLD|NAME:=VALUE")]
+    #[arg(value_name = "WORLD|NAME:=VALUE")]
     words: Vec<String>,
     #[command(flatten)]
     robots: Robots,
@@ -115,6 +121,11 @@ pub(crate) struct SimOptions {
     /// Parameters for nodes, as ROS 2 writes them; later ones win. All of `--ros-args` is understood too
     #[arg(long, value_name = "FILE")]
     params_file: Vec<String>,
+    /// Run the usual stack beside the robot: a filter of odometry and IMU where the robot publishes no
+    /// transform of its odometry, mapping (or with `--localize MAP.yaml` localization), and both
+    /// costmaps. Topics and frames are those of the robot
+    #[arg(long)]
+    stack: bool,
     #[command(flatten)]
     costmaps: CostmapOptions,
     #[command(flatten)]
@@ -158,13 +169,29 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let Some(to_nodes) = arguments::read(options.ros_words(ros))? else {
         return Ok(ExitCode::from(2));
     };
-    let (files, arguments) = split(&options.words);
+    let (mut files, arguments) = split(&options.words);
+    // `--robot FILE WORLD`: what is no argument of the robot is the world.
+    files.extend(options.robots.others.iter().map(PathBuf::from));
     let [world] = files.as_slice() else {
-        terminal::complain(
-            "sim takes one world; robots come with --robot; see `periplus sim --help`",
-        );
+        terminal::complain(&match files.as_slice() {
+            [] => {
+                "sim takes a world; robots come with --robot; see `periplus sim --help`".to_owned()
+            }
+            several => {
+                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
+                let several = names.join(", ");
+                format!(
+                    "sim takes one world, and these are {}: {several}; give each robot its own --robot",
+                    names.len()
+                )
+            }
+        });
         return Ok(ExitCode::from(2));
     };
+    if let Err(why) = options.can_run() {
+        terminal::complain(&why);
+        return Ok(ExitCode::from(2));
+    }
     let (mut driver, findings) = match &options.cmd {
         Some(path) => Driver::read(path),
         None => Default::default(),
@@ -178,7 +205,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     let search = &options.search.resource_path;
     let mut composition = terminal::with_setting(search, arguments, |setting| {
-        compose(world, &options.robots.0, setting)
+        compose(world, &options.robots.placements, setting)
     });
     let mut simulation = Simulation::new(
         &mut composition,
@@ -190,6 +217,14 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
         return Ok(ExitCode::FAILURE);
     }
+    let profile = match options.profile(&mut simulation) {
+        Ok(profile) => profile,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let profile = profile.as_ref();
     let recorder = match options.record.as_deref() {
         None => None,
         Some(path) => match Recorder::start(&simulation, path, options.wanted()) {
@@ -210,14 +245,29 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             return Ok(ExitCode::FAILURE);
         }
     };
-    if let Err(error) = driver.join(&simulation) {
-        terminal::complain(&format!("the script cannot be driven: {error}"));
-        return Ok(ExitCode::FAILURE);
+    match driver.join(&simulation) {
+        Ok(warnings) => {
+            terminal::diagnostics(&mut anstream::stderr().lock(), &warnings, &SourceMap::new())?;
+        }
+        Err(error) => {
+            terminal::complain(&format!("the script cannot be driven: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
     }
-    let Some(costmaps) = Costmaps::join(simulation.graph(), &options.costmaps)? else {
-        return Ok(ExitCode::FAILURE);
+    let filter = profile.filter(|profile| profile.needs_filter());
+    let filter = filter.map(|profile| profile.filter(simulation.graph())).transpose();
+    let _filter = match filter {
+        Ok(filter) => filter,
+        Err(error) => {
+            terminal::complain(&format!("the filter of odometry cannot run: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
     };
-    let localization = match Localization::join(simulation.graph(), &options.localization)? {
+    let own = profile.filter(|_| options.stack).map(RobotProfile::costmaps);
+    let joined = Costmaps::join(simulation.graph(), &options.costmaps, own.as_deref())?;
+    let Some(costmaps) = joined else { return Ok(ExitCode::FAILURE) };
+    let joined = Localization::join(simulation.graph(), &options.localization, profile)?;
+    let localization = match joined {
         Ok(localization) => localization,
         Err(why) => {
             terminal::complain(&format!("localization cannot run: {why}"));
@@ -225,7 +275,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         }
     };
     let factor = options.factor(&composition);
-    let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some())?;
+    let is_mapping = options.stack && localization.is_none();
+    let usual = (is_mapping, profile);
+    let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
     let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
     // Only now all nodes are there.
     if !options.quiet {
@@ -261,7 +313,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             terminal::say("no browser could be opened; open the page yourself");
         }
     }
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let run = Run {
         end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
         factor,
@@ -270,9 +322,11 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     };
     let start_up = start.elapsed();
     let mut line = progress::Line::new(options.duration, options.quiet || options.json);
+    let mut watch = RecordingWatch::default();
     let stopwatch = Stopwatch::start();
     let outcome = run.go(&mut simulation, &mut services, &mut driver, &mut |progress| {
         line.show(progress);
+        watch.look(recorder.as_ref(), progress, &|write| line.aside(write));
         if ros2.is_due(progress.wall) {
             line.aside(|| ros2.tell());
             if let (Some(page), Some(remote)) = (&page, ros2.remote()) {
@@ -293,13 +347,13 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             terminal::diagnostics(&mut err, &findings, &SourceMap::new())?;
         }
     }
-    let recording = match recorder.map(|recorder| recorder.finish(&mut simulation)).transpose() {
-        Ok(recording) => recording,
-        Err(error) => {
-            terminal::complain(&format!("the bag is not whole: {error}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
+    let is_recorded = finished.is_ok();
+    // The map and the report do not go with the bag.
+    let recording = finished.unwrap_or_else(|error| {
+        terminal::complain(&format!("the bag is not whole: {error}"));
+        None
+    });
     let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
     if options.json {
         writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
@@ -333,6 +387,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         return Ok(ExitCode::FAILURE);
     }
     match outcome {
+        Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
         Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole => Ok(ExitCode::SUCCESS),
         Ok(()) => {
@@ -358,6 +413,70 @@ impl SimOptions {
             values.iter().flat_map(move |value| [flag.to_owned(), value.clone()])
         });
         own.chain(ros).collect()
+    }
+
+    /// Words that cannot be meant together.
+    fn can_run(&self) -> Result<(), String> {
+        if let Some(path) =
+            self.record.as_ref().filter(|path| path.extension() == Some("bag".as_ref()))
+        {
+            let mcap = path.with_extension("mcap");
+            return Err(format!(
+                "a run is recorded as MCAP, not as a bag of ROS 1: write `--record {0}`, then \
+                 `periplus bag convert {0} {1}`",
+                mcap.display(),
+                path.display()
+            ));
+        }
+        if self.stack && self.robots.placements.len() > 1 {
+            return Err(
+                "--stack is for one robot; start the nodes of several with a launch file".into()
+            );
+        }
+        Ok(())
+    }
+
+    /// What the robot publishes, where nodes beside it have to know.
+    fn profile(&self, simulation: &mut Simulation) -> Result<Option<RobotProfile>, String> {
+        let is_wanted = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
+        // Nodes beside several robots are told their topics by hand.
+        if !is_wanted || self.robots.placements.len() > 1 {
+            return Ok(None);
+        }
+        let profile = RobotProfile::of(simulation)?;
+        if profile.scan.is_none() && self.stack {
+            return Err(
+                "no sensor of this robot publishes laser scans, which mapping, localization and \
+                        costmaps need; give the robot a lidar"
+                    .into(),
+            );
+        }
+        if !self.quiet && profile.needs_filter() {
+            let (odom, base) = (profile.odom(), profile.base());
+            let inputs: Vec<&str> = [&profile.odometry, &profile.imu]
+                .into_iter()
+                .flatten()
+                .map(String::as_str)
+                .collect();
+            terminal::say(&format!(
+                "the robot publishes no transform from {base} to {odom}: the filter of \
+                 robot_localization does, from {}",
+                inputs.join(" and ")
+            ));
+        }
+        if !self.quiet && self.stack {
+            let named = |topic: &Option<String>| topic.clone().unwrap_or_else(|| "none".to_owned());
+            terminal::say(&format!(
+                "stack: scans on {}, odometry on {}, IMU on {}, frames {} and {}, radius {:.2} m",
+                named(&profile.scan),
+                named(&profile.odometry),
+                named(&profile.imu),
+                profile.odom(),
+                profile.base(),
+                profile.radius_m
+            ));
+        }
+        Ok(Some(profile))
     }
 
     fn simulation(&self, arguments: Arguments) -> Options {

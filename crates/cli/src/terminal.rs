@@ -2,8 +2,6 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, render};
@@ -18,6 +16,11 @@ pub(crate) const INTERRUPTED: u8 = 130;
 /// Writes one line about the command itself to stderr.
 pub(crate) fn complain(words: &str) {
     let _ = writeln!(anstream::stderr(), "error: {words}");
+}
+
+/// Writes one line to stderr about what goes wrong while the command goes on.
+pub(crate) fn warn(words: &str) {
+    let _ = writeln!(anstream::stderr(), "warning: {words}");
 }
 
 /// Writes one line about what was done to stderr.
@@ -59,22 +62,6 @@ pub(crate) fn counts(loaded: &Loaded) -> String {
     if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
 }
 
-/// Becomes true with Ctrl-C.
-pub(crate) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // The second Ctrl-C ends the program at once: somebody may not want to wait for the bag.
-    let asked = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::abort();
-        }
-    });
-    if asked.is_err() {
-        complain("Ctrl-C cannot be caught; the bag's end will be missing when it is used");
-    }
-    stop
-}
-
 /// A line that shows how far a long work is; nothing where stderr is no terminal.
 pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet {
@@ -95,7 +82,7 @@ pub(crate) fn working_folder() -> PathBuf {
 pub(crate) fn search(resource_path: &[PathBuf]) -> Search {
     let working_folder = working_folder();
     let folders = resource_path.iter().map(|folder| working_folder.join(folder)).collect();
-    Search { folders, working_folder }
+    Search { folders, working_folder, ..Search::default() }
 }
 
 /// Threads that the machine can run side by side.

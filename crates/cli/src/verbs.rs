@@ -14,8 +14,7 @@ mod wired;
 
 use std::io;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
@@ -25,6 +24,7 @@ use periplus_host::Machine;
 use periplus_resources::Host as _;
 use periplus_verbs::{Failure, InGraph, Outcome, Session, Types};
 
+use crate::stop;
 use crate::terminal;
 
 pub(crate) use action::ActionOptions;
@@ -52,7 +52,7 @@ pub(crate) fn with_session(
             return Ok(ExitCode::FAILURE);
         }
     };
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let mut out = io::BufWriter::new(io::stdout().lock());
     let outcome = verb(&mut Session {
         network: &wired,
@@ -115,17 +115,4 @@ fn end(outcome: Outcome) -> io::Result<ExitCode> {
 
 fn tell(findings: &Diagnostics) -> io::Result<()> {
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
-}
-
-/// The second Ctrl-C ends the program at once.
-fn stop_on_ctrl_c() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // Where it cannot be caught it ends the program, which is what it is for.
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::abort();
-        }
-    });
-    stop
 }

@@ -16,7 +16,8 @@ use crate::arguments;
 use crate::demo::browser;
 use crate::live::Live;
 use crate::page::{About, PORT, Page, PageOptions};
-use crate::terminal::{complain, say, stop_on_ctrl_c};
+use crate::stop;
+use crate::terminal::{complain, say};
 
 /// How often time is told.
 const LOOK: Duration = Duration::from_millis(5);
@@ -48,7 +49,7 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
     let Some(arguments) = arguments::read(ros)? else {
         return Ok(ExitCode::from(2));
     };
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let opened = Live::open(arguments).and_then(|live| {
         let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
         let resource_path = options.resource_path.clone();

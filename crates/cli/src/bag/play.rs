@@ -12,6 +12,7 @@ use periplus_host::{Stopwatch, sleep};
 
 use super::options::{PlayOptions, SelectOptions};
 use crate::live::Live;
+use crate::stop;
 use crate::terminal;
 
 /// How long the loop sleeps at most: Ctrl-C and ENTER are seen by then.
@@ -38,7 +39,7 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
         }
     };
     let settings = options.settings(&select, &bag);
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let player = Player::new(bag, &live.graph, settings);
     let played = player.and_then(|mut player| play(&mut player, &live, options.delay, &stop));
     if !live.end(LAST_WORDS) {

@@ -16,6 +16,7 @@ use periplus_wire_ros2::{Remote, RemoteTopic};
 
 use super::options::RecordOptions;
 use crate::live::Live;
+use crate::stop;
 use crate::terminal;
 
 /// How often it looks for new topics, and puts old messages on the disk.
@@ -59,7 +60,7 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     if options.use_sim_time {
         live.follow_clock(&node)?;
     }
-    let stop = terminal::stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let recorder = Recorder::start(&live.graph, &output, settings)?;
     let mut heard = Heard { node, mailboxes: BTreeMap::new() };
     terminal::say(&format!("{}: records until Ctrl-C", output.display()));

@@ -24,6 +24,27 @@ pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> 
     read_text(&path.display().to_string(), text, compat)
 }
 
+/// Names of parameters of which a file for one costmap has at least one.
+const OF_ONE: [&str; 9] = [
+    "global_frame",
+    "robot_base_frame",
+    "update_frequency",
+    "rolling_window",
+    "resolution",
+    "plugins",
+    "footprint",
+    "robot_radius",
+    "obstacle_layer",
+];
+
+/// Whether any part of a tree has a parameter of a costmap.
+fn looks_like_costmap(tree: &periplus_yaml::Node) -> bool {
+    let Some(entries) = tree.entries() else { return false };
+    entries.iter().any(|(key, value)| {
+        key.text().is_some_and(|name| OF_ONE.contains(&name)) || looks_like_costmap(value)
+    })
+}
+
 /// As [`read`], of a text that has a name.
 pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Result<File, String> {
     let mut sources = SourceMap::new();
@@ -41,6 +62,12 @@ pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Res
     let mut nodes: Vec<&&str> = NODES.iter().filter(named).collect();
     if nodes.is_empty() {
         // A file for one costmap, such as those of ROS 1.
+        if !looks_like_costmap(&tree) {
+            return Err(format!(
+                "{name} has no costmap: neither `local_costmap` nor `global_costmap`, nor a parameter of \
+                 one such as `resolution` or `plugins`; give a file with Nav2's parameters"
+            ));
+        }
         nodes = NODES.iter().take(1).collect();
     }
     let configs = nodes

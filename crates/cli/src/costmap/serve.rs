@@ -14,7 +14,8 @@ use periplus_host::sleep;
 use super::{Costmaps, Place, place};
 use crate::arguments;
 use crate::live::{Live, Watched};
-use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
 
 /// How often it is looked whether something is due.
 const LOOK: Duration = Duration::from_millis(5);
@@ -60,7 +61,7 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result
     let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
         return Ok(ExitCode::from(2));
     };
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let mut live = match Live::open(arguments) {
         Ok(live) => live,
         Err(words) => {

@@ -28,7 +28,8 @@ const LOOK_NS: i64 = 50_000_000;
 const OWN: &str = "_periplus_doctor";
 
 pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
-    let (files, arguments) = split(&options.words);
+    let (mut files, arguments) = split(&options.words);
+    files.extend(options.robots.others.iter().map(std::path::PathBuf::from));
     let is_launch = |path: &Path| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         [".launch", ".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml"]
@@ -87,7 +88,7 @@ fn simulated(
 ) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
     let search = &options.search.resource_path;
     let mut composition = terminal::with_setting(search, arguments, |setting| {
-        compose(world, &options.robots.0, setting)
+        compose(world, &options.robots.placements, setting)
     });
     let threads = terminal::processors();
     let settings = Options { threads, ..Options::default() };

@@ -13,6 +13,7 @@ use periplus_params::Values;
 use periplus_yaml::Node;
 
 use super::options::{self, Yaml};
+use crate::sim::stack::RobotProfile;
 
 /// What `periplus sim` takes for localization.
 #[derive(Debug, Args)]
@@ -29,11 +30,19 @@ pub(crate) struct Localization {
     _server: Option<MapServer>,
 }
 
+impl BesideOptions {
+    /// Whether the robot is to be found on a map.
+    pub(crate) fn is_wanted(&self) -> bool {
+        !self.localize.is_empty()
+    }
+}
+
 impl Localization {
     /// As nodes of a graph, if they are wanted: `Ok(Ok(None))` when not; in words why they cannot be.
     pub(crate) fn join(
         graph: &Graph,
         options: &BesideOptions,
+        profile: Option<&RobotProfile>,
     ) -> io::Result<Result<Option<Self>, String>> {
         if options.localize.is_empty() {
             return Ok(Ok(None));
@@ -49,9 +58,12 @@ impl Localization {
                 }
             }
         }
-        let Some(values) = options::tell(file, &[])? else {
+        let Some(mut values) = options::tell(file, &[])? else {
             return Ok(Err("the parameters of `amcl` have errors".into()));
         };
+        if let Some(profile) = profile {
+            profile.fill(&mut values, ["odom_frame_id", "base_frame_id", "scan_topic"]);
+        }
         Ok(Self::new(graph, map.as_deref(), values).map(Some))
     }
 

@@ -11,7 +11,8 @@ use periplus_host::sleep;
 use super::{Localization, LocalizeOptions};
 use crate::arguments;
 use crate::live::{Live, Watched};
-use crate::terminal::{complain, diagnostics, stop_on_ctrl_c};
+use crate::stop;
+use crate::terminal::{complain, diagnostics};
 
 /// How often it is looked what time it is, and whether it is over.
 const LOOK: Duration = Duration::from_millis(5);
@@ -22,7 +23,7 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     let Some(values) = options.values()? else { return Ok(ExitCode::from(2)) };
     let Some(arguments) = arguments::read(ros)? else { return Ok(ExitCode::from(2)) };
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let is_simulated = values.flag("use_sim_time").unwrap_or_default();
     let mut live = match Live::open(arguments) {
         Ok(live) => live,

@@ -14,7 +14,8 @@ use periplus_map_nodes::{MapServer, MapServerSettings};
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
 use crate::live::{Live, Watched};
-use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
 
 /// How often it is looked whether it is over.
 const LOOK: Duration = Duration::from_millis(20);
@@ -32,7 +33,7 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
         return Ok(ExitCode::from(2));
     };
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let live = match Live::open(arguments) {
         Ok(live) => live,
         Err(words) => {

@@ -124,6 +124,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
     }
     let (mut words, mut dropped) = (Vec::new(), Vec::new());
     let mut has_world = false;
+    let mut page = "--page".to_owned();
     let mut rest = rest.iter();
     while let Some(word) = rest.next() {
         match word.as_str() {
@@ -137,6 +138,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
                 dropped.push(word.clone());
                 dropped.extend(rest.next().cloned());
             }
+            _ if word.starts_with("--page") => page.clone_from(word),
             "--verbose" | "-u" | "--pause" => dropped.push(word.clone()),
             _ if word.starts_with('-') => dropped.push(word.clone()),
             _ => {
@@ -151,7 +153,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
         );
     }
     if program == "gazebo" {
-        words.push("--page".into());
+        words.push(page);
     }
     without(become_words(&["sim"], words), &dropped)
 }

@@ -8,7 +8,11 @@ use periplus_sim::{Placement, Standing};
 
 /// The robots of a command line, in order.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Robots(pub(crate) Vec<Placement>);
+pub(crate) struct Robots {
+    pub(crate) placements: Vec<Placement>,
+    /// Words behind a robot that are none of its arguments: the world may be one.
+    pub(crate) others: Vec<String>,
+}
 
 const ROBOT: &str = "robot";
 const NAME: &str = "name";
@@ -37,7 +41,7 @@ impl Args for Robots {
                 option(POSE)
                     .value_name("X,Y,YAW")
                     .allow_hyphen_values(true)
-                    .help("Where it stands on the ground [m, rad]; or X,Y,Z,ROLL,PITCH,YAW"),
+                    .help("Where it stands on the ground [m, rad], X,Y with a yaw of 0; or X,Y,Z,ROLL,PITCH,YAW"),
             )
     }
 
@@ -50,17 +54,16 @@ impl FromArgMatches for Robots {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         // Files with their places on the command line, then what belongs to the nearest before.
         let mut robots: Vec<(usize, Placement)> = Vec::new();
+        let mut others = Vec::new();
         for (group, index) in groups(matches, ROBOT) {
             let mut words = group.into_iter();
             let file = words.next().map(PathBuf::from).unwrap_or_default();
             let mut arguments = Vec::new();
             for word in words {
-                let Some((name, value)) = word.split_once(":=") else {
-                    return Err(wrong(format!(
-                        "`{word}` after --robot is no `name:=value`; give each robot its own --robot"
-                    )));
-                };
-                arguments.push((name.to_owned(), value.to_owned()));
+                match word.split_once(":=") {
+                    Some((name, value)) => arguments.push((name.to_owned(), value.to_owned())),
+                    None => others.push(word),
+                }
             }
             robots.push((index, Placement { file, arguments, ..Placement::default() }));
         }
@@ -87,7 +90,8 @@ impl FromArgMatches for Robots {
             robot.pose = standing(word)?;
             Ok(())
         })?;
-        Ok(Self(robots.into_iter().map(|(_, robot)| robot).collect()))
+        let placements = robots.into_iter().map(|(_, robot)| robot).collect();
+        Ok(Self { placements, others })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
@@ -134,7 +138,9 @@ mod tests {
     fn read(line: &str) -> Result<Vec<Placement>, String> {
         let command = Robots::augment_args(Command::new("sim").arg(Arg::new("world")));
         let matches = command.try_get_matches_from(line.split(' ')).map_err(|e| e.to_string())?;
-        Robots::from_arg_matches(&matches).map(|robots| robots.0).map_err(|e| e.to_string())
+        Robots::from_arg_matches(&matches)
+            .map(|robots| robots.placements)
+            .map_err(|e| e.to_string())
     }
 
     #[test]
@@ -152,11 +158,19 @@ mod tests {
     }
 
     #[test]
+    fn a_world_behind_a_robot_is_no_argument_of_it() {
+        let command = Robots::augment_args(Command::new("sim").arg(Arg::new("world")));
+        let words = "sim --robot a.urdf x:=1 room.sdf --pose 0,0,1".split(' ');
+        let robots = Robots::from_arg_matches(&command.get_matches_from(words)).unwrap();
+        assert_eq!(robots.others, ["room.sdf"]);
+        assert_eq!(robots.placements[0].arguments, [("x".to_owned(), "1".to_owned())]);
+    }
+
+    #[test]
     fn slips_are_told() {
         assert!(
             read("sim world --pose 1,2,3").unwrap_err().contains("--pose belongs to a --robot")
         );
-        assert!(read("sim world --robot a.urdf b.urdf").unwrap_err().contains("own --robot"));
         assert!(read("sim world --robot a.urdf --pose 1,x").unwrap_err().contains("X,Y,YAW"));
     }
 }

@@ -14,7 +14,8 @@ use super::options::SlamOptions;
 use crate::arguments;
 use crate::live::{Live, Watched};
 use crate::mapping::{Mapping, parameters};
-use crate::terminal::{complain, diagnostics, say, stop_on_ctrl_c};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
 
 /// How often time is told: work beside the scans comes in slices of this.
 const LOOK: Duration = Duration::from_millis(4);
@@ -34,7 +35,7 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
         .get("use_sim_time")
         .map_or(values.flag("use_sim_time"), |value| Some(value.bool_value))
         .unwrap_or(false);
-    let stop = stop_on_ctrl_c();
+    let stop = stop::on_signal();
     let mut live = match Live::open(arguments) {
         Ok(live) => live,
         Err(words) => {
