@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use periplus_graph::Graph;
-use periplus_host::unix_ns;
+use periplus_host::{Machine, unix_ns};
+use periplus_resources::Host as _;
 use periplus_server::{Hub, Server, ServerSettings, token};
 use periplus_wire_live::Settings;
 use periplus_wire_ros2::Remote;
@@ -49,6 +50,8 @@ pub(crate) struct About {
     pub(crate) files: Vec<PathBuf>,
     /// Folders in which packages and models are looked for.
     pub(crate) resource_path: Vec<PathBuf>,
+    /// A file of RViz that the page opens.
+    pub(crate) view: Option<PathBuf>,
 }
 
 /// An open page.
@@ -86,6 +89,19 @@ impl Page {
         let mut metadata = BTreeMap::from([("periplus".to_owned(), version.to_owned())]);
         if let Some(world) = about.world {
             metadata.insert("world".to_owned(), world);
+        }
+        if let Some(view) = &about.view {
+            let text = Machine.read(view).map_err(|error| error.to_string());
+            match text.and_then(|text| String::from_utf8(text).map_err(|error| error.to_string())) {
+                Ok(text) => {
+                    let name = view.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                    metadata.insert("rviz".to_owned(), text);
+                    metadata.insert("rviz_file".to_owned(), name);
+                }
+                Err(why) => {
+                    terminal::warn(&format!("{} is not opened: {why}", view.display()));
+                }
+            }
         }
         let settings = Settings {
             name: format!("periplus {version}"),

@@ -510,6 +510,7 @@ impl SimOptions {
             world: Some(composition.world.name.clone()),
             files: composition.files.iter().map(|file| file.path.clone()).collect(),
             resource_path: self.search.resource_path.clone(),
+            view: None,
         }
     }
 

@@ -39,6 +39,9 @@ pub(crate) struct ViewOptions {
     /// Open no browser
     #[arg(long)]
     no_browser: bool,
+    /// A file of RViz that the page opens
+    #[arg(long, short = 'd', value_name = "FILE.rviz")]
+    display_config: Option<PathBuf>,
     /// A folder to look in for packages with meshes, before those of the environment; may be given
     /// several times
     #[arg(long, value_name = "DIR")]
@@ -53,7 +56,8 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
     let opened = Live::open(arguments).and_then(|live| {
         let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
         let resource_path = options.resource_path.clone();
-        let about = About { resource_path, ..About::default() };
+        let view = options.display_config.clone();
+        let about = About { resource_path, view, ..About::default() };
         let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
         Ok((Page::open(&live.graph, address, token, about)?, live))
     });

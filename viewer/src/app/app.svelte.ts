@@ -87,6 +87,7 @@ export class App {
   private readonly sensors = new SensorFrames();
   private leaveWorld: (() => void)[] = [];
   private rvizOriginal?: Tree;
+  private hasOpenedLaunched = false;
   private seen = new Set<string>();
   private publishers = new Map<string, (message: Message) => void>();
   private lastId = 0;
@@ -105,6 +106,7 @@ export class App {
           for (const one of all) this.parameters[one.name] = one;
         },
         time: (timeS) => this.time(timeS),
+        info: ({ rviz, rviz_file: fileName }) => this.openLaunched(rviz, fileName),
         status: (level, text) => this.notice(level >= 2 ? 'error' : 'warn', text),
       },
       TEXTS,
@@ -425,6 +427,17 @@ export class App {
   }
 
   // `.rviz` files.
+
+  /** Opens the file that the launch names, once: a reconnection leaves displays as they are. */
+  private openLaunched(text?: string, fileName?: string): void {
+    if (!text || this.hasOpenedLaunched) return;
+    this.hasOpenedLaunched = true;
+    try {
+      this.openRviz(text, fileName);
+    } catch (error) {
+      this.notice('error', `${fileName}: ${(error as Error).message}`);
+    }
+  }
 
   openRviz(text: string, fileName = ''): void {
     const file = readRviz(text);

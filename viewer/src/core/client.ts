@@ -41,6 +41,8 @@ export interface Events {
   offers(): void;
   parameters(parameters: Parameter[]): void;
   time(seconds: number): void;
+  /** What the server says about itself, once per connection. */
+  info?(metadata: Record<string, string>): void;
   /** What the server, or a message, has to say to the user. */
   status(level: number, message: string): void;
 }
@@ -330,6 +332,7 @@ export class Client {
           this.send({ op: 'subscribeConnectionGraph' });
         }
         if (text.capabilities.includes('parameters')) this.getParameters();
+        this.events.info?.(text.metadata ?? {});
         break;
       case 'status':
         this.events.status(text.level, text.message);

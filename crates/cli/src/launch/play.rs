@@ -191,6 +191,7 @@ fn in_world(
         world: Some(composition.world.name.clone()),
         files: composition.files.iter().map(|file| file.path.clone()).collect(),
         resource_path: search.resource_path.clone(),
+        view: bringup.views().into_iter().next(),
     };
     let page = match wants_page.then(|| options.open(simulation.graph(), about, &bringup)) {
         None => None,
@@ -348,7 +349,11 @@ fn among_others(
         }
     }
     let page = match options.wants_page(&bringup, true).then(|| {
-        let about = About { resource_path: search.resource_path.clone(), ..About::default() };
+        let about = About {
+            resource_path: search.resource_path.clone(),
+            view: bringup.views().into_iter().next(),
+            ..About::default()
+        };
         options.open(&live.graph, about, &bringup)
     }) {
         None => None,
@@ -512,8 +517,8 @@ impl PlayOptions {
         let url = page.url();
         if !self.quiet {
             terminal::say(&format!("the page is at {url}"));
-            for view in bringup.views() {
-                terminal::say(&format!("the file for RViz is {}: open it there", view.display()));
+            if let Some(view) = bringup.views().first() {
+                terminal::say(&format!("it opens {}", view.display()));
             }
         }
         let opens = !self.headless && !self.no_browser && bringup.wants_page();

@@ -260,13 +260,19 @@ fn xacro(rest: &[String]) -> Reading {
     become_words(&["convert"], words)
 }
 
+/// Whether a word of RViz stands before its file.
+fn is_view_file(word: &str) -> bool {
+    matches!(word, "-d" | "--display-config")
+}
+
 impl Program {
     fn reading(&self, words: Words) -> Reading {
         let mut own = words.own.clone();
         let mut ours: Vec<&str> = self.words.to_vec();
         if self.words == ["view"] {
-            // Files and options of RViz and rqt: the page opens files itself.
-            own.clear();
+            // Of the options of RViz and rqt the file is what counts.
+            let file = own.windows(2).find(|pair| is_view_file(&pair[0]));
+            own = file.map(<[String]>::to_vec).unwrap_or_default();
         }
         if self.words == ["tf", "tree", "--output", "frames"]
             && own.iter().any(|word| word == "-o" || word.starts_with("--output"))
