@@ -7,7 +7,7 @@ use std::sync::Arc;
 use periplus_costmap_nodes::{VoxelCloud, VoxelMarkers};
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
 use periplus_fusion_nodes::EkfNode;
-use periplus_graph::{Graph, GraphError, LifecycleState, Node, NodeSettings, parameters_to_yaml};
+use periplus_graph::{Graph, GraphError, Node, NodeSettings, parameters_to_yaml};
 use periplus_host::Machine;
 use periplus_localization_nodes::AmclNode;
 use periplus_map_nodes::{MapSaver, MapServer, MapServerSettings};
@@ -371,22 +371,28 @@ fn maps(
     let server = MapServer::new(node, settings, Arc::new(Machine));
     let server = server.map_err(|error| error.to_string())?;
     if !ask.is_managed {
-        server.start();
-        if server.life().state() != LifecycleState::Active {
-            // The server has logged why; the launch needs it in words of its own.
-            return Err(match file_of_map.as_str() {
-                "" => "it is given no map: name its YAML, `args=\"MAP.yaml\"`".into(),
-                file => match Machine.read(Path::new(file)) {
-                    Err(why) => format!("the map {file} cannot be read: {why}"),
-                    Ok(_) => format!(
-                        "{file} is no map that can be used; `periplus map info {file}` says why"
-                    ),
-                },
-            });
+        // The server logs what is wrong with its map; a launch needs it in words of its own.
+        if let Some(why) = unusable_map(&file_of_map, distro) {
+            return Err(why);
         }
+        server.start();
     }
     made.keep(server);
     Ok(())
+}
+
+/// The reason for which a file is no map that can be served.
+fn unusable_map(file: &str, distro: Distro) -> Option<String> {
+    if file.is_empty() {
+        return Some("it is given no map: name its YAML, `args=\"MAP.yaml\"`".into());
+    }
+    if let Err(why) = Machine.read(Path::new(file)) {
+        return Some(format!("the map {file} cannot be read: {why}"));
+    }
+    let is_map = periplus_maps::load(file, distro, &Machine).map.is_some();
+    let words =
+        || format!("{file} is no map that can be used; `periplus map info {file}` says why");
+    (!is_map).then(words)
 }
 
 /// The words of a program that reads or writes a map, with paths as the program means them.

@@ -143,11 +143,11 @@ fn variables_that_files_in_xml_set() {
 fn folders_that_packages_export() {
     let machine = Machine::new("environment_exports");
     let launch = "<launch><executable cmd='gz sim -r -s TOP/ws/pkg/worlds/w.sdf'/></launch>";
-    machine.misses("a.launch.xml", launch, "no model `crate`");
+    machine.misses("a.launch.xml", launch, "`model://crate` is not found");
     machine.write("ws/models_pkg/package.xml", "<package><name>models_pkg</name></package>");
     machine.write("ws/models_pkg/assets/deep/crate/model.config", CONFIG);
     machine.write("ws/models_pkg/assets/deep/crate/model.sdf", MODEL);
-    machine.misses("a.launch.xml", launch, "no model `crate`");
+    machine.misses("a.launch.xml", launch, "`model://crate` is not found");
     machine.write(
         "ws/models_pkg/hooks/models_pkg.dsv.in",
         "prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share/@PROJECT_NAME@/assets/deep",
