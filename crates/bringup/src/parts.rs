@@ -166,8 +166,7 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
         What::Shutdown { reason } => {
             add(reason.clone(), false, Work::Shutdown { reason: reason.clone() });
         }
-        What::Include { file, arguments } => match includes::stand_in(file, arguments)
-        {
+        What::Include { file, arguments } => match includes::stand_in(file, arguments) {
             Some(includes::StandIn::World(wish)) => {
                 let environment = environment::of_step(step);
                 add(file.clone(), false, Work::World(WorldWish { environment, ..wish }));

@@ -26,7 +26,8 @@ struct Programs(Search);
 impl Outside for Programs {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
         let ran = xacro(&words[1..], &self.0)?;
-        Ok(Printed { output: ran.output, errors: ran.errors, is_success: ran.is_success })
+        let (output, errors, is_success) = (ran.output, ran.errors, ran.is_success);
+        Ok(Printed { output, errors, is_success, ..Printed::default() })
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
