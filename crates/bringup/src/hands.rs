@@ -1,5 +1,6 @@
 //! Those who have something to do from time to time while a plan runs.
 
+mod bonds;
 mod changer;
 mod child;
 mod described;

@@ -196,7 +196,9 @@ pub(crate) fn make(
             }
             let is_autostart = truth_of(&named, "autostart").unwrap_or(false);
             made.told = format!("brings up {}", names.join(", "));
-            made.hand(Manager::new(node, names, is_autostart, now_ns)?);
+            // As Nav2 has it.
+            let bond_timeout_s = parameters::number_of(&named, "bond_timeout").unwrap_or(4.0);
+            made.hand(Manager::new(node, names, is_autostart, bond_timeout_s, now_ns)?);
         }
         Role::Relay => {
             let topic = |index: usize, name: &str| {

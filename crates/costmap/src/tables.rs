@@ -79,7 +79,12 @@ pub static COSTMAP: Table = Table {
         text("observation_sources", "Unused; layers have their own.").or(""),
         text("map_topic", "Topic of the map for layers that name none.").or(""),
         flag("use_sim_time", "Whether time comes from `/clock`.").or("false"),
-        number("bond_heartbeat_period", "s", "Unused; bonds are not kept.").or("0.1"),
+        number(
+            "bond_heartbeat_period",
+            "s",
+            "Period of the heartbeats to a lifecycle manager; no bond if not positive.",
+        )
+        .or("0.1"),
         text("service_introspection_mode", "Unused; services are not recorded.").or("disabled"),
         choice(
             "compat",

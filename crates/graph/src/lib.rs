@@ -73,7 +73,7 @@ pub use info::{
     TopicInfo, Traffic,
 };
 pub use inlet::InletCounts;
-pub use lifecycle::{Lifecycle, LifecycleState, Step, StepOutcome, Transition};
+pub use lifecycle::{Bond, BondSettings, Lifecycle, LifecycleState, Step, StepOutcome, Transition};
 pub use log::Level;
 pub use mailbox::{Mailbox, RawMailbox};
 pub use name::{

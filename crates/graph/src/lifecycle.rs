@@ -1,8 +1,11 @@
 //! Managed nodes: those that others configure, activate, deactivate and shut down.
 //!
+//! Each keeps a bond to a lifecycle manager that asks for one.
+//!
 //! Source: ROS 2's design article "Managed nodes", `rcl_lifecycle/default_state_machine.c` and
 //! `rclcpp_lifecycle/lifecycle_node_interface_impl.cpp`.
 
+mod bond;
 mod machine;
 mod services;
 
@@ -10,6 +13,7 @@ use std::sync::{Arc, Mutex, Weak};
 
 use periplus_msgs::lifecycle_msgs::TransitionEvent;
 
+pub use bond::{Bond, BondSettings};
 pub use machine::{LifecycleState, Step, StepOutcome, Transition};
 
 use crate::actor::{Io, Once};
@@ -29,6 +33,9 @@ struct Life {
     turn: Mutex<()>,
     step: Box<dyn Fn(Step) -> StepOutcome + Send + Sync>,
     events: Publisher<TransitionEvent>,
+    /// The bond to a lifecycle manager while the node is active, and after that until the manager has
+    /// heard of its end.
+    bond: Mutex<Option<bond::End>>,
 }
 
 impl Lifecycle {
@@ -95,7 +102,9 @@ impl<S: Send + 'static> Actor<S> {
                 outcome
             }),
             events: node.publisher("~/transition_event", Qos::reliable(10))?,
+            bond: Mutex::new(None),
         });
+        lock(&node.0.standard().store).manage();
         for server in services::serve(&node, &life)? {
             self.keep(server);
         }
@@ -130,8 +139,22 @@ impl Life {
         }
     }
 
+    /// As Nav2's nodes: the bond begins when the node becomes active and is broken when it is no
+    /// longer.
+    fn keep_bond(&self, edge: &'static machine::Edge) {
+        if edge.goal == LifecycleState::Active {
+            let node = self.node.upgrade().map(crate::Node);
+            *lock(&self.bond) = node.and_then(|node| bond::End::start(&node));
+        } else if edge.start == LifecycleState::Active
+            && let Some(bond) = &*lock(&self.bond)
+        {
+            bond.end();
+        }
+    }
+
     fn enter(&self, edge: &'static machine::Edge) {
         *lock(&self.state) = edge.goal;
+        self.keep_bond(edge);
         let now_ns = self.node.upgrade().map_or(0, |node| node.core.common.clock.now_ns());
         self.events.publish(TransitionEvent {
             timestamp: u64::try_from(now_ns).unwrap_or_default(),

@@ -1,6 +1,7 @@
 //! All packages and their texts. Made by `cargo xtask codegen`.
 
 pub mod action_msgs;
+pub mod bond;
 pub mod builtin_interfaces;
 pub mod diagnostic_msgs;
 pub mod example_interfaces;
@@ -33,6 +34,7 @@ crate::sources! {
     "action_msgs/msg/GoalStatus.msg"
     "action_msgs/msg/GoalStatusArray.msg"
     "action_msgs/srv/CancelGoal.srv"
+    "bond/msg/Status.msg"
     "builtin_interfaces/msg/Duration.msg"
     "builtin_interfaces/msg/Time.msg"
     "diagnostic_msgs/msg/DiagnosticArray.msg"

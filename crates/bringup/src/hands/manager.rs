@@ -1,7 +1,8 @@
 //! `nav2_lifecycle_manager`.
 //!
 //! Source: `nav2_lifecycle_manager/src/lifecycle_manager.cpp`: nodes are configured one after the
-//! other in the order of `node_names`, then activated in that order; down it goes in reverse.
+//! other in the order of `node_names`, then activated in that order; down it goes in reverse. With each
+//! active node a bond is kept, unless `bond_timeout` is 0.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -13,6 +14,7 @@ use periplus_msgs::nav2_msgs::{
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
+use super::bonds::{Bonds, Broken};
 use super::changer::transition;
 use super::{Done, Hand, Stage};
 use crate::told::Said;
@@ -30,8 +32,11 @@ pub(crate) struct Manager {
     state: Publisher<std_msgs::Bool>,
     to_do: VecDeque<(String, &'static str)>,
     pending: Option<Pending<ChangeState>>,
+    bonds: Option<Bonds>,
     waits_since_ns: i64,
     has_complained: bool,
+    /// All nodes are active; the last bond may not be formed yet.
+    is_rising: bool,
     is_up: bool,
     has_failed: bool,
 }
@@ -45,6 +50,7 @@ impl Manager {
         node: Node,
         names: Vec<String>,
         is_autostart: bool,
+        bond_timeout_s: f64,
         now_ns: i64,
     ) -> Result<Self, String> {
         let made = || {
@@ -55,10 +61,11 @@ impl Manager {
             let manage = node.server("~/manage_nodes")?;
             let is_active = node.server("~/is_active")?;
             let state = node.publisher("~/is_active_state", Qos::latched(1))?;
-            Ok((clients, manage, is_active, state))
+            let bonds = Bonds::new(&node, bond_timeout_s)?;
+            Ok((clients, manage, is_active, state, bonds))
         };
         let made: Result<_, periplus_graph::GraphError> = made();
-        let (clients, manage, is_active, state) = made.map_err(|error| error.to_string())?;
+        let (clients, manage, is_active, state, bonds) = made.map_err(|error| error.to_string())?;
         let mut manager = Self {
             node,
             names,
@@ -68,8 +75,10 @@ impl Manager {
             state,
             to_do: VecDeque::new(),
             pending: None,
+            bonds,
             waits_since_ns: now_ns,
             has_complained: false,
+            is_rising: false,
             is_up: false,
             has_failed: false,
         };
@@ -117,11 +126,16 @@ impl Manager {
             self.to_do.pop_front();
             let succeeded = answer.is_ok_and(|answer| answer.success);
             if succeeded {
+                if label == "activate"
+                    && let Some(bonds) = &mut self.bonds
+                {
+                    bonds.begin(&name, stage.now_ns);
+                }
                 if self.to_do.is_empty() {
-                    self.is_up = label == "activate";
-                    self.state.publish(std_msgs::Bool { data: self.is_up });
-                    if self.is_up {
-                        self.say(stage, Level::Info, "managed nodes are active");
+                    self.is_rising = label == "activate";
+                    if !self.is_rising {
+                        self.is_up = false;
+                        self.state.publish(std_msgs::Bool { data: false });
                     }
                 }
             } else {
@@ -132,6 +146,15 @@ impl Manager {
                 self.to_do.clear();
             }
             return true;
+        }
+        // The next node waits until the bond with the one before it is formed.
+        if self.bonds.as_ref().is_some_and(Bonds::is_forming) {
+            return false;
+        }
+        if label == "deactivate"
+            && let Some(bonds) = &mut self.bonds
+        {
+            bonds.end(&name, stage.now_ns);
         }
         let Some(client) = self.clients.get(&name) else { return false };
         if !client.is_ready() {
@@ -150,12 +173,32 @@ impl Manager {
     }
 }
 
+impl Manager {
+    /// Takes all nodes down when one of them is gone.
+    fn keep_bonds(&mut self, stage: &mut Stage<'_>) {
+        let Some(bonds) = &mut self.bonds else { return };
+        let Some(Broken { name, reason }) = bonds.keep(stage.now_ns) else { return };
+        self.say(stage, Level::Error, &format!("{reason}; the other nodes are reset"));
+        self.has_failed = true;
+        (self.is_rising, self.is_up) = (false, false);
+        self.state.publish(std_msgs::Bool { data: false });
+        self.to_do.clear();
+        self.pending = None;
+        let others = self.names.iter().rev().filter(|other| **other != name);
+        let others: Vec<String> = others.cloned().collect();
+        for label in ["deactivate", "cleanup"] {
+            self.to_do.extend(others.iter().map(|other| (other.clone(), label)));
+        }
+    }
+}
+
 impl Hand for Manager {
     fn time_went_back(&mut self, by_ns: i64) {
         self.waits_since_ns -= by_ns;
     }
 
     fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+        self.keep_bonds(stage);
         while let Some(call) = self.manage.take() {
             let success = self.order(call.request.command);
             call.answer(ManageLifecycleNodesResponse { success });
@@ -164,6 +207,11 @@ impl Hand for Manager {
             call.answer(TriggerResponse { success: self.is_up, ..TriggerResponse::default() });
         }
         while self.go_on(stage) {}
+        if self.is_rising && !self.bonds.as_ref().is_some_and(Bonds::is_forming) {
+            (self.is_rising, self.is_up) = (false, true);
+            self.state.publish(std_msgs::Bool { data: true });
+            self.say(stage, Level::Info, "managed nodes are active");
+        }
         Done::No
     }
 }

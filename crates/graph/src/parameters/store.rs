@@ -14,6 +14,12 @@ use crate::common::Common;
 /// The parameter that every node has beside those of its table.
 const USE_SIM_TIME: &str = "use_sim_time";
 
+/// The parameter that every managed node has beside those of its table, as Nav2's nodes have it.
+const BOND_PERIOD: &str = "bond_heartbeat_period";
+
+/// Its default \[s\].
+const BOND_PERIOD_S: f64 = 0.1;
+
 /// What a node was told before it declared anything, and what it declared.
 pub(crate) struct Store {
     node: Arc<str>,
@@ -24,6 +30,8 @@ pub(crate) struct Store {
     /// Parameters that no table declares, where a node takes any.
     free: Option<BTreeMap<String, ParameterValue>>,
     generation: u64,
+    /// True once it is a managed node.
+    is_managed: bool,
 }
 
 impl Store {
@@ -38,7 +46,7 @@ impl Store {
             let given = given.iter().filter(|(name, _)| *name != USE_SIM_TIME);
             given.map(|(name, value)| (name.clone(), value.clone())).collect()
         });
-        Self { node, common, given, values: None, free, generation: 0 }
+        Self { node, common, given, values: None, free, generation: 0, is_managed: false }
     }
 
     pub(crate) fn values(&self) -> Option<&Values> {
@@ -69,6 +77,38 @@ impl Store {
         unfit
     }
 
+    /// Declares what managed nodes have.
+    pub(crate) fn manage(&mut self) {
+        self.is_managed = true;
+    }
+
+    /// Period of the heartbeats of the node's bond \[s\]; not positive for none.
+    pub(crate) fn bond_period_s(&self) -> f64 {
+        self.get(BOND_PERIOD).map_or(BOND_PERIOD_S, |value| value.double_value)
+    }
+
+    /// The bond's parameter, where no table has it.
+    fn bond(&self, name: &str) -> Option<ParameterValue> {
+        let is_asked = self.is_managed && name == BOND_PERIOD;
+        is_asked.then(|| {
+            let given = self.given.get(name).filter(|given| {
+                matches!(
+                    given.r#type,
+                    ParameterType::PARAMETER_DOUBLE | ParameterType::PARAMETER_INTEGER
+                )
+            });
+            let period_s = match given {
+                Some(given) if given.r#type == ParameterType::PARAMETER_DOUBLE => {
+                    given.double_value
+                }
+                #[allow(clippy::cast_precision_loss, reason = "seconds")]
+                Some(given) => given.integer_value as f64,
+                None => BOND_PERIOD_S,
+            };
+            convert::to_message(Value::Number(period_s))
+        })
+    }
+
     fn table(&self) -> impl Iterator<Item = &'static str> + use<> {
         let parameters = self.values.as_ref().map_or(&[][..], |values| values.table().parameters);
         parameters.iter().filter(|one| one.kind != Kind::Group).map(|one| one.name)
@@ -79,6 +119,7 @@ impl Store {
             values.table().find(name).is_some_and(|parameter| parameter.kind != Kind::Group)
         };
         name == USE_SIM_TIME
+            || self.is_managed && name == BOND_PERIOD
             || self.values.as_ref().is_some_and(is_declared)
             || self.free.as_ref().is_some_and(|free| free.contains_key(name))
     }
@@ -87,6 +128,9 @@ impl Store {
     pub(super) fn names(&self) -> Vec<&str> {
         let mut names: BTreeSet<&str> = BTreeSet::new();
         names.insert(USE_SIM_TIME);
+        if self.is_managed {
+            names.insert(BOND_PERIOD);
+        }
         for name in self.table() {
             names.insert(name);
         }
@@ -102,7 +146,7 @@ impl Store {
             let parameter = values.table().find(name)?;
             values.get(parameter.name).map(convert::to_message)
         });
-        declared.or_else(|| self.free.as_ref()?.get(name).cloned())
+        declared.or_else(|| self.free.as_ref()?.get(name).cloned()).or_else(|| self.bond(name))
     }
 
     pub(super) fn named(&self, name: &str) -> Named {
@@ -139,6 +183,9 @@ impl Store {
                     values.set(parameter.name, value);
                 }
                 _ if self.free.is_some() => self.check_free(name, value)?,
+                _ if self.is_managed && name == BOND_PERIOD => {
+                    return Err(format!("`{name}` is set when the node starts"));
+                }
                 _ => return Err(self.unknown(name)),
             }
         }
@@ -213,6 +260,16 @@ impl Store {
         }
         if let Some(parameter) = self.values.as_ref().and_then(|values| values.table().find(name)) {
             return convert::describe(parameter);
+        }
+        if self.is_managed && name == BOND_PERIOD {
+            return ParameterDescriptor {
+                r#type: ParameterType::PARAMETER_DOUBLE,
+                description: "Seconds between heartbeats to a lifecycle manager (default 0.1); no \
+                              bond is kept if this is not positive."
+                    .into(),
+                read_only: true,
+                ..blank
+            };
         }
         match self.free.as_ref().and_then(|free| free.get(name)) {
             Some(value) => {

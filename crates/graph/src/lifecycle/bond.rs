@@ -1,0 +1,312 @@
+//! Bonds: each of two programs sends heartbeats under a common id on the topic `bond`, and learns from
+//! the other's when that one stops or dies. Nav2's lifecycle manager keeps one with each node.
+//!
+//! Source: the documentation of `bond_core` (message `bond/Status`, its constants and states), and Nav2's
+//! `LifecycleNode::createBond` and `LifecycleManager::createBondConnection`.
+
+use periplus_msgs::bond::Status;
+use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::std_msgs::Header;
+
+use crate::common::lock;
+use crate::{Actor, Node, Publisher, Qos};
+
+/// Topic of all bonds of a namespace.
+const TOPIC: &str = "bond";
+
+/// Messages that wait on it.
+const DEPTH: usize = 100;
+
+/// Period at which the end of a bond is published until the other end has seen it \[ns\].
+const DEAD_PUBLISH_PERIOD_NS: i64 = 50_000_000;
+
+/// Time after which an end that was not answered stops publishing its end \[ns\].
+const DISCONNECT_TIMEOUT_NS: i64 = 2_000_000_000;
+
+/// Timeout of a node's own end, as Nav2's nodes have it \[s\].
+const NODE_TIMEOUT_S: f64 = 4.0;
+
+/// How a bond is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondSettings {
+    /// Period of heartbeats \[s\].
+    pub period_s: f64,
+    /// Time without a heartbeat after which the bond is broken \[s\].
+    pub timeout_s: f64,
+    /// True for the end that begins: it sends heartbeats before it has received one.
+    pub begins: bool,
+}
+
+/// One end of a bond, apart from topics.
+#[derive(Debug)]
+pub struct Bond {
+    id: String,
+    instance_id: String,
+    settings: BondSettings,
+    sister: Option<String>,
+    state: State,
+    published_ns: Option<i64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// No heartbeat was received yet.
+    Waiting,
+    /// The last heartbeat was received at this time.
+    Alive(i64),
+    /// This end was ended at this time; the other may not know.
+    Ending(i64),
+    Broken,
+}
+
+fn ns(seconds: f64) -> i64 {
+    // Saturates; periods are seconds.
+    #[allow(clippy::cast_possible_truncation, reason = "saturates")]
+    let ns = (seconds * 1e9) as i64;
+    ns
+}
+
+impl Bond {
+    /// An end of the bond `id`; `instance_id` is this end's alone.
+    #[must_use]
+    pub fn new(id: &str, instance_id: &str, settings: BondSettings) -> Self {
+        Self {
+            id: id.to_owned(),
+            instance_id: instance_id.to_owned(),
+            settings,
+            sister: None,
+            state: State::Waiting,
+            published_ns: None,
+        }
+    }
+
+    /// Takes a message of the topic. Those of other bonds and of this end are ignored, and those of a
+    /// third end.
+    pub fn receive(&mut self, status: &Status, now_ns: i64) {
+        if status.id != self.id || status.instance_id == self.instance_id {
+            return;
+        }
+        match &self.sister {
+            Some(sister) if *sister != status.instance_id => return,
+            Some(_) => {}
+            // The end of a bond that was before.
+            None if !status.active => return,
+            None => self.sister = Some(status.instance_id.clone()),
+        }
+        self.state = match (self.state, status.active) {
+            (State::Waiting | State::Alive(_), true) => State::Alive(now_ns),
+            // The other end ended it: it is told once that this is known.
+            (State::Waiting | State::Alive(_), false) => {
+                State::Ending(now_ns - DISCONNECT_TIMEOUT_NS)
+            }
+            (State::Ending(_), false) => State::Broken,
+            (state, _) => state,
+        };
+    }
+
+    /// Ends the bond.
+    pub fn end(&mut self, now_ns: i64) {
+        self.state = match self.state {
+            State::Alive(_) => State::Ending(now_ns),
+            State::Waiting => State::Broken,
+            state => state,
+        };
+        if self.state == State::Ending(now_ns) {
+            self.published_ns = None;
+        }
+    }
+
+    /// The message that is due, if one is. Asked more often than the period, it keeps to the period.
+    pub fn due(&mut self, now_ns: i64) -> Option<Status> {
+        if let State::Alive(received_ns) = self.state
+            && now_ns - received_ns > ns(self.settings.timeout_s)
+        {
+            self.state = State::Broken;
+        }
+        let (is_active, period_ns) = match self.state {
+            State::Waiting if !self.settings.begins => return None,
+            State::Waiting | State::Alive(_) => (true, ns(self.settings.period_s)),
+            State::Ending(_) => (false, DEAD_PUBLISH_PERIOD_NS),
+            State::Broken => return None,
+        };
+        if self.published_ns.is_some_and(|published_ns| now_ns - published_ns < period_ns)
+            && is_active
+        {
+            return None;
+        }
+        if let State::Ending(since_ns) = self.state
+            && now_ns - since_ns >= DISCONNECT_TIMEOUT_NS
+        {
+            self.state = State::Broken;
+        }
+        self.published_ns = Some(now_ns);
+        #[allow(clippy::cast_possible_truncation, reason = "seconds")]
+        let [heartbeat_timeout, heartbeat_period] =
+            [self.settings.timeout_s, self.settings.period_s].map(|seconds| seconds as f32);
+        Some(Status {
+            header: Header { stamp: Time::of_ns(now_ns), ..Header::default() },
+            id: self.id.clone(),
+            instance_id: self.instance_id.clone(),
+            active: is_active,
+            heartbeat_timeout,
+            heartbeat_period,
+        })
+    }
+
+    /// True when both ends have heard of each other and none has ended it.
+    #[must_use]
+    pub fn is_formed(&self) -> bool {
+        matches!(self.state, State::Alive(_))
+    }
+
+    /// True when it was ended, or heartbeats stopped.
+    #[must_use]
+    pub fn is_broken(&self) -> bool {
+        matches!(self.state, State::Ending(_) | State::Broken)
+    }
+}
+
+/// A node's end of the bond to its lifecycle manager. It is silent until the manager begins, so that
+/// nothing is published where there is none.
+pub(super) struct End {
+    // Taken apart, the actor ends the subscription and the timer.
+    actor: Actor<Talking>,
+}
+
+struct Talking {
+    bond: Bond,
+    publisher: Publisher<Status>,
+}
+
+impl Talking {
+    fn publish(&mut self, now_ns: i64) {
+        if let Some(status) = self.bond.due(now_ns) {
+            self.publisher.publish(status);
+        }
+    }
+}
+
+impl End {
+    /// Begins; none when the node's period is not positive or the topic has another type.
+    pub(super) fn start(node: &Node) -> Option<Self> {
+        let period_s = lock(&node.0.standard().store).bond_period_s();
+        if period_s.is_nan() || period_s <= 0.0 {
+            return None;
+        }
+        // No end has the name of one before it.
+        let number = node.0.next_ordinal();
+        let settings = BondSettings { period_s, timeout_s: NODE_TIMEOUT_S, begins: false };
+        let instance_id = format!("{}:{}:{number}", node.full_name(), node.now_ns());
+        let bond = Bond::new(node.names().name(), &instance_id, settings);
+        let qos = Qos::reliable(DEPTH);
+        let publisher = node.publisher(TOPIC, qos).ok()?;
+        let mut actor = node.actor(Talking { bond, publisher });
+        let receive = actor.subscribe::<Status>(TOPIC, qos, |talking, status, io| {
+            talking.bond.receive(&status, io.now_ns());
+            talking.publish(io.now_ns());
+        });
+        let beat = actor.timer(ns(period_s).clamp(1, DEAD_PUBLISH_PERIOD_NS), |talking, io| {
+            talking.publish(io.now_ns());
+        });
+        receive.and(beat).ok()?;
+        Some(Self { actor })
+    }
+
+    /// Ends the bond, and says so.
+    pub(super) fn end(&self) {
+        let now_ns = self.actor.node().now_ns();
+        self.actor.with(|talking| {
+            talking.bond.end(now_ns);
+            talking.publish(now_ns);
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: i64 = 1_000_000_000;
+
+    fn settings(begins: bool) -> BondSettings {
+        BondSettings { period_s: 0.1, timeout_s: 4.0, begins }
+    }
+
+    fn pair() -> (Bond, Bond) {
+        let manager = Bond::new("map_server", "manager", settings(true));
+        (manager, Bond::new("map_server", "node", settings(false)))
+    }
+
+    fn exchange(manager: &mut Bond, node: &mut Bond, now_ns: i64) {
+        for _ in 0..2 {
+            if let Some(status) = manager.due(now_ns) {
+                node.receive(&status, now_ns);
+            }
+            if let Some(status) = node.due(now_ns) {
+                manager.receive(&status, now_ns);
+            }
+        }
+    }
+
+    #[test]
+    fn a_node_answers_the_manager_that_begins() {
+        let (mut manager, mut node) = pair();
+        assert_eq!(node.due(0), None);
+        exchange(&mut manager, &mut node, 0);
+        assert!(manager.is_formed() && node.is_formed());
+        // To the period, however often it is asked.
+        assert_eq!(node.due(SECOND / 20), None);
+        let status = node.due(SECOND / 10).unwrap();
+        assert!(status.active && status.heartbeat_period == 0.1 && status.heartbeat_timeout == 4.0);
+    }
+
+    #[test]
+    fn silence_breaks_a_bond() {
+        let (mut manager, mut node) = pair();
+        exchange(&mut manager, &mut node, 0);
+        let _ = manager.due(4 * SECOND);
+        assert!(!manager.is_broken());
+        assert_eq!(manager.due(4 * SECOND + 1), None);
+        assert!(manager.is_broken());
+    }
+
+    #[test]
+    fn an_end_is_told_until_it_is_known() {
+        let (mut manager, mut node) = pair();
+        exchange(&mut manager, &mut node, 0);
+        node.end(SECOND);
+        let last = node.due(SECOND).unwrap();
+        assert!(!last.active && node.is_broken());
+        manager.receive(&last, SECOND);
+        assert!(manager.is_broken());
+        // The manager says that it knows, once; then both are silent.
+        let known = manager.due(SECOND).unwrap();
+        assert!(!known.active);
+        assert_eq!(manager.due(2 * SECOND), None);
+        node.receive(&known, SECOND);
+        assert_eq!(node.due(2 * SECOND), None);
+    }
+
+    #[test]
+    fn an_end_that_nobody_hears_stops() {
+        let (mut manager, mut node) = pair();
+        exchange(&mut manager, &mut node, 0);
+        node.end(SECOND);
+        let ends: Vec<_> = (0..100).filter_map(|i| node.due(SECOND + i * SECOND / 20)).collect();
+        assert!((40..=42).contains(&ends.len()), "{}", ends.len());
+    }
+
+    #[test]
+    fn a_third_end_and_old_news_are_ignored() {
+        let (mut manager, mut node) = pair();
+        exchange(&mut manager, &mut node, 0);
+        let mut other = Bond::new("map_server", "other", settings(true));
+        let mut status = other.due(0).unwrap();
+        status.active = false;
+        manager.receive(&status, 0);
+        assert!(manager.is_formed());
+        let mut late = Bond::new("map_server", "late", settings(false));
+        late.receive(&status, 0);
+        assert!(!late.is_formed() && !late.is_broken());
+    }
+}

@@ -1,0 +1,113 @@
+//! Subscribers that are stopped while they owe acknowledgements: they must cost the publisher neither
+//! time nor processor. Alone in its program, since it measures the program.
+#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
+#![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
+use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2};
+use periplus_wire_ros2::{Settings, Wire};
+
+/// A depth camera of 640 x 480 points of 32 bytes.
+const CLOUD_BYTES: usize = 640 * 480 * 32;
+const ROUNDS: u32 = 15;
+const PERIOD: Duration = Duration::from_millis(100);
+
+/// Killed when this is dropped.
+struct Stopped(Child);
+
+impl Drop for Stopped {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn signal(child: &Child, name: &str) {
+    assert!(Command::new("kill").args([name, &child.id().to_string()]).status().unwrap().success());
+}
+
+/// Time on the processor so far \[s\].
+fn cpu_s() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap();
+    let (_, fields) = stat.rsplit_once(") ").unwrap();
+    fields.split(' ').skip(11).take(2).map(|field| field.parse::<f64>().unwrap()).sum::<f64>()
+        / 100.0
+}
+
+/// Publishes clouds and scans; the longest time that publishing took, and the time on the processor.
+fn publish(clouds: &Publisher<PointCloud2>, scans: &Publisher<LaserScan>) -> (Duration, f64) {
+    let cpu = cpu_s();
+    let mut worst = Duration::ZERO;
+    let start = Instant::now();
+    for round in 0..ROUNDS {
+        let cloud = PointCloud2 { data: vec![7; CLOUD_BYTES], ..PointCloud2::default() };
+        let scan = LaserScan { ranges: vec![1.0; 360], ..LaserScan::default() };
+        let before = Instant::now();
+        clouds.publish(cloud);
+        scans.publish(scan);
+        worst = worst.max(before.elapsed());
+        std::thread::sleep((PERIOD * (round + 1)).saturating_sub(start.elapsed()));
+    }
+    (worst, cpu_s() - cpu)
+}
+
+#[test]
+fn stopped_subscribers_cost_nothing() {
+    let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/peers/ros2/bin/python");
+    let peer = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers/ros.py");
+    let mut asked = Command::new(&python);
+    asked.args(["-c", "import rclpy"]).stderr(Stdio::null());
+    if !asked.status().is_ok_and(|status| status.success()) {
+        eprintln!("SKIPPED: no ROS 2 to test against; see .ci/ros2.txt");
+        return;
+    }
+    let wire = Wire::open(&Settings { domain_id: 96, ..Settings::default() }).unwrap();
+    let graph = Graph::live();
+    wire.attach(&graph).unwrap();
+    let node = graph.node(NodeSettings::new("periplus")).unwrap();
+    let clouds: Publisher<PointCloud2> = node.publisher("/cloud", Qos::reliable(5)).unwrap();
+    let scans: Publisher<LaserScan> = node.publisher("/scan", Qos::reliable(5)).unwrap();
+    // One that works, for the same work without and with the others.
+    let start = |words: [&str; 3]| {
+        let mut command = Command::new(&python);
+        command.arg(&peer).args(["96", "sub"]).args(words).stdin(Stdio::piped());
+        let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
+        let (send, lines) = channel();
+        let output = BufReader::new(child.stdout.take().unwrap());
+        std::thread::spawn(move || {
+            output.lines().map_while(Result::ok).for_each(|line| drop(send.send(line)))
+        });
+        let end = Instant::now() + Duration::from_secs(60);
+        while lines.try_recv().is_err() {
+            assert!(Instant::now() < end, "{words:?} hears nothing");
+            clouds.publish(PointCloud2 { data: vec![7; 1000], ..PointCloud2::default() });
+            scans.publish(LaserScan { ranges: vec![1.0], ..LaserScan::default() });
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        Stopped(child)
+    };
+    let _works = start(["cloud", "rt/cloud", "100000"]);
+    let (worst, cpu) = publish(&clouds, &scans);
+    eprintln!("control: at most {worst:?} to publish, {cpu:.2} s of processor");
+    let stopped: Vec<_> = (0..4)
+        .map(|number| {
+            start([["cloud", "scan"][number % 2], ["rt/cloud", "rt/scan"][number % 2], "100000"])
+        })
+        .collect();
+    for one in &stopped {
+        signal(&one.0, "-STOP");
+    }
+    let (worst_beside, cpu_beside) = publish(&clouds, &scans);
+    eprintln!("beside stopped ones: at most {worst_beside:?}, {cpu_beside:.2} s of processor");
+    assert!(
+        worst_beside < Duration::from_millis(50).max(2 * worst),
+        "{worst_beside:?}, alone {worst:?}"
+    );
+    assert!(cpu_beside < 1.3 * cpu + 0.3, "{cpu_beside:.2} s, alone {cpu:.2} s");
+}
