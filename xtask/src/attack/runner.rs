@@ -154,7 +154,7 @@ mod tests {
         let busy = Limits { cpu_s: 1, wall_s: 60, ..ONE };
         assert_eq!(check("while :; do :; done", busy), Err(Fault::TimeOut(1)));
         let small = Limits { memory_mb: 50, ..ONE };
-        let hungry = check("exec tail -c 400000000 /dev/zero", small);
+        let hungry = check("exec tail -c 400000000 < <(head -c 600000000 /dev/zero)", small);
         assert!(matches!(hungry, Err(Fault::Memory(51..))), "{hungry:?}");
     }
 }
