@@ -3,6 +3,13 @@
 //! The default run takes a sample of each case. All changes of all cases:
 //! `cargo test -p periplus-conformance --test mutations -- --ignored`.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "a test that reads case files and prints how many it changed"
+)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,7 @@
 //! The cases of this tree and those that are shared.
 
+#![allow(clippy::print_stdout, reason = "a test that prints its table")]
+
 use std::path::Path;
 
 use periplus_conformance::{Report, Verdict, run};
