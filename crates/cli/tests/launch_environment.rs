@@ -109,7 +109,9 @@ fn variables_that_a_file_in_python_sets() {
     // A group has an environment of its own.
     let scoped = format!("GroupAction([{set} LogInfo(msg='in')], scoped=True),");
     machine.misses("scoped.launch.py", &with(&scoped), "does not hold where the world is started");
-    let late = python(&format!("return LaunchDescription([\n    {GAZEBO},\n    {set}\n    LogInfo(msg='late'),\n])"));
+    let late = python(&format!(
+        "return LaunchDescription([\n    {GAZEBO},\n    {set}\n    LogInfo(msg='late'),\n])"
+    ));
     machine.misses("late.launch.py", &late, "set it before");
     let of_process = GAZEBO
         .replace("w.sdf'])", "w.sdf'], additional_env={'GZ_SIM_RESOURCE_PATH': 'TOP/far/things'})");
@@ -170,9 +172,13 @@ fn the_working_directory_of_a_process() {
     };
     machine.misses("none.launch.py", &gazebo(""), "there is no world plain.sdf");
     machine.finds("cwd.launch.py", &gazebo(", cwd='TOP/ws/pkg/worlds'"));
+    // The world waits for the process: a run as short as this one would interrupt it.
     let process = |cwd: &str| {
         python(&format!(
-            "return LaunchDescription([ExecuteProcess(cmd=['sh', '-c', 'pwd > there'], cwd='{cwd}')])"
+            "first = ExecuteProcess(cmd=['sh', '-c', 'pwd > there'], cwd='{cwd}')\n\
+             gazebo = ExecuteProcess(cmd=['gz', 'sim', '-r', '-s', 'TOP/ws/pkg/worlds/plain.sdf'])\n\
+             then = RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[gazebo]))\n\
+             return LaunchDescription([first, then])"
         ))
     };
     machine.finds("process.launch.py", &process("TOP/far"));

@@ -316,7 +316,9 @@ fn launch_files_of_others_run() {
         let path = corpus.join(file).display().to_string();
         let folders = corpus.display().to_string();
         let ran = run("corpus", &[&path, "--resource-path", &folders, "--duration", "0.1"]);
-        assert!(ran.is_success, "{file}:\n{}", ran.told);
+        // The corpus has this map without its picture: the server ends, as in ROS 1, and the rest runs.
+        let has_map = !file.ends_with("amcl_demo.launch");
+        assert_eq!(ran.is_success, has_map, "{file}:\n{}", ran.told);
         assert!(ran.became().contains(wanted), "{file}: no `{wanted}` in\n{}", ran.told);
     }
 }
