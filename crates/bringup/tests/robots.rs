@@ -23,10 +23,11 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
     let step = Step { id: 0, after: Vec::new(), what, environment, written: None };
     let plan = Plan { steps: vec![step], ..Plan::default() };
     let settings = Settings {
-        search: Search { folders: Vec::new(), working_folder: "/".into() },
+        search: Search { working_folder: "/".into(), ..Search::default() },
         dialect: Dialect::Ros2,
         is_wired: false,
         is_paced: false,
+        guarding_program: None,
     };
     let words = ["-p".to_owned(), format!("robot_description:={ARM}")];
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());

@@ -389,7 +389,7 @@ fn a_mapper_that_shows_nothing_yet() {
 /// process does not.
 #[test]
 fn nodes_in_the_process_of_the_simulation() {
-    let process = |byte: &str| vec![byte; 12].join(".") + ".00.00.01.03";
+    let process = |byte: &str| [byte; 12].join(".") + ".00.00.01.03";
     let end = |node: &str, gid: String| SeenEnd {
         node: Some(node.to_owned()),
         type_name: "rosgraph_msgs/msg/Clock".into(),

@@ -81,7 +81,7 @@ fn stopped_subscribers_cost_nothing() {
         let (send, lines) = channel();
         let output = BufReader::new(child.stdout.take().unwrap());
         std::thread::spawn(move || {
-            output.lines().map_while(Result::ok).for_each(|line| drop(send.send(line)))
+            output.lines().map_while(Result::ok).for_each(|line| drop(send.send(line)));
         });
         let end = Instant::now() + Duration::from_secs(60);
         while lines.try_recv().is_err() {

@@ -52,7 +52,7 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
     let goals = stage.way.iter().map(|&to| Goal { tolerance_m: 0.15, ..Goal::at(to) });
     let mut driver = Driver::new(Script {
         goals: goals.collect(),
-        goal_topic: "/kbot/base_controller/cmd_vel".into(),
+        goal_topic: Some("/kbot/base_controller/cmd_vel".into()),
         ..Script::default()
     });
     driver.join(&simulation).map_err(|why| why.to_string())?;
