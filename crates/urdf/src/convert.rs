@@ -17,6 +17,8 @@ mod link;
 mod lost;
 mod model;
 mod names;
+mod parts;
+mod settings;
 mod shape;
 mod situation;
 
@@ -27,7 +29,7 @@ use periplus_sdf::{Context, read_document};
 use periplus_xml::{Document, Element};
 
 use crate::robot::Robot;
-pub(crate) use shape::BUILTIN_MATERIALS;
+pub(crate) use settings::BUILTIN_MATERIALS;
 use situation::Situation;
 
 /// How a robot becomes a model.

@@ -59,7 +59,17 @@ pub(super) fn urdf() -> Vec<Input> {
         let joints: String = (1..count).map(|at| joint(at, parent(at), at)).collect();
         format!("<robot name=\"r\">{links}{joints}</robot>")
     };
+    let ball = "<collision><geometry><sphere radius=\"1\"/></geometry></collision>";
+    let blocks = |content: &str| {
+        let block = format!("<gazebo reference=\"a\">{content}</gazebo>").repeat(5000);
+        let balls = ball.repeat(5000);
+        format!(
+            "<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>{balls}</link>{block}</robot>"
+        )
+    };
     vec![
+        text("urdf", blocks("<mu1>1</mu1><kp>1</kp>")),
+        text("urdf", blocks("<collision><plugin name=\"p\" filename=\"p\"/></collision>")),
         text("urdf", many(4000, &|at| at - 1)),
         text("urdf", many(4000, &|_| 0)),
         text("urdf", many(3, &|at| at)),

@@ -86,6 +86,11 @@ impl<'a> Extensions<'a> {
         self.by_reference.get(name).map_or(&[], Vec::as_slice)
     }
 
+    /// The names of all that blocks speak about, with their blocks.
+    pub(super) fn all(&self) -> impl Iterator<Item = (&'a str, &[&'a GazeboBlock])> {
+        self.by_reference.iter().map(|(name, blocks)| (*name, blocks.as_slice()))
+    }
+
     /// Everything said about a link, joint or robot.
     pub(super) fn settings(&self, name: &str) -> impl Iterator<Item = &'a Element> + '_ {
         self.about(name).iter().flat_map(|block| &block.content)

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_xml::{Element, Node};
 
-use super::element::{child_mut, element, is_true, leaf, numbers, push_pose, renamed, set};
+use super::element::{child_mut, element, is_true, leaf, numbers, push_pose, renamed};
 use super::extension::{For, check_place, purpose};
+use super::parts::Parts;
 use super::shape;
 use super::situation::Situation;
 use crate::lump::combine;
+use crate::robot::Link;
 
 /// Parts of a `<link>` that stand once.
 const SINGLE: [&str; 6] =
@@ -35,13 +37,18 @@ pub(super) fn shape_name(
 }
 
 impl Situation<'_> {
-    /// The `<link>` of the body that `head` carries.
-    pub(super) fn link_element(&self, head: usize, diagnostics: &mut Diagnostics) -> Element {
+    /// The `<link>` of the body that `head` carries, with or without the settings for its shapes.
+    pub(super) fn link_element(
+        &self,
+        head: usize,
+        with_settings: bool,
+        diagnostics: &mut Diagnostics,
+    ) -> Element {
         let link = self.link(head);
         let mut to = element("link", link.origin).with_attribute("name", &*link.name);
         push_pose(&mut to, self.plan.model_from_link[head], link.origin);
         to.children.extend(self.inertial_element(head).map(Node::Element));
-        self.shapes(head, &mut to);
+        self.shapes(head, with_settings, &mut to);
         self.link_settings(head, &mut to, diagnostics);
         to
     }
@@ -65,30 +72,31 @@ impl Situation<'_> {
         Some(to)
     }
 
-    fn shapes(&self, head: usize, to: &mut Element) {
+    fn shapes(&self, head: usize, with_settings: bool, to: &mut Element) {
+        let settings = |link: &Link| self.shape_settings(link).filter(|_| with_settings);
         let head_name = &self.link(head).name;
         let mut index = 0;
         for &(member, head_from_link) in &self.members[head] {
             let link = self.link(member);
-            let blocks = self.extensions.about(&link.name);
+            let settings = settings(link).map_or(&[][..], |settings| &settings.collision);
             for collision in &link.collisions {
                 let own = collision.name.as_deref();
                 let name = shape_name(head_name, &link.name, own, "collision", index);
                 let pose = head_from_link * collision.link_from_collision.pose();
-                to.push(shape::collision(collision, &name, pose, blocks));
+                to.push(shape::collision(collision, &name, pose, settings));
                 index += 1;
             }
         }
         index = 0;
         for &(member, head_from_link) in &self.members[head] {
             let link = self.link(member);
-            let blocks = self.extensions.about(&link.name);
+            let settings = settings(link).map_or(&[][..], |settings| &settings.visual);
             for visual in &link.visuals {
                 let own = visual.name.as_deref();
                 let name = shape_name(head_name, &link.name, own, "visual", index);
                 let pose = head_from_link * visual.link_from_visual.pose();
                 let look = self.look(visual);
-                to.push(shape::visual(visual, look, &name, pose, blocks));
+                to.push(shape::visual(visual, look, &name, pose, settings));
                 index += 1;
             }
         }
@@ -98,6 +106,7 @@ impl Situation<'_> {
     fn link_settings(&self, head: usize, to: &mut Element, diagnostics: &mut Diagnostics) {
         // Which link set a setting that stands once.
         let mut said: BTreeMap<String, usize> = BTreeMap::new();
+        let mut parts = Parts::default();
         for &(member, _) in &self.members[head] {
             let name = &self.link(member).name;
             let merged = member != head;
@@ -114,12 +123,12 @@ impl Situation<'_> {
                     stay_on(&mut part, name);
                 }
                 if !SINGLE.contains(&&*part.name) {
-                    to.push(part);
+                    parts.push(part);
                     continue;
                 }
                 let key = part.name.to_string();
                 let new = periplus_xml::canonical(&part);
-                let old = set(to, part);
+                let old = parts.set(part);
                 if let Some(earlier) = said.insert(key, member)
                     && earlier != member
                     && let Some(old) = old
@@ -129,6 +138,7 @@ impl Situation<'_> {
                 }
             }
         }
+        to.children.extend(parts.into_elements().map(Node::Element));
     }
 
     fn overruled(

@@ -21,13 +21,14 @@ impl Situation<'_> {
         self.check_joint_kinds(diagnostics);
         let mut to = element("model", self.robot.origin).with_attribute("name", self.name());
         let brought = self.brought();
+        let with_settings = self.are_settings_few(diagnostics);
         for &link in &self.plan.order {
             match self.plan.fate[link] {
                 Fate::Body => {
                     if let Some(joint) = self.joint_element(link, diagnostics) {
                         to.push(joint);
                     }
-                    to.push(self.link_element(link, diagnostics));
+                    to.push(self.link_element(link, with_settings, diagnostics));
                 }
                 Fate::Merged { .. } | Fate::Lost => self.frames(link, &brought, &mut to),
                 Fate::World => {}

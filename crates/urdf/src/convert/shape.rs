@@ -2,57 +2,23 @@
 
 use periplus_base::Pose;
 use periplus_diagnostics::Origin;
-use periplus_xml::Element;
+use periplus_xml::{Element, Node};
 
-use super::element::{child_mut, element, leaf, numbers, push_pose, renamed, set, value};
-use crate::robot::{Collision, GazeboBlock, Geometry, Material, Visual};
-
-/// Where Classic keeps the materials named `Gazebo/...`.
-pub(crate) const BUILTIN_MATERIALS: &str = "file://media/materials/scripts/gazebo.material";
+use super::element::{child_mut, element, leaf, numbers, push_pose};
+use crate::robot::{Collision, Geometry, Material, Visual};
 
 /// A `<collision>` with what the blocks about its link say.
 pub(super) fn collision(
     collision: &Collision,
     name: &str,
     head_from_collision: Pose,
-    blocks: &[&GazeboBlock],
+    settings: &[Element],
 ) -> Element {
     let mut to = element("collision", collision.origin).with_attribute("name", name);
     push_pose(&mut to, head_from_collision, collision.origin);
     to.push(geometry(&collision.geometry, collision.origin));
-    for block in blocks {
-        for content in block.content.iter().filter(|setting| setting.name == "collision") {
-            for part in content.elements() {
-                replace_or_push(&mut to, part);
-            }
-        }
-        for setting in &block.content {
-            collision_setting(setting, &mut to);
-        }
-    }
+    to.children.extend(settings.iter().cloned().map(Node::Element));
     to
-}
-
-/// Settings of the time before `<collision>` could stand in a block.
-fn collision_setting(setting: &Element, to: &mut Element) {
-    let (group, name) = match &*setting.name {
-        "mu" | "mu1" => ("friction", "mu"),
-        "mu2" => ("friction", "mu2"),
-        "fdir1" => ("friction", "fdir1"),
-        "kp" => ("contact", "kp"),
-        "kd" => ("contact", "kd"),
-        "maxVel" => ("contact", "max_vel"),
-        "minDepth" => ("contact", "min_depth"),
-        "laserRetro" => ("", "laser_retro"),
-        "maxContacts" => ("", "max_contacts"),
-        _ => return,
-    };
-    let leaf = renamed(setting, name);
-    if group.is_empty() {
-        set(to, leaf);
-    } else {
-        set(child_mut(child_mut(child_mut(to, "surface"), group), "ode"), leaf);
-    }
 }
 
 /// A `<visual>` with what the blocks about its link say. `look` is its material's definition.
@@ -61,31 +27,12 @@ pub(super) fn visual(
     look: Option<&Material>,
     name: &str,
     head_from_visual: Pose,
-    blocks: &[&GazeboBlock],
+    settings: &[Element],
 ) -> Element {
     let mut to = element("visual", visual.origin).with_attribute("name", name);
     push_pose(&mut to, head_from_visual, visual.origin);
     to.push(geometry(&visual.geometry, visual.origin));
-    for block in blocks {
-        for content in block.content.iter().filter(|setting| setting.name == "visual") {
-            for part in content.elements() {
-                replace_or_push(&mut to, part);
-            }
-        }
-        for setting in block.content.iter().filter(|setting| setting.name == "material") {
-            let (text, origin) = value(setting);
-            if text.is_empty() {
-                // SDF in the place of a name, which Gazebo ignores and a warning has been given.
-                if setting.elements().next().is_some() {
-                    set(&mut to, setting.clone());
-                }
-                continue;
-            }
-            let script = child_mut(child_mut(&mut to, "material"), "script");
-            set(script, leaf("name", &text, origin));
-            set(script, leaf("uri", BUILTIN_MATERIALS, origin));
-        }
-    }
+    to.children.extend(settings.iter().cloned().map(Node::Element));
     if let Some(look) = look {
         colour(look, &mut to);
     }
@@ -112,17 +59,6 @@ fn colour(look: &Material, to: &mut Element) {
     {
         let metal = child_mut(child_mut(material, "pbr"), "metal");
         metal.push(leaf("albedo_map", &texture.filename, look.origin));
-    }
-}
-
-/// Most of a shape stands once; plugins may stand often, and what is already there by the URDF
-/// (pose, geometry) cannot be overruled, as in Gazebo: the reader of SDF says so.
-fn replace_or_push(to: &mut Element, part: &Element) {
-    match &*part.name {
-        "plugin" | "pose" | "geometry" => to.push(part.clone()),
-        _ => {
-            set(to, part.clone());
-        }
     }
 }
 

@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use periplus_base::Pose;
+use periplus_diagnostics::Diagnostics;
 
 use super::Options;
 use super::extension::Extensions;
 use super::names::JointNames;
+use super::settings::{ShapeSettings, are_few};
 use crate::lump::{Fate, Plan, Preserved};
-use crate::robot::{Joint, Link, Material, Robot};
+use crate::robot::{GazeboBlock, Joint, Link, Material, Robot};
 use crate::tree::Tree;
 
 /// A robot and what was found out about it.
@@ -23,6 +25,8 @@ pub(super) struct Situation<'a> {
     pub(super) joint_names: JointNames<'a>,
     /// Definitions by name, as ROS resolves them: those of the robot, then those in visuals.
     pub(super) materials: BTreeMap<&'a str, &'a Material>,
+    /// Settings for shapes, by the name of the link.
+    shape_settings: BTreeMap<&'a str, ShapeSettings>,
 }
 
 impl<'a> Situation<'a> {
@@ -44,7 +48,35 @@ impl<'a> Situation<'a> {
         for material in robot.materials.iter().chain(in_place).filter(|one| one.is_definition()) {
             materials.entry(&*material.name).or_insert(material);
         }
-        Self { robot, tree, extensions, preserved, plan, members, joint_names, materials }
+        let merged =
+            |(name, blocks): (&'a str, &[&'a GazeboBlock])| (name, ShapeSettings::new(blocks));
+        let shape_settings = extensions.all().map(merged).collect();
+        Self {
+            robot,
+            tree,
+            extensions,
+            preserved,
+            plan,
+            members,
+            joint_names,
+            materials,
+            shape_settings,
+        }
+    }
+
+    /// Settings for the shapes of a link; none where no block speaks about it.
+    pub(super) fn shape_settings(&self, link: &Link) -> Option<&ShapeSettings> {
+        self.shape_settings.get(&*link.name)
+    }
+
+    /// Whether settings for shapes are few enough to be read; else an error tells.
+    pub(super) fn are_settings_few(&self, diagnostics: &mut Diagnostics) -> bool {
+        let copied = self.robot.links.iter().map(|link| {
+            let (collisions, visuals) = (link.collisions.len(), link.visuals.len());
+            self.shape_settings(link).map_or(0, |one| one.copied_elements(collisions, visuals))
+        });
+        let copied = copied.fold(0, usize::saturating_add);
+        are_few(copied, self.robot.origin, diagnostics)
     }
 
     /// The model's name.

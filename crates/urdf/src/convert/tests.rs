@@ -391,3 +391,48 @@ fn floating_joints_are_kept_though_gazebo_has_none() {
         "#]],
     );
 }
+
+#[test]
+fn settings_are_merged_once_per_link() {
+    let block = "<gazebo reference='a'><mu1>0.1</mu1><kp>1e5</kp><mu1>0.2</mu1><collision>\
+                 <surface><friction><ode><slip1>6</slip1></ode></friction></surface></collision>\
+                 <maxContacts>3</maxContacts><material>Gazebo/Red</material></gazebo>";
+    let visual = "<visual><geometry><sphere radius='1'/></geometry></visual>";
+    let body = format!("<link name='a'>BODY {}{}</link>", "BALL".repeat(3000), visual.repeat(3000));
+    let (model, diagnostics, _) = convert(&format!("{body}{}", block.repeat(3000)));
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    let link = &model.links[0];
+    assert_eq!((link.collisions.len(), link.visuals.len()), (3000, 3000));
+    for one in &link.collisions {
+        let (friction, contact) = (&one.surface.friction, &one.surface.contact);
+        assert_eq!((friction.mu, friction.slip1, contact.kp), (0.2, 6.0, 1e5));
+        assert_eq!(one.max_contacts, 3);
+    }
+    let robot = {
+        let mut sources = SourceMap::new();
+        let text = format!("<robot name='r'>{body}{}</robot>", block.repeat(3000));
+        let file = sources.add("r.urdf", text.replace("BODY", BODY).replace("BALL", BALL));
+        let mut diagnostics = Diagnostics::new();
+        let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
+        read(&document, &mut diagnostics).unwrap()
+    };
+    // What each shape gets is as short as what one block says: `surface` and `max_contacts`.
+    let situation = super::Situation::new(&robot, Options::default());
+    let settings = situation.shape_settings(&robot.links[0]).unwrap();
+    assert_eq!((settings.collision.len(), settings.visual.len()), (2, 1));
+    let red = |look: &periplus_scene::Material| look.script.as_ref().unwrap().name == "Gazebo/Red";
+    assert!(link.visuals.iter().all(|one| one.material.as_ref().is_some_and(red)));
+}
+
+#[test]
+fn too_many_copies_of_settings_are_refused() {
+    let plugins = "<plugin name='p' filename='p'/>".repeat(1000);
+    let content = format!(
+        "<link name='a'>BODY {}</link><gazebo reference='a'><collision>{plugins}</collision></gazebo>",
+        "BALL".repeat(1000)
+    );
+    let (model, diagnostics, _) = convert(&content);
+    assert_eq!(model.links[0].collisions.len(), 1000);
+    let codes: Vec<_> = diagnostics.iter().map(|one| one.code).collect();
+    assert_eq!(codes, ["too-many-settings"]);
+}
