@@ -70,26 +70,19 @@ pub(crate) fn attack(wish: &Wish) -> Result<(), Failed> {
     std::fs::create_dir_all(&kept).map_err(|error| words("the folder for findings", &error))?;
     let start = Instant::now();
     let is_wanted = |kind: &&Kind| wish.only.as_ref().is_none_or(|only| kind.name.contains(only));
-    let mut all = 0;
-    let mut batches = Vec::new();
-    for kind in KINDS.iter().filter(is_wanted) {
-        let inputs = kind.inputs(wish.seed).into_iter().enumerate().step_by(wish.every.max(1));
-        let mut inputs: Vec<_> = inputs.map(|(at, (end, bytes))| (at, end, bytes)).collect();
-        all += inputs.len();
-        while !inputs.is_empty() {
-            let rest = inputs.split_off(kind.batch.min(inputs.len()));
-            batches.push(Batch { kind, inputs: std::mem::replace(&mut inputs, rest) });
-        }
-    }
-    let next = AtomicUsize::new(0);
+    let all = AtomicUsize::new(0);
+    // The inputs of one kind at a time are held in memory.
+    let kinds = KINDS.iter().filter(is_wanted);
+    let batches = Mutex::new(kinds.flat_map(|kind| batches(kind, wish, &all)));
+    let next = || batches.lock().ok()?.next();
     let found = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for worker in 0..WORKERS {
-            let (batches, next, found, program) = (&batches, &next, &found, &program);
+            let (next, found, program) = (&next, &found, &program);
             let (own, kept) = (folder.join(format!("worker{worker}")), &kept);
             scope.spawn(move || {
-                while let Some(batch) = batches.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let faults = try_batch(program, &own, kept, batch);
+                while let Some(batch) = next() {
+                    let faults = try_batch(program, &own, kept, &batch);
                     for one in &faults {
                         println!("{}: {}: {}", one.kind, one.fault, one.kept.display());
                     }
@@ -102,6 +95,7 @@ pub(crate) fn attack(wish: &Wish) -> Result<(), Failed> {
         }
     });
     let found = found.into_inner().unwrap_or_default();
+    let all = all.load(Ordering::Relaxed);
     println!("{all} inputs, {} faults, {:.0} s", found.len(), start.elapsed().as_secs_f64());
     if found.is_empty() {
         return Ok(());
@@ -111,6 +105,19 @@ pub(crate) fn attack(wish: &Wish) -> Result<(), Failed> {
         found.len(),
         kept.display()
     )))
+}
+
+/// Every Nth input of a kind, in batches; adds their number to `all`.
+fn batches(kind: &'static Kind, wish: &Wish, all: &AtomicUsize) -> Vec<Batch> {
+    let inputs = kind.inputs(wish.seed).into_iter().enumerate().step_by(wish.every.max(1));
+    let mut inputs: Vec<_> = inputs.map(|(at, (end, bytes))| (at, end, bytes)).collect();
+    all.fetch_add(inputs.len(), Ordering::Relaxed);
+    let mut batches = Vec::new();
+    while !inputs.is_empty() {
+        let rest = inputs.split_off(kind.batch.min(inputs.len()));
+        batches.push(Batch { kind, inputs: std::mem::replace(&mut inputs, rest) });
+    }
+    batches
 }
 
 fn words(what: &str, error: &std::io::Error) -> Failed {

@@ -83,10 +83,13 @@ pub(super) fn run(
         .spawn()
         .map_err(|error| broken(&error))?;
     let status_file = format!("/proc/{}/status", child.id());
+    let own_name = std::fs::read_to_string("/proc/thread-self/comm").unwrap_or_default();
     let start = Instant::now();
     let mut most_mb = 0;
     loop {
-        most_mb = most_mb.max(peak_mb(&status_file));
+        most_mb = most_mb.max(
+            std::fs::read_to_string(&status_file).map_or(0, |text| peak_mb(&text, own_name.trim())),
+        );
         let ended = child.try_wait().map_err(|error| broken(&error))?;
         if let Some(status) = ended {
             return judged(status, most_mb, limits);
@@ -122,11 +125,15 @@ fn judged(status: ExitStatus, most_mb: u64, limits: Limits) -> Result<(), Fault>
     }
 }
 
-/// Most resident memory of a process so far \[MB\]; 0 once it has gone.
-fn peak_mb(status_file: &str) -> u64 {
-    let text = std::fs::read_to_string(status_file).unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")?.trim().parse().ok());
+/// Most resident memory of a process so far \[MB\], from its `/proc/PID/status`. It is 0 once the
+/// process has gone, and while it has the name of the thread that started it: until it becomes another
+/// program it shares the memory of this one.
+fn peak_mb(status: &str, starter: &str) -> u64 {
+    let value = |key| status.lines().find_map(|line| line.strip_prefix(key)).map(str::trim);
+    if value("Name:") == Some(starter) {
+        return 0;
+    }
+    let kilobytes = value("VmHWM:").and_then(|line| line.strip_suffix(" kB")?.trim().parse().ok());
     kilobytes.unwrap_or(0) / 1000
 }
 
@@ -141,6 +148,14 @@ mod tests {
         let outcome = run(Path::new("bash"), &words, &folder, &errors, limits);
         let _ = std::fs::remove_file(errors);
         outcome
+    }
+
+    #[test]
+    fn memory_of_the_starter_does_not_count() {
+        let status = "Name:\txtask\nVmPeak:\t 9 kB\nVmHWM:\t 1330000 kB\n";
+        assert_eq!(peak_mb(status, "xtask"), 0);
+        assert_eq!(peak_mb(status, "another"), 1330);
+        assert_eq!(peak_mb("Name:\tperiplus\n", "xtask"), 0);
     }
 
     #[test]
