@@ -399,7 +399,17 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         "nothing: the simulation drives robots by Gazebo's own plugins, not by ros2_control",
     ),
     entry(
-        &["rqt_gui", "rqt_graph", "rqt_image_view", "rqt_reconfigure", "rqt_robot_steering"],
+        &[
+            "rqt_gui",
+            "rqt_console",
+            "rqt_graph",
+            "rqt_image_view",
+            "rqt_plot",
+            "rqt_reconfigure",
+            "rqt_robot_steering",
+            "rqt_tf_tree",
+            "rqt_topic",
+        ],
         &["*"],
         NONE,
         "rqt",

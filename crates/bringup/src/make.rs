@@ -131,7 +131,8 @@ pub(crate) fn make(
             let folder = &settings.search.working_folder;
             let path = |file: &str| ask.path(folder, file);
             let given = (words.as_slice(), &named);
-            let spawner = Spawner::new(&node, given, &parameter, &path, now_ns)?;
+            let spawner = Spawner::new(&node, given, &parameter, &path, now_ns)?
+                .written_at(ask.written.as_deref());
             made.told = spawner.told();
             // It hears as long as it waits.
             made.hand(spawner);

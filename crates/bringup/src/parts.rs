@@ -60,6 +60,8 @@ pub(crate) struct Ask {
     pub(crate) server: BTreeMap<String, Value>,
     /// How the program would run.
     pub(crate) running: Running,
+    /// The line of the launch file that asks: `FILE:LINE`.
+    pub(crate) written: Option<String>,
 }
 
 impl Ask {
@@ -128,6 +130,7 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
             Work::World(wish) => {
                 Work::World(WorldWish { step: step.id, written: step.written.clone(), ..wish })
             }
+            Work::Ours(ask) => Work::Ours(Box::new(Ask { written: step.written.clone(), ..*ask })),
             work => work,
         };
         parts.push(Part { step: step.id, after, work, asked, is_required });
@@ -257,6 +260,7 @@ fn ours(
         is_managed,
         server: server.clone(),
         running: running.clone(),
+        written: None,
     }))
 }
 

@@ -22,11 +22,14 @@ pub(crate) struct Spawner {
     world_from_here: Pose,
     since_ns: i64,
     has_complained: bool,
+    /// ` (FILE:LINE)` of the launch file; empty where that is not known.
+    place: String,
 }
 
 /// Where the text of the model is.
 enum From {
-    Text(String),
+    /// A text, and the parameter that it is the value of.
+    Text(String, String),
     File(String),
     Topic(Mailbox<std_msgs::String>),
 }
@@ -71,16 +74,17 @@ impl Spawner {
     ) -> Result<Self, String> {
         let given = Given { words, named };
         let from = if let Some(text) = given.text("string") {
-            From::Text(text)
+            From::Text(text, String::new())
         } else if let Some(file) = given.text("file") {
             From::File(path(&file))
         } else if let Some(model) = given.text("database") {
             From::File(format!("model://{model}"))
         } else if let Some(name) = given.text("param") {
             let text = parameter(&name).or_else(|| text_of(named, &name));
-            From::Text(text.ok_or_else(|| {
+            let text = text.ok_or_else(|| {
                 format!("nothing has set the parameter `{name}` that the robot is to come from")
-            })?)
+            })?;
+            From::Text(text, name)
         } else if let Some(topic) = given.text("topic") {
             let mailbox = node.mailbox(&topic, Qos::latched(1));
             From::Topic(mailbox.map_err(|error| error.to_string())?)
@@ -101,7 +105,15 @@ impl Spawner {
             world_from_here: Pose::from_xyz_rpy([number("x")?, number("y")?, number("z")?], rpy),
             since_ns: now_ns,
             has_complained: false,
+            place: String::new(),
         })
+    }
+
+    /// Names the line of the launch file in what is said of the robot: the text of its description has
+    /// no file of its own.
+    pub(crate) fn written_at(mut self, line: Option<&str>) -> Self {
+        self.place = line.map(|line| format!(" ({line})")).unwrap_or_default();
+        self
     }
 
     /// In words.
@@ -109,7 +121,7 @@ impl Spawner {
         let place = self.world_from_here.translation;
         let name = if self.name.is_empty() { "what it names" } else { &self.name };
         let from = match &self.from {
-            From::Text(_) => "its parameter".to_owned(),
+            From::Text(..) => "its parameter".to_owned(),
             From::File(file) => file.clone(),
             From::Topic(mailbox) => mailbox.topic().to_owned(),
         };
@@ -148,9 +160,11 @@ impl Hand for Spawner {
             _ => None,
         };
         let from = match &self.from {
-            From::Text(text) => ArrivalFrom::Text(text),
+            From::Text(text, parameter) => ArrivalFrom::Text(text, parameter),
             From::File(file) => ArrivalFrom::File(file),
-            From::Topic(_) => ArrivalFrom::Text(heard.as_ref().map_or("", |text| &text.data)),
+            From::Topic(mailbox) => {
+                ArrivalFrom::Text(heard.as_ref().map_or("", |text| &text.data), mailbox.topic())
+            }
         };
         let arrival = Arrival {
             from,
@@ -164,10 +178,16 @@ impl Hand for Spawner {
         let Some(simulation) = stage.simulation.as_deref_mut() else { return Done::No };
         match arrival.bring(simulation, stage.search) {
             Ok(arrived) if arrived.notes.trim().is_empty() => {}
-            Ok(arrived) => stage.said.push(Said::info(arrived.notes)),
+            Ok(arrived) => {
+                let intro = match self.place.as_str() {
+                    "" => String::new(),
+                    place => format!("`{}`{place}:\n", arrived.name),
+                };
+                stage.said.push(Said::info(intro + &arrived.notes));
+            }
             Err(why) => {
-                let name = &self.name;
-                stage.said.push(Said::error(format!("`{name}` is not spawned: {why}")));
+                let Self { name, place, .. } = self;
+                stage.said.push(Said::error(format!("`{name}`{place} is not spawned: {why}")));
             }
         }
         Done::Yes

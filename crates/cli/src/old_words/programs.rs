@@ -106,6 +106,7 @@ const PROGRAMS: &[Program] = &[
             "rqt_gui",
             "rqt_image_view",
             "rqt_plot",
+            "rqt_topic",
             "rqt_console",
             "rqt_reconfigure",
             "rqt_bag",
@@ -115,6 +116,7 @@ const PROGRAMS: &[Program] = &[
             "rqt_gui",
             "rqt_image_view",
             "rqt_plot",
+            "rqt_topic",
             "rqt_console",
             "rqt_reconfigure",
             "rqt_bag",
@@ -198,6 +200,7 @@ pub(super) fn alone(program: &str, rest: &[String]) -> Option<Reading> {
         | "rqt_graph"
         | "rqt_image_view"
         | "rqt_plot"
+        | "rqt_topic"
         | "rqt_console"
         | "rqt_reconfigure"
         | "rqt_bag"

@@ -29,6 +29,9 @@ fn kind(value: &Value) -> u8 {
     }
 }
 
+/// The largest number of a type of ROS.
+const MOST_TYPE: u8 = ParameterType::PARAMETER_STRING_ARRAY;
+
 /// The error is the rest of the sentence "the value ...".
 pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
     Ok(match value.r#type {
@@ -44,7 +47,18 @@ pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
         ParameterType::PARAMETER_NOT_SET => {
             return Err("is not set; parameters of a table cannot be taken away".into());
         }
-        other => return Err(format!("is of the kind {other}, which no parameter here has")),
+        // Lists of flags are tables' lists of words: `odom0_config` of a filter.
+        ParameterType::PARAMETER_BOOL_ARRAY => {
+            Value::Texts(value.bool_array_value.iter().map(bool::to_string).collect())
+        }
+        ParameterType::PARAMETER_BYTE_ARRAY => {
+            Value::Numbers(value.byte_array_value.iter().map(|one| f64::from(*one)).collect())
+        }
+        other => {
+            return Err(format!(
+                "has the unknown type {other}; ROS has the types 0 to {MOST_TYPE}"
+            ));
+        }
     })
 }
 

@@ -205,7 +205,10 @@ impl Store {
         match value.r#type {
             ParameterType::PARAMETER_NOT_SET if !self.has(name) => Err(self.unknown(name)),
             ParameterType::PARAMETER_NOT_SET..=ParameterType::PARAMETER_STRING_ARRAY => Ok(()),
-            other => Err(format!("`{name}`: the value is of the kind {other}, which ROS has not")),
+            other => Err(format!(
+                "`{name}`: the value has the unknown type {other}; ROS has the types 0 to {}",
+                ParameterType::PARAMETER_STRING_ARRAY
+            )),
         }
     }
 

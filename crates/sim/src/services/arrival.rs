@@ -26,8 +26,8 @@ pub struct Arrival<'a> {
 /// Where the text of a model is.
 #[derive(Clone, Copy, Debug)]
 pub enum ArrivalFrom<'a> {
-    /// Here.
-    Text(&'a str),
+    /// Here, and its name in findings, such as a topic; empty for the usual one.
+    Text(&'a str, &'a str),
     /// In a file, by its path or URI.
     File(&'a str),
 }
@@ -48,7 +48,7 @@ impl Arrival<'_> {
     /// Why it is not there.
     pub fn bring(&self, simulation: &mut Simulation, search: &Search) -> Result<Arrived, String> {
         let source = match self.from {
-            ArrivalFrom::Text(text) => Source::Text(text),
+            ArrivalFrom::Text(text, called) => Source::Text(text, called),
             ArrivalFrom::File(file) => Source::File(file),
         };
         let wish = Wish {

@@ -112,7 +112,7 @@ impl Order<'_> {
             convert::pose(self.pose).ok_or_else(|| format!("`initial_pose`: {BAD_POSE}"))?;
         let world_from_frame: Pose = entity::frame(simulation, self.frame)?.pose;
         let wish = Wish {
-            source: Source::Text(self.xml),
+            source: Source::Text(self.xml, ""),
             name: self.name,
             may_rename: false,
             namespace: self.namespace,

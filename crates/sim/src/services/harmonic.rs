@@ -130,7 +130,7 @@ pub(super) fn create(
         source: if asked.sdf.is_empty() {
             Source::File(&asked.sdf_filename)
         } else {
-            Source::Text(&asked.sdf)
+            Source::Text(&asked.sdf, "")
         },
         name: &asked.name,
         may_rename: asked.allow_renaming,

@@ -1,7 +1,7 @@
 //! Models and lights that come as text.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use periplus_diagnostics::{Diagnostics, Origin, Severity, SourceMap, Style, render};
 use periplus_formats::{Loaded, Setting, load, load_bytes, settle_images};
@@ -27,7 +27,8 @@ pub struct Search {
 
 /// What a text or file brings.
 pub(super) enum Source<'a> {
-    Text(&'a str),
+    /// A text, and its name in findings; empty for the usual one.
+    Text(&'a str, &'a str),
     File(&'a str),
 }
 
@@ -76,10 +77,10 @@ impl Search {
             open_meshes: true,
         };
         let mut loaded = match source {
-            Source::Text(text) if text.trim().is_empty() => {
+            Source::Text(text, _) if text.trim().is_empty() => {
                 return Err("the text is empty; give a URDF or SDF".into());
             }
-            Source::Text(text) => load_bytes(Path::new(SPAWNED), text.as_bytes(), &setting),
+            Source::Text(text, called) => load_bytes(&file_of(called), text.as_bytes(), &setting),
             Source::File(uri) => {
                 let from = self.working_folder.join(SPAWNED);
                 let path = resolver.resolve(uri, &from).map_err(|miss| {
@@ -110,8 +111,15 @@ impl Search {
     }
 }
 
-/// What a text is called in findings.
+/// Name of a text in findings where nobody names it.
 const SPAWNED: &str = "spawned.xml";
+
+/// The file that a text is in findings, in the working folder: `robot_description.xml` for what came on
+/// `/robot_description`.
+fn file_of(called: &str) -> PathBuf {
+    let name = called.trim_matches('/').replace(['/', '\\'], "_");
+    if name.is_empty() { SPAWNED.into() } else { format!("{name}.xml").into() }
+}
 
 /// Findings with their places; hints are kept to those who write the file.
 pub(super) fn told(findings: &Diagnostics, sources: &SourceMap) -> String {
