@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::data_files;
 use crate::host::Host;
 use crate::manifest::package_name;
 
@@ -33,10 +34,15 @@ pub fn in_sources(host: &dyn Host, path: &Path) -> Option<PathBuf> {
     }
     let folder = folder_of(host, path)?;
     let inner = path.strip_prefix(folder).ok()?;
-    let bytes = host.read(&folder.join("CMakeLists.txt")).ok()?;
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned();
-    let found = rules(&text).into_iter().filter_map(|rule| rule.source(inner));
-    found.map(|source| folder.join(source)).find(|source| host.kind(source).is_some())
+    let read = |name: &str| {
+        let bytes = host.read(&folder.join(name)).unwrap_or_default();
+        String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned()
+    };
+    let installed = rules(&read("CMakeLists.txt")).into_iter();
+    let installed = installed.filter_map(|rule| rule.source(inner));
+    let data = data_files::sources(&read("setup.py"), inner);
+    let mut found = installed.chain(data).map(|source| folder.join(source));
+    found.find(|source| host.kind(source).is_some())
 }
 
 /// What one `install(...)` does with one source.
@@ -143,5 +149,14 @@ mod tests {
         check("/w/bot/urdf/other.urdf", None);
         check("/w/bot/top/a.yaml", None);
         check("/elsewhere/a.yaml", None);
+        let host = host
+            .with_file("/w/py/package.xml", "<package><name>py</name></package>")
+            .with_file(
+                "/w/py/setup.py",
+                "setup(data_files=[('share/py/config', glob('params/*.yaml'))])",
+            )
+            .with_file("/w/py/params/p.yaml", "");
+        let found = in_sources(&host, Path::new("/w/py/config/p.yaml"));
+        assert_eq!(found, Some("/w/py/params/p.yaml".into()));
     }
 }

@@ -1,6 +1,7 @@
 //! Finding what a URI names, on a machine that is only ever asked through [`Host`].
 
 mod crawl;
+mod data_files;
 mod fuel;
 mod hooks;
 mod host;
