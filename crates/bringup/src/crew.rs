@@ -34,6 +34,8 @@ pub struct Settings {
     /// The program that ends what is left when this one is killed: its own file, which runs
     /// [`crate::guard`] when it is given [`crate::GUARD_VERB`].
     pub guarding_program: Option<PathBuf>,
+    /// A folder of programs that its processes find behind all others on the PATH.
+    pub tools: Option<PathBuf>,
 }
 
 /// Something that happened.

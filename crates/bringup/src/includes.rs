@@ -19,6 +19,36 @@ pub(crate) enum StandIn {
     Steps(Vec<What>),
 }
 
+/// Packages with the launch files for which something stands, by package.
+pub const STOOD_FOR: [(&str, &[&str]); 5] = [
+    (
+        "gazebo_ros",
+        &["empty_world.launch", "gazebo.launch.py", "gzclient.launch.py", "gzserver.launch.py"],
+    ),
+    (
+        "nav2_bringup",
+        &[
+            "bringup_launch.py",
+            "localization_launch.py",
+            "navigation_launch.py",
+            "rviz_launch.py",
+            "slam_launch.py",
+        ],
+    ),
+    ("ros_gz_bridge", &["ros_gz_bridge.launch.py"]),
+    ("ros_gz_sim", &["gz_server.launch.py", "gz_sim.launch.py", "gz_spawn_model.launch.py"]),
+    (
+        "slam_toolbox",
+        &[
+            "lifelong_launch.py",
+            "localization_launch.py",
+            "offline_launch.py",
+            "online_async_launch.py",
+            "online_sync_launch.py",
+        ],
+    ),
+];
+
 /// Whether something stands for a launch file of a package that is not here.
 #[must_use]
 pub fn stands_for(package: &str, file: &str) -> bool {
@@ -264,4 +294,20 @@ fn bridge(arguments: &Arguments<'_>) -> What {
         Around { parameters: vec![values(&json!({ "config_file": file }))], ..Around::default() };
     let name = arguments.get("bridge_name").unwrap_or("ros_gz_bridge");
     named("ros_gz_bridge", "parameter_bridge", name, &around)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{STOOD_FOR, stands_for};
+
+    #[test]
+    fn something_stands_for_each_file_of_the_list() {
+        for (package, files) in STOOD_FOR {
+            assert!(files.is_sorted(), "{package}");
+            for file in files {
+                assert!(stands_for(package, file), "{package} {file}");
+            }
+        }
+        assert!(!stands_for("nav2_bringup", "tb3_simulation_launch.py"));
+    }
 }

@@ -27,7 +27,7 @@ pub use catalogue::table;
 pub use crew::{Bringup, Settings};
 pub use environment::Environment;
 pub use guard::{GUARD_VERB, guard};
-pub use includes::stands_for;
+pub use includes::{STOOD_FOR, stands_for};
 pub use told::{Became, Kind, Line, Said};
 pub use world::WorldWish;
 pub use xacro::{Xacro, xacro};

@@ -63,6 +63,7 @@ fn bringup(file: &str, folder: &Path) -> Bringup {
         is_wired: false,
         is_paced: false,
         guarding_program: None,
+        tools: None,
     };
     Bringup::new(&plan, settings)
 }

@@ -1,9 +1,11 @@
 //! `periplus launch`.
 
+mod named;
 mod outside;
 mod play;
 mod python;
 mod show;
+mod tools;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,11 +13,14 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Args;
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap, closest};
+use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_host::{Machine, Stopwatch};
 use periplus_launch::{Ending, Plan, Request, Step, What, dialect, plan_with_ending};
-use periplus_resources::{Host as _, Kind, Resolver};
+use periplus_resources::Resolver;
 
+use self::named::Found;
+use self::tools::Tools;
+pub(crate) use self::tools::{XACRO_VERB, run_xacro};
 use crate::arguments;
 use crate::options::{SearchOptions, split};
 use crate::sim::positive;
@@ -70,8 +75,9 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
         runs_code: !options.no_code,
         longest: Duration::from_secs_f64(options.evaluation_limit.min(LONGEST_EVALUATION_S)),
     };
-    let mut outside = outside::Programs::new(&resolver, &here, limits);
-    let (plan, found, ending, file) = match file(&words, &resolver, &here) {
+    let tools = limits.runs_code.then(|| Tools::make(&options.search.resource_path)).flatten();
+    let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
+    let (plan, found, ending, file) = match named::file(&words, &resolver, &here) {
         Ok(Found::File(file)) => {
             let request = Request {
                 file: file.clone(),
@@ -121,8 +127,13 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
         return Ok(ExitCode::SUCCESS);
     }
     drop(out);
-    let launched =
-        play::Launched { plan, dialect: dialect(&host, &file), arguments: to_nodes, start };
+    let launched = play::Launched {
+        plan,
+        dialect: dialect(&host, &file),
+        arguments: to_nodes,
+        tools: tools.as_ref().map(|tools| tools.folder().to_owned()),
+        start,
+    };
     let outcome = play::play(launched, &options.play, &options.search);
     for complaint in ending.run() {
         let line = complaint.line.map(|line| format!("{line}: ")).unwrap_or_default();
@@ -141,8 +152,10 @@ pub(crate) fn examine(
     let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
-    let mut outside = outside::Programs::new(&resolver, &here, outside::Limits::EXAMINED);
-    let found = match self::file(&[file.to_owned()], &resolver, &here) {
+    let tools = Tools::make(resource_path);
+    let limits = outside::Limits::EXAMINED;
+    let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
+    let found = match named::file(&[file.to_owned()], &resolver, &here) {
         Ok(Found::File(file)) => {
             let request = Request {
                 file,
@@ -181,105 +194,7 @@ fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
     }
 }
 
-/// What words mean.
-enum Found {
-    /// A launch file.
-    File(PathBuf),
-    /// One of a package that is not here, for which something stands.
-    StandIn(String),
-}
-
 fn print(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
     let text = serde_json::to_string_pretty(plan).map_err(io::Error::other)?;
     writeln!(out, "{text}")
-}
-
-/// The file that is meant: one by its path, or by the name of a package and its own.
-fn file(words: &[PathBuf], resolver: &Resolver<'_>, here: &Path) -> Result<Found, Box<Diagnostic>> {
-    match words {
-        [file] => {
-            let path = here.join(file);
-            if Machine.kind(&path) == Some(Kind::File) {
-                return Ok(Found::File(path));
-            }
-            Err(Diagnostic::error("launch-file", format!("there is no file {}", file.display()))
-                .help(match crate::paths::advice(file).trim_start_matches("; ") {
-                    "" => {
-                        "give the path of a launch file, or a package and the name of a file in it"
-                    }
-                    near => near,
-                })
-                .into())
-        }
-        [package, name] => {
-            let package = package.display().to_string();
-            let file = name.display().to_string();
-            let folder = match resolver.find_package(&package, &here.join("launch")) {
-                Ok(folder) => folder,
-                Err(_) if periplus_bringup::stands_for(&package, &file) => {
-                    return Ok(Found::StandIn(format!("package://{package}/launch/{file}")));
-                }
-                Err(miss) => {
-                    return Err(miss.into_diagnostic(Origin::default()).into());
-                }
-            };
-            let mut files = Vec::new();
-            collect(&folder, name, 0, &mut files);
-            match files.as_slice() {
-                [file] => Ok(Found::File(file.clone())),
-                [] => Err(missing(&folder, &package, name).into()),
-                several => {
-                    let shown: Vec<_> =
-                        several.iter().map(|file| file.display().to_string()).collect();
-                    Err(Diagnostic::error(
-                        "launch-file",
-                        format!("the package `{package}` has several files {}", name.display()),
-                    )
-                    .note(shown.join(", "))
-                    .help("give the path of the one that is meant")
-                    .into())
-                }
-            }
-        }
-        _ => Err(Diagnostic::error(
-            "launch-file",
-            "a launch takes one file, or a package and a file",
-        )
-        .help("arguments of the file are written `name:=value`")
-        .into()),
-    }
-}
-
-/// How deep files of a package are looked for.
-const DEEPEST: usize = 8;
-
-/// The files of a name in a folder and below.
-fn collect(folder: &Path, name: &Path, depth: usize, files: &mut Vec<PathBuf>) {
-    let own = folder.join(name);
-    if Machine.kind(&own) == Some(Kind::File) {
-        files.push(own);
-    }
-    if depth == DEEPEST {
-        return;
-    }
-    for entry in Machine.list(folder).iter().filter(|entry| !entry.starts_with('.')) {
-        let inner = folder.join(entry);
-        if Machine.kind(&inner) == Some(Kind::Folder) {
-            collect(&inner, name, depth + 1, files);
-        }
-    }
-}
-
-fn missing(folder: &Path, package: &str, name: &Path) -> Diagnostic {
-    let launches = Machine.list(&folder.join("launch"));
-    let name = name.display().to_string();
-    let finding = Diagnostic::error(
-        "launch-file",
-        format!("the package `{package}` ({}) has no file `{name}`", folder.display()),
-    );
-    match closest(&name, launches.iter().map(String::as_str)) {
-        Some(near) => finding.help(format!("did you mean `{near}`?")),
-        None if launches.is_empty() => finding,
-        None => finding.note(format!("it has {}", launches.join(", "))),
-    }
 }

@@ -86,6 +86,10 @@ fn main() -> ExitCode {
         guard(std::io::stdin().lock());
         return ExitCode::SUCCESS;
     }
+    if std::env::args().nth(1).as_deref() == Some(launch::XACRO_VERB) {
+        let words: Vec<String> = std::env::args().skip(2).collect();
+        return ended(launch::run_xacro(&words));
+    }
     let words = match old_words::translate(std::env::args().collect()) {
         Ok(Ok(words)) => words,
         Ok(Err(code)) => return code,

@@ -111,8 +111,55 @@ fn arguments_are_listed() {
     .assert_eq(&neutral(&output.stderr));
 }
 
-/// Launch files of other people, in XML of ROS 1 and ROS 2: all become plans, and arguments that nothing
-/// gives are told by name.
+/// Slips in the names of packages and files lead to what is there: packages of one robot to each other,
+/// packages to their launch files, and packages of ROS to the files of theirs that are built in.
+#[test]
+fn names_that_lead_nowhere_lead_to_near_ones() {
+    let complaint = |words: &[&str]| {
+        let output = periplus(&own(), words);
+        assert_eq!(output.status.code(), Some(1), "{words:?}");
+        neutral(&output.stderr)
+    };
+    let proposes = |words: &[&str], wanted: &[&str]| {
+        let told = complaint(words);
+        for text in wanted {
+            assert!(told.contains(text), "{words:?} does not say {text:?}:\n{told}");
+        }
+    };
+    proposes(
+        &["launch_bt"],
+        &["there is no file launch_bt", "package `launch_bot`", "it has ", "display.launch.py"],
+    );
+    proposes(
+        &["launch_bot"],
+        &["is a package", "it has ", "display.launch.py", "`periplus launch launch_bot FILE`"],
+    );
+    let file = "display.launch.py";
+    let whole = "did you mean `periplus launch launch_bot display.launch.py`?";
+    proposes(&["launch_bt", file], &["there is no package `launch_bt`", whole]);
+    proposes(&["launch_bot_description", file], &["there is no package", whole]);
+    proposes(&["launch_bot_bringup", "dispaly.launch.py"], &[whole]);
+    // Packages of this repository, around the working folder, without a path.
+    proposes(
+        &["sam_bot_description", file],
+        &["did you mean `periplus launch sam_bot display.launch.py`?"],
+    );
+    proposes(&["kbot_description"], &["did you mean the package `kbot`?", "kbot.launch"]);
+    proposes(&["nav2_bringup"], &["not on this machine", "bringup_launch.py", "built in"]);
+    proposes(
+        &["nav2_bringup", "tb3_simulation_launch.py"],
+        &["`tb3_simulation_launch.py` is not built in", "navigation_launch.py", "--resource-path"],
+    );
+    proposes(
+        &["slam_toolbox", "online_asnc_launch.py"],
+        &["did you mean `online_async_launch.py`?"],
+    );
+    let stranger = complaint(&["entirely_different"]);
+    assert!(!stranger.contains("did you mean"), "{stranger}");
+}
+
+/// Launch files of other people, in XML of ROS 1 and in XML, YAML and Python of ROS 2: all become plans,
+/// and arguments that nothing gives are told by name.
 #[test]
 fn all_files_of_the_corpus_have_a_plan() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpus");
@@ -123,6 +170,9 @@ fn all_files_of_the_corpus_have_a_plan() {
     let corpus = corpus.canonicalize().unwrap();
     let mut files = Vec::new();
     collect(&corpus, &mut files);
+    if !has_python() {
+        files.retain(|file| file.extension().is_none_or(|extension| extension != "py"));
+    }
     let mut wrong = String::new();
     for file in &files {
         let mut given: Vec<String> = vec![file.display().to_string(), "--print".into()];
@@ -150,13 +200,16 @@ fn all_files_of_the_corpus_have_a_plan() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
+/// The usual ends of the names of launch files.
+const ENDINGS: [&str; 5] = [".launch", "launch.xml", "launch.py", "launch.yaml", "launch.yml"];
+
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         if path.is_dir() {
             collect(&path, files);
-        } else if name.ends_with(".launch") || name.ends_with(".launch.xml") {
+        } else if ENDINGS.iter().any(|ending| name.ends_with(ending)) {
             files.push(path);
         }
     }

@@ -222,3 +222,129 @@ def generate_launch_description():
     let plan = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(plan.contains("one and two"), "{}", String::from_utf8_lossy(&output.stderr));
 }
+
+/// `xacro` is built in, also for launch files that run it as a program and for the programs that they
+/// start.
+#[test]
+#[cfg(unix)]
+fn xacro_is_a_program_while_a_file_is_evaluated_and_run() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+import os, subprocess
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, LogInfo
+
+
+def generate_launch_description():
+    file = os.path.join(os.path.dirname(__file__), '..', 'urdf', 'a.urdf.xacro')
+    text = subprocess.check_output(['xacro', file, 'size:=7'], universal_newlines=True)
+    out = os.path.join(os.path.dirname(__file__), 'made.urdf')
+    ended = os.system(f'xacro {file} size:=8 -o {out}')
+    wrong = subprocess.run(['xacro', file + '.no'], stderr=subprocess.PIPE)
+    return LaunchDescription([
+        LogInfo(msg=f'printed {text}'),
+        LogInfo(msg=f'ended {ended} {open(out).read()}'),
+        LogInfo(msg=f'failed {wrong.returncode} {wrong.stderr.decode()}'),
+        ExecuteProcess(cmd=['sh', '-c', f'\"xacro {file} size:=9 > {out}\"'], shell=True),
+    ])
+";
+    let xacro = "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>
+  <xacro:arg name='size' default='1'/><link name='link_$(arg size)'/>
+</robot>";
+    let folder = workspace(
+        "xacro_program",
+        &[("bot/launch/a.launch.py", text), ("bot/urdf/a.urdf.xacro", xacro)],
+    );
+    let file = folder.join("bot/launch/a.launch.py");
+    // Without the machine's own xacro, if it has one.
+    let mut python = Command::new("python3");
+    let python = python.args(["-c", "import sys; print(sys.executable)"]).output().unwrap();
+    let python = String::from_utf8_lossy(&python.stdout).trim().to_owned();
+    let tools = folder.join("tools");
+    std::fs::create_dir_all(&tools).unwrap();
+    std::os::unix::fs::symlink(python, tools.join("python3")).unwrap();
+    std::os::unix::fs::symlink("/bin/sh", tools.join("sh")).unwrap();
+    let launch = |words: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+        command.arg("launch").arg(&file).args(words).env("NO_COLOR", "1").env("PATH", &tools);
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (String::from_utf8_lossy(&output.stdout).into_owned(), said)
+    };
+    let (plan, said) = launch(&["--print"]);
+    assert!(plan.contains("printed ") && plan.contains("link_7"), "{plan}{said}");
+    assert!(plan.contains("ended 0 ") && plan.contains("link_8"), "{plan}{said}");
+    assert!(plan.contains("failed 1 ") && plan.contains("a.urdf.xacro.no"), "{plan}{said}");
+    let (_, said) = launch(&["--duration", "2", "--rtf", "1", "--headless", "--ros2", "off"]);
+    let made = std::fs::read_to_string(folder.join("bot/launch/made.urdf")).unwrap();
+    assert!(made.contains("link_9"), "{made}{said}");
+}
+
+/// Findings of a robot whose text has no file name the topic that it came on, and the line of the
+/// launch file that spawns it.
+#[test]
+fn findings_of_spawned_robots_name_their_topic_and_line() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+from launch_ros.actions import Node
+
+URDF = '''<robot name='r'>
+  <link name='base'><inertial><mass value='1'/>
+    <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>
+  <gazebo><plugin name='p' filename='libentirely_unknown.so'/></gazebo>
+</robot>'''
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        ExecuteProcess(cmd=['gazebo']),
+        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': URDF}]),
+        Node(package='gazebo_ros', executable='spawn_entity.py',
+             arguments=['-entity', 'r', '-topic', 'robot_description']),
+    ])
+";
+    let folder = workspace("spawned", &[("src/bot/launch/a.launch.py", text)]);
+    let file = folder.join("src/bot/launch/a.launch.py");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    command.arg("launch").arg(&file).args(["--duration", "0.2"]).env("NO_COLOR", "1");
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("robot_description.xml:4"), "{said}");
+    assert!(said.contains("a.launch.py:18)"), "{said}");
+    assert!(!said.contains("spawned.xml"), "{said}");
+}
+
+/// Lists of flags from a launch file are values of the parameters that are lists of words.
+#[test]
+fn lists_of_flags_are_read() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='robot_localization', executable='ekf_node', name='ekf', parameters=[
+            {'odom0': 'odom', 'odom0_config': [False] * 6 + [True] * 3 + [False] * 6,
+             'use_control': False, 'control_config': [True, False, False, False, False, True]}]),
+    ])
+";
+    let folder = workspace("flags", &[("src/bot/launch/a.launch.py", text)]);
+    let file = folder.join("src/bot/launch/a.launch.py");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    command.arg("launch").arg(&file).args(["--duration", "0.2"]).env("NO_COLOR", "1");
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(!said.contains("the value"), "{said}");
+}

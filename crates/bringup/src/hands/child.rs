@@ -36,6 +36,7 @@ pub(crate) struct Child {
     launch_folder: PathBuf,
     guard: Guard,
     guarding_program: Option<PathBuf>,
+    tools: Option<PathBuf>,
 }
 
 impl Child {
@@ -92,6 +93,7 @@ impl Child {
             launch_folder: settings.search.working_folder.clone(),
             guard: guard.clone(),
             guarding_program: settings.guarding_program.clone(),
+            tools: settings.tools.clone(),
         };
         child.spawn()?;
         Ok(child)
@@ -100,6 +102,20 @@ impl Child {
     /// In words.
     pub(crate) fn told(&self) -> String {
         format!("the program {}", self.words[0])
+    }
+
+    /// The PATH of the program, with the built-in tools at its end.
+    fn path(&self) -> Option<String> {
+        let tools = self.tools.as_ref()?.display().to_string();
+        let set = match self.running.environment.get("PATH") {
+            Some(set) => set.clone(),
+            None => Machine.variable("PATH"),
+        };
+        let set = set.unwrap_or_default();
+        if set.split(':').any(|folder| folder == tools) {
+            return None;
+        }
+        Some(if set.is_empty() { tools } else { format!("{set}:{tools}") })
     }
 
     fn spawn(&mut self) -> Result<(), String> {
@@ -123,6 +139,9 @@ impl Child {
                 Some(value) => command.env(name, value),
                 None => command.env_remove(name),
             };
+        }
+        if let Some(path) = self.path() {
+            command.env("PATH", path);
         }
         let mut process = command.spawn().map_err(|error| {
             let missing = error.kind() == std::io::ErrorKind::NotFound;

@@ -14,6 +14,7 @@ use periplus_resources::{Resolver, Store as _};
 use periplus_xml::write_document;
 
 use super::python::Python;
+use super::tools::Tools;
 
 /// The machine as launch files see it.
 pub(super) struct Programs<'a> {
@@ -23,6 +24,7 @@ pub(super) struct Programs<'a> {
     scratch: Option<PathBuf>,
     files: usize,
     limits: Limits,
+    tools: Option<&'a Tools>,
 }
 
 /// What a launch file may do while it is evaluated.
@@ -54,9 +56,14 @@ impl Drop for Programs<'_> {
 }
 
 impl<'a> Programs<'a> {
-    pub(super) fn new(resolver: &'a Resolver<'a>, working_folder: &Path, limits: Limits) -> Self {
+    pub(super) fn new(
+        resolver: &'a Resolver<'a>,
+        working_folder: &Path,
+        limits: Limits,
+        tools: Option<&'a Tools>,
+    ) -> Self {
         let working_folder = working_folder.to_path_buf();
-        Self { resolver, working_folder, scratch: None, files: 0, limits }
+        Self { resolver, working_folder, scratch: None, files: 0, limits, tools }
     }
 
     /// What `xacro FILE name:=value` prints: it is built in.
@@ -115,7 +122,7 @@ impl Outside for Programs<'_> {
         if !self.limits.runs_code {
             return Err("with `--no-code` programs that a launch file names are not run".into());
         }
-        bounded(program, rest, self.limits.longest)
+        bounded(program, rest, self.limits.longest, self.tools)
     }
 
     fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, String> {
@@ -143,14 +150,20 @@ impl Outside for Programs<'_> {
                     .into(),
             );
         }
-        Ok(Box::new(Python::start(self.limits.longest)?))
+        Ok(Box::new(Python::start(self.limits.longest, self.tools)?))
     }
 }
 
 /// Runs a program to its end, within a time.
-fn bounded(program: &str, words: &[String], longest: Duration) -> Result<Printed, String> {
+fn bounded(
+    program: &str,
+    words: &[String],
+    longest: Duration,
+    tools: Option<&Tools>,
+) -> Result<Printed, String> {
     let mut child = Command::new(program)
         .args(words)
+        .envs(tools.map(|tools| ("PATH", tools.path())))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -93,6 +93,8 @@ pub(super) struct Launched {
     pub(super) dialect: Dialect,
     /// What `--ros-args` say to all nodes.
     pub(super) arguments: Arguments,
+    /// A folder of programs that its processes find behind all others on the PATH.
+    pub(super) tools: Option<PathBuf>,
     pub(super) start: Stopwatch,
 }
 
@@ -109,6 +111,7 @@ pub(super) fn play(
         is_wired: false,
         is_paced: !is_free && !matches!(options.rtf, Some(Factor::Max)),
         guarding_program: std::env::current_exe().ok(),
+        tools: launched.tools.clone(),
     };
     let bringup = Bringup::new(&launched.plan, settings);
     let is_alone = match options.ros2 {

@@ -9,6 +9,8 @@ use std::time::Duration;
 use periplus_launch::{Answer, BOOT, Complaint, Interpreter, MODULES, MOST_MEMORY};
 use serde_json::{Map, Value, json};
 
+use super::tools::Tools;
+
 /// The longest answer [bytes]: descriptions of robots are some hundred thousand long.
 const LONGEST: u64 = 256 << 20;
 
@@ -23,11 +25,12 @@ pub(super) struct Python {
 
 impl Python {
     /// Starts one.
-    pub(super) fn start(limit: Duration) -> Result<Self, String> {
+    pub(super) fn start(limit: Duration, tools: Option<&Tools>) -> Result<Self, String> {
         let mut child = Command::new("python3")
             // Whatever the machine has under the names of ROS: ours come first.
             .args(["-c", BOOT])
             .env("PYTHONDONTWRITEBYTECODE", "1")
+            .envs(tools.map(|tools| ("PATH", tools.path())))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
