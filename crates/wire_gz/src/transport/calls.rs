@@ -141,9 +141,6 @@ fn is_same_type(a: &str, b: &str) -> bool {
 
 /// Speaks with one who asks.
 pub(super) fn take_requests(shared: &Arc<Shared>, mut stream: TcpStream) {
-    if listener::greet(&mut stream, zmtp::Kind::Router, &shared.replier).is_err() {
-        return;
-    }
     while let Ok(event) = zmtp::read(&mut stream, LARGEST) {
         let parts = match event {
             zmtp::Event::Message(parts) => parts,
@@ -182,9 +179,6 @@ fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, C
 
 /// Speaks with one who answers.
 pub(super) fn take_answers(shared: &Arc<Shared>, mut stream: TcpStream) {
-    if listener::greet(&mut stream, zmtp::Kind::Router, &shared.receiver).is_err() {
-        return;
-    }
     while let Ok(event) = zmtp::read(&mut stream, LARGEST) {
         let zmtp::Event::Message(parts) = event else { continue };
         let Ok([_, _, number, answer, is_done]) = <[Vec<u8>; 5]>::try_from(parts) else { continue };

@@ -10,7 +10,7 @@ use periplus_gz_msgs::{DiscoveryPublisher, DiscoveryScope, MessagePublisher};
 use periplus_wire::lock;
 
 use super::shared::{Kind, Shared, thread};
-use super::{listener, zmtp};
+use super::zmtp;
 use crate::{MOST_NAME, Name};
 
 /// So many messages wait for one who is slow, as in Gazebo; more are not sent to it.
@@ -175,9 +175,6 @@ impl Hearer {
 
 /// Speaks with one who wants to hear.
 pub(super) fn meet(shared: &Arc<Shared>, mut stream: TcpStream) {
-    if listener::greet(&mut stream, zmtp::Kind::Pub, "").is_err() {
-        return;
-    }
     let Ok(writing) = stream.try_clone() else { return };
     let hearer = Arc::new(Hearer::default());
     let id = shared.next_id();

@@ -1,6 +1,6 @@
 //! What the threads of a transport have in common.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::net::{Shutdown, TcpListener, TcpStream, UdpSocket};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -17,11 +17,15 @@ use super::remote::Remote;
 use super::replies::{self, Reply};
 use super::sockets::Ways;
 use super::subscribe::Ears;
-use super::{calls, discovery, listener, packet, publish, uuid};
+use super::{calls, discovery, listener, packet, publish, uuid, zmtp};
 use crate::{Settings, WireError};
 
 /// So many connections are taken at once.
 const MOST_CONNECTIONS: usize = 1_000;
+
+/// Connections whose other side has not yet said what it is; one more ends the oldest. Each has a
+/// thread, and whoever connects and stays silent costs no more than these.
+const MAX_GREETINGS: usize = 32;
 
 /// What is found: each has a port of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +61,8 @@ pub(super) struct Shared {
     pub(super) hearings: AtomicU64,
     pub(super) is_closing: AtomicBool,
     connections: Mutex<BTreeMap<u64, TcpStream>>,
+    /// Those of the connections that are not greeted yet; numbers grow with time.
+    greetings: Mutex<BTreeSet<u64>>,
     next_id: AtomicU64,
 }
 
@@ -95,14 +101,18 @@ pub(super) fn open(settings: &Settings) -> Result<(Arc<Shared>, Vec<JoinHandle<(
         hearings: AtomicU64::new(0),
         is_closing: AtomicBool::new(false),
         connections: Mutex::default(),
+        greetings: Mutex::default(),
         next_id: AtomicU64::new(0),
     });
+    let as_publisher = (zmtp::Kind::Pub, String::new());
+    let as_replier = (zmtp::Kind::Router, shared.replier.clone());
+    let as_receiver = (zmtp::Kind::Router, shared.receiver.clone());
     let threads = vec![
         discovery::start(&shared, Kind::Topics, topics),
         discovery::start(&shared, Kind::Services, services),
-        listener::start(&shared, "gz-publish", publisher, publish::meet),
-        listener::start(&shared, "gz-reply", replier, calls::take_requests),
-        listener::start(&shared, "gz-receive", receiver, calls::take_answers),
+        listener::start(&shared, "gz-publish", publisher, as_publisher, publish::meet),
+        listener::start(&shared, "gz-reply", replier, as_replier, calls::take_requests),
+        listener::start(&shared, "gz-receive", receiver, as_receiver, calls::take_answers),
         replies::start(&shared, waiting),
     ];
     Ok((shared, threads))
@@ -171,6 +181,22 @@ impl Shared {
         Some(Admitted { shared: self.clone(), id })
     }
 
+    /// Counts a connection as one that is being greeted, until what is returned is dropped. Where there
+    /// are too many, the oldest ends.
+    pub(super) fn begin_greeting(self: &Arc<Self>, admitted: &Admitted) -> Greeting {
+        let oldest = {
+            let mut greetings = lock(&self.greetings);
+            greetings.insert(admitted.id);
+            if greetings.len() > MAX_GREETINGS { greetings.pop_first() } else { None }
+        };
+        if let Some(oldest) = oldest
+            && let Some(stream) = lock(&self.connections).get(&oldest)
+        {
+            let _ = stream.shutdown(Shutdown::Both);
+        }
+        Greeting { shared: self.clone(), id: admitted.id }
+    }
+
     /// Ends all threads.
     pub(super) fn close(&self) {
         self.is_closing.store(true, Ordering::Release);
@@ -201,5 +227,17 @@ pub(super) struct Admitted {
 impl Drop for Admitted {
     fn drop(&mut self) {
         lock(&self.shared.connections).remove(&self.id);
+    }
+}
+
+/// A connection that is being greeted.
+pub(super) struct Greeting {
+    shared: Arc<Shared>,
+    id: u64,
+}
+
+impl Drop for Greeting {
+    fn drop(&mut self) {
+        lock(&self.shared.greetings).remove(&self.id);
     }
 }

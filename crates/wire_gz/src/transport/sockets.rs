@@ -51,13 +51,22 @@ impl Ways {
         }
     }
 
+    /// Address that the socket for the group is bound to. On Linux a socket bound to the group receives
+    /// nothing that is sent to an address of the machine.
+    fn listens_at(&self, group: Ipv4Addr) -> Ipv4Addr {
+        match self.reach {
+            Reach::Machine if cfg!(target_os = "linux") => group,
+            _ => Ipv4Addr::UNSPECIFIED,
+        }
+    }
+
     /// Hears the group, beside all others on this machine that do.
     pub(super) fn receiver(&self, group: Ipv4Addr, port: u16) -> io::Result<UdpSocket> {
         let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
         socket.set_reuse_address(true)?;
         #[cfg(unix)]
         socket.set_reuse_port(true)?;
-        socket.bind(&SocketAddr::from((Ipv4Addr::UNSPECIFIED, port)).into())?;
+        socket.bind(&SocketAddr::from((self.listens_at(group), port)).into())?;
         let mut joined = Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
         for own in &self.own {
             let result = socket.join_multicast_v4(&group, own);
@@ -128,4 +137,26 @@ fn what_is_for_this_machine_does_not_hear_others() {
     assert!(!ways.is_for(([192, 0, 2, 7], 1).into()));
     let ways = Ways::of(&Settings { reach: Reach::Network, ..Settings::default() });
     assert!(ways.is_for(([192, 0, 2, 7], 1).into()));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_socket_of_this_machine_alone_takes_the_group_only() {
+    use std::io::ErrorKind;
+
+    let settings = Settings::default();
+    let ways = Ways::of(&settings);
+    let socket = ways.receiver(settings.group, 0).unwrap();
+    let port = socket.local_addr().unwrap().port();
+    assert_eq!(socket.local_addr().unwrap().ip(), settings.group);
+    let other = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    other.send_to(b"to the machine", (Ipv4Addr::LOCALHOST, port)).unwrap();
+    let mut packet = [0; 64];
+    let error = socket.recv(&mut packet).unwrap_err();
+    assert!(matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut), "{error}");
+    for sender in ways.senders().unwrap() {
+        sender.send_to(b"to the group", (settings.group, port)).unwrap();
+    }
+    let length = socket.recv(&mut packet).unwrap();
+    assert_eq!(&packet[..length], b"to the group");
 }
