@@ -23,6 +23,11 @@ use std::process::ExitCode;
 
 use crate::terminal;
 
+/// True for a command of `ros2` behind `periplus`, whose exit codes are those of `ros2`.
+pub(crate) fn is_ros2() -> bool {
+    std::env::args().nth(1).is_some_and(|word| word == "ros2")
+}
+
 /// What words mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Reading {

@@ -12,7 +12,7 @@ mod tf;
 mod topic;
 mod wired;
 
-use std::io;
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -22,8 +22,9 @@ use periplus_formats::load_interfaces;
 use periplus_graph::Graph;
 use periplus_host::Machine;
 use periplus_resources::Host as _;
-use periplus_verbs::{Failure, InGraph, Outcome, Session, Types};
+use periplus_verbs::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
 
+use crate::old_words;
 use crate::stop;
 use crate::terminal;
 
@@ -104,6 +105,15 @@ fn end(outcome: Outcome) -> io::Result<ExitCode> {
     match outcome {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(Failure::Output(error)) => Err(error),
+        // Scripts for ROS read the answer, not the exit code.
+        Err(Failure::Refused(refusal)) if old_words::is_ros2() => {
+            match refusal.ros2 {
+                Ros2Line::Nothing => {}
+                Ros2Line::Stdout(line) => writeln!(io::stdout().lock(), "{line}")?,
+                Ros2Line::Stderr(line) => terminal::say(&line),
+            }
+            Ok(ExitCode::SUCCESS)
+        }
         Err(failure) => {
             if !matches!(failure, Failure::Interrupted) {
                 terminal::complain(&failure.to_string());

@@ -9,10 +9,32 @@ pub enum Failure {
     Failed(String),
     /// What was typed has no meaning.
     Usage(String),
+    /// A node answered that it does not do it. `ros2` exits with 0 there.
+    Refused(Refusal),
     /// It was told to stop.
     Interrupted,
     /// Its output cannot be written.
     Output(io::Error),
+}
+
+/// A refusal, in words of Periplus and in those of `ros2`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// What was refused and why.
+    pub message: String,
+    /// What `ros2` prints at this place.
+    pub ros2: Ros2Line,
+}
+
+/// A line that `ros2` prints about a refusal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ros2Line {
+    /// It has said all already.
+    Nothing,
+    /// On standard output.
+    Stdout(String),
+    /// On standard error.
+    Stderr(String),
 }
 
 /// How a verb ends.
@@ -26,7 +48,7 @@ impl Failure {
         match self {
             Self::Usage(_) => 2,
             Self::Interrupted => 130,
-            Self::Failed(_) | Self::Output(_) => 1,
+            Self::Failed(_) | Self::Refused(_) | Self::Output(_) => 1,
         }
     }
 
@@ -60,6 +82,7 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Failed(what) | Self::Usage(what) => f.write_str(what),
+            Self::Refused(refusal) => f.write_str(&refusal.message),
             Self::Interrupted => f.write_str("interrupted"),
             Self::Output(error) => write!(f, "cannot write the output: {error}"),
         }

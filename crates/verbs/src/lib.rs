@@ -31,7 +31,7 @@ pub mod topic;
 mod types;
 mod values;
 
-pub use failure::{Failure, Outcome};
+pub use failure::{Failure, Outcome, Refusal, Ros2Line};
 pub use network::{InGraph, Network, Progress};
 pub use qos::QosWish;
 pub use seen::{Seen, SeenEnd, SeenNode, SeenService, SeenTopic, is_hidden};

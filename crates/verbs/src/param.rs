@@ -17,7 +17,7 @@ use serde_json::json;
 
 use crate::ask::ask;
 use crate::session::{advice, full_name};
-use crate::{Failure, Outcome, Seen, Session, is_hidden};
+use crate::{Failure, Outcome, Refusal, Ros2Line, Seen, Session, is_hidden};
 
 /// Options of `param list`.
 #[derive(Clone, Debug, Default)]
@@ -202,6 +202,11 @@ fn set_one(
     answer.results.into_iter().next().ok_or_else(none)
 }
 
+/// `ros2 param` prints the same on standard error.
+fn refused(message: String) -> Failure {
+    Failure::Refused(Refusal { ros2: Ros2Line::Stderr(message.clone()), message })
+}
+
 /// Says how setting ended; whether well.
 fn tell(
     session: &mut Session<'_>,
@@ -234,7 +239,7 @@ pub fn set(session: &mut Session<'_>, node: &str, name: &str, value: &str) -> Ou
     let result = set_one(session, &own, &node, name, value)?;
     match tell(session, &node, name, &result, "Set parameter")? {
         true => Ok(()),
-        false => Err(Failure::failed(format!("Setting parameter failed: {}", result.reason))),
+        false => Err(refused(format!("Setting parameter failed: {}", result.reason))),
     }
 }
 
@@ -270,7 +275,7 @@ pub fn delete(session: &mut Session<'_>, node: &str, name: &str) -> Outcome {
     let result = set_one(session, &own, &node, name, ParameterValue::default())?;
     match tell(session, &node, name, &result, "Deleted parameter")? {
         true => Ok(()),
-        false => Err(Failure::failed(format!("Deleting parameter failed: {}", result.reason))),
+        false => Err(refused(format!("Deleting parameter failed: {}", result.reason))),
     }
 }
 
@@ -364,12 +369,12 @@ pub fn load(
         )));
     }
     let own = session.node(None)?;
-    let mut refused = Vec::new();
+    let mut refusals = Vec::new();
     for (name, value) in values {
         let result = set_one(session, &own, &node, &name, value)?;
         if !tell(session, &node, &name, &result, &format!("Set parameter {name}"))? {
-            refused.push(format!("Set parameter {name} failed: {}", result.reason));
+            refusals.push(format!("Set parameter {name} failed: {}", result.reason));
         }
     }
-    if refused.is_empty() { Ok(()) } else { Err(Failure::failed(refused.join("\n"))) }
+    if refusals.is_empty() { Ok(()) } else { Err(refused(refusals.join("\n"))) }
 }

@@ -62,7 +62,11 @@ impl Show {
 
     fn part(&self, part: &Part<'_>) -> String {
         match (self.form, part.peek()) {
-            // As Python prints it, not as YAML: the answer to `--field` is for scripts.
+            // As Python prints it, not as YAML: the answer to `--field` is for scripts. Arrays of a
+            // fixed length are NumPy's, which prints them rounded and in columns; they stay YAML.
+            (Form::Yaml | Form::Csv, Value::Numbers(_) | Value::List(_)) if part.is_sequence() => {
+                python::sequence(part) + "\n"
+            }
             (Form::Yaml, Value::Number(number)) => python::number(*number) + "\n",
             (Form::Yaml, Value::Text(_)) | (Form::Csv, _) => {
                 self.walked(Form::Csv, |sink| part.write(sink))
@@ -77,7 +81,7 @@ impl Show {
             Form::Csv => {
                 let mut sink = csv::Csv::new(&self.style);
                 write(&mut sink);
-                sink.out
+                sink.finish()
             }
             _ => {
                 let mut sink = json::Json::new(self.style.longest);
@@ -121,4 +125,64 @@ fn whole(number: Number) -> Option<i128> {
 /// A whole number as it is.
 pub(crate) fn whole_number(number: Number) -> i128 {
     whole(number).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::Types;
+
+    fn message(type_name: &str, json: &serde_json::Value) -> DynamicMessage {
+        let types = Types::Builtin;
+        DynamicMessage::from_json(types.message(type_name).unwrap(), json).unwrap()
+    }
+
+    #[test]
+    fn an_empty_list_is_a_column_of_csv() {
+        let csv = Show { form: Form::Csv, ..Show::default() };
+        let scan = |ranges: &[f32], intensities: &[f32]| {
+            let json = json!({
+                "header": { "frame_id": "l" }, "ranges": ranges, "intensities": intensities,
+            });
+            csv.text(&message("sensor_msgs/msg/LaserScan", &json)).unwrap()
+        };
+        let before = "0,0,l,0.0,0.0,0.0,0.0,0.0,0.0,0.0";
+        assert_eq!(scan(&[1.5, 2.0], &[]), format!("{before},1.5,2.0,\n"));
+        assert_eq!(scan(&[], &[7.0]), format!("{before},,7.0\n"));
+        assert_eq!(scan(&[], &[]), format!("{before},,\n"));
+        // Nothing stands before the first column, so there is no comma.
+        let blank = message("std_msgs/msg/Float32MultiArray", &json!({}));
+        assert_eq!(csv.text(&blank).unwrap(), "0,\n");
+    }
+
+    #[test]
+    fn a_field_that_is_a_list_is_shown_as_python_prints_it() {
+        let field = |type_name: &str, json: serde_json::Value, field: &str, form| {
+            let show = Show { form, field: Some(field.to_owned()), ..Show::default() };
+            show.text(&message(type_name, &json)).unwrap()
+        };
+        for form in [Form::Yaml, Form::Csv] {
+            let scan = |json| field("sensor_msgs/msg/LaserScan", json, "ranges", form);
+            assert_eq!(
+                scan(json!({ "ranges": [0.5, 0.1, "Infinity"] })),
+                "array('f', [0.5, 0.10000000149011612, inf])\n"
+            );
+            assert_eq!(scan(json!({})), "array('f')\n");
+            let grid = json!({ "data": [0, -1, 100] });
+            assert_eq!(
+                field("nav_msgs/msg/OccupancyGrid", grid, "data", form),
+                "array('b', [0, -1, 100])\n"
+            );
+            let joints = json!({ "name": ["a", "it's"], "position": [1.0] });
+            let joint = |name| field("sensor_msgs/msg/JointState", joints.clone(), name, form);
+            assert_eq!(joint("name"), "['a', \"it's\"]\n");
+            assert_eq!(joint("position"), "array('d', [1.0])\n");
+        }
+        // A fixed length makes no `array`.
+        let camera = json!({});
+        let text = field("sensor_msgs/msg/CameraInfo", camera, "k", Form::Yaml);
+        assert!(text.starts_with("- 0.0\n"), "{text}");
+    }
 }

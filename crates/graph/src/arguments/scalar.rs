@@ -190,7 +190,12 @@ fn of_number(number: f64) -> String {
     } else if number.is_infinite() {
         if number > 0.0 { ".inf" } else { "-.inf" }.into()
     } else {
-        format!("{number:?}")
+        // YAML 1.1 takes a number for one only with a point and a sign of the exponent.
+        let text = format!("{number:?}");
+        let Some((digits, exponent)) = text.split_once('e') else { return text };
+        let point = if digits.contains('.') { "" } else { ".0" };
+        let (sign, size) = exponent.strip_prefix('-').map_or(('+', exponent), |size| ('-', size));
+        format!("{digits}{point}e{sign}{size:0>2}")
     }
 }
 
@@ -242,7 +247,10 @@ mod tests {
         check("5.", "3 5.0");
         check("1e3", "3 1000.0");
         check("-.inf", "3 -.inf");
-        check("99999999999999999999", "3 1e20");
+        check("99999999999999999999", "3 1.0e+20");
+        check("1e-9", "3 1.0e-09");
+        check("-2.5e-7", "3 -2.5e-07");
+        check("1.5e300", "3 1.5e+300");
         check("inf", "4 inf");
         check("yes", "1 true");
         check("Off", "1 false");

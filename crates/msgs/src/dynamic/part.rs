@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::layout::{Element, Layout, Shape};
 use super::value::{list, write_one, write_struct};
 use super::{DynamicMessage, Value};
-use crate::{DecodeError, Problem, Sink, YamlStyle, yaml};
+use crate::{Count, DecodeError, NumberKind, Problem, Sink, YamlStyle, yaml};
 
 /// A part of a message.
 #[derive(Clone, Debug)]
@@ -34,6 +34,21 @@ impl<'a> Part<'a> {
     pub fn layout(&self) -> Option<&'a Arc<Layout>> {
         match self.element {
             Element::Struct(layout) => Some(layout),
+            _ => None,
+        }
+    }
+
+    /// True for a list without a fixed length.
+    #[must_use]
+    pub fn is_sequence(&self) -> bool {
+        matches!(self.shape, Shape::List(Count::Any | Count::AtMost(_)))
+    }
+
+    /// The kind of its number or numbers; none for `byte`, texts and messages.
+    #[must_use]
+    pub fn number_kind(&self) -> Option<NumberKind> {
+        match self.element {
+            Element::Number { kind, is_byte: false } => Some(*kind),
             _ => None,
         }
     }

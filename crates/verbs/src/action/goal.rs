@@ -14,13 +14,10 @@ use serde_json::json;
 use crate::ask::{Asker, PATIENCE, Question, ask};
 use crate::session::full_name;
 use crate::types::full_type;
-use crate::{Failure, Outcome, Session, Values, clock};
+use crate::{Failure, Outcome, Refusal, Ros2Line, Session, Values, clock};
 
 /// How often it looks for feedback and the result.
 const PAUSE: Duration = Duration::from_millis(2);
-
-/// How long until it is said that nobody works on such goals yet.
-const TELL: Duration = Duration::from_millis(300);
 
 /// Sends a goal, waits for its end and says what came of it; `feedback` says on the way how far it
 /// is. When it is told to stop, the goal is cancelled.
@@ -54,10 +51,8 @@ struct Action<'a, 's> {
 impl Action<'_, '_> {
     fn run(mut self, goal: &DynamicMessage, feedback: bool) -> Outcome {
         let sending = self.asker("send_goal", "SendGoal")?;
-        if !sending.wait(self.session, Some(TELL))? {
-            self.session.say("Waiting for an action server to become available...");
-            sending.wait(self.session, None)?;
-        }
+        self.print("Waiting for an action server to become available...\n", "", "")?;
+        sending.wait(self.session, None)?;
         // Before the goal is sent, so that nothing is missed.
         let results = self.asker("get_result", "GetResult")?;
         let mailbox = if feedback { Some(self.feedback()?) } else { None };
@@ -68,7 +63,9 @@ impl Action<'_, '_> {
         let answer = question.wait(self.session, Some(PATIENCE))?;
         let accepted = self.decode("SendGoal_Response", &answer)?;
         if accepted.get("accepted") != Some(Value::Number(Number::Bool(true))) {
-            return Err(Failure::failed("Goal was rejected."));
+            let message = "Goal was rejected.".to_owned();
+            let ros2 = Ros2Line::Stdout(message.clone());
+            return Err(Failure::Refused(Refusal { message, ros2 }));
         }
         let hex: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
         self.print("Goal accepted with ID: ", &hex, "\n\n")?;
@@ -146,7 +143,10 @@ impl Action<'_, '_> {
         }
         match status {
             GoalStatus::STATUS_SUCCEEDED => Ok(()),
-            _ => Err(Failure::failed(format!("the goal of {} ended as {word}", self.name))),
+            _ => Err(Failure::Refused(Refusal {
+                message: format!("the goal of {} ended as {word}", self.name),
+                ros2: Ros2Line::Nothing,
+            })),
         }
     }
 

@@ -113,9 +113,8 @@ pub(super) fn description(one: &ParameterDescriptor) -> String {
     if !one.additional_constraints.is_empty() {
         let _ = writeln!(limits, "    Additional constraints: {}", one.additional_constraints);
     }
-    if !limits.is_empty() {
-        text.push_str("  Constraints:\n");
-        text.push_str(&limits);
-    }
+    // Always there, also above nothing, as `ros2 param describe` prints it.
+    text.push_str("  Constraints:\n");
+    text.push_str(&limits);
     text
 }

@@ -5,7 +5,8 @@ use periplus_msgs::{Count, Number, Numbers, Sink, YamlStyle};
 use super::{cut, python, shown};
 
 pub(super) struct Csv<'a> {
-    pub(super) out: String,
+    /// The whole, and the columns of each open message and list.
+    open: Vec<String>,
     style: &'a YamlStyle,
     /// Of each open list, how many elements are still shown and whether the list goes on behind.
     lists: Vec<(usize, bool)>,
@@ -13,20 +14,34 @@ pub(super) struct Csv<'a> {
     hidden: usize,
     /// Depth of messages in elements of the innermost list.
     depth: Vec<usize>,
-    is_begun: bool,
 }
 
 impl<'a> Csv<'a> {
     pub(super) fn new(style: &'a YamlStyle) -> Self {
         let (lists, depth) = (Vec::new(), vec![0]);
-        Self { out: String::new(), style, lists, hidden: 0, depth, is_begun: false }
+        Self { open: vec![String::new()], style, lists, hidden: 0, depth }
     }
 
+    /// All columns.
+    pub(super) fn finish(self) -> String {
+        self.open.concat()
+    }
+
+    /// Adds a column. As in `rosidl_runtime_py`, a comma follows what is not empty, so an empty list
+    /// is an empty column.
     fn put(&mut self, text: &str) {
-        if std::mem::replace(&mut self.is_begun, true) {
-            self.out.push(',');
+        if let Some(columns) = self.open.last_mut() {
+            if !columns.is_empty() {
+                columns.push(',');
+            }
+            columns.push_str(text);
         }
-        self.out.push_str(text);
+    }
+
+    fn close(&mut self) {
+        if let Some(columns) = self.open.pop() {
+            self.put(&columns);
+        }
     }
 
     /// Whether an element that begins now is shown.
@@ -61,7 +76,9 @@ impl<'a> Csv<'a> {
 
 impl Sink for Csv<'_> {
     fn begin(&mut self, _: &str) {
-        if !self.element() {
+        if self.element() {
+            self.open.push(String::new());
+        } else {
             self.hidden += 1;
         }
         if let Some(depth) = self.depth.last_mut() {
@@ -73,7 +90,11 @@ impl Sink for Csv<'_> {
         if let Some(depth) = self.depth.last_mut() {
             *depth -= 1;
         }
-        self.hidden = self.hidden.saturating_sub(1);
+        if self.hidden > 0 {
+            self.hidden -= 1;
+        } else {
+            self.close();
+        }
     }
 
     fn field(&mut self, _: &str) {}
@@ -93,6 +114,7 @@ impl Sink for Csv<'_> {
     }
 
     fn list(&mut self, length: usize, _: Count) {
+        self.open.push(String::new());
         let mut shown = shown(length, self.style.longest);
         if self.hidden > 0 {
             shown = 0;
@@ -109,6 +131,11 @@ impl Sink for Csv<'_> {
         self.depth.pop();
         if let Some((_, true)) = self.lists.pop() {
             self.put("...");
+        }
+        if self.hidden > 0 {
+            self.open.pop();
+        } else {
+            self.close();
         }
     }
 

@@ -1,6 +1,6 @@
 //! Messages the way Python's `repr` shows them, which `ros2 topic pub` and `ros2 service call` print.
 
-use periplus_msgs::{Count, DynamicMessage, Number, Numbers, Sink};
+use periplus_msgs::{Count, DynamicMessage, Number, NumberKind, Numbers, Part, Sink};
 
 use super::whole;
 
@@ -65,6 +65,30 @@ pub(crate) fn text(text: &str) -> String {
     }
     out.push(quote);
     out
+}
+
+/// Python's `str` of a field that is a list without a fixed length: numbers are in an `array`.
+pub(super) fn sequence(part: &Part<'_>) -> String {
+    let mut sink = Repr { out: String::new() };
+    part.write(&mut sink);
+    let code = match part.number_kind() {
+        Some(NumberKind::I8) => 'b',
+        Some(NumberKind::U8) => 'B',
+        Some(NumberKind::I16) => 'h',
+        Some(NumberKind::U16) => 'H',
+        Some(NumberKind::I32) => 'i',
+        Some(NumberKind::U32) => 'I',
+        Some(NumberKind::I64) => 'q',
+        Some(NumberKind::U64) => 'Q',
+        Some(NumberKind::F32) => 'f',
+        Some(NumberKind::F64) => 'd',
+        // Truth values, `byte`, texts and messages.
+        Some(NumberKind::Bool) | None => return sink.out,
+    };
+    match sink.out.as_str() {
+        "[]" => format!("array('{code}')"),
+        numbers => format!("array('{code}', {numbers})"),
+    }
 }
 
 struct Repr {

@@ -98,6 +98,7 @@ fn goals_are_sent() {
     let bench = Bench::new();
     let _looker = looker(&bench);
     expect![[r#"
+        Waiting for an action server to become available...
         Sending goal:
              target_frame: map
         source_frame: ''
@@ -144,6 +145,7 @@ fn goals_are_sent() {
     "#]]
     .assert_eq(&send(&bench, "{target_frame: map}", true));
     expect![[r#"
+        Waiting for an action server to become available...
         Sending goal:
              target_frame: ''
         source_frame: map
@@ -191,6 +193,7 @@ fn a_goal_is_cancelled_when_it_is_given_up() {
     let bench = Bench { stop_after: Some(Duration::from_millis(300)), ..bench };
     let text = send(&bench, "{target_frame: map}", false);
     expect![[r#"
+        Waiting for an action server to become available...
         Sending goal:
              target_frame: map
         source_frame: ''

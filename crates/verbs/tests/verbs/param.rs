@@ -86,6 +86,7 @@ fn parameters_are_seen() {
         expect![[r#"
         Parameter name: beams
           Type: integer
+          Constraints:
     "#]],
     );
     let json = bench.json();
