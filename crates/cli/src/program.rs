@@ -29,7 +29,7 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
     let written = std::fs::create_dir_all(&folder).map_err(|error| plain_words(&error));
-    let written = written.and_then(|()| Machine.replace(&file, text(options).as_bytes()));
+    let written = written.and_then(|()| Machine.replace(&file, text(options, &ros).as_bytes()));
     if let Err(why) = written {
         terminal::complain(&format!("cannot write {}: {why}", file.display()));
         return Ok(ExitCode::FAILURE);
@@ -43,8 +43,9 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
     outcome
 }
 
-/// A launch file with this node alone.
-fn text(options: &RunOptions) -> String {
+/// A launch file with this node alone. What stands behind `--ros-args` is the node's: some nodes, such as
+/// a lifecycle manager, are made of their parameters.
+fn text(options: &RunOptions, ros: &[String]) -> String {
     let line =
         |words: &[String]| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
     let attribute = |text: &str| {
@@ -52,8 +53,12 @@ fn text(options: &RunOptions) -> String {
         // Nothing is to be filled in here.
         text.replace("$(", "\\$(")
     };
+    let ros = match ros {
+        [] => String::new(),
+        words => format!(" ros_args=\"{}\"", attribute(&line(words))),
+    };
     format!(
-        "<launch>\n  <node pkg=\"{}\" exec=\"{}\" output=\"screen\" args=\"{}\"/>\n\
+        "<launch>\n  <node pkg=\"{}\" exec=\"{}\" output=\"screen\" args=\"{}\"{ros}/>\n\
          </launch>\n",
         attribute(&options.package),
         attribute(&options.program),
@@ -77,6 +82,8 @@ fn a_node_is_written_as_a_launch_file() {
         program: "nav2_costmap_2d_markers".into(),
         words: vec!["a \"b\"".into()],
     };
-    let text = text(&options);
-    assert!(text.contains("args=\"'a &quot;b&quot;'\""), "{text}");
+    let without = text(&options, &[]);
+    assert!(without.contains("args=\"'a &quot;b&quot;'\"/>"), "{without}");
+    let with = text(&options, &["-p".into(), "node_names:=[\"a\", b]".into()]);
+    assert!(with.contains("ros_args=\"-p 'node_names:=[&quot;a&quot;, b]'\""), "{with}");
 }
