@@ -93,11 +93,22 @@ impl Running {
         }
     }
 
-    /// Time on the processor so far, in hundredths of a second.
-    fn ticks(&self) -> u64 {
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).unwrap();
-        let (_, fields) = stat.rsplit_once(") ").unwrap();
-        fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap()).sum()
+    /// Time on the processor so far, of all threads.
+    fn processor(&self) -> Duration {
+        let threads = std::fs::read_dir(format!("/proc/{}/task", self.child.id())).unwrap();
+        let times = threads.map(|thread| {
+            let text = std::fs::read_to_string(thread.unwrap().path().join("schedstat")).unwrap();
+            text.split(' ').next().unwrap().parse::<u64>().unwrap()
+        });
+        Duration::from_nanos(times.sum())
+    }
+
+    /// Fraction of a core that the program uses during a window.
+    fn load_ratio(&self) -> f64 {
+        const WINDOW: Duration = Duration::from_secs(3);
+        let (start, clock) = (self.processor(), Instant::now());
+        std::thread::sleep(WINDOW);
+        self.processor().saturating_sub(start).as_secs_f64() / clock.elapsed().as_secs_f64()
     }
 }
 
@@ -132,6 +143,13 @@ impl Domain {
         self.set(command, range)
     }
 
+    /// Exit code, standard output and standard error.
+    fn ends(self, words: &[&str]) -> (Option<i32>, String, String) {
+        let Output { status, stdout, stderr } = self.periplus(None, words).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (status.code(), text(stdout), text(stderr))
+    }
+
     fn gives(self, words: &[&str]) -> String {
         let Output { status, stdout, stderr } = self.periplus(None, words).output().unwrap();
         let stderr = String::from_utf8_lossy(&stderr);
@@ -160,13 +178,10 @@ fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
     let Some(python) = ros() else { return };
     let domain = Domain(111);
     let (server, _folder) = domain.map_server();
-    let rests = |before: &str| {
-        let start = server.ticks();
-        std::thread::sleep(Duration::from_secs(2));
-        let used = server.ticks() - start;
-        assert!(used <= 20, "{used} of 200 ticks {before}");
-    };
-    let caller = domain.peer(&python, None, &["call", "3", "100"]);
+    // Services that answer others are there before the window begins.
+    domain.gives(&["node", "list"]);
+    let before = server.load_ratio();
+    let caller = domain.peer(&python, None, &["call", "100"]);
     let mut called = Vec::new();
     let slowest = loop {
         let line = caller.lines.recv_timeout(LONG).unwrap();
@@ -180,9 +195,20 @@ fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
     };
     assert!(called.len() >= 10, "{called:?}");
     assert!(called.contains(&"called /map_server/list_parameters".to_owned()), "{called:?}");
-    assert!(slowest < 1000, "the slowest took {slowest} ms");
+    // A client that finds no service ready waits the whole 5 s of the peer.
+    assert!(slowest < 4000, "the slowest took {slowest} ms");
     drop(caller);
-    rests("after 100 calls");
+    // Another program's noise may disturb one window, a thread that never sleeps shows in each.
+    let after: Vec<f64> = (0..3)
+        .map(|_| server.load_ratio())
+        .scan(false, |is_over, ratio| {
+            let go_on = !*is_over;
+            *is_over = ratio <= before + 0.01;
+            go_on.then_some(ratio)
+        })
+        .collect();
+    eprintln!("fraction of a core: {before:.4} before, {after:.4?} after 100 calls");
+    assert!(after.iter().any(|ratio| *ratio <= before + 0.01), "{before} before, {after:?} after");
 }
 
 /// Lists printed what was known after 0.7 s, and nodes of Fast DDS tell their names only when they are
@@ -234,21 +260,43 @@ fn verbs_work_with_a_node_of_ros() {
         "test_msgs/action/Fibonacci",
         "order: 5",
     ]);
-    for part in ["Goal accepted", "sequence:\n- 0\n- 1\n- 1\n- 2\n- 3\n- 5\n", "SUCCEEDED"] {
+    for part in [
+        "Waiting for an action server to become available...\nSending goal:",
+        "Goal accepted",
+        "sequence:\n- 0\n- 1\n- 1\n- 2\n- 3\n- 5\n",
+        "SUCCEEDED",
+    ] {
         assert!(goal.contains(part), "{goal}");
     }
+    // A refusal is a failure of ours; `ros2` prints it and exits with 0.
+    let send = ["action", "send_goal", "--interfaces", &interfaces, "/fibonacci"];
+    let send = [&send[..], &["test_msgs/action/Fibonacci", "order: 50"]].concat();
+    let (code, stdout, stderr) = domain.ends(&send);
+    assert_eq!(code, Some(1), "{stdout}{stderr}");
+    assert!(stderr.contains("error: Goal was rejected."), "{stderr}");
+    let (code, stdout, stderr) = domain.ends(&[&["ros2"], &send[..]].concat());
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    assert!(stdout.ends_with("Goal was rejected.\n"), "{stdout}");
+    let set = ["param", "set", "/robot", "fixed", "2"];
+    let (code, _, stderr) = domain.ends(&set);
+    assert_eq!(code, Some(1), "{stderr}");
+    assert!(stderr.contains("error: Setting parameter failed: "), "{stderr}");
+    let (code, _, stderr) = domain.ends(&[&["ros2"], &set[..]].concat());
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(stderr.lines().any(|line| line.starts_with("Setting parameter failed: ")), "{stderr}");
 }
 
 /// A node of ROS in the range LOCALHOST hears no multicast and tells addresses of this machine only.
 #[test]
 fn ranges_meet_on_one_machine() {
     let Some(python) = ros() else { return };
-    for (number, ours, theirs) in
-        [(114, "SUBNET", "LOCALHOST"), (115, "LOCALHOST", "SUBNET"), (116, "SUBNET", "SUBNET")]
-    {
-        let domain = Domain(number);
-        let hears = domain.peer(&python, Some(theirs), &["hear", "/there"]);
-        let _says = domain.peer(&python, Some(theirs), &["say", "/back"]);
+    let cases =
+        [(114, "SUBNET", "LOCALHOST"), (115, "LOCALHOST", "SUBNET"), (116, "SUBNET", "SUBNET")];
+    let peers = cases.map(|(number, ours, theirs)| {
+        let peer = Domain(number).peer(&python, Some(theirs), &["meet", "/there", "/back"]);
+        (Domain(number), ours, peer)
+    });
+    for (domain, ours, hears) in peers {
         let words = ["topic", "pub", "-r", "20", "/there", "std_msgs/msg/String", "data: hello"];
         let _talks = Running::start(&mut domain.periplus(Some(ours), &words));
         let echo = ["topic", "echo", "/back", "std_msgs/msg/String"];
@@ -263,11 +311,12 @@ fn ranges_meet_on_one_machine() {
 fn nobody_is_found_in_the_range_off() {
     let Some(python) = ros() else { return };
     let domain = Domain(117);
-    let hears = domain.peer(&python, Some("LOCALHOST"), &["hear", "/there"]);
-    let words = ["topic", "pub", "-r", "20", "/there", "std_msgs/msg/String", "data: hello"];
-    let _talks = Running::start(&mut domain.periplus(Some("OFF"), &words));
-    let end = Instant::now() + Duration::from_secs(4);
-    while let Ok(line) = hears.lines.recv_timeout(end.saturating_duration_since(Instant::now())) {
+    let hears = domain.peer(&python, Some("LOCALHOST"), &["meet", "/there", "/back"]);
+    hears.says("ready");
+    let words = ["topic", "pub", "-r", "50", "/there", "std_msgs/msg/String", "data: hello"];
+    let talks = Running::start(&mut domain.periplus(Some("OFF"), &words));
+    talks.says("publishing #100:");
+    while let Ok(line) = hears.lines.try_recv() {
         assert!(!line.starts_with("heard "), "{line}");
     }
 }
@@ -380,4 +429,22 @@ fn a_lifecycle_manager_keeps_bonds_with_its_nodes() {
     let _node = domain.bond(&python, "silent", "beta");
     let (manager, _folder) = domain.manager("beta");
     manager.tells("`beta` was unable to be reached after 2.00 s by bond");
+}
+
+/// Parameters behind `--ros-args` did not reach a manager of `periplus run`: it had no nodes.
+#[test]
+fn a_manager_that_runs_alone_knows_its_nodes() {
+    let folder = Folder::new("manager-alone");
+    std::fs::write(
+        folder.path("manager.yaml"),
+        "/lifecycle_manager:\n  ros__parameters:\n    node_names: [alpha, beta]\n",
+    )
+    .unwrap();
+    let file = folder.path("manager.yaml").to_string_lossy().into_owned();
+    let run = ["run", "nav2_lifecycle_manager", "lifecycle_manager", "--ros-args"];
+    for given in [["-p", "node_names:=[alpha, beta]"], ["--params-file", &file]] {
+        let words = [&run[..], &given].concat();
+        let manager = Running::start(&mut Domain(122).periplus(None, &words));
+        manager.tells("brings up alpha, beta");
+    }
 }

@@ -40,10 +40,11 @@ fn cpu_s() -> f64 {
         / 100.0
 }
 
-/// Publishes clouds and scans; the longest time that publishing took, and the time on the processor.
-fn publish(clouds: &Publisher<PointCloud2>, scans: &Publisher<LaserScan>) -> (Duration, f64) {
+/// Publishes clouds and scans; the calls that took longer than half a period, and the time on the
+/// processor \[s\].
+fn publish(clouds: &Publisher<PointCloud2>, scans: &Publisher<LaserScan>) -> (u32, f64) {
     let cpu = cpu_s();
-    let mut worst = Duration::ZERO;
+    let mut slow = 0;
     let start = Instant::now();
     for round in 0..ROUNDS {
         let cloud = PointCloud2 { data: vec![7; CLOUD_BYTES], ..PointCloud2::default() };
@@ -51,10 +52,10 @@ fn publish(clouds: &Publisher<PointCloud2>, scans: &Publisher<LaserScan>) -> (Du
         let before = Instant::now();
         clouds.publish(cloud);
         scans.publish(scan);
-        worst = worst.max(before.elapsed());
+        slow += u32::from(before.elapsed() > PERIOD / 2);
         std::thread::sleep((PERIOD * (round + 1)).saturating_sub(start.elapsed()));
     }
-    (worst, cpu_s() - cpu)
+    (slow, cpu_s() - cpu)
 }
 
 #[test]
@@ -73,41 +74,45 @@ fn stopped_subscribers_cost_nothing() {
     let node = graph.node(NodeSettings::new("periplus")).unwrap();
     let clouds: Publisher<PointCloud2> = node.publisher("/cloud", Qos::reliable(5)).unwrap();
     let scans: Publisher<LaserScan> = node.publisher("/scan", Qos::reliable(5)).unwrap();
-    // One that works, for the same work without and with the others.
-    let start = |words: [&str; 3]| {
+    // The first works all the time, for the same work without and with the others.
+    let topics = [
+        ["cloud", "rt/cloud"],
+        ["cloud", "rt/cloud"],
+        ["scan", "rt/scan"],
+        ["cloud", "rt/cloud"],
+        ["scan", "rt/scan"],
+    ];
+    let mut started = topics.map(|[kind, topic]| {
         let mut command = Command::new(&python);
-        command.arg(&peer).args(["96", "sub"]).args(words).stdin(Stdio::piped());
+        command.arg(&peer).args(["96", "sub", kind, topic, "100000"]).stdin(Stdio::piped());
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let (send, lines) = channel();
         let output = BufReader::new(child.stdout.take().unwrap());
         std::thread::spawn(move || {
             output.lines().map_while(Result::ok).for_each(|line| drop(send.send(line)));
         });
-        let end = Instant::now() + Duration::from_secs(60);
-        while lines.try_recv().is_err() {
-            assert!(Instant::now() < end, "{words:?} hears nothing");
-            clouds.publish(PointCloud2 { data: vec![7; 1000], ..PointCloud2::default() });
-            scans.publish(LaserScan { ranges: vec![1.0], ..LaserScan::default() });
-            std::thread::sleep(Duration::from_millis(20));
+        (Stopped(child), lines, false)
+    });
+    let end = Instant::now() + Duration::from_secs(60);
+    while !started.iter().all(|(_, _, is_heard)| *is_heard) {
+        assert!(Instant::now() < end, "a subscriber received nothing");
+        clouds.publish(PointCloud2 { data: vec![7; 1000], ..PointCloud2::default() });
+        scans.publish(LaserScan { ranges: vec![1.0], ..LaserScan::default() });
+        std::thread::sleep(Duration::from_millis(20));
+        for (_, lines, is_heard) in &mut started {
+            *is_heard |= lines.try_recv().is_ok();
         }
-        Stopped(child)
-    };
-    let _works = start(["cloud", "rt/cloud", "100000"]);
-    let (worst, cpu) = publish(&clouds, &scans);
-    eprintln!("control: at most {worst:?} to publish, {cpu:.2} s of processor");
-    let stopped: Vec<_> = (0..4)
-        .map(|number| {
-            start([["cloud", "scan"][number % 2], ["rt/cloud", "rt/scan"][number % 2], "100000"])
-        })
-        .collect();
-    for one in &stopped {
+    }
+    let (slow, cpu) = publish(&clouds, &scans);
+    eprintln!("control: {slow} slow calls of {ROUNDS}, {cpu:.2} s of processor");
+    for (one, ..) in &started[1..] {
         signal(&one.0, "-STOP");
     }
-    let (worst_beside, cpu_beside) = publish(&clouds, &scans);
-    eprintln!("beside stopped ones: at most {worst_beside:?}, {cpu_beside:.2} s of processor");
+    let (slow_beside, cpu_beside) = publish(&clouds, &scans);
+    eprintln!("beside stopped: {slow_beside} slow calls, {cpu_beside:.2} s of processor");
     assert!(
-        worst_beside < Duration::from_millis(50).max(2 * worst),
-        "{worst_beside:?}, alone {worst:?}"
+        slow_beside <= slow + ROUNDS / 5,
+        "{slow_beside} slow calls, {slow} without stopped ones"
     );
     assert!(cpu_beside < 1.3 * cpu + 0.3, "{cpu_beside:.2} s, alone {cpu:.2} s");
 }

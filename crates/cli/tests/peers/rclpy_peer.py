@@ -1,11 +1,10 @@
 """Real ROS 2 (rclpy on rmw_fastrtps_cpp), for the tests of the command.
 
     rclpy_peer.py nodes COUNT PREFIX     nodes, each in a participant of its own; says `ready`
-    rclpy_peer.py call SECONDS COUNT     waits for services, calls each once and the first COUNT times;
+    rclpy_peer.py call COUNT             waits for services, calls each once and the first COUNT times;
                                          says how long that took
     rclpy_peer.py robot                  a node with a topic, a service, parameters and an action
-    rclpy_peer.py say TOPIC              publishes a String again and again
-    rclpy_peer.py hear TOPIC             says which String it hears first
+    rclpy_peer.py meet HEARD SAID        prints the Strings of one topic, publishes to another
 """
 
 import importlib
@@ -14,7 +13,8 @@ import threading
 import time
 
 import rclpy
-from rclpy.action import ActionServer
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.action import ActionServer, GoalResponse
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
@@ -46,14 +46,17 @@ def nodes(count, prefix):
     sys.stdin.readline()
 
 
-def call(seconds, count):
+def call(count):
     rclpy.init()
     node = rclpy.create_node("caller")
-    end = time.monotonic() + float(seconds)
-    known = []
-    while time.monotonic() < end:
+    end = time.monotonic() + 20
+    known, same = [], 0
+    # Until ten looks in a row show nothing new.
+    while same < 10 and time.monotonic() < end:
         rclpy.spin_once(node, timeout_sec=0.05)
+        before = known
         known = [one for one in node.get_service_names_and_types() if not one[0].startswith("/caller/")]
+        same = same + 1 if known and known == before else 0
     slowest, first = 0.0, None
     for name, types in sorted(known):
         package, kind, service = types[0].split("/")
@@ -78,6 +81,7 @@ def robot():
     rclpy.init()
     node = rclpy.create_node("robot")
     node.declare_parameter("speed", 0.5)
+    node.declare_parameter("fixed", 1, ParameterDescriptor(read_only=True))
     node.create_service(Trigger, "/trigger", trigger)
     chatter = node.create_publisher(String, "/chatter", 10)
     node.create_timer(0.05, lambda: chatter.publish(String(data="hello")))
@@ -91,25 +95,23 @@ def robot():
         goal.succeed()
         return Fibonacci.Result(sequence=sequence)
 
-    server = ActionServer(node, Fibonacci, "/fibonacci", compute)
+    def goal(request):
+        return GoalResponse.REJECT if request.order > 40 else GoalResponse.ACCEPT
+
+    server = ActionServer(node, Fibonacci, "/fibonacci", compute, goal_callback=goal)
     print("ready", flush=True)
     rclpy.spin(node)
     server.destroy()
 
 
-def say(topic):
+def meet(heard, said):
     rclpy.init()
-    node = rclpy.create_node("say")
-    publisher = node.create_publisher(String, topic, 10)
+    node = rclpy.create_node("meet")
+    publisher = node.create_publisher(String, said, 10)
     node.create_timer(0.05, lambda: publisher.publish(String(data="hello")))
+    node.create_subscription(String, heard, lambda message: print("heard", message.data, flush=True), 10)
+    print("ready", flush=True)
     rclpy.spin(node)
 
 
-def hear(topic):
-    rclpy.init()
-    node = rclpy.create_node("hear")
-    node.create_subscription(String, topic, lambda heard: print("heard", heard.data, flush=True), 10)
-    rclpy.spin(node)
-
-
-{"nodes": nodes, "call": call, "robot": robot, "say": say, "hear": hear}[sys.argv[1]](*sys.argv[2:])
+{"nodes": nodes, "call": call, "robot": robot, "meet": meet}[sys.argv[1]](*sys.argv[2:])
