@@ -16,8 +16,19 @@ fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
+/// A program with the default action for the signals of these tests: one that ran under `nohup`, or in
+/// the background of a script, hands on that they are ignored.
+fn with_default_signals(program: &str) -> Command {
+    if cfg!(target_os = "linux") {
+        let mut command = Command::new("env");
+        command.args(["--default-signal=HUP,INT,TERM", program]);
+        return command;
+    }
+    Command::new(program)
+}
+
 fn start(words: &[&str], log: &Path) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    let mut command = with_default_signals(env!("CARGO_BIN_EXE_periplus"));
     command.args(words).current_dir(top()).env("NO_COLOR", "1");
     // Nobody else is asked.
     command.env("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF");
@@ -144,7 +155,7 @@ fn a_full_disk_is_reported_while_the_run_goes_on() {
     let (bag, map, log) = (folder.path("run.mcap"), folder.path("map"), folder.path("log"));
     let line = format!(
         "trap '' XFSZ; ulimit -f 100; exec {} sim worlds/cube_and_sphere.sdf \
-         --robot robots/sam_bot/urdf/sam_bot.urdf.xacro publish_odom_tf:=true --duration 15 \
+         --robot robots/sam_bot/urdf/sam_bot.urdf.xacro publish_odom_tf:=true --duration 10 --rtf 4 --ros2 off \
          --record {} --exclude camera --slam --slam-out {}",
         env!("CARGO_BIN_EXE_periplus"),
         bag.display(),
