@@ -358,6 +358,7 @@ crate::list_messages! {
     action_msgs::GoalStatusArray
     action_msgs::CancelGoalRequest
     action_msgs::CancelGoalResponse
+    bond::Status
     builtin_interfaces::Duration
     builtin_interfaces::Time
     diagnostic_msgs::DiagnosticArray
