@@ -28,6 +28,7 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
         is_wired: false,
         is_paced: false,
         guarding_program: None,
+        tools: None,
     };
     let words = ["-p".to_owned(), format!("robot_description:={ARM}")];
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());

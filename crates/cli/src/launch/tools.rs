@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use periplus_bringup::xacro;
+use periplus_host::Machine;
+use periplus_resources::Host as _;
 
 use crate::terminal;
 
@@ -44,7 +46,7 @@ impl Tools {
 
     /// The PATH of this process, with the folder at its end.
     pub(super) fn path(&self) -> OsString {
-        let mut path = std::env::var_os("PATH").unwrap_or_default();
+        let mut path = OsString::from(Machine.variable("PATH").unwrap_or_default());
         if !path.is_empty() {
             path.push(":");
         }
