@@ -12,7 +12,7 @@ pub struct Limits {
     /// Nesting of scene nodes.
     pub depth_max: usize,
     /// Memory that reading may take, the finished mesh included \[bytes\]. A small file is
-    /// allowed less: see [`BYTES_OF_ANY_FILE`] and [`BYTES_PER_BYTE`].
+    /// allowed less: 128 MiB, and 24 bytes for each of its own.
     pub bytes_max: usize,
 }
 
