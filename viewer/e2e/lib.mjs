@@ -26,10 +26,14 @@ export const sim = (world, robot, ...more) => [
 ];
 
 /** Runs the program; resolves once its port answers. */
-export async function periplus(args, port) {
+export async function periplus(args, port, environment = {}) {
   if (!existsSync(PROGRAM))
     throw new Error(`${PROGRAM} is not there: build it, or say PERIPLUS=...`);
-  const child = spawn(PROGRAM, args, { cwd: ROOT, stdio: ['ignore', 'pipe', 'pipe'] });
+  const child = spawn(PROGRAM, args, {
+    cwd: ROOT,
+    stdio: ['ignore', 'pipe', 'pipe'],
+    env: { ...process.env, ...environment },
+  });
   let said = '';
   for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => (said += data));
   const isOver = new Promise((resolve) => child.once('exit', resolve));

@@ -1,10 +1,12 @@
 // What a new user does first: each test holds something that broke a promise once.
 import assert from 'node:assert/strict';
-import { join } from 'node:path';
+import { readFileSync } from 'node:fs';
+import { basename, join } from 'node:path';
 import { next, open, periplus, ROOT, sim, until } from './lib.mjs';
 
 const PORT = 8825;
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
+const SAM_BOT_RVIZ = 'robots/sam_bot/rviz/sam_bot.rviz';
 const CUBE = 'worlds/cube_and_sphere.sdf';
 const pong = ['sim', 'worlds/pong.sdf', '--rtf', '1', '--ros2', 'off'];
 const cube = (...more) => sim(CUBE, SAM_BOT, 'publish_odom_tf:=true', ...more);
@@ -237,6 +239,77 @@ async function rvizKeepsWorld(page) {
   assert.equal(await page.evaluate(worlds), 1);
 }
 
+/** Names and classes of displays, as a file of RViz lists them. */
+function displaysOf(file) {
+  const text = readFileSync(join(ROOT, file), 'utf8');
+  return [
+    ...text.matchAll(
+      /^ {4}- Class: (?:rviz_default_plugins|rviz)\/(.+)\n(?: {6}.*\n)*? {6}Name: (.+)$/gm,
+    ),
+  ].map(([, kind, name]) => [kind, name]);
+}
+
+/** The file of RViz that the command line or a launch file names is open without a click. */
+async function opensRviz(page, file, { fixedFrame, works }) {
+  await until(page, `periplus.fileName === ${JSON.stringify(basename(file))}`, 'the file');
+  const wanted = displaysOf(file);
+  assert.ok(wanted.length > 3, `${file}: ${wanted}`);
+  const shown = await page.evaluate('periplus.displays.map((d) => [d.kind.title, d.name])');
+  assert.deepEqual(
+    shown.filter(([kind]) => kind !== 'World'),
+    wanted,
+  );
+  assert.equal(await page.evaluate('periplus.fixedFrame'), fixedFrame);
+  for (const name of works) {
+    const display = `periplus.displays.find((d) => d.name === ${JSON.stringify(name)})`;
+    await until(
+      page,
+      `${display}.level === "ok" && Object.keys(${display}.statuses).length > 1`,
+      `the display ${name}`,
+    );
+  }
+}
+
+/** `periplus rviz2 -d FILE` beside a simulation that another program runs. */
+async function rviz2(chrome, url) {
+  const domain = { ROS_DOMAIN_ID: '87' };
+  const sim = await periplus(
+    [
+      ...cube().filter((word) => word !== '--ros2' && word !== 'off'),
+      `--page=127.0.0.1:${PORT + 1}`,
+    ],
+    PORT + 1,
+    domain,
+  );
+  try {
+    for (const [words, fixedFrame] of [
+      [['rviz2', '-d', SAM_BOT_RVIZ], 'odom'],
+      [
+        ['ros2', 'run', 'rviz2', 'rviz2', `--display-config=${SAM_BOT_RVIZ}`, '-f', 'base_link'],
+        'base_link',
+      ],
+    ]) {
+      const view = await periplus(
+        [...words, '--no-browser', `--page=127.0.0.1:${PORT}`],
+        PORT,
+        domain,
+      );
+      const { page, complaints } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
+      try {
+        await opensRviz(page, SAM_BOT_RVIZ, { fixedFrame, works: ['RobotModel', 'Scan', 'Image'] });
+        const red = await share(page, 'r > 200 && g < 90 && b < 90');
+        assert.ok(red > 0.001, `squares of the scan: ${red}`);
+        assert.deepEqual(complaints, []);
+      } finally {
+        await page.close();
+        await view.stop();
+      }
+    }
+  } finally {
+    await sim.stop();
+  }
+}
+
 /** A token does not stay where others see it, and a reload still has it. */
 async function tokenLeavesTheAddress(chrome, url) {
   const address = `${url}?ws=ws://127.0.0.1:${PORT}/&token=sixteen%20letters%20%26%20more`;
@@ -284,6 +357,23 @@ export async function use(chrome, url, attempt) {
   await on('reset', ['launch', 'sam_bot', 'display.launch.py', '--no-browser'], reset);
   await on('reset while paused', cube(), resetWhilePaused);
   await on('rviz keeps the world', cube(), rvizKeepsWorld);
+  await attempt('use rviz2 opens its file', () => rviz2(chrome, url));
+  for (const [launch, file, expected] of [
+    [
+      ['launch', 'sam_bot', 'display.launch.py'],
+      SAM_BOT_RVIZ,
+      { fixedFrame: 'odom', works: ['RobotModel', 'Scan'] },
+    ],
+    [
+      ['launch', 'robots/kbot/launch/kbot.launch', '--ros2', 'off'],
+      'robots/kbot/rviz/kbot.rviz',
+      { fixedFrame: 'odom', works: ['RobotModel'] },
+    ],
+  ]) {
+    await on(`launch opens ${basename(file)}`, [...launch, '--no-browser'], (page) =>
+      opensRviz(page, file, expected),
+    );
+  }
   await attempt('use token leaves the address', async () => {
     const words = [...pong, '--token', 'sixteen letters & more', `--page=0.0.0.0:${PORT}`];
     const run = await periplus(words, PORT);

@@ -215,16 +215,20 @@ impl Bringup {
     /// Files of RViz that the plan opens.
     #[must_use]
     pub fn views(&self) -> Vec<PathBuf> {
-        let of_view = |(_, ask): (usize, &Ask)| {
-            let is_view = ask.entry.role == crate::catalogue::Role::Viewer;
-            let words = &ask.told.own;
-            let file = crate::words::option(words, "d")
-                .or_else(|| crate::words::option(words, "display-config"));
-            let file = file.filter(|_| is_view)?;
+        let path = |ask: &Ask| {
+            let file = option_of_viewer(ask, "d", "display-config")?;
             let folder = &self.settings.search.working_folder;
             Some(folder.join(ask.path(folder, file)))
         };
-        self.asks().filter_map(of_view).collect()
+        self.asks().filter_map(|(_, ask)| path(ask)).collect()
+    }
+
+    /// Fixed frame that the first RViz of the plan is started with (`-f`).
+    #[must_use]
+    pub fn fixed_frame(&self) -> Option<String> {
+        let mut viewers = self.asks();
+        let frame = viewers.find_map(|(_, ask)| option_of_viewer(ask, "f", "fixed-frame"));
+        frame.map(str::to_owned)
     }
 
     /// Whether a node of the plan lives by `/clock`.
@@ -559,4 +563,11 @@ impl Event {
 #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
 fn nanoseconds(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
+}
+
+/// Value of an option of RViz, by its short or its long name.
+fn option_of_viewer<'a>(ask: &'a Ask, short: &str, long: &str) -> Option<&'a str> {
+    let words = &ask.told.own;
+    let value = || crate::words::option(words, short).or_else(|| crate::words::option(words, long));
+    if ask.entry.role == crate::catalogue::Role::Viewer { value() } else { None }
 }

@@ -183,6 +183,16 @@ fn a_stamped_velocity_drives_a_robot_of_gazebo() {
     assert_eq!(speeds, [0.5], "{:?}", bringup.lines());
 }
 
+/// RViz is started with a file and a fixed frame: the page opens both.
+#[test]
+fn rviz_names_its_file_and_fixed_frame() {
+    let folder = top().canonicalize().unwrap();
+    let bringup = bringup("rviz.launch.xml", &folder);
+    assert_eq!(bringup.views(), [folder.join("robots/sam_bot/rviz/sam_bot.rviz")]);
+    assert_eq!(bringup.fixed_frame().as_deref(), Some("base_link"));
+    assert!(bringup.wants_page());
+}
+
 /// ROS 1's server ends when its map cannot be read.
 #[test]
 fn a_map_that_is_not_there_is_an_error() {

@@ -52,6 +52,8 @@ pub(crate) struct About {
     pub(crate) resource_path: Vec<PathBuf>,
     /// A file of RViz that the page opens.
     pub(crate) view: Option<PathBuf>,
+    /// Frame that the page draws in, in place of the one in `view`.
+    pub(crate) fixed_frame: Option<String>,
 }
 
 /// An open page.
@@ -89,6 +91,9 @@ impl Page {
         let mut metadata = BTreeMap::from([("periplus".to_owned(), version.to_owned())]);
         if let Some(world) = about.world {
             metadata.insert("world".to_owned(), world);
+        }
+        if let Some(frame) = about.fixed_frame {
+            metadata.insert("fixed_frame".to_owned(), frame);
         }
         if let Some(view) = &about.view {
             let text = Machine.read(view).map_err(|error| error.to_string());

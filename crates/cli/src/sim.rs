@@ -511,6 +511,7 @@ impl SimOptions {
             files: composition.files.iter().map(|file| file.path.clone()).collect(),
             resource_path: self.search.resource_path.clone(),
             view: None,
+            fixed_frame: None,
         }
     }
 

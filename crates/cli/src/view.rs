@@ -42,6 +42,9 @@ pub(crate) struct ViewOptions {
     /// A file of RViz that the page opens
     #[arg(long, short = 'd', value_name = "FILE.rviz")]
     display_config: Option<PathBuf>,
+    /// Frame that everything is drawn in, in place of the one that the file of RViz names
+    #[arg(long, short = 'f', value_name = "FRAME")]
+    fixed_frame: Option<String>,
     /// A folder to look in for packages with meshes, before those of the environment; may be given
     /// several times
     #[arg(long, value_name = "DIR")]
@@ -57,7 +60,8 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
         let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
         let resource_path = options.resource_path.clone();
         let view = options.display_config.clone();
-        let about = About { resource_path, view, ..About::default() };
+        let fixed_frame = options.fixed_frame.clone();
+        let about = About { resource_path, view, fixed_frame, ..About::default() };
         let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
         Ok((Page::open(&live.graph, address, token, about)?, live))
     });

@@ -106,7 +106,7 @@ export class App {
           for (const one of all) this.parameters[one.name] = one;
         },
         time: (timeS) => this.time(timeS),
-        info: ({ rviz, rviz_file: fileName }) => this.openLaunched(rviz, fileName),
+        info: (metadata) => this.openLaunched(metadata),
         status: (level, text) => this.notice(level >= 2 ? 'error' : 'warn', text),
       },
       TEXTS,
@@ -429,14 +429,16 @@ export class App {
   // `.rviz` files.
 
   /** Opens the file that the launch names, once: a reconnection leaves displays as they are. */
-  private openLaunched(text?: string, fileName?: string): void {
-    if (!text || this.hasOpenedLaunched) return;
+  private openLaunched(metadata: Record<string, string>): void {
+    const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
+    if (this.hasOpenedLaunched || !(text || frame)) return;
     this.hasOpenedLaunched = true;
     try {
-      this.openRviz(text, fileName);
+      if (text) this.openRviz(text, fileName);
     } catch (error) {
       this.notice('error', `${fileName}: ${(error as Error).message}`);
     }
+    if (frame) this.setFixedFrame(frame);
   }
 
   openRviz(text: string, fileName = ''): void {

@@ -195,6 +195,7 @@ fn in_world(
         files: composition.files.iter().map(|file| file.path.clone()).collect(),
         resource_path: search.resource_path.clone(),
         view: bringup.views().into_iter().next(),
+        fixed_frame: bringup.fixed_frame(),
     };
     let page = match wants_page.then(|| options.open(simulation.graph(), about, &bringup)) {
         None => None,
@@ -355,6 +356,7 @@ fn among_others(
         let about = About {
             resource_path: search.resource_path.clone(),
             view: bringup.views().into_iter().next(),
+            fixed_frame: bringup.fixed_frame(),
             ..About::default()
         };
         options.open(&live.graph, about, &bringup)

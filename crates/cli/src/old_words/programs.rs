@@ -263,26 +263,62 @@ fn xacro(rest: &[String]) -> Reading {
     become_words(&["convert"], words)
 }
 
-/// Whether a word of RViz stands before its file.
-fn is_view_file(word: &str) -> bool {
-    matches!(word, "-d" | "--display-config")
+/// Arguments of RViz and rqt as `periplus view` takes them, and those that it has no use for. Options of
+/// `periplus view` itself stay.
+fn view_arguments(words: &[String]) -> (Vec<String>, Vec<String>) {
+    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+    let mut words = words.iter().peekable();
+    while let Some(word) = words.next() {
+        let (name, mut value) = match word.split_once('=') {
+            Some((name, value)) if name.starts_with("--") => (name, Some(value.to_owned())),
+            _ => (word.as_str(), None),
+        };
+        match name {
+            "-d" | "--display-config" => {
+                value = value.or_else(|| words.next().cloned());
+                kept.push("-d".to_owned());
+                kept.extend(value);
+            }
+            "-f" | "--fixed-frame" => {
+                value = value.or_else(|| words.next().cloned());
+                kept.push("-f".to_owned());
+                kept.extend(value);
+            }
+            "--page" | "--no-browser" => kept.push(word.clone()),
+            "--token" | "--resource-path" => {
+                kept.push(word.clone());
+                if value.is_none() {
+                    kept.extend(words.next().cloned());
+                }
+            }
+            // A file may stand alone; what follows another option is its value.
+            _ if !name.starts_with('-') && name.ends_with(".rviz") => {
+                kept.extend(["-d".to_owned(), word.clone()]);
+            }
+            _ => {
+                dropped.push(word.clone());
+                if name.starts_with('-') && value.is_none() {
+                    dropped.extend(words.next_if(|next| !next.starts_with('-')).cloned());
+                }
+            }
+        }
+    }
+    (kept, dropped)
 }
 
 impl Program {
     fn reading(&self, words: Words) -> Reading {
         let mut own = words.own.clone();
         let mut ours: Vec<&str> = self.words.to_vec();
+        let mut unheard = Vec::new();
         if self.words == ["view"] {
-            // Of the options of RViz and rqt the file is what counts.
-            let file = own.windows(2).find(|pair| is_view_file(&pair[0]));
-            own = file.map(<[String]>::to_vec).unwrap_or_default();
+            (own, unheard) = view_arguments(&words.own);
         }
         if self.words == ["tf", "tree", "--output", "frames"]
             && own.iter().any(|word| word == "-o" || word.starts_with("--output"))
         {
             ours.truncate(2);
         }
-        let mut unheard = Vec::new();
         if self.is_node {
             own.extend(words.ros());
         } else {
