@@ -1,7 +1,7 @@
 //! Files of packages that are not installed: a build puts some of them elsewhere in the package's share
 //! folder than they are in its sources, and launch files name them by where they are installed.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crate::data_files;
 use crate::host::Host;
@@ -9,6 +9,9 @@ use crate::manifest::package_name;
 
 /// A file lies at most this many folders below its package.
 const DEEPEST: usize = 8;
+
+/// Folders with build files in one package: large packages of examples have some tens.
+const MOST_FOLDERS: usize = 256;
 
 /// The largest build file that is read [bytes].
 const LARGEST: usize = 1 << 20;
@@ -34,15 +37,55 @@ pub fn in_sources(host: &dyn Host, path: &Path) -> Option<PathBuf> {
     }
     let folder = folder_of(host, path)?;
     let inner = path.strip_prefix(folder).ok()?;
-    let read = |name: &str| {
-        let bytes = host.read(&folder.join(name)).unwrap_or_default();
-        String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned()
-    };
-    let installed = rules(&read("CMakeLists.txt")).into_iter();
+    let installed = rules_of(host, folder).into_iter();
     let installed = installed.filter_map(|rule| rule.source(inner));
-    let data = data_files::sources(&read("setup.py"), inner);
+    let data = data_files::sources(&text_of(host, &folder.join("setup.py")), inner);
     let mut found = installed.chain(data).map(|source| folder.join(source));
     found.find(|source| host.kind(source).is_some())
+}
+
+fn text_of(host: &dyn Host, path: &Path) -> String {
+    let bytes = host.read(path).unwrap_or_default();
+    String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned()
+}
+
+/// The rules of a package's `CMakeLists.txt` and of those that it adds with `add_subdirectory`.
+fn rules_of(host: &dyn Host, package: &Path) -> Vec<Rule> {
+    let mut all = Vec::new();
+    let mut folders = vec![PathBuf::new()];
+    let mut next = 0;
+    while let Some(folder) = folders.get(next).cloned() {
+        next += 1;
+        let text = without_comments(&text_of(host, &package.join(&folder).join("CMakeLists.txt")));
+        for mut rule in rules(&text) {
+            rule.source = folder.join(&rule.source);
+            all.push(rule);
+        }
+        for inner in subfolders(&text) {
+            let inner = folder.join(inner);
+            let is_inside = inner.components().all(|part| matches!(part, Component::Normal(_)));
+            if is_inside && folders.len() < MOST_FOLDERS && !folders.contains(&inner) {
+                folders.push(inner);
+            }
+        }
+    }
+    all
+}
+
+/// The folders that `add_subdirectory` names.
+fn subfolders(text: &str) -> impl Iterator<Item = &str> {
+    text.match_indices(ADD).filter_map(|(at, _)| {
+        let inner = text[at + ADD.len()..].split(')').next()?;
+        Some(inner.split_whitespace().next()?.trim_matches('"'))
+    })
+}
+
+const ADD: &str = "add_subdirectory(";
+
+/// A build file with its lines put together, without comments.
+fn without_comments(text: &str) -> String {
+    let lines = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join(" ")
 }
 
 /// What one `install(...)` does with one source.
@@ -70,18 +113,11 @@ impl Rule {
     }
 }
 
-/// The rules of a `CMakeLists.txt` that install files into the package's share folder.
+/// The rules of a build file, without comments, that install files into the package's share folder.
 fn rules(text: &str) -> Vec<Rule> {
-    let without_comments: String = text
-        .lines()
-        .map(|line| line.split('#').next().unwrap_or_default())
-        .collect::<Vec<_>>()
-        .join(" ");
     let mut rules = Vec::new();
-    for (at, _) in without_comments.match_indices("install(") {
-        let Some(inner) = without_comments[at + "install(".len()..].split(')').next() else {
-            continue;
-        };
+    for (at, _) in text.match_indices("install(") {
+        let Some(inner) = text[at + "install(".len()..].split(')').next() else { continue };
         let words: Vec<&str> =
             inner.split_whitespace().map(|word| word.trim_matches('"')).collect();
         let Some((kind, rest)) = words.split_first() else { continue };
@@ -134,8 +170,17 @@ mod tests {
                  install(DIRECTORY description/urdf bringup/launch\n DESTINATION share/bot)\n\
                  install(\n DIRECTORY bringup/config/ DESTINATION share/${PROJECT_NAME}/params)\n\
                  install(FILES top/a.yaml DESTINATION share/${PROJECT_NAME}/config)\n\
-                 install(TARGETS x DESTINATION lib/bot)",
+                 install(TARGETS x DESTINATION lib/bot)
+                 add_subdirectory(doc/examples) add_subdirectory(../out)",
             )
+            .with_file("/w/bot/doc/examples/CMakeLists.txt", "add_subdirectory(one)")
+            .with_file(
+                "/w/bot/doc/examples/one/CMakeLists.txt",
+                "install(DIRECTORY launch config DESTINATION share/${PROJECT_NAME})",
+            )
+            .with_file("/w/bot/doc/examples/one/launch/one.launch.py", "")
+            .with_file("/w/out/CMakeLists.txt", "install(FILES o DESTINATION share/bot)")
+            .with_file("/w/out/o", "")
             .with_file("/w/bot/description/urdf/bot.urdf", "")
             .with_file("/w/bot/bringup/config/p.yaml", "")
             .with_file("/w/bot/top/a.yaml", "");
@@ -146,6 +191,8 @@ mod tests {
         check("/w/bot/urdf/bot.urdf", Some("/w/bot/description/urdf/bot.urdf"));
         check("/w/bot/params/p.yaml", Some("/w/bot/bringup/config/p.yaml"));
         check("/w/bot/config/a.yaml", Some("/w/bot/top/a.yaml"));
+        check("/w/bot/launch/one.launch.py", Some("/w/bot/doc/examples/one/launch/one.launch.py"));
+        check("/w/bot/o", None);
         check("/w/bot/urdf/other.urdf", None);
         check("/w/bot/top/a.yaml", None);
         check("/elsewhere/a.yaml", None);
