@@ -1,6 +1,6 @@
 //! Nodes that need the description of a robot, which comes on a topic.
 
-use periplus_formats::{Setting, load_bytes};
+use periplus_formats::load_bytes;
 use periplus_graph::{Mailbox, Node, Qos};
 use periplus_msgs::std_msgs;
 use periplus_nodes::states::{JointStateOptions, JointStateSource};
@@ -61,13 +61,7 @@ pub(crate) fn robot(text: &str, search: &Search) -> Result<Model, String> {
     }
     let host = search.host();
     let resolver = search.resolver(&host);
-    let setting = Setting {
-        host: &host,
-        resolver: &resolver,
-        working_folder: search.working_folder.clone(),
-        arguments: Vec::new(),
-        open_meshes: false,
-    };
+    let setting = search.setting(&host, &resolver, false);
     let mut loaded = load_bytes("robot_description.urdf".as_ref(), text.as_bytes(), &setting);
     let scene = loaded.scene.take().unwrap_or_default();
     let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);

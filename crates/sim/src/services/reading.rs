@@ -62,6 +62,18 @@ impl Search {
         Resolver::new(host, &self.folders).advising(self.advice.clone())
     }
 
+    /// The setting that files are read with.
+    #[must_use]
+    pub fn setting<'a>(
+        &self,
+        host: &'a Overlay,
+        resolver: &'a Resolver<'a>,
+        open_meshes: bool,
+    ) -> Setting<'a> {
+        let working_folder = self.working_folder.clone();
+        Setting { host, resolver, working_folder, arguments: Vec::new(), open_meshes }
+    }
+
     /// Reads a model or light.
     ///
     /// # Errors

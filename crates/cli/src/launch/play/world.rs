@@ -18,13 +18,7 @@ const PLAIN: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
 pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, String> {
     let host = search.host();
     let resolver = search.resolver(&host);
-    let setting = Setting {
-        host: &host,
-        resolver: &resolver,
-        working_folder: search.working_folder.clone(),
-        arguments: Vec::new(),
-        open_meshes: true,
-    };
+    let setting = search.setting(&host, &resolver, true);
     let Some(file) = wish.file.as_deref() else { return Ok(compose_plain(&setting)) };
     match find(file, &setting) {
         Ok(path) => Ok(compose_file(&path, &[], &setting)),
