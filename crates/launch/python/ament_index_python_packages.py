@@ -1,6 +1,4 @@
 """Where packages are. One that is not here has the place `package://NAME`."""
-import ast
-import linecache
 import pathlib
 import sys
 
@@ -57,21 +55,4 @@ def _is_expected_to_miss():
         frame = frame.f_back
     if frame is None:
         return False
-    file, line = frame.f_code.co_filename, frame.f_lineno
-    try:
-        tree = ast.parse("".join(linecache.getlines(file)))
-    except (SyntaxError, ValueError, RecursionError):
-        return False
-    return any(
-        isinstance(node, ast.Try)
-        and node.body[0].lineno <= line <= node.body[-1].end_lineno
-        and any(_names(handler.type) & _WAYS_OUT for handler in node.handlers)
-        for node in ast.walk(tree)
-    )
-
-
-def _names(caught):
-    if caught is None:
-        return {"BaseException"}
-    named = caught.elts if isinstance(caught, ast.Tuple) else [caught]
-    return {getattr(each, "attr", getattr(each, "id", "")) for each in named}
+    return objects.is_caught(frame.f_code.co_filename, frame.f_lineno, _WAYS_OUT)

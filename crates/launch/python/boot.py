@@ -81,8 +81,9 @@ class _Needed(type):
     """A class of which nothing can be used."""
 
     def __call__(cls, *_args, **_options):
+        module = cls.__module__
         raise ModuleNotFoundError(
-            f"`{cls.__name__}` needs `{cls.__module__}`, which is not on this machine"
+            f"`{cls.__name__}` needs `{module}`, which is not on this machine", name=module
         )
 
     def __getattr__(cls, name):
@@ -91,14 +92,52 @@ class _Needed(type):
         return cls()
 
 
+def _refuse(name):
+    def refuse(cls, *_args, **_options):
+        return _Needed.__call__(cls)
+
+    setattr(_Needed, name, refuse)
+
+
+# A value of the module would be in the plan, or would decide something.
+for _name in """
+    str format bool eq ne lt le gt ge len iter getitem setitem contains int float index fspath
+    add radd sub rsub mul rmul truediv rtruediv floordiv rfloordiv mod rmod pow rpow neg pos abs
+    and rand or ror xor rxor enter
+""".split():
+    _refuse(f"__{_name}__")
+_Needed.__hash__ = type.__hash__
+
+
 class Absent(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Modules of ROS that are not here. Their names can be imported, as tests beside a launch file do;
-    using one says that it is missing."""
+    """Modules that are not on this machine. A launch file may import one that its plan does not need, as
+    tests beside a launch file do; using it says that it is missing."""
+
+    def __init__(self):
+        self.known = set()
 
     def find_spec(self, name, path=None, target=None):
-        if not submodules.is_absent(name):
+        if not submodules.is_absent(name) and not self.is_import_of_user(name):
             return None
+        self.known.add(name)
         return importlib.util.spec_from_loader(name, self, is_package=True)
+
+    def is_import_of_user(self, name):
+        """Whether a module is imported by a line of a launch file, or of a module of its workspace, that
+        is not prepared for its absence."""
+        from periplus_launch import objects
+
+        parent = name.rpartition(".")[0]
+        if parent and parent not in self.known:
+            # A part of a module that is there is missing.
+            return False
+        frame = sys._getframe(1)
+        while frame is not None and frame.f_code.co_filename.startswith("<"):
+            frame = frame.f_back
+        if frame is None or not objects.is_own(frame.f_code.co_filename):
+            return False
+        caught = {"ImportError", "ModuleNotFoundError", "Exception", "BaseException"}
+        return not objects.is_caught(frame.f_code.co_filename, frame.f_lineno, caught)
 
     def exec_module(self, module):
         def make(name):

@@ -1,5 +1,7 @@
 """Objects of launch files as JSON, and those that only Python can evaluate by number."""
+import ast
 import itertools
+import linecache
 import os
 import sys
 
@@ -30,6 +32,27 @@ def is_own(file):
     """Whether a file is one of the user's, and not of the machinery."""
     is_installed = file.startswith(_LIBRARY) or "-packages/" in file
     return not file.startswith("<") and not is_installed
+
+
+def is_caught(file, line, problems):
+    """Whether a line of a file is in a `try` that handles one of the problems."""
+    try:
+        tree = ast.parse("".join(linecache.getlines(file)))
+    except (SyntaxError, ValueError, RecursionError):
+        return False
+    return any(
+        isinstance(node, ast.Try)
+        and node.body[0].lineno <= line <= node.body[-1].end_lineno
+        and any(_names(handler.type) & problems for handler in node.handlers)
+        for node in ast.walk(tree)
+    )
+
+
+def _names(caught):
+    if caught is None:
+        return {"BaseException"}
+    named = caught.elts if isinstance(caught, ast.Tuple) else [caught]
+    return {getattr(each, "attr", getattr(each, "id", "")) for each in named}
 
 
 def written():
