@@ -461,7 +461,10 @@ impl Bringup {
         if let Some(folder) = own_folder(&program.running) {
             search.working_folder = search.working_folder.join(folder);
         }
-        let (kind, told) = match xacro(&program.words[1..], &search) {
+        let host = search.host();
+        let resolver = search.resolver(&host);
+        let setting = search.setting(&host, &resolver, false);
+        let (kind, told) = match xacro(&program.words[1..], &setting) {
             Ok(ran) if ran.is_success => {
                 if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
                     self.said.push(Said::info(text));

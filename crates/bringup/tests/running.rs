@@ -25,9 +25,9 @@ struct Programs(Search);
 
 impl Outside for Programs {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        let ran = xacro(&words[1..], &self.0)?;
-        let (output, errors, is_success) = (ran.output, ran.errors, ran.is_success);
-        Ok(Printed { output, errors, is_success, ..Printed::default() })
+        let host = self.0.host();
+        let resolver = self.0.resolver(&host);
+        Ok(xacro(&words[1..], &self.0.setting(&host, &resolver, false))?.into())
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {

@@ -15,7 +15,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_host::{Machine, Stopwatch};
-use periplus_launch::{Ending, Plan, Request, Step, What, dialect, plan_with_ending};
+use periplus_launch::{Ending, MissingInput, Plan, Request, Step, What, dialect, plan_with_ending};
 use periplus_resources::Resolver;
 
 use self::named::Found;
@@ -104,9 +104,14 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     let mut told = Diagnostics::new();
     let is_read = options.print || options.show_args;
     for finding in found.iter().filter(|one| is_read || one.severity != Severity::Hint) {
-        told.push(finding.clone());
+        let mut finding = finding.clone();
+        if !is_read && MissingInput::of(finding.code).is_some() {
+            finding.severity = Severity::Error;
+        }
+        told.push(finding);
     }
-    if !options.play.quiet || found.has_errors() {
+    let missing = if is_read { 0 } else { missing_inputs(&found) };
+    if !options.play.quiet || told.has_errors() {
         terminal::diagnostics(&mut anstream::stderr().lock(), &told, &sources)?;
     }
     let mut out = anstream::AutoStream::auto(io::stdout().lock());
@@ -127,6 +132,17 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
         return Ok(ExitCode::SUCCESS);
     }
     drop(out);
+    if missing > 0 {
+        // As with ROS: a robot without its description, or nodes without their parameters, run otherwise
+        // than they are meant to.
+        terminal::complain(&format!(
+            "the launch is not started: {missing} of its inputs {} not on this machine; `--print` \
+             shows the plan without {}",
+            if missing == 1 { "is" } else { "are" },
+            if missing == 1 { "it" } else { "them" },
+        ));
+        return Ok(ExitCode::FAILURE);
+    }
     let launched = play::Launched {
         plan,
         dialect: dialect(&host, &file),
@@ -140,6 +156,11 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
         terminal::complain(&format!("at the end of the launch: {line}{}", complaint.message));
     }
     outcome
+}
+
+/// The number of inputs that a plan lacks.
+fn missing_inputs(found: &Diagnostics) -> usize {
+    found.iter().filter(|finding| MissingInput::of(finding.code).is_some()).count()
 }
 
 /// What is wrong with a launch file, as far as planning it shows; nothing is started.
@@ -164,7 +185,7 @@ pub(crate) fn examine(
                 resolver: &resolver,
                 outside: &mut outside,
             };
-            periplus_launch::plan(request, &mut sources).1
+            strict(periplus_launch::plan(request, &mut sources).1)
         }
         Ok(Found::StandIn(_)) => Diagnostics::new(),
         Err(wrong) => {
@@ -174,6 +195,20 @@ pub(crate) fn examine(
         }
     };
     (found, sources)
+}
+
+/// Findings in which a file that is not there is an error: its package is, so that the path is wrong or
+/// something has to make it.
+fn strict(found: Diagnostics) -> Diagnostics {
+    let mut strict = Diagnostics::new();
+    for finding in found.iter() {
+        let mut finding = finding.clone();
+        if MissingInput::of(finding.code) == Some(MissingInput::File) {
+            finding.severity = Severity::Error;
+        }
+        strict.push(finding);
+    }
+    strict
 }
 
 /// The most seconds that `--evaluation-limit` grants: a day.

@@ -191,7 +191,7 @@ def generate_launch_description():
     let (code, _, said) = check("variable", "import os\nos.environ['NO_SUCH_MODEL']\n", &[]);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("a.launch.py:2") && said.contains("export NO_SUCH_MODEL=VALUE"),
+        said.contains("a.launch.py:2") && said.contains("NO_SUCH_MODEL=VALUE periplus launch"),
         "{said}"
     );
 }
@@ -347,4 +347,211 @@ def generate_launch_description():
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(!said.contains("the value"), "{said}");
+}
+
+/// A package that is not on this machine leaves its part of the plan empty, with the place of the launch
+/// file and that of the description; a run does not start.
+#[test]
+fn descriptions_that_need_absent_packages_are_empty_in_the_plan_and_end_a_run() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+import os, xacro
+from launch import LaunchDescription
+from launch.substitutions import Command
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+
+def generate_launch_description():
+    file = os.path.join(os.path.dirname(__file__), 'a.xacro')
+    direct = xacro.process_file(file).toxml()
+    return LaunchDescription([
+        Node(package='p', executable='e', name='one', parameters=[{'text': direct}]),
+        Node(package='robot_state_publisher', executable='robot_state_publisher', parameters=[
+            {'robot_description': ParameterValue(Command(['xacro ', file]), value_type=str)}]),
+    ])
+";
+    let robot = "<robot xmlns:xacro='http://ros.org/wiki/xacro' name='r'>
+  <xacro:include filename='$(find no_such_arm)/urdf/arm.xacro'/>
+  <xacro:arm length='${arm_length}'/>
+</robot>";
+    let files = [("bot/launch/a.launch.py", text), ("bot/launch/a.xacro", robot)];
+    let folder = workspace("absent_package", &files);
+    let file = folder.join("bot/launch/a.launch.py");
+    let output = launch(&file, &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let plan = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(
+        plan.contains("\"text\": \"\"") && plan.contains("\"robot_description\": \"\""),
+        "{plan}"
+    );
+    for wanted in [
+        "warning[launch-missing-package]",
+        "a.launch.py:11",
+        "a.launch.py:14",
+        "a.xacro:2:30",
+        "there is no package `no_such_arm`",
+        "--resource-path FOLDER",
+    ] {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    command.arg("launch").arg(&file).args(["--duration", "1", "--ros2", "off"]);
+    let ran = command.env("NO_COLOR", "1").output().unwrap();
+    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert_eq!(ran.status.code(), Some(1), "{said}");
+    assert!(said.contains("error[launch-missing-package]"), "{said}");
+    assert!(said.contains("2 of its inputs are not on this machine"), "{said}");
+    assert!(!said.contains("robot_state_publisher: "), "{said}");
+    // A description that is wrong itself still ends the plan.
+    let wrong = robot.replace("<xacro:arm", "<link name='${1 +}'/><xacro:arm");
+    std::fs::write(folder.join("bot/launch/a.xacro"), wrong).unwrap();
+    let output = launch(&file, &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("a.xacro:3:"), "{said}");
+}
+
+/// Without the file, a typing error in `${...}` or a macro that nobody defines is an error.
+#[test]
+fn descriptions_with_undefined_names_are_errors() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+import os
+from launch import LaunchDescription
+from launch.substitutions import Command
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    file = os.path.join(os.path.dirname(__file__), 'a.xacro')
+    return LaunchDescription([
+        Node(package='p', executable='e', parameters=[{'text': Command(['xacro ', file])}]),
+    ])
+";
+    let robot = "<robot xmlns:xacro='http://ros.org/wiki/xacro' name='${no_such}'/>";
+    let files = [("bot/launch/a.launch.py", text), ("bot/launch/a.xacro", robot)];
+    let folder = workspace("undefined_names", &files);
+    let output = launch(&folder.join("bot/launch/a.launch.py"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("`no_such` is not defined") && said.contains("a.xacro:1:"), "{said}");
+}
+
+/// Files that Python code reads from a package that is not on this machine are empty, and a line that
+/// cannot work with that names the file.
+#[test]
+fn python_reads_files_of_absent_packages_as_empty() {
+    if !has_python() {
+        return;
+    }
+    let text = |read: &str| {
+        format!(
+            "
+import os, yaml
+from ament_index_python.packages import get_package_share_directory, get_search_paths
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from moveit_configs_utils import MoveItConfigsBuilder
+
+
+def generate_launch_description():
+    share = get_package_share_directory('absent_bot')
+    with open(os.path.join(share, 'urdf', 'bot.urdf')) as file:
+        urdf = file.read()
+    with open(os.path.join(share, 'config', 'a.yaml')) as file:
+        values = yaml.safe_load(file)
+    {read}
+    moveit = MoveItConfigsBuilder('absent').robot_description().to_moveit_configs()
+    return LaunchDescription([
+        Node(package='p', executable='e', parameters=[values, {{'text': urdf}}, moveit.to_dict()]),
+    ])
+"
+        )
+    };
+    let (code, plan, said) = check("absent_files", &text("pass"), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(plan.contains("\"text\": \"\""), "{plan}");
+    for wanted in [
+        "package://absent_bot/urdf/bot.urdf cannot be read: the package `absent_bot`",
+        "a.launch.py:11",
+        "package://absent_bot/config/a.yaml",
+        "package://absent_moveit_config/config/absent.srdf",
+    ] {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+    let (code, _, said) = check("absent_files_needed", &text("values['speed']"), &[]);
+    assert_eq!(code, Some(1), "{said}");
+    for wanted in ["a.launch.py:15", "needs package://absent_bot/config/a.yaml", "--resource-path"]
+    {
+        assert!(said.contains(wanted), "{wanted}: {said}");
+    }
+}
+
+/// A module that is not on this machine ends a plan where it is used, and not where it is imported.
+#[test]
+fn absent_modules_are_missed_where_they_are_used() {
+    if !has_python() {
+        return;
+    }
+    let text = |expression: &str| {
+        format!(
+            "
+import no_such_module
+import no_such_module.parts as parts
+from no_such_package.inner import Thing
+from launch import LaunchDescription
+from launch_ros.actions import Node
+try:
+    import no_such_option
+    name = 'wrong'
+except ImportError:
+    name = 'without_option'
+
+
+def helper():
+    return no_such_module.call(Thing())
+
+
+def generate_launch_description():
+    value = {expression}
+    return LaunchDescription([
+        Node(package='p', executable='e', name=name, arguments=[value]),
+    ])
+"
+        )
+    };
+    let (code, plan, said) = check("unused_modules", &text("'v'"), &[]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(plan.contains("without_option"), "{plan}");
+    for used in
+        ["Thing()", "str(parts.VALUE)", "parts.NUMBER + 1", "f'{Thing}'", "parts.deep.inner"]
+    {
+        let (code, plan, said) = check("used_modules", &text(used), &[]);
+        assert_eq!(code, Some(1), "{used}: {plan}");
+        for wanted in ["a.launch.py:19", "is not on this machine", "--resource-path"] {
+            assert!(said.contains(wanted), "{used}: {wanted}: {said}");
+        }
+    }
+}
+
+/// `PythonExpression` has everything that Python has.
+#[test]
+fn expressions_are_those_of_python() {
+    if !has_python() {
+        return;
+    }
+    let xml = "<launch><let name='a' value=\"$(eval &quot;len(list(set('x_y'.split('_')).\
+               intersection(['y', 'z'])))&quot;)\"/>\
+               <node pkg='p' exec='e' name='n$(var a)'/></launch>";
+    let folder = workspace("expressions", &[("launch/a.launch.xml", xml)]);
+    let output = launch(&folder.join("launch/a.launch.xml"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("\"n1\""), "{said}");
 }

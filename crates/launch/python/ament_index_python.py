@@ -73,3 +73,9 @@ def get_resource_types():
         if os.path.isdir(folder):
             types.update(os.listdir(folder))
     return types
+
+
+# `packages` has these names too.
+packages.get_resource = get_resource
+packages.get_resources = get_resources
+packages.get_search_paths = get_search_paths

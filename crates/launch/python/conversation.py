@@ -3,6 +3,7 @@ import builtins
 import importlib.util
 import io
 import json
+import math
 import os
 import re
 import sys
@@ -13,6 +14,8 @@ from . import objects
 _lines_in = None
 _lines_out = None
 _folders = {}
+# Files of packages that are not on this machine, of the request that is being answered.
+_missing = []
 _open = open
 
 
@@ -27,7 +30,7 @@ def _send(message):
 
 def ask(question, **details):
     """Asks the program, and answers what it asks meanwhile."""
-    _send({"question": question, **details})
+    _send({"question": question, "line": objects.written(), **details})
     while True:
         line = _lines_in.readline()
         if not line:
@@ -48,13 +51,29 @@ def module_folder(name):
     return _folders[name]
 
 
+def note_missing(path):
+    """Reports a file of a package that is not on this machine. True for such a file."""
+    path = os.fspath(path)
+    if not isinstance(path, str) or not path.startswith("package:/"):
+        return False
+    path = "package://" + path[len("package:/"):].lstrip("/")
+    _missing.append(path)
+    ask("missing", path=path)
+    return True
+
+
 def _open_in_sources(file, mode="r", *args, **options):
-    """As `open`; a file that a build would install is read where its package has it."""
+    """As `open`; a file that a build would install is read where its package has it, and one of a package
+    that is not on this machine is empty."""
     try:
         return _open(file, mode, *args, **options)
     except FileNotFoundError:
         if not isinstance(file, (str, os.PathLike)) or set(mode) & set("wax+"):
             raise
+        if note_missing(file):
+            # No values, for a reader of YAML or JSON.
+            text = "{}" if os.fspath(file).endswith((".yaml", ".yml", ".json")) else ""
+            return io.BytesIO(text.encode()) if "b" in mode else io.StringIO(text)
         path = os.path.abspath(file)
         source = ask("in_sources", path=path)
         if source == path:
@@ -71,12 +90,15 @@ def run(lines_in, lines_out):
 
 
 def _answered(request):
+    _missing.clear()
     try:
         return _do(request)
     except Refused as refused:
         return {"error": str(refused), "line": _line(refused)}
     except BaseException as problem:  # a launch file may raise anything, even SystemExit
         message = "".join(traceback.format_exception_only(type(problem), problem)).strip()
+        if _missing and _comes_of_empty(problem):
+            message = f"this needs {_missing[-1]}, which is not on this machine ({message})"
         return {"error": message, "line": _line(problem), "help": _help(problem)}
 
 
@@ -100,8 +122,15 @@ def _help(problem):
     frames = traceback.extract_tb(problem.__traceback__)
     if isinstance(problem, KeyError) and frames and frames[-1].filename.endswith(("os>", "os.py")):
         name = problem.args[0]
-        return f"the environment has no variable `{name}`: set it, `export {name}=VALUE`"
-    package = re.search(r"package:/+(\w+)", str(problem))
+        return (
+            f"the environment has no variable `{name}`: set it for the launch, "
+            f"`{name}=VALUE periplus launch ...`"
+        )
+    if isinstance(problem, FileNotFoundError) and frames and _is_start(frames[-1]):
+        program = problem.filename
+        return f"the program `{program}` is not on this machine: install it, or put it on the PATH"
+    texts = " ".join([str(problem), *_missing[-1:]])
+    package = re.search(r"package:/+([\w-]+)", texts)
     if package:
         package = package[1]
         return (
@@ -111,6 +140,19 @@ def _help(problem):
     if isinstance(problem, MemoryError):
         return "a launch file may take only so much memory while it is evaluated"
     return None
+
+
+def _is_start(frame):
+    """Whether a frame is the one in which Python's library starts a program."""
+    return os.path.basename(frame.filename) == "subprocess.py"
+
+
+def _comes_of_empty(problem):
+    """Whether a problem may come from a file that is taken to be empty."""
+    if isinstance(problem, (ImportError, NameError, OSError, SyntaxError)):
+        return False
+    top = type(problem).__module__.partition(".")[0]
+    return top in ("builtins", "json", "xml", "yaml")
 
 
 def _do(request):
@@ -123,6 +165,8 @@ def _do(request):
         with context._active():
             answer = _load(request["file"])
         return {"answer": answer, **context._changes()}
+    if kind == "expression":
+        return {"answer": str(eval(request["expression"], {}, {**vars(math), "math": math}))}
     subject = objects.get(request["id"])
     with context._active():
         if kind == "perform":
@@ -158,7 +202,9 @@ def _of_tests(module):
     """The description of a file of `launch_testing`."""
     made = getattr(module, "generate_test_description", None)
     if made is None:
-        raise Refused("the file has no function `generate_launch_description`")
+        raise Refused(
+            f"{module.__file__} has no function `generate_launch_description`: it is no launch file"
+        )
     import inspect
 
     wanted = [

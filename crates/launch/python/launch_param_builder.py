@@ -1,6 +1,7 @@
 """Stands in for `launch_param_builder`: parameters from the files of a package."""
 from pathlib import Path
 
+from periplus_launch import conversation
 import xacro
 import yaml as _yaml
 from ament_index_python.packages import get_package_share_path, get_package_share_directory
@@ -19,15 +20,19 @@ def raise_if_file_not_found(file_path):
 
 
 def load_file(file_path):
+    if conversation.note_missing(file_path):
+        return ""
     raise_if_file_not_found(file_path)
     return Path(file_path).read_text(encoding="utf-8")
 
 
 def load_yaml(file_path):
-    return _yaml.safe_load(load_file(file_path))
+    return _yaml.safe_load(load_file(file_path)) or {}
 
 
 def load_xacro(file_path, mappings=None):
+    if conversation.note_missing(file_path):
+        return ""
     raise_if_file_not_found(file_path)
     return xacro.process_file(file_path, mappings=mappings).toxml()
 

@@ -17,8 +17,28 @@ def _expanded(file, mappings):
     return conversation.ask("xacro", file=file, mappings=pairs)
 
 
+class _Missing(minidom.Document):
+    """The document of a file that cannot be expanded for want of other files. Its text is empty."""
+
+    def __init__(self):
+        super().__init__()
+        self.appendChild(self.createElement("robot"))
+
+    def toxml(self, *_words, **_options):
+        return ""
+
+    toprettyxml = toxml
+
+    def writexml(self, *_words, **_options):
+        pass
+
+
+def _document(text):
+    return _Missing() if text is None else minidom.parseString(text)
+
+
 def process_file(input_file_name, mappings=None, **_options):
-    return minidom.parseString(_expanded(input_file_name, mappings))
+    return _document(_expanded(input_file_name, mappings))
 
 
 def process(input_file_name, just_deps=False, xacro_ns=True, verbosity=1, mappings=None):
@@ -44,7 +64,7 @@ def process_doc(doc, mappings=None, **_options):
     is_scratch = file is None
     if is_scratch:
         file = conversation.ask("scratch", name="document.xacro", text=doc.toxml())
-    made = minidom.parseString(_expanded(file, mappings))
+    made = _document(_expanded(file, mappings))
     while doc.firstChild is not None:
         doc.removeChild(doc.firstChild)
     for child in list(made.childNodes):

@@ -7,7 +7,7 @@ mod parameters;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap};
 use periplus_resources::{Host, Resolver, in_sources, package_of};
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use crate::context::{Context, within};
 use crate::ending::Ending;
 use crate::front;
 use crate::guess::Guess as _;
-use crate::outside::{Interpreter, Outside};
+use crate::outside::{Interpreter, MissingInput, Outside};
 use crate::plan::{Argument, Parameters, Plan, Step, Trigger, What};
 use crate::python;
 use crate::tree::{Action, Condition, Deed, Event, Given, Names, Place, Text};
@@ -486,10 +486,12 @@ impl<'a> Evaluation<'a> {
             return Ok(());
         }
         if self.host.kind(&path).is_none() {
-            return Err(self
-                .error("launch-include", format!("there is no file {}", path.display()))
-                .help("check the path; a file that a build would make needs that build")
-                .into());
+            let file = path.display().to_string();
+            self.note_missing_file(&file, "the plan has its name only", None);
+            let id = self.step_of(None);
+            let arguments = arguments.into_iter().collect();
+            self.push(id, What::Include { file, arguments });
+            return Ok(());
         }
         let place = self.place.clone();
         self.context.configurations.extend(arguments.iter().cloned());
@@ -509,6 +511,65 @@ impl<'a> Evaluation<'a> {
         self.host.kind(Path::new(&template))?;
         let (package, inner) = package_of(self.host, path)?;
         Some(format!("package://{package}/{inner}"))
+    }
+
+    /// Notes an input that is not on this machine. Planning goes on without it; a launch that is to run
+    /// refuses to start.
+    pub(crate) fn note_missing(
+        &mut self,
+        input: MissingInput,
+        message: String,
+        origin: Option<Origin>,
+        errors: &str,
+    ) {
+        let mut finding = self.warning(input.code(), message);
+        if let Some(origin) = origin {
+            finding = finding.at(origin);
+        }
+        if !errors.is_empty() {
+            finding = finding.note(errors.to_owned());
+        }
+        let finding = finding.help(match input {
+            MissingInput::Package => {
+                "name the folder that the package is in, `--resource-path FOLDER`, or add it to the \
+                 workspace"
+            }
+            MissingInput::File => "check the path; a file that a build or a tool makes must exist",
+        });
+        // A file that several actions need is reported once for each of them.
+        if self.found.iter().all(|known| *known != finding) {
+            self.found.push(finding);
+        }
+    }
+
+    /// Notes that a file is not on this machine.
+    pub(crate) fn note_missing_file(&mut self, file: &str, instead: &str, origin: Option<Origin>) {
+        let rest = file.strip_prefix("package:/").map(|rest| rest.trim_start_matches('/'));
+        let package = rest.and_then(|rest| rest.split('/').next());
+        let (input, why) = match package {
+            Some(package) => {
+                (MissingInput::Package, format!("the package `{package}` is not on this machine"))
+            }
+            None => (MissingInput::File, "there is no such file".to_owned()),
+        };
+        self.note_missing(input, format!("{file} cannot be read: {why}; {instead}"), origin, "");
+    }
+
+    /// The text of a file; none, with a warning, for one that is not on this machine. `instead` tells
+    /// how the plan goes on.
+    pub(crate) fn read_or_miss(
+        &mut self,
+        file: &Path,
+        instead: &str,
+        origin: Option<Origin>,
+    ) -> Outcome<Option<String>> {
+        let found = in_sources(self.host, file);
+        let file = found.as_deref().unwrap_or(file);
+        if self.host.kind(file).is_some() {
+            return self.read(file).map(Some);
+        }
+        self.note_missing_file(&file.display().to_string(), instead, origin);
+        Ok(None)
     }
 
     /// The path of a file in the sources of its package, where the package's build would install it at
@@ -535,6 +596,11 @@ impl<'a> Evaluation<'a> {
             self.context.changed_at.insert(name.clone(), written);
         }
         self.context.environment.insert(name, value);
+    }
+
+    /// Sets the place that findings name, and returns the one before.
+    pub(crate) fn set_place(&mut self, place: Place) -> Place {
+        std::mem::replace(&mut self.place, place)
     }
 
     /// The place of the action that is looked at: `file:line`.
@@ -657,6 +723,11 @@ impl<'a> Evaluation<'a> {
             self.context.environment = changed;
         }
         Ok(answer.get("answer").cloned().unwrap_or(Value::Null))
+    }
+
+    /// True while the interpreter of Python works on a request, and takes no other.
+    pub(crate) const fn is_asking(&self) -> bool {
+        self.is_asking
     }
 
     pub(crate) fn decode<T: serde::de::DeserializeOwned>(&self, value: Value) -> Outcome<T> {

@@ -31,7 +31,7 @@ use periplus_resources::{Host, Resolver};
 use crate::guess::Guess as _;
 pub use dialect::{Dialect, dialect};
 pub use ending::Ending;
-pub use outside::{Answer, Complaint, Interpreter, Nothing, Outside, Printed};
+pub use outside::{Answer, Complaint, Interpreter, MissingInput, Nothing, Outside, Printed};
 pub use plan::{
     Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger,
     Variable, What,

@@ -13,8 +13,34 @@ pub struct Printed {
     pub errors: String,
     /// Whether it ended well.
     pub is_success: bool,
-    /// True when it failed for want of a package that is not on this machine.
-    pub is_package_missing: bool,
+    /// The cause of a failure that only an absent file or package has.
+    pub missing: Option<MissingInput>,
+}
+
+/// An input of a launch that is not on this machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MissingInput {
+    /// A file, although its package is on the machine.
+    File,
+    /// A package, with everything in it.
+    Package,
+}
+
+impl MissingInput {
+    /// The code of findings about one of this kind.
+    #[must_use]
+    pub const fn code(self) -> &'static str {
+        match self {
+            Self::File => "launch-missing-file",
+            Self::Package => "launch-missing-package",
+        }
+    }
+
+    /// The kind of input that findings of a code are about; none for other findings.
+    #[must_use]
+    pub fn of(code: &str) -> Option<Self> {
+        [Self::File, Self::Package].into_iter().find(|input| input.code() == code)
+    }
 }
 
 /// What an interpreter has to say against a launch file.

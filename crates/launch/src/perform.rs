@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Severity};
+use periplus_diagnostics::{Diagnostic, Origin, Severity};
 use periplus_resources::Kind;
 use periplus_xacro::expression::{Budget, EmptyScope, Expression, evaluate};
 use serde_json::json;
 
 use crate::evaluate::{Evaluation, Outcome};
 use crate::guess::Guess as _;
-use crate::outside::Printed;
+use crate::outside::{MissingInput, Printed};
 use crate::rewrite;
 use crate::tree::{Part, Substitution, Text};
 use crate::truth::truth;
@@ -21,6 +21,9 @@ const BYTES: u64 = 1 << 20;
 
 /// The longest text: descriptions of robots have some hundred thousand bytes.
 pub(crate) const LONGEST: usize = 16 << 20;
+
+/// The use of a file that a launch would rewrite and that is not on this machine.
+pub(crate) const UNCHANGED: &str = "the plan names the file itself";
 
 /// No path is longer [bytes].
 const LONGEST_PATH: usize = 4096;
@@ -107,7 +110,8 @@ impl Evaluation<'_> {
                                 format!("the environment has no variable `{name}`"),
                             )
                             .help(format!(
-                                "set it, or give the text a default: `$(env {name} VALUE)`"
+                                "set it for the launch, `{name}=VALUE periplus launch ...`, or give \
+                                 the text a default: `$(env {name} VALUE)`"
                             ))
                             .into());
                     }
@@ -141,7 +145,8 @@ impl Evaluation<'_> {
             }
             Substitution::Content { file } => {
                 let file = self.perform(file)?;
-                self.read(Path::new(&file))?
+                let instead = "its content is left empty in the plan";
+                self.read_or_miss(Path::new(&file), instead, None)?.unwrap_or_default()
             }
             Substitution::Anonymous { name } => {
                 let name = self.perform(name)?;
@@ -194,7 +199,8 @@ impl Evaluation<'_> {
                     root: self.perform_some(root.as_ref())?,
                     convert: *convert,
                 };
-                let text = self.read(Path::new(&file))?;
+                let text = self.read_or_miss(Path::new(&file), UNCHANGED, None)?;
+                let Some(text) = text else { return Ok(file) };
                 let content = self.yaml(&file, &text)?;
                 let rewritten = rewriting.apply(&content);
                 let text = serde_json::to_string_pretty(&rewritten).unwrap_or_default();
@@ -209,7 +215,8 @@ impl Evaluation<'_> {
                 if !is_wanted {
                     return Ok(file);
                 }
-                let mut text = self.read(Path::new(&file))?;
+                let text = self.read_or_miss(Path::new(&file), UNCHANGED, None)?;
+                let Some(mut text) = text else { return Ok(file) };
                 for (from, to) in self.perform_pairs(replacements)? {
                     text = text.replace(&from, &to);
                 }
@@ -217,7 +224,9 @@ impl Evaluation<'_> {
             }
             Substitution::HasNodeParameters { file, node } => {
                 let (file, node) = (self.perform(file)?, self.perform(node)?);
-                let text = self.read(Path::new(&file))?;
+                let instead = "the plan takes it to have no parameters of the node";
+                let text = self.read_or_miss(Path::new(&file), instead, None)?;
+                let Some(text) = text else { return Ok(word(false)) };
                 let content = self.yaml(&file, &text)?;
                 word(rewrite::has_node(&content, &node))
             }
@@ -289,10 +298,7 @@ impl Evaluation<'_> {
         let printed = match self.ran(line)? {
             Ok(printed) => printed,
             Err(why) => {
-                let warning = self
-                    .warning("launch-command", format!("`{}` is not run: {why}", short(line)))
-                    .note("what it would print is left empty");
-                self.found.push(warning);
+                self.note_not_run(line, why, "its output is left empty in the plan", None);
                 return Ok(String::new());
             }
         };
@@ -316,11 +322,36 @@ impl Evaluation<'_> {
         }
     }
 
-    /// What a command leaves behind; why it cannot be run when something of it is not on this machine.
+    /// Warns of a command that was not run. `instead` tells how the plan goes on.
+    pub(crate) fn note_not_run(
+        &mut self,
+        line: &str,
+        why: NotRun,
+        instead: &str,
+        origin: Option<Origin>,
+    ) {
+        match why {
+            NotRun::Refused(why) => {
+                let finding = self
+                    .warning("launch-command", format!("`{}` is not run: {why}", short(line)))
+                    .note(instead);
+                self.found.push(match origin {
+                    Some(origin) => finding.at(origin),
+                    None => finding,
+                });
+            }
+            NotRun::Missing(input, why, errors) => {
+                let message = format!("`{}` has no output: {why}; {instead}", short(line));
+                self.note_missing(input, message, origin, &errors);
+            }
+        }
+    }
+
+    /// The output of a command; the reason when it cannot be run here.
     ///
     /// # Errors
     /// It is no command, or it fails.
-    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, String>> {
+    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, NotRun>> {
         let Some(mut words) = words::split(line).filter(|words| !words.is_empty()) else {
             return Err(self
                 .error("launch-command", format!("no command can be read from `{line}`"))
@@ -329,17 +360,24 @@ impl Evaluation<'_> {
         };
         // The program may be one that is built in.
         if let Some(word) = words[1..].iter().find(|word| word.starts_with("package://")) {
-            return Ok(Err(format!("the package of {word} is not on this machine")));
+            let package = word["package://".len()..].split('/').next().unwrap_or_default();
+            let why = format!("the package `{package}` is not on this machine");
+            return Ok(Err(NotRun::Missing(MissingInput::Package, why, String::new())));
         }
         for word in &mut words[1..] {
             *word = self.in_sources(word);
         }
         let printed = match self.outside.run(&words) {
             Ok(printed) => printed,
-            Err(why) => return Ok(Err(why)),
+            Err(why) => return Ok(Err(NotRun::Refused(why))),
         };
-        if printed.is_package_missing {
-            return Ok(Err(printed.errors.trim().to_owned()));
+        if let Some(missing) = printed.missing {
+            let why = match missing {
+                MissingInput::Package => "a package that it needs is not on this machine",
+                MissingInput::File => "a file that it needs is not there",
+            };
+            let errors = printed.errors.trim().to_owned();
+            return Ok(Err(NotRun::Missing(missing, why.to_owned(), errors)));
         }
         if !printed.is_success {
             return Err(self
@@ -362,19 +400,27 @@ impl Evaluation<'_> {
     /// The value of an expression of Python, as text.
     pub(crate) fn expression(&mut self, expression: &str) -> Outcome<String> {
         let mut budget = Budget::new(STEPS, BYTES);
-        Expression::parse(expression)
+        let value = Expression::parse(expression)
             .and_then(|parsed| evaluate(&parsed, &EmptyScope, &mut budget))
-            .and_then(|value| value.to_text(&mut budget))
-            .map_err(|error| {
-                let mut wrong = self.error(
-                    "launch-expression",
-                    format!("`{expression}` has no value: {}", error.message),
-                );
-                if let Some(help) = error.help {
-                    wrong = wrong.help(help);
-                }
-                wrong.into()
-            })
+            .and_then(|value| value.to_text(&mut budget));
+        let error = match value {
+            Ok(text) => return Ok(text),
+            Err(error) => error,
+        };
+        // Python has more than the evaluator of xacro, which needs no interpreter.
+        if !self.is_asking()
+            && let Ok(answer) =
+                self.ask_python(json!({"ask": "expression", "expression": expression}))
+            && let Some(text) = answer.as_str()
+        {
+            return Ok(text.to_owned());
+        }
+        let mut wrong = self
+            .error("launch-expression", format!("`{expression}` has no value: {}", error.message));
+        if let Some(help) = error.help {
+            wrong = wrong.help(help);
+        }
+        Err(wrong.into())
     }
 
     fn folder(&self) -> PathBuf {
@@ -390,6 +436,14 @@ impl Evaluation<'_> {
                 .into()),
         }
     }
+}
+
+/// The reason for a command without output.
+pub(crate) enum NotRun {
+    /// The program is not on this machine, or may not run.
+    Refused(String),
+    /// Something that it is given is not on this machine: the reason, and its own errors.
+    Missing(MissingInput, String, String),
 }
 
 /// A command with its blanks put together, for messages.

@@ -1,5 +1,5 @@
 //! What is said to the interpreter of launch files in Python, and what it asks. One line of JSON each way:
-//! `{"ask": "load" | "call" | "for_each" | "perform" | "holds", ..., "context": {...}}` is answered by
+//! `{"ask": "load" | "call" | "for_each" | "perform" | "holds" | "expression", ..., "context": {...}}` is answered by
 //! `{"answer": ..., "configurations": {...}, "environment": {...}}`; the latter two are what a function of
 //! the launch file has changed.
 
@@ -12,12 +12,14 @@ use crate::context::Snapshot;
 use crate::evaluate::Evaluation;
 use crate::modules;
 use crate::outside::Complaint;
-use crate::tree::{Condition, Text};
+use crate::tree::{Condition, Place, Text};
 
 /// Answers what a launch file asks while it is evaluated.
 pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
     let text = |name: &str| question[name].as_str().unwrap_or_default().to_owned();
     let before = evaluation.context.clone();
+    let line = question["line"].as_str().map(str::to_owned);
+    let place = evaluation.set_place(Place { line, span: None });
     if let Some(snapshot) = question.get("context") {
         let snapshot: Snapshot =
             serde_json::from_value(snapshot.clone()).map_err(|why| why.to_string())?;
@@ -47,6 +49,11 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
         "module" => Ok(json!(modules::folder(evaluation, &text("name")))),
         "xacro" => xacro(evaluation, question),
         "in_sources" => Ok(json!(evaluation.in_sources(&text("path")))),
+        "missing" => {
+            let instead = "it is taken to be empty in the plan";
+            evaluation.note_missing_file(&text("path"), instead, None);
+            Ok(Value::Null)
+        }
         "scratch" => evaluation
             .scratch(&text("name"), &text("text"))
             .map(Value::from)
@@ -55,6 +62,7 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
         other => Err(format!("`{other}` is no question")),
     };
     evaluation.context = before;
+    evaluation.set_place(place);
     answer
 }
 
@@ -64,21 +72,25 @@ fn in_words(wrong: &Diagnostic) -> String {
     std::iter::once(&wrong.message).chain(further).cloned().collect::<Vec<_>>().join("; ")
 }
 
-/// The text of an expanded file.
+/// The text of an expanded file; null, with a warning, for one that needs files which are not on this
+/// machine.
 fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
     let file = question["file"].as_str().unwrap_or_default();
-    if let Some(rest) = file.strip_prefix("package:/") {
-        let package = rest.trim_start_matches('/').split('/').next().unwrap_or_default();
-        return Err(format!(
-            "{file} cannot be expanded: the package `{package}` is not on this machine; \
-             name its folder, `--resource-path FOLDER`"
-        ));
+    let instead = "its output is left empty in the plan";
+    if file.starts_with("package:/") {
+        evaluation.note_missing_file(file, instead, None);
+        return Ok(Value::Null);
     }
     let mappings: Vec<(String, String)> =
         serde_json::from_value(question["mappings"].clone()).map_err(|why| why.to_string())?;
     let mut words = vec!["xacro".to_owned(), evaluation.in_sources(file)];
     words.extend(mappings.iter().map(|(name, value)| format!("{name}:={value}")));
     let printed = evaluation.outside.run(&words)?;
+    if let Some(missing) = printed.missing {
+        let message = format!("{file} cannot be expanded, and {instead}");
+        evaluation.note_missing(missing, message, None, printed.errors.trim());
+        return Ok(Value::Null);
+    }
     if !printed.is_success {
         return Err(format!("{file} cannot be expanded: {}", printed.errors.trim()));
     }

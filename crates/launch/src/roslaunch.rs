@@ -128,6 +128,7 @@ impl Loader<'_, '_> {
             .into()),
             None => {
                 Err(Diagnostic::error("launch-xml", format!("{name} is no XML that can be read"))
+                    .help("mend the XML error that is shown before this one")
                     .into())
             }
         }
@@ -300,6 +301,13 @@ impl Loader<'_, '_> {
         }
         let folder = scope.file.parent().map(Path::to_path_buf).unwrap_or_default();
         let path = folder.join(&file);
+        if self.evaluation.host.kind(&path).is_none() {
+            let (file, origin) = (path.display().to_string(), Some(element.name_origin()));
+            self.evaluation.note_missing_file(&file, "the plan has its name only", origin);
+            let arguments = std::mem::take(&mut inner.given);
+            self.step(element, &inner, What::Include { file, arguments });
+            return Ok(());
+        }
         inner.arguments = BTreeMap::new();
         self.file(&path, inner, depth + 1).map_err(|mut inside| {
             if inside.span.is_none() && inside.related.is_empty() {

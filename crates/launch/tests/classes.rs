@@ -118,3 +118,33 @@ fn arguments_of_the_command_line_hold_without_being_declared() {
     let (_, words) = planned(&[(ROS1, text)], &[]);
     assert!(words.contains("`bag:=VALUE`"), "{words}");
 }
+
+/// A file that is not there leaves a gap in the plan that is reported with its place; it does not end it.
+#[test]
+fn absent_files_are_gaps_of_a_plan() {
+    let ros1 = "<launch>
+  <rosparam command='load' file='/ws/src/bot/config/no.yaml'/>
+  <param name='text' textfile='/ws/src/bot/config/no.txt'/>
+  <include file='/ws/src/bot/launch/no.launch'><arg name='a' value='1'/></include>
+  <node pkg='p' type='t' name='last'/>
+</launch>";
+    let (plan, found) = planned(&[("/ws/src/bot/launch/a.launch", ros1)], &[]);
+    let json = serde_json::to_string(&plan).unwrap();
+    assert!(json.contains("last") && json.contains("no.launch"), "{json}");
+    assert!(plan.parameters.is_empty(), "{json}");
+    for (line, file) in [(2, "no.yaml"), (3, "no.txt"), (4, "no.launch")] {
+        let place = format!("a.launch:{line}:");
+        assert!(found.contains(&place) && found.contains(file), "{place}: {found}");
+    }
+    assert_eq!(found.matches("warning[launch-missing-file]").count(), 3, "{found}");
+    assert!(!found.contains("error["), "{found}");
+
+    let ros2 = "<launch>
+  <include file='/ws/src/bot/launch/no.launch.xml'><arg name='a' value='1'/></include>
+  <node pkg='p' exec='last'><param from='/ws/src/bot/no.yaml' allow_substs='true'/></node>
+</launch>";
+    let (plan, found) = planned(&[("/ws/src/bot/launch/a.launch.xml", ros2)], &[]);
+    let json = serde_json::to_string(&plan).unwrap();
+    assert!(json.contains("last") && json.contains("no.launch.xml"), "{json}");
+    assert_eq!(found.matches("warning[launch-missing-file]").count(), 2, "{found}");
+}

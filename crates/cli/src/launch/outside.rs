@@ -6,12 +6,11 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use periplus_diagnostics::{Severity, Style, render};
-use periplus_formats::{Setting, load};
+use periplus_bringup::xacro;
+use periplus_formats::Setting;
 use periplus_host::{Machine, Stopwatch};
 use periplus_launch::{Interpreter, Outside, Printed};
 use periplus_resources::{Resolver, Store as _};
-use periplus_xml::write_document;
 
 use super::python::Python;
 use super::tools::Tools;
@@ -68,47 +67,14 @@ impl<'a> Programs<'a> {
 
     /// What `xacro FILE name:=value` prints: it is built in.
     fn xacro(&self, words: &[String]) -> Result<Printed, String> {
-        let mut arguments = Vec::new();
-        let mut file = None;
-        let mut output = None;
-        let mut words = words.iter();
-        while let Some(word) = words.next() {
-            match word.split_once(":=") {
-                Some((name, value)) => arguments.push((name.to_owned(), value.to_owned())),
-                None if word == "-o" => output = words.next(),
-                // Options of old: `--inorder` is what everybody has today.
-                None if word.starts_with('-') => {}
-                None => file = Some(word),
-            }
-        }
-        let Some(file) = file else { return Err("xacro is given no file".into()) };
         let setting = Setting {
             host: &Machine,
             resolver: self.resolver,
             working_folder: self.working_folder.clone(),
-            arguments,
+            arguments: Vec::new(),
             open_meshes: false,
         };
-        let loaded = load(Path::new(file), &setting);
-        let mut errors = String::new();
-        let mut is_package_missing = false;
-        // Only what keeps it from being expanded: the rest is told when the robot is loaded.
-        let document = loaded.document.as_ref();
-        if document.is_none() {
-            for finding in loaded.diagnostics.iter().filter(|f| f.severity == Severity::Error) {
-                errors += &render(finding, &loaded.sources, Style::Plain);
-                is_package_missing |= finding.code == "missing-resource"
-                    && finding.message.contains("there is no package");
-            }
-        }
-        let is_success = document.is_some();
-        let mut text = document.map(write_document).unwrap_or_default();
-        if let Some(path) = output.filter(|_| is_success) {
-            let path = self.working_folder.join(path);
-            Machine.replace(&path, text.as_bytes())?;
-            text.clear();
-        }
-        Ok(Printed { output: text, is_success, errors, is_package_missing })
+        Ok(xacro(words, &setting)?.into())
     }
 }
 

@@ -106,7 +106,10 @@ pub(crate) fn run_xacro(words: &[String]) -> std::io::Result<ExitCode> {
     };
     let (folders, words) = words.split_at(count);
     let folders: Vec<PathBuf> = folders.iter().map(PathBuf::from).collect();
-    match xacro(words, &terminal::search(&folders)) {
+    let search = terminal::search(&folders);
+    let host = search.host();
+    let resolver = search.resolver(&host);
+    match xacro(words, &search.setting(&host, &resolver, false)) {
         Ok(done) => {
             std::io::Write::write_all(&mut std::io::stdout().lock(), done.output.as_bytes())?;
             std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;

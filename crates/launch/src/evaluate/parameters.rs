@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::{Evaluation, Outcome};
 use crate::front;
+use crate::perform::UNCHANGED;
 use crate::plan::Parameters;
 use crate::tree::{Given, ParametersOf};
 use crate::truth::{truth, typed};
@@ -103,7 +104,8 @@ impl Evaluation<'_> {
 
     /// A copy of a file in which `$(...)` is resolved.
     fn resolved_file(&mut self, file: &str) -> Outcome<String> {
-        let text = self.read(std::path::Path::new(file))?;
+        let text = self.read_or_miss(std::path::Path::new(file), UNCHANGED, None)?;
+        let Some(text) = text else { return Ok(file.to_owned()) };
         let id = self.sources.add(file, text.as_str());
         let whole = self.sources.whole(id);
         let text = front::text(&text, whole)?;

@@ -9,7 +9,6 @@ use serde_json::Value;
 use super::{Loader, Scope, wrong};
 use crate::context::within;
 use crate::evaluate::Outcome;
-use crate::perform::short;
 use crate::truth::{truth, value_of};
 
 impl Loader<'_, '_> {
@@ -50,7 +49,12 @@ impl Loader<'_, '_> {
             "value" => {
                 typed(&written, &of_type).map_err(|why| wrong("launch-parameter", &why, element))?
             }
-            "textfile" => Value::String(self.evaluation.read(Path::new(&written))?),
+            "textfile" => {
+                let instead = "the parameter is left out of the plan";
+                let origin = Some(element.name_origin());
+                let text = self.evaluation.read_or_miss(Path::new(&written), instead, origin)?;
+                text.map_or(Value::Null, Value::String)
+            }
             "command" => match self.printed(&written, &of_type, element)? {
                 Some(value) => value,
                 None => return Ok((name, Value::Null)),
@@ -75,13 +79,8 @@ impl Loader<'_, '_> {
             }
             Ok(printed) => Ok(Some(Value::String(printed.output))),
             Err(why) => {
-                let left = Diagnostic::warning(
-                    "launch-command",
-                    format!("`{}` is not run: {why}", short(line)),
-                )
-                .at(element.name_origin())
-                .note("the parameter is left out");
-                self.evaluation.found.push(left);
+                let instead = "the parameter is left out of the plan";
+                self.evaluation.note_not_run(line, why, instead, Some(element.name_origin()));
                 Ok(None)
             }
         }
@@ -153,10 +152,15 @@ impl Loader<'_, '_> {
                     .map_err(|wrong| moved(*wrong, &element.text_origin()))?
             }
             Some(path) => {
-                let mut text = self
+                let instead = "its parameters are left out of the plan";
+                let origin = Some(element.name_origin());
+                let read = self
                     .evaluation
-                    .read(Path::new(&path))
+                    .read_or_miss(Path::new(&path), instead, origin)
                     .map_err(|wrong| wrong.at(element.name_origin()))?;
+                let Some(mut text) = read else {
+                    return Ok(Value::Object(serde_json::Map::new()));
+                };
                 if resolves {
                     text = self.resolved_text(&text, &element.name_origin(), scope)?;
                 }

@@ -82,7 +82,10 @@ impl Loader<'_, '_> {
                     format!("the environment has no variable `{name}`"),
                 )
                 .at(*origin)
-                .help(format!("set it, or write `$(optenv {name} VALUE)`"))
+                .help(format!(
+                    "set it for the launch, `{name}=VALUE periplus launch ...`, or write \
+                     `$(optenv {name} VALUE)`"
+                ))
                 .into()
             }),
             ["optenv", name, default @ ..] => {
