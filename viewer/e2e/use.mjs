@@ -250,7 +250,7 @@ function displaysOf(file) {
 }
 
 /** The file of RViz that the command line or a launch file names is open without a click. */
-async function opensRviz(page, file, { fixedFrame, works }) {
+async function opensRviz(page, file, { fixedFrame, works, hasWorld = false }) {
   await until(page, `periplus.fileName === ${JSON.stringify(basename(file))}`, 'the file');
   const wanted = displaysOf(file);
   assert.ok(wanted.length > 3, `${file}: ${wanted}`);
@@ -259,6 +259,10 @@ async function opensRviz(page, file, { fixedFrame, works }) {
     shown.filter(([kind]) => kind !== 'World'),
     wanted,
   );
+  if (hasWorld) {
+    const worlds = 'periplus.displays.filter((d) => d.kind.title === "World" && d.statuses.Scene)';
+    await until(page, `${worlds}.length === 1`, 'the simulated world beside the displays');
+  }
   assert.equal(await page.evaluate('periplus.fixedFrame'), fixedFrame);
   for (const name of works) {
     const display = `periplus.displays.find((d) => d.name === ${JSON.stringify(name)})`;
@@ -362,12 +366,12 @@ export async function use(chrome, url, attempt) {
     [
       ['launch', 'sam_bot', 'display.launch.py'],
       SAM_BOT_RVIZ,
-      { fixedFrame: 'odom', works: ['RobotModel', 'Scan'] },
+      { fixedFrame: 'odom', works: ['RobotModel', 'Scan'], hasWorld: true },
     ],
     [
       ['launch', 'robots/kbot/launch/kbot.launch', '--ros2', 'off'],
       'robots/kbot/rviz/kbot.rviz',
-      { fixedFrame: 'odom', works: ['RobotModel'] },
+      { fixedFrame: 'odom', works: ['RobotModel'], hasWorld: true },
     ],
   ]) {
     await on(`launch opens ${basename(file)}`, [...launch, '--no-browser'], (page) =>

@@ -72,6 +72,8 @@ export class App {
   theme: 'dark' | 'light' = $state('dark');
   /** Displays come by themselves until somebody has chosen. */
   isAutomatic = $state(true);
+  /** True after a file without a world was opened, until the simulation's world is known. */
+  private awaitsWorld = false;
   models: string[] = $state([]);
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
@@ -305,6 +307,7 @@ export class App {
       .find(Boolean);
     this.setWorld(world ?? '');
     if (this.isAutomatic) this.addWished();
+    else this.addAwaitedWorld();
   }
 
   /** A simulation knows how well maps agree with its world. */
@@ -366,6 +369,18 @@ export class App {
       const isPicture = type.endsWith('/Image');
       const isEnabled = wish.isEnabled && (!isPicture || ++pictures <= 1);
       this.add(wish.class, wish.name, wish.values, isEnabled, true);
+    }
+  }
+
+  /** The simulated world beside the displays of a file that was opened before the world was known. */
+  private addAwaitedWorld(): void {
+    if (!this.awaitsWorld) return;
+    for (const { name, type } of this.topics) {
+      const wish = type && !this.seen.has(name) ? wishFor(name, type) : undefined;
+      if (wish?.class !== WORLD_CLASS) continue;
+      this.seen.add(name);
+      this.awaitsWorld = false;
+      this.add(wish.class, wish.name, wish.values, wish.isEnabled, true);
     }
   }
 
@@ -458,6 +473,8 @@ export class App {
     for (const { name, values, isEnabled } of worlds) {
       this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
     }
+    this.awaitsWorld = isWorldKept && worlds.length === 0;
+    this.addAwaitedWorld();
     this.setFixedFrame(file.fixedFrame);
     this.background = file.background;
     if (file.view) this.setView(viewFrom(file.view));
