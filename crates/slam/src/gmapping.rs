@@ -261,6 +261,21 @@ impl Gmapping {
     }
 }
 
+impl Gmapping {
+    /// Keeps the pose of a scan, in the place of the previous one unless each pose is kept.
+    fn push_track(&mut self, track: Track) {
+        if let [.., before, last] = self.tracks.as_mut_slice()
+            && !self.settings.keeps_each_pose
+            && before.update == last.update
+            && last.update == track.update
+        {
+            *last = track;
+            return;
+        }
+        self.tracks.push(track);
+    }
+}
+
 impl Particle {
     /// Goes where a scan has it, and draws it.
     fn go(
@@ -308,7 +323,7 @@ impl Mapper for Gmapping {
                 (false, other) => other,
             };
             is_map_bent = before.is_some() && best != self.best;
-            self.tracks.push(Track {
+            self.push_track(Track {
                 time_ns: scan.time_ns,
                 update: (self.counts.kept - 1) as u32,
                 update_from_base: self.update_from_base,

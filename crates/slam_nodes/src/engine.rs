@@ -52,13 +52,18 @@ pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize
     }
 }
 
+/// The settings of the particles for a node, which may run for weeks.
+fn gmapping_settings(values: &Values) -> GmappingSettings {
+    GmappingSettings { keeps_each_pose: false, ..GmappingSettings::of(values) }
+}
+
 impl Engine {
     /// An empty map; none for a program that needs a stored one.
     pub(crate) fn empty(program: Program, values: &Values, slices: usize) -> Option<Self> {
         match program {
             Program::Localization => None,
             Program::Gmapping => {
-                Some(Self::Particles(Box::new(Gmapping::new(GmappingSettings::of(values)))))
+                Some(Self::Particles(Box::new(Gmapping::new(gmapping_settings(values)))))
             }
             Program::Async | Program::Sync | Program::Lifelong => {
                 Some(Self::Graph(Box::new(Slam::new(settings(program, values, slices)))))
