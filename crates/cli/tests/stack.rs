@@ -31,12 +31,18 @@ fn topics(bag: &str) -> String {
     String::from_utf8_lossy(&periplus(&["bag", "info", bag]).stdout).into_owned()
 }
 
+/// A script of commands in a folder.
+fn script(folder: &Folder, text: &str) -> String {
+    let path = folder.path("drive.yaml");
+    fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
 /// The line of the README: a script without a topic, and a map.
 #[test]
 fn a_script_and_a_map_with_both_robots() {
     let folder = Folder::new("stack_readme");
-    let script = folder.path("drive.yaml").display().to_string();
-    fs::write(&script, DRIVE).unwrap();
+    let script = script(&folder, DRIVE);
     for (robot, world, has_filter) in
         [(SAM_BOT, "worlds/cube_and_sphere.sdf", true), (KBOT, "worlds/closed_room.world", false)]
     {
@@ -75,8 +81,7 @@ fn a_script_and_a_map_with_both_robots() {
 #[test]
 fn one_option_brings_filter_map_and_costmaps() {
     let folder = Folder::new("stack_all");
-    let script = folder.path("drive.yaml").display().to_string();
-    fs::write(&script, DRIVE).unwrap();
+    let script = script(&folder, DRIVE);
     for (robot, world) in
         [(SAM_BOT, "worlds/cube_and_sphere.sdf"), (KBOT, "worlds/closed_room.world")]
     {
@@ -129,9 +134,8 @@ fn a_map_of_a_robot_that_stands_still_is_warned_of() {
 #[test]
 fn commands_that_nobody_takes() {
     let folder = Folder::new("stack_commands");
-    let script = folder.path("drive.yaml").display().to_string();
     let run = |text: &str, robot: &[&str]| {
-        fs::write(&script, text).unwrap();
+        let script = script(&folder, text);
         let mut words =
             vec!["sim", "worlds/closed_room.world", "--cmd", &script, "--duration", "0.1"];
         words.extend(robot);
