@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, GraphError, Mailbox, Node, Qos};
-use periplus_host::{Machine, unix_ns};
+use periplus_host::{Machine, sleep, unix_ns};
 use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_wire_ros2::{Settings, Wire};
 
@@ -67,6 +67,19 @@ impl Live {
                 }
             }
         }
+    }
+
+    /// Sleeps until something is due, at least and at most as long as this. By `/clock` it is the shorter
+    /// one, since the next time may arrive at any moment.
+    pub(crate) fn sleep_until_due(&self, shortest: Duration, longest: Duration) {
+        let until_due = |due_ns: i64| {
+            let rest_ns = due_ns.saturating_sub(unix_ns());
+            Duration::from_nanos(u64::try_from(rest_ns).unwrap_or_default())
+        };
+        sleep(match (&self.clock, self.graph.next_due_ns()) {
+            (Some(_), _) => shortest,
+            (None, due_ns) => due_ns.map_or(longest, until_due).clamp(shortest, longest),
+        });
     }
 
     /// Tells what was wrong since the last time.

@@ -103,6 +103,18 @@ impl Running {
         Duration::from_nanos(times.sum())
     }
 
+    /// How often threads have slept and were woken.
+    #[cfg(target_os = "linux")]
+    fn wakes(&self) -> u64 {
+        let threads = std::fs::read_dir(format!("/proc/{}/task", self.child.id())).unwrap();
+        let counts = threads.map(|thread| {
+            let status = std::fs::read_to_string(thread.unwrap().path().join("status")).unwrap();
+            let count = status.lines().find_map(|it| it.strip_prefix("voluntary_ctxt_switches:"));
+            count.unwrap().trim().parse::<u64>().unwrap()
+        });
+        counts.sum()
+    }
+
     /// Fraction of a core that the program uses during a window.
     fn load_ratio(&self) -> f64 {
         const WINDOW: Duration = Duration::from_secs(3);
@@ -161,14 +173,19 @@ impl Domain {
     /// A server of a small map.
     fn map_server(self) -> (Running, Folder) {
         let folder = Folder::new(&format!("ros2-{}", self.0));
-        std::fs::write(folder.path("map.pgm"), b"P2 2 2 255 0 254 254 0 ").unwrap();
-        let yaml = "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n\
-                    occupied_thresh: 0.65\nfree_thresh: 0.25\n";
-        let map = folder.path("map.yaml");
-        std::fs::write(&map, yaml).unwrap();
-        let map = map.to_string_lossy().into_owned();
+        let map = write_map(&folder);
         (Running::start(&mut self.periplus(None, &["map", "serve", &map])), folder)
     }
+}
+
+/// Writes a small map; returns the path of its YAML.
+fn write_map(folder: &Folder) -> String {
+    std::fs::write(folder.path("map.pgm"), b"P2 2 2 255 0 254 254 0 ").unwrap();
+    let yaml = "image: map.pgm\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\n\
+                occupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    let map = folder.path("map.yaml");
+    std::fs::write(&map, yaml).unwrap();
+    map.to_string_lossy().into_owned()
 }
 
 /// Before, each service had two writers of responses, for two vendors, and no client of rmw_fastrtps ever
@@ -209,6 +226,26 @@ fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
         .collect();
     eprintln!("fraction of a core: {before:.4} before, {after:.4?} after 100 calls");
     assert!(after.iter().any(|ratio| *ratio <= before + 0.01), "{before} before, {after:?} after");
+}
+
+/// Every step of the clock, 200 in a second, woke the threads of all nodes of a program: more than half of
+/// the CPU of `localize --live`.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_filter_without_scans_rarely_wakes() {
+    /// 250 of the filter (which looks for scans 50 times in a second), the wire and DDS; 520 to 590 before.
+    const MAX_WAKES_PER_S: f64 = 400.0;
+    const WINDOW: Duration = Duration::from_secs(2);
+    let domain = Domain(123);
+    let folder = Folder::new("wakes");
+    let map = write_map(&folder);
+    let words = ["localize", "--live", "--map", &map, "--initial-pose", "0,0,0"];
+    let filter = Running::start(&mut domain.periplus(None, &words));
+    filter.tells("the map has 2 by 2 cells");
+    let (before, start) = (filter.wakes(), Instant::now());
+    std::thread::sleep(WINDOW);
+    let wakes_per_s = (filter.wakes() - before) as f64 / start.elapsed().as_secs_f64();
+    assert!(wakes_per_s < MAX_WAKES_PER_S, "{wakes_per_s:.0} wakes per second");
 }
 
 /// Lists printed what was known after 0.7 s, and nodes of Fast DDS tell their names only when they are

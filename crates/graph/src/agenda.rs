@@ -95,11 +95,18 @@ impl Agenda {
         }
     }
 
-    /// Time moved.
-    pub(crate) fn wake(&self) {
-        // Who is about to wait has read the old time under the lock.
-        drop(self.lock());
-        self.changed.notify_one();
+    /// Time of the first event \[ns\]; none where nothing is planned.
+    pub(crate) fn first_ns(&self) -> Option<i64> {
+        self.lock().events.first_key_value().map(|(key, _)| key.time_ns)
+    }
+
+    /// Wakes the thread that waits for what is due if something is at this time. Most steps of time
+    /// have nothing for most nodes, and a thread that wakes for nothing costs more than the look.
+    pub(crate) fn wake_if_due(&self, now_ns: i64) {
+        // A thread that is about to wait has read the old time under the lock.
+        if self.first_ns().is_some_and(|first_ns| first_ns <= now_ns) {
+            self.changed.notify_one();
+        }
     }
 
     /// Nothing happens any more.
@@ -146,5 +153,55 @@ impl Agenda {
             .collect();
         drop(state);
         self.changed.notify_one();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
+    use std::time::Duration;
+
+    use super::*;
+
+    struct Nothing;
+
+    impl Event for Nothing {
+        fn happen(&self, _key: &Key) {}
+    }
+
+    /// Every step of time, 200 in a second, woke the threads of all nodes: most of the CPU of a live node
+    /// that had little to do.
+    #[test]
+    fn steps_of_time_wake_a_thread_only_for_what_is_due() {
+        const STEPS: i64 = 50;
+        let agenda = Agenda::default();
+        let (now_ns, looks) = (AtomicI64::new(0), AtomicU64::new(0));
+        let name: Arc<str> = "node".into();
+        let key = Key {
+            time_ns: STEPS,
+            node: name.clone(),
+            rank: Rank::Timer,
+            name,
+            sequence: 0,
+            ordinal: 0,
+        };
+        agenda.add(key, Arc::new(Nothing));
+        let due = std::thread::scope(|scope| {
+            let waiting = scope.spawn(|| {
+                agenda.wait_due(|| {
+                    looks.fetch_add(1, Ordering::Relaxed);
+                    now_ns.load(Ordering::Acquire)
+                })
+            });
+            for step in 1..=STEPS {
+                now_ns.store(step, Ordering::Release);
+                agenda.wake_if_due(step);
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            waiting.join().unwrap()
+        });
+        assert_eq!(due.map(|(key, _)| key.time_ns), Some(STEPS));
+        // Once at the beginning, once when it is due; systems may wake a thread by themselves.
+        assert!(looks.load(Ordering::Relaxed) <= 10, "{looks:?} looks");
     }
 }

@@ -31,7 +31,7 @@ pub(crate) fn advance(core: &Core, time_ns: i64) {
         if !clock.is_paused() {
             clock.set(time_ns);
         }
-        return live.wake();
+        return live.advance_to(clock.now_ns());
     }
     let turn = match core.turn.try_lock() {
         Ok(turn) => turn,

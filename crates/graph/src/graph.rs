@@ -143,9 +143,19 @@ impl Graph {
     ///
     /// While the graph is paused, time stands still, and what is due now happens.
     ///
-    /// In live the clock is set, and who waits for that is woken.
+    /// In live the clock is set, and nodes for which something is due are woken.
     pub fn advance_to(&self, time_ns: i64) {
         executor::advance(&self.0, time_ns);
+    }
+
+    /// Time of the first event that is planned \[ns\], such as the next turn of a timer; none where there
+    /// is none. A program that lets time pass can sleep until then.
+    #[must_use]
+    pub fn next_due_ns(&self) -> Option<i64> {
+        match &self.0.live {
+            Some(live) => live.first_ns(),
+            None => self.0.agenda.first_ns(),
+        }
     }
 
     /// Lets everything happen that is due now, without moving time.

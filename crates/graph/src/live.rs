@@ -36,8 +36,13 @@ impl Live {
     }
 
     /// Time moved.
-    pub(crate) fn wake(&self) {
-        self.each(Agenda::wake);
+    pub(crate) fn advance_to(&self, now_ns: i64) {
+        self.each(|agenda| agenda.wake_if_due(now_ns));
+    }
+
+    /// Time of the first event of all nodes \[ns\].
+    pub(crate) fn first_ns(&self) -> Option<i64> {
+        lock(&self.agendas).iter().filter_map(Weak::upgrade).filter_map(|it| it.first_ns()).min()
     }
 
     /// The clock jumped.

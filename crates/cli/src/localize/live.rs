@@ -6,7 +6,6 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
-use periplus_host::sleep;
 
 use super::{Localization, LocalizeOptions};
 use crate::arguments;
@@ -14,8 +13,9 @@ use crate::live::{Live, Watched};
 use crate::stop;
 use crate::terminal::{complain, diagnostics};
 
-/// How often it is looked what time it is, and whether it is over.
-const LOOK: Duration = Duration::from_millis(5);
+/// Shortest and longest time between two steps of the clock: the filter looks for scans every 20 ms.
+const SHORTEST_STEP: Duration = Duration::from_millis(5);
+const LONGEST_STEP: Duration = Duration::from_millis(20);
 
 /// How long the last words may take to arrive.
 const LAST_WORD: Duration = Duration::from_millis(500);
@@ -60,7 +60,7 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
     let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
         live.go_on();
-        sleep(LOOK);
+        live.sleep_until_due(SHORTEST_STEP, LONGEST_STEP);
         if watched.tell() {
             // It has been logged why.
             code = ExitCode::FAILURE;
