@@ -1,7 +1,9 @@
 """Cyclone DDS of PyPI as a publisher and a subscriber that measure. See crates/wire_ros2/examples/race/peer.rs.
 
 wire_cyclone.py DOMAIN pub TOPIC TYPE DEPTH TEMPLATE COUNT PERIOD_US
-wire_cyclone.py DOMAIN sub TOPIC TYPE DEPTH
+wire_cyclone.py DOMAIN sub TOPIC TYPE DEPTH [announce]
+
+With `announce` a subscriber prints `first` when the first message comes.
 
 Samples go as bytes, without what Python would make of them; Cyclone itself sees that they are valid.
 """
@@ -73,6 +75,8 @@ def subscribe():
         for data, info in ddspy_take(reader._ref, ANY, 64):
             now = time.time_ns()
             if info.valid_data:
+                if not times and "announce" in sys.argv[6:]:
+                    print("first", flush=True)
                 sec, nanosec = struct.unpack_from("<iI", data, 4)
                 latencies.append((now - sec * 1_000_000_000 - nanosec) * 1e-3)
                 times.append(now)

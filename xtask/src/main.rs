@@ -20,6 +20,7 @@ mod localization;
 mod physics;
 mod pictures;
 mod rays;
+mod ros2;
 mod runs;
 mod slam;
 mod soak;
@@ -71,9 +72,13 @@ enum Task {
     Bench {
         /// Only this: `loading`; or one of the others, which need nothing of `corpus`
         only: Option<Contest>,
-        /// Of `wire`: only loads whose names have this; the results are only shown then
+        /// Of `wire`: only loads whose names have this; the results are only shown then. Of `ros2`: only
+        /// the part `rates`, `lists` or `idle`
         #[arg(long)]
         load: Option<String>,
+        /// Of `ros2` and `subscribers`: few and short measurements, whose results are only shown
+        #[arg(long)]
+        quick: bool,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
     Codegen {
@@ -101,8 +106,12 @@ enum Task {
         program: Option<std::path::PathBuf>,
     },
     /// Long runs: an hour of costmaps among moving things, and ten hours of a robot that drives with a
-    /// map and costmaps; memory stays flat
-    Soak,
+    /// map and costmaps; memory stays flat, and nothing that is published is NaN
+    Soak {
+        /// Simulated hours of the robot alone, without the costmaps among moving things
+        #[arg(long)]
+        hours: Option<f64>,
+    },
     /// The pictures in the documentation, from the program itself
     Pictures,
     /// The page in `viewer`, which needs Node
@@ -160,6 +169,10 @@ enum Contest {
     Sim,
     /// Messages to and from Fast DDS and Cyclone DDS
     Wire,
+    /// A real ROS 2 (rclpy): rates and losses of sensor messages, complete lists, CPU around calls
+    Ros2,
+    /// The real-time factor of a simulation beside stopped and reading subscribers
+    Subscribers,
     /// Maps and trajectories from logs of real robots
     Slam,
     /// Maps of our worlds, driven through by the simulator, against their truth
@@ -188,7 +201,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
-        Task::Bench { only, load } => match only {
+        Task::Bench { only, load, quick } => match only {
             Some(Contest::Bags) => bags::bench(),
             Some(Contest::Casters) => physics::casters(),
             Some(Contest::Costmap) => costmap::bench(),
@@ -198,6 +211,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Rays) => rays::bench(),
             Some(Contest::Sim) => runs::bench(),
             Some(Contest::Wire) => wire::bench(load.as_deref()),
+            Some(Contest::Ros2) => ros2::bench(load.as_deref(), *quick),
+            Some(Contest::Subscribers) => ros2::subscribers(*quick),
             Some(Contest::Slam) => slam::bench(),
             Some(Contest::SlamWorlds) => slam::worlds(),
             Some(Contest::Localization) => localization::bench(),
@@ -215,7 +230,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
             every: *every,
             program: program.clone(),
         }),
-        Task::Soak => costmap::soak().and_then(|()| soak::kbot()),
+        Task::Soak { hours: Some(hours) } => soak::kbot(Some(*hours)),
+        Task::Soak { hours: None } => costmap::soak().and_then(|()| soak::kbot(None)),
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Viewer(Page::Build) => viewer::build(),
