@@ -21,6 +21,8 @@ pub struct Node {
     pub span: Span,
     /// What.
     pub value: Value,
+    /// True for a scalar with the tag `!!binary`: its text is base64, line ends in it do not count.
+    pub is_binary: bool,
 }
 
 /// A value.
@@ -207,8 +209,11 @@ impl<'t> Reader<'t> {
             return fail("the file is nested too deeply or too large");
         }
         let before = self.values;
+        let mut is_binary = false;
         let (value, anchor, span) = match event {
-            Event::Scalar(text, style, anchor, _) => {
+            Event::Scalar(text, style, anchor, tag) => {
+                is_binary =
+                    tag.is_some_and(|tag| tag.is_yaml_core_schema() && tag.suffix == "binary");
                 let is_plain = style == ScalarStyle::Plain;
                 (Value::Scalar { text: text.into_owned(), is_plain }, anchor, span)
             }
@@ -246,7 +251,7 @@ impl<'t> Reader<'t> {
             }
             _ => return fail("a value is missing here"),
         };
-        let node = Node { span, value };
+        let node = Node { span, value, is_binary };
         if anchor != 0 {
             self.anchors.insert(anchor, (node.clone(), 1 + self.values - before));
         }
@@ -301,6 +306,14 @@ mod tests {
         assert_eq!(kinds, ["a number", text, text, "a truth value", "nothing", text, "a number"]);
         assert_eq!(list[3].truth(), Some(true));
         assert_eq!(list[6].integer(), Some(-3));
+    }
+
+    #[test]
+    fn binary_scalars_are_known_by_their_tag() {
+        let (_, node) = read("[!!binary AQ==, !!binary |\n AQ==\n, AQ==, !!str AQ==]");
+        let node = node.unwrap().unwrap();
+        let are_binary: Vec<bool> = node.list().unwrap().iter().map(|one| one.is_binary).collect();
+        assert_eq!(are_binary, [true, true, false, false]);
     }
 
     #[test]

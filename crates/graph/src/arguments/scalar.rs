@@ -4,6 +4,7 @@
 
 use std::fmt::Write as _;
 
+use periplus_base::{decode_base64, encode_base64};
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_yaml::{Node, Value};
@@ -30,6 +31,9 @@ pub(super) fn value(node: &Node) -> Result<ParameterValue, Box<Diagnostic>> {
         Value::Scalar { .. } if node.is_null() => {
             Err(fail("is nothing; write `\"\"` for a text without letters"))
         }
+        Value::Scalar { .. } if node.is_binary => {
+            bytes(node).map(of_bytes).ok_or_else(|| fail(NO_BASE64))
+        }
         Value::Scalar { text, is_plain } => Ok(scalar(text, *is_plain)),
         Value::List(items) => list(items).map_err(|(at, wrong)| {
             Box::new(Diagnostic::error("bad-parameter", wrong).at(at.map_or(node.span, |n| n.span)))
@@ -54,6 +58,20 @@ fn scalar(text: &str, is_plain: bool) -> ParameterValue {
         return ParameterValue { r#type, double_value, ..Default::default() };
     }
     of_text(text.to_owned())
+}
+
+/// The bytes of a scalar with the tag `!!binary`. It may be written over several lines.
+fn bytes(node: &Node) -> Option<Vec<u8>> {
+    let letters: String = node.text()?.split_ascii_whitespace().collect();
+    decode_base64(&letters)
+}
+
+/// The rest of the sentence "the value ...".
+const NO_BASE64: &str =
+    "has the tag `!!binary` and is not base64; write `!!binary AQ==` for the byte 1";
+
+fn of_bytes(byte_array_value: Vec<u8>) -> ParameterValue {
+    ParameterValue { r#type: Type::PARAMETER_BYTE_ARRAY, byte_array_value, ..Default::default() }
 }
 
 fn of_text(string_value: String) -> ParameterValue {
@@ -105,11 +123,22 @@ fn number(text: &str) -> Option<f64> {
 }
 
 fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
+    if !items.is_empty() && items.iter().all(|item| item.is_binary) {
+        let mut all = Vec::new();
+        for item in items {
+            all.extend(bytes(item).ok_or_else(|| (Some(item), NO_BASE64.to_owned()))?);
+        }
+        return Ok(of_bytes(all));
+    }
     let mut all = ParameterValue::default();
     for (index, item) in items.iter().enumerate() {
         let Value::Scalar { text, is_plain } = &item.value else {
             return Err((Some(item), "is a list of lists or mappings; a list has values".into()));
         };
+        if item.is_binary {
+            let wrong = "is a list in which some items are `!!binary` and others are not";
+            return Err((Some(item), wrong.into()));
+        }
         let one = scalar(text, *is_plain);
         if index > 0 && all.r#type != list_type(one.r#type) {
             let wrong = format!(
@@ -175,7 +204,11 @@ pub fn parameter_to_yaml(value: &ParameterValue) -> String {
         Type::PARAMETER_INTEGER => value.integer_value.to_string(),
         Type::PARAMETER_DOUBLE => of_number(value.double_value),
         Type::PARAMETER_STRING => quoted(&value.string_value),
-        Type::PARAMETER_BYTE_ARRAY => list(&value.byte_array_value, u8::to_string),
+        // A list of single bytes, as `ros2 param dump` writes them; an empty one has no type.
+        Type::PARAMETER_BYTE_ARRAY if value.byte_array_value.is_empty() => "!!binary \"\"".into(),
+        Type::PARAMETER_BYTE_ARRAY => list(&value.byte_array_value, |byte| {
+            format!("!!binary \"{}\"", encode_base64(&[*byte]))
+        }),
         Type::PARAMETER_BOOL_ARRAY => list(&value.bool_array_value, bool::to_string),
         Type::PARAMETER_INTEGER_ARRAY => list(&value.integer_array_value, i64::to_string),
         Type::PARAMETER_DOUBLE_ARRAY => list(&value.double_array_value, |one| of_number(*one)),
@@ -265,6 +298,14 @@ mod tests {
             "[1.5, 2]",
             "is a list of numbers with a whole number in it; all must be of one kind: write `2.0`",
         );
+        check("[!!binary AQ==, !!binary /w==]", "5 [!!binary \"AQ==\", !!binary \"/w==\"]");
+        check("!!binary |\n  Af8=\n", "5 [!!binary \"AQ==\", !!binary \"/w==\"]");
+        check("!!binary ''", "5 !!binary \"\"");
+        check("!!binary '*'", NO_BASE64);
+        check(
+            "[!!binary AQ==, 2]",
+            "is a list in which some items are `!!binary` and others are not",
+        );
         check("[]", "is an empty list, which does not say what it is a list of");
         check("{a: 1}", "is a mapping; a parameter is one value or a list");
         check("~", "is nothing; write `\"\"` for a text without letters");
@@ -274,6 +315,13 @@ mod tests {
         #[test]
         fn texts_come_back(text in "\\PC{0,12}|[a-z0-9 :#'\"\\\\\n\t,\\[\\]{}&*!|>%@-]{0,12}") {
             let value = of_text(text);
+            let yaml = parameter_to_yaml(&value);
+            prop_assert_eq!(parameter_from_yaml(&yaml), Ok(value), "{}", yaml);
+        }
+
+        #[test]
+        fn bytes_come_back(bytes in any::<Vec<u8>>()) {
+            let value = of_bytes(bytes);
             let yaml = parameter_to_yaml(&value);
             prop_assert_eq!(parameter_from_yaml(&yaml), Ok(value), "{}", yaml);
         }

@@ -123,33 +123,10 @@ pub(super) fn data_uri(uri: &str) -> Result<Data, MeshError> {
     let (head, body) =
         uri.strip_prefix("data:").and_then(|rest| rest.split_once(',')).ok_or_else(bad)?;
     let (media_type, bytes) = match head.strip_suffix(";base64") {
-        Some(media_type) => (media_type, base64(body).ok_or_else(bad)?),
+        Some(media_type) => (media_type, periplus_base::decode_base64(body).ok_or_else(bad)?),
         None => (head, percent_decode_bytes(body)),
     };
     Ok(Data { media_type: media_type.to_owned(), bytes })
-}
-
-/// Base64 (RFC 4648) with or without padding, either alphabet.
-fn base64(text: &str) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);
-    let (mut bits, mut count) = (0u32, 0);
-    for c in text.trim_end_matches('=').bytes() {
-        let value = match c {
-            b'A'..=b'Z' => c - b'A',
-            b'a'..=b'z' => c - b'a' + 26,
-            b'0'..=b'9' => c - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            _ => return None,
-        };
-        bits = (bits << 6) | u32::from(value);
-        count += 6;
-        if count >= 8 {
-            count -= 8;
-            bytes.push((bits >> count) as u8);
-        }
-    }
-    Some(bytes)
 }
 
 pub(super) fn percent_decode(text: &str) -> String {

@@ -14,7 +14,7 @@ pub(super) fn to_json(value: &ParameterValue) -> Option<(Value, Option<&'static 
         ParameterType::PARAMETER_DOUBLE => (number(value.double_value), Some("float64")),
         ParameterType::PARAMETER_STRING => (json!(value.string_value), None),
         ParameterType::PARAMETER_BYTE_ARRAY => {
-            (json!(base64(&value.byte_array_value)), Some("byte_array"))
+            (json!(periplus_base::encode_base64(&value.byte_array_value)), Some("byte_array"))
         }
         ParameterType::PARAMETER_BOOL_ARRAY => (json!(value.bool_array_value), None),
         ParameterType::PARAMETER_INTEGER_ARRAY => (json!(value.integer_array_value), None),
@@ -118,33 +118,9 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// RFC 4648, section 4.
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let byte = |place: usize| u32::from(three.get(place).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for place in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * place) & 63) as usize];
-            text.push(if place <= three.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bytes_are_told_in_letters() {
-        for (bytes, text) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")]
-        {
-            assert_eq!(base64(bytes.as_bytes()), text);
-        }
-    }
 
     #[test]
     fn a_number_becomes_what_the_node_declared() {
