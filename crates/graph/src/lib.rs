@@ -31,6 +31,7 @@ mod actor;
 mod agenda;
 mod arguments;
 mod common;
+mod describe;
 mod error;
 mod executor;
 mod graph;

@@ -236,6 +236,24 @@ impl Registry {
         Ok(entry)
     }
 
+    /// The types of all topics, services and actions of a node.
+    pub(crate) fn types_of(&self, node: &str) -> Vec<TypeOf> {
+        let topics = self.topics.values().filter(|entry| {
+            let outlet = entry.outlets.iter().any(|outlet| *outlet.node == *node);
+            outlet || entry.inlets.iter().any(|inlet| *inlet.node == *node)
+        });
+        let services = self.services.values().filter(|entry| entry.is_of(node));
+        let services = services.map(|entry| entry.type_of.clone());
+        let mut types: Vec<TypeOf> = topics.map(|entry| entry.type_of.clone()).collect();
+        for one in services {
+            if let Some(action) = one.name.strip_suffix("_SendGoal") {
+                types.push(TypeOf { name: action.to_owned(), hash: None });
+            }
+            types.push(one);
+        }
+        types
+    }
+
     pub(crate) fn topic_infos(&self) -> Vec<TopicInfo> {
         self.topics.values().filter(|entry| entry.is_used()).map(TopicEntry::info).collect()
     }

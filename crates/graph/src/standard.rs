@@ -1,5 +1,5 @@
-//! What every node of ROS 2 has: six services for its parameters, a place on `/parameter_events`, and
-//! one on `/rosout`.
+//! What every node of ROS 2 has: six services for its parameters, one for the definitions of its
+//! types, a publisher on `/parameter_events`, and one on `/rosout`.
 //!
 //! Source: `rclcpp/node.cpp` (the interfaces that a node makes for itself) and `rcl/logging_rosout.h`.
 
@@ -11,6 +11,7 @@ use periplus_msgs::{Message, Service};
 
 use crate::arguments::Arguments;
 use crate::common::lock;
+use crate::describe;
 use crate::graph::Core;
 use crate::log::Level;
 use crate::node::NodeCore;
@@ -76,7 +77,9 @@ impl Standard {
         if arguments.logs_to_rosout() {
             self.rosout = Some(outlet::<Log>(node, "/rosout", Qos::rosout())?);
         }
-        services::serve(node, &mut self.servers)
+        services::serve(node, &mut self.servers)?;
+        self.servers.push(describe::serve(node)?);
+        Ok(())
     }
 
     /// Takes the ends out of the graph.

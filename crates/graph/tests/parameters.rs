@@ -188,6 +188,7 @@ fn every_node_has_parameters() {
             "/plain/describe_parameters",
             "/plain/get_parameter_types",
             "/plain/get_parameters",
+            "/plain/get_type_description",
             "/plain/list_parameters",
             "/plain/set_parameters",
             "/plain/set_parameters_atomically"

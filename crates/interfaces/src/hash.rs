@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use sha2::{Digest, Sha256};
 
-use crate::{Definition, Element, Field, Registry, Scalar, Shape, TypeName};
+use crate::{Definition, Element, Field, Registry, Scalar, Shape, Type, TypeName};
 
 impl Registry {
     /// `RIHS01_` and 64 hexadecimal digits; none when the type or one that it needs is unknown.
@@ -57,31 +57,56 @@ fn individual(json: &mut String, definition: &Definition) {
     json.push_str("]}");
 }
 
+impl Type {
+    /// The numbers by which `type_description_interfaces/msg/FieldType` describes it.
+    #[must_use]
+    pub fn numbers(&self) -> TypeNumbers {
+        let (id, string_capacity) = match &self.element {
+            Element::Scalar(scalar) => (scalar_id(*scalar), 0),
+            Element::String(None) => (17, 0),
+            Element::WString(None) => (18, 0),
+            Element::String(Some(bound)) => (21, *bound),
+            Element::WString(Some(bound)) => (22, *bound),
+            Element::Nested(_) => (1, 0),
+        };
+        let (added, capacity) = match self.shape {
+            Shape::One => (0, 0),
+            Shape::Fixed(size) => (48, size),
+            Shape::Bounded(bound) => (96, bound),
+            Shape::Unbounded => (144, 0),
+        };
+        TypeNumbers { type_id: id + added, capacity, string_capacity }
+    }
+
+    /// The message that its elements are; empty for scalars and text.
+    #[must_use]
+    pub fn nested_name(&self) -> String {
+        match &self.element {
+            Element::Nested(name) => name.to_string(),
+            _ => String::new(),
+        }
+    }
+}
+
+/// A field's type as `type_description_interfaces/msg/FieldType` has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TypeNumbers {
+    /// Element and shape, in one number.
+    pub type_id: u8,
+    /// Bound or size of an array; 0 for none.
+    pub capacity: u64,
+    /// Bound of a text; 0 for none.
+    pub string_capacity: u64,
+}
+
 fn one(json: &mut String, field: &Field) {
-    let nested = match &field.r#type.element {
-        Element::Nested(name) => name.to_string(),
-        _ => String::new(),
-    };
-    let (id, string_capacity) = match &field.r#type.element {
-        Element::Scalar(scalar) => (scalar_id(*scalar), 0),
-        Element::String(None) => (17, 0),
-        Element::WString(None) => (18, 0),
-        Element::String(Some(bound)) => (21, *bound),
-        Element::WString(Some(bound)) => (22, *bound),
-        Element::Nested(_) => (1, 0),
-    };
-    let (added, capacity) = match field.r#type.shape {
-        Shape::One => (0, 0),
-        Shape::Fixed(size) => (48, size),
-        Shape::Bounded(bound) => (96, bound),
-        Shape::Unbounded => (144, 0),
-    };
+    let nested = field.r#type.nested_name();
+    let TypeNumbers { type_id, capacity, string_capacity } = field.r#type.numbers();
     let _ = write!(
         json,
-        "{{\"name\": \"{}\", \"type\": {{\"type_id\": {}, \"capacity\": {capacity}, \
+        "{{\"name\": \"{}\", \"type\": {{\"type_id\": {type_id}, \"capacity\": {capacity}, \
          \"string_capacity\": {string_capacity}, \"nested_type_name\": \"{nested}\"}}}}",
-        field.name,
-        id + added
+        field.name
     );
 }
 

@@ -18,6 +18,7 @@ mod schema;
 
 pub use definition::{Constant, Definition, Element, Field, Scalar, Shape, Type};
 pub use expand::{Interface, expand};
+pub use hash::TypeNumbers;
 pub use literal::Literal;
 pub use name::{Kind, TypeName};
 pub use parse::{Dialect, LARGEST_TEXT, parse};

@@ -21,6 +21,7 @@
 
 mod binary;
 mod codec;
+mod description;
 mod dynamic;
 mod error;
 mod generated;

@@ -21,6 +21,13 @@ impl ServiceEntry {
         self.server.is_some() || !self.clients.is_empty()
     }
 
+    /// True when a node answers or calls it.
+    pub(super) fn is_of(&self, node: &str) -> bool {
+        let mut clients = self.clients.iter();
+        self.server.as_ref().is_some_and(|server| *server.node == *node)
+            || clients.any(|(_, client)| **client == *node)
+    }
+
     pub(crate) fn set_server(&mut self, server: Arc<Server>) -> Result<(), GraphError> {
         if let Some(other) = &self.server {
             return Err(GraphError::ServerExists {
