@@ -6,10 +6,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::actor::Jumps;
+use crate::steady::Steady;
 
 #[derive(Default)]
 pub(crate) struct Common {
     pub(crate) clock: Clock,
+    pub(crate) steady: Steady,
     pub(crate) jumps: Jumps,
     findings: Mutex<Diagnostics>,
 }

@@ -55,6 +55,7 @@ mod sample;
 mod service;
 mod settings;
 mod standard;
+mod steady;
 mod tap;
 
 pub use action::{
@@ -91,4 +92,5 @@ pub use service::{
     Call, CallError, Calls, Client, Pending, RawCall, RawCalls, RawClient, RawMessage,
 };
 pub use settings::{NodeNames, NodeSettings};
+pub use steady::{SteadyCallback, SteadyDriver};
 pub use tap::{Sink, TapId};

@@ -7,12 +7,14 @@ pub mod environment;
 pub mod names;
 mod own;
 pub mod report;
+mod steady;
 mod taps;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 pub use clock::{Since, unix_ns};
 pub use own::{Own, is_stand_in, stand_in};
+pub use steady::SteadyClock;
 pub use taps::{Foreign, Taps, Way};
 
 /// Locks; a panic elsewhere must not spread.

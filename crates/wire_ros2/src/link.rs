@@ -14,7 +14,7 @@ use periplus_cyclone::{
     Discovery, Durability, Error, Kind, Participant, Qos, Reader, Token, Waker, Writer,
 };
 use periplus_graph::{Graph, Node};
-use periplus_wire::{Own, lock};
+use periplus_wire::{Own, SteadyClock, lock};
 
 use crate::entities::{self, Entities, NodeEntities};
 use crate::user_data;
@@ -54,6 +54,7 @@ struct Attached {
     topics: Topics,
     services: Services,
     told: Told,
+    steady: SteadyClock,
 }
 
 impl Link {
@@ -161,6 +162,7 @@ impl Link {
         attached.topics.take(&self.net, tokens);
         attached.services.take(&self.net, tokens);
         attached.services.answer();
+        attached.steady.advance();
         attached.topics.notice(&attached.graph, tokens);
         if is_new || is_changed || attached.told.is_waiting() {
             let peers = lock(&self.net.shared.peers);
@@ -191,6 +193,7 @@ impl Link {
 impl Attached {
     fn new(graph: Graph, node: Node) -> Self {
         Self {
+            steady: SteadyClock::new(&graph),
             graph,
             node,
             generation: None,

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use periplus_graph::{Graph, Node};
-use periplus_wire::Own;
+use periplus_wire::{Own, SteadyClock};
 use zenoh::Session;
 use zenoh::liveliness::LivelinessToken;
 
@@ -45,6 +45,7 @@ struct Attached {
     topics: Topics,
     services: Services,
     told: Told,
+    steady: SteadyClock,
 }
 
 impl Link {
@@ -62,6 +63,7 @@ impl Link {
         while self.net.shared.sleep(LOOK) {
             if let Some((graph, node)) = periplus_wire::lock(&self.net.shared.joining).take() {
                 self.attached = Some(Attached {
+                    steady: SteadyClock::new(&graph),
                     graph,
                     node,
                     generation: None,
@@ -93,6 +95,7 @@ impl Link {
         attached.topics.take_strangers(&self.net, &attached.node);
         attached.topics.listen(&attached.graph, is_new);
         attached.services.send_questions(&self.net);
+        attached.steady.advance();
         attached.told.look_at_traffic(&self.net, &attached.topics);
     }
 }

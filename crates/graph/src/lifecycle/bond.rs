@@ -1,15 +1,21 @@
 //! Bonds: each of two programs sends heartbeats under a common id on the topic `bond`, and learns from
 //! the other's when that one stops or dies. Nav2's lifecycle manager keeps one with each node.
 //!
-//! Source: the documentation of `bond_core` (message `bond/Status`, its constants and states), and Nav2's
+//! All times are steady ones: `bondcpp` runs its timers on the steady clock, and a bond between two
+//! programs holds while the simulation of one is paused.
+//!
+//! Source: the documentation of `bond_core` (message `bond/Status`, its constants and states),
+//! `bondcpp/src/bond.cpp` (wall timers, stamps of the steady clock), and Nav2's
 //! `LifecycleNode::createBond` and `LifecycleManager::createBondConnection`.
+
+use std::sync::{Arc, Mutex};
 
 use periplus_msgs::bond::Status;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::std_msgs::Header;
 
 use crate::common::lock;
-use crate::{Actor, Node, Publisher, Qos};
+use crate::{Actor, Mailbox, Node, Publisher, Qos, SteadyCallback};
 
 /// Topic of all bonds of a namespace.
 const TOPIC: &str = "bond";
@@ -118,10 +124,13 @@ impl Bond {
 
     /// The message that is due, if one is. Asked more often than the period, it keeps to the period.
     pub fn due(&mut self, now_ns: i64) -> Option<Status> {
-        if let State::Alive(received_ns) = self.state
-            && now_ns - received_ns > ns(self.settings.timeout_s)
-        {
-            self.state = State::Broken;
+        match self.state {
+            // Time went back: a reset, where no edge drives steady time.
+            State::Alive(received_ns) if received_ns > now_ns => self.state = State::Alive(now_ns),
+            State::Alive(received_ns) if now_ns - received_ns > ns(self.settings.timeout_s) => {
+                self.state = State::Broken;
+            }
+            _ => {}
         }
         let (is_active, period_ns) = match self.state {
             State::Waiting if !self.settings.begins => return None,
@@ -129,9 +138,8 @@ impl Bond {
             State::Ending(_) => (false, DEAD_PUBLISH_PERIOD_NS),
             State::Broken => return None,
         };
-        if self.published_ns.is_some_and(|published_ns| now_ns - published_ns < period_ns)
-            && is_active
-        {
+        let is_early = |published_ns| (0..period_ns).contains(&(now_ns - published_ns));
+        if is_active && self.published_ns.is_some_and(is_early) {
             return None;
         }
         if let State::Ending(since_ns) = self.state
@@ -169,16 +177,28 @@ impl Bond {
 /// A node's end of the bond to its lifecycle manager. It is silent until the manager begins, so that
 /// nothing is published where there is none.
 pub(super) struct End {
-    // Taken apart, the actor ends the subscription and the timer.
-    actor: Actor<Talking>,
+    node: Node,
+    heartbeats: Arc<Mutex<Heartbeats>>,
+    /// Heartbeats where an edge drives steady time.
+    _steady: SteadyCallback,
+    /// Heartbeats where none does.
+    _timer: Actor<()>,
 }
 
-struct Talking {
+struct Heartbeats {
     bond: Bond,
     publisher: Publisher<Status>,
+    received: Mailbox<Status>,
 }
 
-impl Talking {
+impl Heartbeats {
+    fn exchange(&mut self, now_ns: i64) {
+        for status in self.received.drain() {
+            self.bond.receive(&status, now_ns);
+        }
+        self.publish(now_ns);
+    }
+
     fn publish(&mut self, now_ns: i64) {
         if let Some(status) = self.bond.due(now_ns) {
             self.publisher.publish(status);
@@ -196,29 +216,34 @@ impl End {
         // No end has the name of one before it.
         let number = node.0.next_ordinal();
         let settings = BondSettings { period_s, timeout_s: NODE_TIMEOUT_S, begins: false };
-        let instance_id = format!("{}:{}:{number}", node.full_name(), node.now_ns());
+        let graph = node.graph();
+        let instance_id = format!("{}:{}:{number}", node.full_name(), graph.steady_now_ns());
         let bond = Bond::new(node.names().name(), &instance_id, settings);
         let qos = Qos::reliable(DEPTH);
         let publisher = node.publisher(TOPIC, qos).ok()?;
-        let mut actor = node.actor(Talking { bond, publisher });
-        let receive = actor.subscribe::<Status>(TOPIC, qos, |talking, status, io| {
-            talking.bond.receive(&status, io.now_ns());
-            talking.publish(io.now_ns());
+        let received = node.mailbox(TOPIC, qos).ok()?;
+        let heartbeats = Arc::new(Mutex::new(Heartbeats { bond, publisher, received }));
+        let own = heartbeats.clone();
+        let steady = node.on_steady_time(move |now_ns| lock(&own).exchange(now_ns));
+        let mut timer = node.actor(());
+        let own = heartbeats.clone();
+        let beat_ns = ns(period_s).clamp(1, DEAD_PUBLISH_PERIOD_NS);
+        let beat = timer.timer(beat_ns, move |(), io| {
+            let graph = io.node().graph();
+            if !graph.has_steady_driver() {
+                lock(&own).exchange(graph.steady_now_ns());
+            }
         });
-        let beat = actor.timer(ns(period_s).clamp(1, DEAD_PUBLISH_PERIOD_NS), |talking, io| {
-            talking.publish(io.now_ns());
-        });
-        receive.and(beat).ok()?;
-        Some(Self { actor })
+        beat.ok()?;
+        Some(Self { node: node.clone(), heartbeats, _steady: steady, _timer: timer })
     }
 
-    /// Ends the bond, and says so.
+    /// Ends the bond, and publishes that.
     pub(super) fn end(&self) {
-        let now_ns = self.actor.node().now_ns();
-        self.actor.with(|talking| {
-            talking.bond.end(now_ns);
-            talking.publish(now_ns);
-        });
+        let now_ns = self.node.graph().steady_now_ns();
+        let mut heartbeats = lock(&self.heartbeats);
+        heartbeats.bond.end(now_ns);
+        heartbeats.publish(now_ns);
     }
 }
 
@@ -268,6 +293,18 @@ mod tests {
         assert!(!manager.is_broken());
         assert_eq!(manager.due(4 * SECOND + 1), None);
         assert!(manager.is_broken());
+    }
+
+    /// A reset of simulated time left an end silent until the time before the reset came again.
+    #[test]
+    fn heartbeats_go_on_when_time_goes_back() {
+        let (mut manager, mut node) = pair();
+        exchange(&mut manager, &mut node, 100 * SECOND);
+        assert!(node.due(0).is_some() && node.is_formed());
+        assert_eq!(node.due(SECOND / 20), None);
+        assert!(node.due(SECOND / 10).is_some());
+        let _ = node.due(4 * SECOND + 1);
+        assert!(node.is_broken());
     }
 
     #[test]
