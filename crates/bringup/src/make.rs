@@ -26,7 +26,9 @@ use crate::bridge::{self, Direction};
 use crate::catalogue::Role;
 use crate::costmaps::{self, Host};
 use crate::crew::Settings;
-use crate::hands::{Described, Hand, Manager, Relay, Saver, Spawner, Unstamp, robot};
+use crate::hands::{
+    Described, Hand, Manager, ManagerSettings, Relay, Saver, Spawner, Unstamp, robot,
+};
 use crate::parameters::{self, Named, text_of, texts_of, truth_of};
 use crate::parts::{Ask, searched};
 use crate::told::Kind;
@@ -197,9 +199,17 @@ pub(crate) fn make(
             }
             let is_autostart = truth_of(&named, "autostart").unwrap_or(false);
             made.told = format!("brings up {}", names.join(", "));
-            // As Nav2 has it.
-            let bond_timeout_s = parameters::number_of(&named, "bond_timeout").unwrap_or(4.0);
-            made.hand(Manager::new(node, names, is_autostart, bond_timeout_s, now_ns)?);
+            // Defaults are Nav2's.
+            let number = |name, default| parameters::number_of(&named, name).unwrap_or(default);
+            let settings = ManagerSettings {
+                node_names: names,
+                autostart: is_autostart,
+                bond_timeout_s: number("bond_timeout", 4.0),
+                attempt_respawn_reconnection: truth_of(&named, "attempt_respawn_reconnection")
+                    .unwrap_or(true),
+                bond_respawn_max_duration_s: number("bond_respawn_max_duration", 10.0),
+            };
+            made.hand(Manager::new(node, settings, now_ns)?);
         }
         Role::Relay => {
             let topic = |index: usize, name: &str| {

@@ -3,8 +3,11 @@
 //! Source: `LifecycleManager::createBondConnection` and `checkBondConnections` of Nav2.
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use periplus_graph::{Bond, BondSettings, GraphError, Mailbox, Node, Publisher, Qos};
+use periplus_graph::{
+    Bond, BondSettings, GraphError, Mailbox, Node, Publisher, Qos, SteadyCallback,
+};
 use periplus_msgs::bond::Status;
 
 /// Topic of all bonds of a namespace.
@@ -16,8 +19,14 @@ const DEPTH: usize = 100;
 /// Period of the manager's heartbeats, as Nav2's manager has it \[s\].
 const PERIOD_S: f64 = 0.1;
 
-/// Bonds with nodes, by the nodes' names.
+/// Bonds with nodes, by the nodes' names. All times are steady ones: heartbeats go on while the
+/// simulation is paused, or the manager waits for its turn.
 pub(super) struct Bonds {
+    heartbeats: Arc<Mutex<Heartbeats>>,
+    _steady: SteadyCallback,
+}
+
+struct Heartbeats {
     instance_id: String,
     timeout_s: f64,
     publisher: Publisher<Status>,
@@ -35,6 +44,8 @@ struct Held {
 pub(super) struct Broken {
     pub(super) name: String,
     pub(super) reason: String,
+    /// False when the node never answered: it keeps no bond, and a restart would not change that.
+    pub(super) was_formed: bool,
 }
 
 impl Bonds {
@@ -47,17 +58,48 @@ impl Bonds {
             return Ok(None);
         }
         let qos = Qos::reliable(DEPTH);
-        Ok(Some(Self {
-            instance_id: format!("{}:{}", node.full_name(), node.now_ns()),
+        let heartbeats = Arc::new(Mutex::new(Heartbeats {
+            instance_id: format!("{}:{}", node.full_name(), node.graph().steady_now_ns()),
             timeout_s,
             publisher: node.publisher(TOPIC, qos)?,
             received: node.mailbox(TOPIC, qos)?,
             bonds: BTreeMap::new(),
-        }))
+        }));
+        let own = heartbeats.clone();
+        let steady = node.on_steady_time(move |now_ns| lock(&own).exchange(now_ns));
+        Ok(Some(Self { heartbeats, _steady: steady }))
     }
 
     /// Begins a bond with a node that became active.
     pub(super) fn begin(&mut self, name: &str, now_ns: i64) {
+        lock(&self.heartbeats).begin(name, now_ns);
+    }
+
+    /// True while a node has not answered yet.
+    pub(super) fn is_forming(&self) -> bool {
+        lock(&self.heartbeats).bonds.values().any(|held| !held.was_formed)
+    }
+
+    /// Ends the bond with a node that is deactivated.
+    pub(super) fn end(&mut self, name: &str, now_ns: i64) {
+        lock(&self.heartbeats).end(name, now_ns);
+    }
+
+    /// Sends and receives heartbeats. Gives a bond that broke or did not form.
+    pub(super) fn keep(&mut self, now_ns: i64) -> Option<Broken> {
+        let mut heartbeats = lock(&self.heartbeats);
+        heartbeats.exchange(now_ns);
+        heartbeats.take_broken(now_ns)
+    }
+}
+
+/// Locks; a panic elsewhere must not spread.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Heartbeats {
+    fn begin(&mut self, name: &str, now_ns: i64) {
         let settings = BondSettings { period_s: PERIOD_S, timeout_s: self.timeout_s, begins: true };
         let id = name.rsplit('/').next().unwrap_or(name);
         let instance_id = format!("{}:{name}:{now_ns}", self.instance_id);
@@ -65,13 +107,7 @@ impl Bonds {
         self.bonds.insert(name.to_owned(), Held { bond, since_ns: now_ns, was_formed: false });
     }
 
-    /// True while a node has not answered yet.
-    pub(super) fn is_forming(&self) -> bool {
-        self.bonds.values().any(|held| !held.was_formed)
-    }
-
-    /// Ends the bond with a node that is deactivated.
-    pub(super) fn end(&mut self, name: &str, now_ns: i64) {
+    fn end(&mut self, name: &str, now_ns: i64) {
         if let Some(mut held) = self.bonds.remove(name) {
             held.bond.end(now_ns);
             if let Some(status) = held.bond.due(now_ns) {
@@ -80,22 +116,25 @@ impl Bonds {
         }
     }
 
-    /// Sends and receives heartbeats. Gives a bond that broke, and ends all others then.
-    pub(super) fn keep(&mut self, now_ns: i64) -> Option<Broken> {
+    fn exchange(&mut self, now_ns: i64) {
         for status in self.received.drain() {
             for held in self.bonds.values_mut() {
                 held.bond.receive(&status, now_ns);
             }
         }
-        let mut broken = None;
-        #[allow(clippy::cast_possible_truncation, reason = "saturates")]
-        let forming_ns = (self.timeout_s / 2.0 * 1e9) as i64;
-        for (name, held) in &mut self.bonds {
+        for held in self.bonds.values_mut() {
             held.was_formed |= held.bond.is_formed();
             if let Some(status) = held.bond.due(now_ns) {
                 self.publisher.publish(status);
             }
-            let timeout_s = self.timeout_s;
+        }
+    }
+
+    fn take_broken(&mut self, now_ns: i64) -> Option<Broken> {
+        let timeout_s = self.timeout_s;
+        #[allow(clippy::cast_possible_truncation, reason = "saturates")]
+        let forming_ns = (timeout_s / 2.0 * 1e9) as i64;
+        let broken = self.bonds.iter().find_map(|(name, held)| {
             let reason = if held.bond.is_broken() {
                 format!(
                     "`{name}` is down: no heartbeat of its bond for {timeout_s:.2} s, or it ended it"
@@ -106,13 +145,11 @@ impl Bonds {
                      0.0` for nodes that keep no bond"
                 )
             } else {
-                continue;
+                return None;
             };
-            broken.get_or_insert(Broken { name: name.clone(), reason });
-        }
-        if let Some(Broken { name, .. }) = &broken {
-            self.bonds.remove(name);
-        }
-        broken
+            Some(Broken { name: name.clone(), reason, was_formed: held.was_formed })
+        })?;
+        self.bonds.remove(&broken.name);
+        Some(broken)
     }
 }

@@ -2,12 +2,13 @@
 //!
 //! Source: `nav2_lifecycle_manager/src/lifecycle_manager.cpp`: nodes are configured one after the
 //! other in the order of `node_names`, then activated in that order; down it goes in reverse. With each
-//! active node a bond is kept, unless `bond_timeout` is 0.
+//! active node a bond is kept, unless `bond_timeout` is 0. After a bond broke, the other nodes are reset;
+//! once all answer again, the system is started again (`attempt_respawn_reconnection`).
 
 use std::collections::{BTreeMap, VecDeque};
 
 use periplus_graph::{Calls, Client, Level, Node, Pending, Publisher, Qos};
-use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest};
+use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, State};
 use periplus_msgs::nav2_msgs::{
     ManageLifecycleNodes, ManageLifecycleNodesRequest as Command, ManageLifecycleNodesResponse,
 };
@@ -16,11 +17,22 @@ use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
 use super::bonds::{Bonds, Broken};
 use super::changer::transition;
+use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
 use super::{Done, Hand, Stage};
 use crate::told::Said;
 
 /// After so long it is said for whom it waits \[ns\].
 const PATIENCE_NS: i64 = 5_000_000_000;
+
+/// Parameters of a lifecycle manager, as Nav2 names them; times in seconds.
+pub(crate) struct ManagerSettings {
+    /// The nodes, by their names in the manager's namespace.
+    pub(crate) node_names: Vec<String>,
+    pub(crate) autostart: bool,
+    pub(crate) bond_timeout_s: f64,
+    pub(crate) attempt_respawn_reconnection: bool,
+    pub(crate) bond_respawn_max_duration_s: f64,
+}
 
 /// A manager of nodes.
 pub(crate) struct Manager {
@@ -32,7 +44,12 @@ pub(crate) struct Manager {
     state: Publisher<std_msgs::Bool>,
     to_do: VecDeque<(String, &'static str)>,
     pending: Option<Pending<ChangeState>>,
+    /// Steady time at which `pending` was sent \[ns\].
+    pending_since_ns: i64,
     bonds: Option<Bonds>,
+    respawn: Option<Respawn>,
+    /// After a bond broke all nodes are reset, whether single ones fail or not.
+    is_hard_reset: bool,
     waits_since_ns: i64,
     has_complained: bool,
     /// All nodes are active; the last bond may not be formed yet.
@@ -42,17 +59,12 @@ pub(crate) struct Manager {
 }
 
 impl Manager {
-    /// Of these nodes, by their names in its namespace; `lacking` are left out.
+    /// A manager as the settings have it.
     ///
     /// # Errors
     /// In words.
-    pub(crate) fn new(
-        node: Node,
-        names: Vec<String>,
-        is_autostart: bool,
-        bond_timeout_s: f64,
-        now_ns: i64,
-    ) -> Result<Self, String> {
+    pub(crate) fn new(node: Node, settings: ManagerSettings, now_ns: i64) -> Result<Self, String> {
+        let names = settings.node_names;
         let made = || {
             let mut clients = BTreeMap::new();
             for name in &names {
@@ -61,11 +73,17 @@ impl Manager {
             let manage = node.server("~/manage_nodes")?;
             let is_active = node.server("~/is_active")?;
             let state = node.publisher("~/is_active_state", Qos::latched(1))?;
-            let bonds = Bonds::new(&node, bond_timeout_s)?;
-            Ok((clients, manage, is_active, state, bonds))
+            let bonds = Bonds::new(&node, settings.bond_timeout_s)?;
+            let respawn = if bonds.is_some() && settings.attempt_respawn_reconnection {
+                Some(Respawn::new(&node, &names, settings.bond_respawn_max_duration_s)?)
+            } else {
+                None
+            };
+            Ok((clients, manage, is_active, state, bonds, respawn))
         };
         let made: Result<_, periplus_graph::GraphError> = made();
-        let (clients, manage, is_active, state, bonds) = made.map_err(|error| error.to_string())?;
+        let (clients, manage, is_active, state, bonds, respawn) =
+            made.map_err(|error| error.to_string())?;
         let mut manager = Self {
             node,
             names,
@@ -75,14 +93,17 @@ impl Manager {
             state,
             to_do: VecDeque::new(),
             pending: None,
+            pending_since_ns: 0,
             bonds,
+            respawn,
+            is_hard_reset: false,
             waits_since_ns: now_ns,
             has_complained: false,
             is_rising: false,
             is_up: false,
             has_failed: false,
         };
-        if is_autostart {
+        if settings.autostart {
             manager.order(Command::STARTUP);
         }
         Ok(manager)
@@ -100,7 +121,10 @@ impl Manager {
             Command::SHUTDOWN => &["deactivate", "cleanup", "unconfigured_shutdown"],
             _ => return false,
         };
-        self.has_failed = false;
+        (self.has_failed, self.is_hard_reset) = (false, false);
+        if let Some(respawn) = &mut self.respawn {
+            respawn.cancel();
+        }
         for label in labels {
             let is_up = matches!(*label, "configure" | "activate");
             let mut names = self.names.clone();
@@ -119,17 +143,32 @@ impl Manager {
 
     /// Goes on with what is to be done; whether something was.
     fn go_on(&mut self, stage: &mut Stage<'_>) -> bool {
-        let Some((name, label)) = self.to_do.front().cloned() else { return false };
+        let Some((name, label)) = self.to_do.front().cloned() else {
+            self.is_hard_reset = false;
+            return false;
+        };
+        let steady_ns = stage.graph.steady_now_ns();
         if let Some(pending) = &self.pending {
-            let Some(answer) = pending.take() else { return false };
+            let succeeded = match pending.take() {
+                Some(answer) => answer.is_ok_and(|answer| answer.success),
+                // It may have died with the one whose bond broke.
+                None if self.is_hard_reset
+                    && steady_ns - self.pending_since_ns > SERVICE_TIMEOUT_NS =>
+                {
+                    false
+                }
+                None => return false,
+            };
             self.pending = None;
             self.to_do.pop_front();
-            let succeeded = answer.is_ok_and(|answer| answer.success);
+            if self.is_hard_reset {
+                return true;
+            }
             if succeeded {
                 if label == "activate"
                     && let Some(bonds) = &mut self.bonds
                 {
-                    bonds.begin(&name, stage.now_ns);
+                    bonds.begin(&name, steady_ns);
                 }
                 if self.to_do.is_empty() {
                     self.is_rising = label == "activate";
@@ -154,10 +193,14 @@ impl Manager {
         if label == "deactivate"
             && let Some(bonds) = &mut self.bonds
         {
-            bonds.end(&name, stage.now_ns);
+            bonds.end(&name, steady_ns);
         }
         let Some(client) = self.clients.get(&name) else { return false };
         if !client.is_ready() {
+            if self.is_hard_reset {
+                self.to_do.pop_front();
+                return true;
+            }
             if stage.now_ns - self.waits_since_ns > PATIENCE_NS && !self.has_complained {
                 self.has_complained = true;
                 let text = format!("waits for `{name}`, whose services nobody has");
@@ -168,6 +211,7 @@ impl Manager {
         self.waits_since_ns = stage.now_ns;
         let Some(transition) = transition(label) else { return false };
         self.pending = Some(client.call(ChangeStateRequest { transition }));
+        self.pending_since_ns = steady_ns;
         stage.graph.settle();
         true
     }
@@ -177,8 +221,13 @@ impl Manager {
     /// Takes all nodes down when one of them is gone.
     fn keep_bonds(&mut self, stage: &mut Stage<'_>) {
         let Some(bonds) = &mut self.bonds else { return };
-        let Some(Broken { name, reason }) = bonds.keep(stage.now_ns) else { return };
+        let steady_ns = stage.graph.steady_now_ns();
+        let Some(Broken { name, reason, was_formed }) = bonds.keep(steady_ns) else { return };
         self.say(stage, Level::Error, &format!("{reason}; the other nodes are reset"));
+        self.is_hard_reset = true;
+        if let Some(respawn) = self.respawn.as_mut().filter(|_| was_formed) {
+            respawn.begin(steady_ns);
+        }
         self.has_failed = true;
         (self.is_rising, self.is_up) = (false, false);
         self.state.publish(std_msgs::Bool { data: false });
@@ -188,6 +237,45 @@ impl Manager {
         let others: Vec<String> = others.cloned().collect();
         for label in ["deactivate", "cleanup"] {
             self.to_do.extend(others.iter().map(|other| (other.clone(), label)));
+        }
+    }
+}
+
+impl Manager {
+    /// Starts the system again once all nodes have come back.
+    fn await_respawn(&mut self, stage: &mut Stage<'_>) {
+        let Some(respawn) = &mut self.respawn else { return };
+        if !self.to_do.is_empty() || self.pending.is_some() {
+            return;
+        }
+        match respawn.look(stage.graph.steady_now_ns()) {
+            RespawnStatus::Idle => {}
+            RespawnStatus::Waiting => stage.graph.settle(),
+            RespawnStatus::Back(states) => {
+                let text = "all nodes answer again after a bond broke; the system is started again";
+                self.say(stage, Level::Info, text);
+                // A node that ended its bond by itself may be anywhere in its life.
+                let mut resets = VecDeque::new();
+                for name in self.names.iter().rev() {
+                    match states.get(name) {
+                        Some(&State::PRIMARY_STATE_ACTIVE) => {
+                            resets.push_back((name.clone(), "deactivate"));
+                            resets.push_back((name.clone(), "cleanup"));
+                        }
+                        Some(&State::PRIMARY_STATE_INACTIVE) => {
+                            resets.push_back((name.clone(), "cleanup"));
+                        }
+                        _ => {}
+                    }
+                }
+                self.to_do = resets;
+                self.order(Command::STARTUP);
+            }
+            RespawnStatus::GivenUp => {
+                let text = "not all nodes came back after a bond broke \
+                            (`bond_respawn_max_duration`); start them, then call `manage_nodes`";
+                self.say(stage, Level::Error, text);
+            }
         }
     }
 }
@@ -207,6 +295,7 @@ impl Hand for Manager {
             call.answer(TriggerResponse { success: self.is_up, ..TriggerResponse::default() });
         }
         while self.go_on(stage) {}
+        self.await_respawn(stage);
         if self.is_rising && !self.bonds.as_ref().is_some_and(Bonds::is_forming) {
             (self.is_rising, self.is_up) = (false, true);
             self.state.publish(std_msgs::Bool { data: true });
