@@ -33,6 +33,6 @@ pub use convert::{Conversion, Report, convert};
 pub use error::BagError;
 pub use info::{Info, TopicSum, stamp_name};
 pub use play::{PlaySettings, Player};
-pub use record::{Now, RecordSettings, Recorder, Recording, Wanted};
+pub use record::{Now, Offered, RecordSettings, Recorder, Recording, Wanted};
 pub use stream::{BagMessage, BagMessages};
 pub use write::{BagWriter, ChunkPacking, Packing, PackingMode, Storage, WriteSettings};

@@ -17,11 +17,13 @@ pub(crate) fn topic_info(topic: &BagTopic) -> TopicInfo {
     }
 }
 
-/// The profile of a publisher.
+/// The profile of a publisher. A depth of 0 is one that it does not announce: programs of DDS need
+/// not, and rosbag2 writes `unknown` for these.
 pub(crate) fn profile(qos: &Qos) -> QosProfile {
     let span = |ns: Option<i64>| ns.and_then(|ns| u64::try_from(ns).ok());
     QosProfile {
         history: match qos.history {
+            History::KeepLast if qos.depth == 0 => bags::History::Unknown,
             History::KeepLast => bags::History::KeepLast,
             History::KeepAll => bags::History::KeepAll,
         },

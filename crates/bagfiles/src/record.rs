@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use periplus_bags::{BagInfo, BagTopic, Stamp, Style, Target, Translation};
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Graph, Sample, Sink, TapId, TopicInfo};
+use periplus_graph::{Graph, Qos, Sample, Sink, TapId, TopicInfo};
 use periplus_msgs::TypeRegistry;
 
 use crate::profile::profile;
@@ -25,16 +25,23 @@ pub struct RecordSettings {
     pub depth: usize,
     /// Tells the time at which a message is recorded \[ns\]; none for that of the graph.
     pub clock: Option<Now>,
+    /// QoS of the publishers of a topic by its full name; none for those that the graph has. A
+    /// recorder of other programs knows these from discovery: what stands for them in the graph keeps
+    /// as many messages as the recorder asked for.
+    pub offered: Option<Offered>,
 }
 
 /// Tells the time \[ns\].
 pub type Now = Box<dyn Fn() -> i64 + Send + Sync>;
 
+/// QoS of the publishers of a topic. A depth of 0 is one that they do not announce.
+pub type Offered = Box<dyn Fn(&str) -> Vec<Qos> + Send + Sync>;
+
 impl RecordSettings {
     /// All topics.
     #[must_use]
     pub fn all(write: WriteSettings) -> Self {
-        Self { write, wanted: Box::new(|_| true), depth: 10_000, clock: None }
+        Self { write, wanted: Box::new(|_| true), depth: 10_000, clock: None, offered: None }
     }
 }
 
@@ -158,7 +165,7 @@ impl Sink for BagSink {
         let mut state = self.0.lock();
         let settings = &self.0.settings;
         let time_ns = settings.clock.as_ref().map_or(sample.time_ns, |now| now());
-        if let Err(error) = state.take(settings.write.storage, topic, sample, time_ns) {
+        if let Err(error) = state.take(settings, topic, sample, time_ns) {
             state.fail(error);
         }
     }
@@ -173,14 +180,14 @@ impl State {
 
     fn take(
         &mut self,
-        storage: Storage,
+        settings: &RecordSettings,
         topic: &TopicInfo,
         sample: &Sample,
         time_ns: i64,
     ) -> Result<(), BagError> {
         let Some(writer) = &mut self.writer else { return Ok(()) };
         if !self.topics.contains_key(&topic.name) {
-            let way = way(writer, storage, topic)?;
+            let way = way(writer, settings, topic)?;
             self.topics.insert(topic.name.clone(), way);
         }
         let Some(Some(way)) = self.topics.get_mut(&topic.name) else { return Ok(()) };
@@ -195,12 +202,17 @@ impl State {
 
 fn way(
     writer: &mut BagWriter,
-    storage: Storage,
+    settings: &RecordSettings,
     topic: &TopicInfo,
 ) -> Result<Option<Way>, BagError> {
-    let target = if storage == Storage::Ros1 { Target::Ros1 } else { Target::Ros2 };
+    let offered = match &settings.offered {
+        Some(offered) => offered(&topic.name),
+        None => topic.publishers.iter().map(|publisher| publisher.qos).collect(),
+    };
+    let target = if settings.write.storage == Storage::Ros1 { Target::Ros1 } else { Target::Ros2 };
     let mut unused = Diagnostics::new();
-    let Some(translation) = Translation::new(&describe(topic), target, &mut unused) else {
+    let Some(translation) = Translation::new(&describe(topic, &offered), target, &mut unused)
+    else {
         return Ok(None);
     };
     let id = writer.topic(translation.topic())?;
@@ -208,11 +220,11 @@ fn way(
 }
 
 /// A topic of a graph as recordings have it.
-fn describe(topic: &TopicInfo) -> BagTopic {
+fn describe(topic: &TopicInfo, offered: &[Qos]) -> BagTopic {
     let types = TypeRegistry::builtin();
     let text = types.schema_text(&topic.type_name).unwrap_or_default();
     let hash = topic.type_hash.clone().or_else(|| types.hash(&topic.type_name));
-    let profiles = topic.publishers.iter().map(|publisher| profile(&publisher.qos)).collect();
+    let profiles = offered.iter().map(profile).collect();
     let info = periplus_bags::TopicInfo {
         name: topic.name.clone(),
         type_name: topic.type_name.clone(),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_cyclone::{Found, Guid, Kind, Vendor};
-use periplus_graph::Qos;
+use periplus_graph::{History, Qos};
 
 use crate::entities::{self, Form, NodeEntities};
 use crate::names::{self, Use};
@@ -52,6 +52,16 @@ pub(crate) struct Peers {
     changes: u64,
 }
 
+/// The QoS that an endpoint announces. Fast DDS keeps history and depth to itself, and Cyclone DDS, which
+/// reads them, fills in the default of DDS: these are unknown, as `ros2 topic info` prints them.
+fn announced(qos: &periplus_cyclone::Qos, vendor: Vendor) -> Qos {
+    let announced = qos::from_dds(qos);
+    if vendor == Vendor::FAST {
+        return Qos { history: History::KeepLast, depth: 0, ..announced };
+    }
+    announced
+}
+
 impl Peers {
     pub(crate) fn new(own: Guid) -> Self {
         Self { own, ..Self::default() }
@@ -77,7 +87,7 @@ impl Peers {
                 type_hash: user_data::hash_of(&found.user_data),
                 topic: found.topic,
                 type_name: found.type_name,
-                qos: qos::from_dds(&found.qos),
+                qos: announced(&found.qos, found.vendor),
                 participant: found.participant,
                 vendor: found.vendor,
             };

@@ -5,13 +5,15 @@ use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage};
+use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
 use periplus_graph::{
     Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
 };
-use periplus_host::{sleep, unix_ns};
+use periplus_host::{Machine, sleep, unix_ns};
+use periplus_resources::Host as _;
 use periplus_wire_ros2::{Remote, RemoteTopic};
 
 use super::options::RecordOptions;
@@ -50,11 +52,18 @@ pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
 
 fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let output = options.output.clone().unwrap_or_else(named_by_time);
+    let offers = Offers::default();
+    let known = offers.clone();
     let settings = RecordSettings {
         // Nobody here says anything: all that is heard was asked for.
         wanted: Box::new(|_| true),
         clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bagfiles::Now),
-        ..RecordSettings::all(options.write.settings(&output, Storage::Mcap))
+        offered: Some(Box::new(move |topic| known.of(topic))),
+        ..RecordSettings::all(WriteSettings {
+            // As rosbag2 notes it.
+            ros_distro: Machine.variable("ROS_DISTRO").unwrap_or_default(),
+            ..options.write.settings(&output, Storage::Mcap)
+        })
     };
     let node = live.graph.node(NodeSettings::new("rosbag2_recorder"))?;
     if options.use_sim_time {
@@ -62,7 +71,7 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     }
     let stop = stop::on_signal();
     let recorder = Recorder::start(&live.graph, &output, settings)?;
-    let mut heard = Heard { node, mailboxes: BTreeMap::new() };
+    let mut heard = Heard { node, offers, mailboxes: BTreeMap::new() };
     terminal::say(&format!("{}: records until Ctrl-C", output.display()));
     let mut ticks = 0;
     while !stop.load(Ordering::Relaxed) {
@@ -89,9 +98,27 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     Ok(())
 }
 
+/// QoS of the publishers of each topic, as discovery has it.
+#[derive(Clone, Default)]
+struct Offers(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
+
+impl Offers {
+    fn of(&self, topic: &str) -> Vec<Qos> {
+        let offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        offers.get(topic).cloned().unwrap_or_default()
+    }
+
+    fn note(&self, topic: &RemoteTopic) {
+        let offered = topic.publishers.iter().map(|one| one.qos).collect();
+        let mut offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        offers.insert(topic.name.clone(), offered);
+    }
+}
+
 /// What is subscribed to.
 struct Heard {
     node: Node,
+    offers: Offers,
     /// By topic: what is asked for, and the subscription.
     mailboxes: BTreeMap<String, (Qos, RawMailbox)>,
 }
@@ -105,6 +132,8 @@ impl Heard {
             if topic.publishers.is_empty() || !options.wants(&topic.name) {
                 continue;
             }
+            // Before the subscription, whose first message takes it.
+            self.offers.note(topic);
             let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
             let is_heard =
                 |asked: Qos| topic.publishers.iter().all(|one| one.qos.lacks(&asked).is_empty());
