@@ -6,15 +6,15 @@ use std::sync::Arc;
 use periplus_base::Pose2;
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Qos, Step, StepOutcome,
-    Transition,
+    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Parameters, Qos, Step,
+    StepOutcome, Transition,
 };
 use periplus_grid::OccupancyGrid;
 use periplus_matching::Symmetric3;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
-use periplus_params::Values;
+use periplus_params::{Value, Values};
 use periplus_slam::{Closure, Counts, Slam, Taken, tables};
 use periplus_tf::Kind;
 use periplus_whereabouts::{Frames, Told, plain};
@@ -89,6 +89,8 @@ pub struct SlamStatus {
 pub(crate) struct State {
     pub(crate) program: Program,
     pub(crate) values: Values,
+    /// For states that others read as parameters.
+    parameters: Option<Parameters>,
     pub(crate) files: Arc<dyn Files>,
     pub(crate) slices: usize,
     is_live: bool,
@@ -155,6 +157,7 @@ impl SlamNode {
         let state = State {
             program,
             values: values.clone(),
+            parameters: None,
             files,
             slices: match (is_live, pace) {
                 (true, _) => 0,
@@ -183,9 +186,16 @@ impl SlamNode {
         };
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        for name in ["interactive_mode", "paused_processing"] {
+            // States: they begin as false, whatever a file has.
+            if flag(&parameters.values(), name) == Some(true) {
+                let _ = parameters.set(name, Value::Bool(false));
+            }
+        }
         let values = parameters.values();
         actor.with(|state| {
             state.values = values.clone();
+            state.parameters = Some(parameters);
             if let Some(span_s) = number(&values, BUFFER).filter(|_| program.is_toolbox()) {
                 state.frames = Frames::kept_for(seconds_ns(span_s));
             }
@@ -325,16 +335,48 @@ impl State {
         self.begin(Engine::empty(self.program, &self.values, self.slices));
         let file = text(&self.values, "map_file_name").unwrap_or_default();
         if !file.is_empty() {
-            let dock = flag(&self.values, "map_start_at_dock").unwrap_or(false);
-            let start = match numbers(&self.values, "map_start_pose").as_slice() {
-                [x_m, y_m, yaw_rad] if !dock => Start::At(Pose2::new(*x_m, *y_m, *yaw_rad)),
-                _ => Start::First,
-            };
+            let start = self.map_start(node);
             if !self.load(&file, self.program == Program::Localization, start, node) {
                 return StepOutcome::Failure;
             }
         }
         StepOutcome::Success
+    }
+
+    /// The robot's pose on the stored graph to begin with, as `slam_toolbox` decides it: a given pose
+    /// goes before the dock, and one that cannot be read is the origin.
+    fn map_start(&self, node: &Node) -> Start {
+        let dock = flag(&self.values, "map_start_at_dock");
+        match numbers(&self.values, "map_start_pose").as_slice() {
+            [x_m, y_m, yaw_rad] => {
+                if dock == Some(true) {
+                    let words = "`map_start_at_dock` has no effect beside `map_start_pose`: take one \
+                                 of them away";
+                    node.log(Level::Warn, words);
+                }
+                Start::At(Pose2::new(*x_m, *y_m, *yaw_rad))
+            }
+            [] if dock == Some(false) => Start::At(Pose2::IDENTITY),
+            [] => Start::First,
+            others => {
+                let words = format!(
+                    "`map_start_pose` has {} numbers and needs three, [x, y, yaw] in m and rad; the \
+                     robot starts at the origin of the map",
+                    others.len()
+                );
+                node.log(Level::Error, words);
+                Start::At(Pose2::IDENTITY)
+            }
+        }
+    }
+
+    /// Lets others read a state as a parameter.
+    pub(crate) fn show_state(&mut self, name: &'static str, is_so: bool) {
+        if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
+            && parameters.set(name, Value::Bool(is_so)).is_ok()
+        {
+            self.values = parameters.values();
+        }
     }
 
     /// Begins with another map, or none.
@@ -372,6 +414,10 @@ impl State {
         inputs.listen(now_ns);
         if let Some(silence) = inputs.silence(node).filter(|_| self.is_active && !self.is_paused) {
             self.told.tell(&silence, node);
+        }
+        // Scans wait meanwhile, as in `slam_toolbox`: what is moved by hand stays where it is put.
+        if self.is_interactive && self.program == Program::Sync {
+            return;
         }
         let names = self.names();
         let mut complaints = Vec::new();
@@ -634,7 +680,9 @@ impl State {
 
     /// Takes other parameters while it runs.
     fn change(&mut self, values: &Values) -> Result<(), String> {
-        const AT_ANY_TIME: [&str; 10] = [
+        const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
+        const AT_ANY_TIME: [&str; 11] = [
+            "paused_new_measurements",
             "map_update_interval",
             "minimum_time_interval",
             "throttle_scans",
@@ -649,6 +697,15 @@ impl State {
         if values.table().find(BUFFER).is_some() && values.get(BUFFER) != self.values.get(BUFFER) {
             return Err(format!("`{BUFFER}` is read when the node is made; set it in its file"));
         }
+        let is_changed = |name: &&str| {
+            values.table().find(name).is_some() && values.get(name) != self.values.get(name)
+        };
+        if let Some(name) = STATES.iter().find(|name| is_changed(name)) {
+            return Err(format!(
+                "`{name}` shows a state; the service `slam_toolbox/toggle_interactive_mode` changes \
+                 it"
+            ));
+        }
         let changed =
             values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
                 !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
@@ -658,6 +715,10 @@ impl State {
                 "`{name}` is read when the node is configured; set it before, or clean the node up \
                  and configure it again"
             ));
+        }
+        let is_paused = flag(values, "paused_new_measurements");
+        if is_paused != flag(&self.values, "paused_new_measurements") {
+            self.is_paused = is_paused.unwrap_or(false);
         }
         self.values = values.clone();
         Ok(())

@@ -56,6 +56,7 @@ pub(crate) fn serve(
     })?;
     actor.serve::<Pause>("slam_toolbox/pause_new_measurements", |state, _, io| {
         state.is_paused = !state.is_paused;
+        state.show_state("paused_new_measurements", state.is_paused);
         let words = if state.is_paused { "new scans are left out" } else { "new scans count" };
         io.node().log(Level::Info, words);
         PauseResponse { status: true }
@@ -228,6 +229,7 @@ impl State {
             inputs.forget(now_ns);
         }
         self.is_paused = pauses;
+        self.show_state("paused_new_measurements", pauses);
         node.log(Level::Info, "the map is reset");
     }
 
@@ -238,6 +240,9 @@ impl State {
             return;
         }
         self.is_interactive = !self.is_interactive;
+        self.show_state("interactive_mode", self.is_interactive);
+        // As `slam_toolbox`, whose synchronous node alone looks at it.
+        self.show_state("paused_processing", self.is_interactive);
         // What was not confirmed is not meant.
         self.moved.clear();
         let words = if self.is_interactive { "on" } else { "off" };

@@ -14,7 +14,7 @@ use periplus_msgs::geometry_msgs::{
     PoseWithCovarianceStamped, Quaternion, Transform, TransformStamped, Vector3,
 };
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
-use periplus_msgs::rcl_interfaces::Log;
+use periplus_msgs::rcl_interfaces::{Log, ParameterType};
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::slam_toolbox::{
     Clear, ClearQueue, ClearQueueRequest, ClearRequest, DeserializePoseGraph,
@@ -522,6 +522,64 @@ fn a_run_can_be_paused_reset_and_put_right_by_hand() {
     assert_eq!(stage.ask::<Reset>("/slam_toolbox/reset", reset).result, 0);
     stage.drive(&round[..3]);
     assert!(stage.poses().is_empty(), "it waits");
+}
+
+/// `slam_toolbox` 2.7.0 has these as parameters: others read from them whether it maps.
+#[test]
+fn states_are_shown_and_the_start_on_a_map_is_chosen_by_parameters() {
+    let shown = |stage: &Stage, name: &str| {
+        let value = stage.slam.node().parameter(name).unwrap();
+        assert_eq!(value.r#type, ParameterType::PARAMETER_BOOL, "{name}");
+        value.bool_value
+    };
+    let files = Arc::new(Files::default());
+    let round = round();
+    let given = [("interactive_mode", "true")];
+    let mut stage = Stage::with_files(Program::Sync, &given, files.clone());
+    stage.drive(&round[..10]);
+    for name in ["interactive_mode", "paused_processing", "paused_new_measurements"] {
+        assert!(!shown(&stage, name), "{name}");
+    }
+    let pause =
+        |stage: &Stage| stage.ask::<Pause>("/slam_toolbox/pause_new_measurements", PauseRequest {});
+    pause(&stage);
+    assert!(shown(&stage, "paused_new_measurements"));
+    pause(&stage);
+    assert!(!shown(&stage, "paused_new_measurements"));
+    let toggle = |stage: &Stage| {
+        let request = ToggleInteractiveRequest {};
+        stage.ask::<ToggleInteractive>("/slam_toolbox/toggle_interactive_mode", request);
+    };
+    toggle(&stage);
+    assert!(shown(&stage, "interactive_mode") && shown(&stage, "paused_processing"));
+    let kept = stage.poses().len();
+    stage.drive(&round[10..16]);
+    assert_eq!(stage.poses().len(), kept, "scans wait while poses are moved by hand");
+    toggle(&stage);
+    assert!(!shown(&stage, "paused_processing"));
+    stage.drive(&round[16..]);
+    assert!(stage.poses().len() > kept);
+    let filename = "/maps/room.session".to_owned();
+    let request = SerializePoseGraphRequest { filename };
+    stage.ask::<SerializePoseGraph>("/slam_toolbox/serialize_map", request);
+
+    let start = |given: &[(&'static str, &'static str)]| {
+        let all = [&[("map_file_name", "/maps/room")], given].concat();
+        let mut stage = Stage::with_files(Program::Localization, &all, files.clone());
+        stage.advance(10);
+        (stage.slam.status().map_from_base, stage.said())
+    };
+    let pose = Pose2::new(0.5, -0.25, 0.1);
+    let (found, said) =
+        start(&[("map_start_pose", "0.5 -0.25 0.1"), ("map_start_at_dock", "true")]);
+    assert!(off(found, pose) < 1e-9, "{found:?}");
+    assert!(said.contains("`map_start_at_dock` has no effect beside `map_start_pose`"), "{said}");
+    let (found, said) = start(&[("map_start_pose", "1 2")]);
+    assert!(off(found, Pose2::IDENTITY) < 1e-9, "{found:?}");
+    assert!(said.contains("`map_start_pose` has 2 numbers and needs three"), "{said}");
+    let (found, _) = start(&[("map_start_at_dock", "true")]);
+    let first = stage.poses()[0];
+    assert!(off(found, first) < 1e-9, "{found:?} {first:?}");
 }
 
 #[test]

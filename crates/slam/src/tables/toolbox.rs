@@ -47,7 +47,9 @@ pub static SLAM_TOOLBOX: Table = Table {
         flag("use_lifecycle_manager", "Whether a manager of lifecycles looks after the node.")
             .or("false"),
         flag("enable_interactive_mode", "Whether poses can be moved by hand.").or("true"),
-        flag("paused_new_measurements", "Whether it starts with new scans left out.").or("false"),
+        flag("interactive_mode", "State: true while poses can be moved by hand.").or("false"),
+        flag("paused_new_measurements", "True while new scans are left out.").or("false"),
+        flag("paused_processing", "State: true while waiting scans are not processed.").or("false"),
         text("map_file_name", "A stored pose graph to begin with.").or(""),
         numbers("map_start_pose", "m, rad", "Where on it the robot is: x, y, yaw."),
         flag("map_start_at_dock", "Whether the robot is where the stored graph began."),
@@ -213,6 +215,11 @@ pub(super) const IDLE: &[Idle] = &[
         names: &["occupancy_threshold", "min_pass_through"],
         because: "cells hold log odds of hits and misses; a published map has a wall where more spoke \
                   for it than against it",
+    },
+    Idle {
+        names: &["interactive_mode", "paused_processing"],
+        because: "it shows a state, which begins as false; the service \
+                  `slam_toolbox/toggle_interactive_mode` changes it",
     },
     Idle { names: &["stack_size_to_use"], because: "storing a map needs no large stack" },
 ];
