@@ -23,8 +23,16 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
     with_setting(&options.search.resource_path, arguments, |setting| {
         let mut failed = false;
         let mut reports = Vec::new();
+        // Several files share the arguments: one that none of them has is a slip.
+        let mut unknown: Vec<&str> =
+            setting.arguments.iter().map(|(name, _)| name.as_str()).collect();
         for (index, file) in files.iter().enumerate() {
             let mut loaded = load(file, setting);
+            let of_this = loaded.unknown_arguments(&setting.arguments);
+            unknown.retain(|name| of_this.contains(name));
+            if index + 1 == files.len() {
+                unknown.iter().for_each(|name| loaded.warn_of_argument(name));
+            }
             let more = beyond(file, &mut loaded);
             let severities: &[Severity] = if options.strict {
                 &[Severity::Error, Severity::Warning]

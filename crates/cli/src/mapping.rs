@@ -101,6 +101,14 @@ pub(crate) fn parameters(
         }
     };
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    if diagnostics.iter().any(|finding| finding.code == "no-parameters") {
+        terminal::complain(&format!(
+            "{} has no parameters for slam_toolbox or slam_gmapping; leave the file out to map with the \
+             defaults",
+            path.display()
+        ));
+        return Ok(None);
+    }
     Ok(read)
 }
 

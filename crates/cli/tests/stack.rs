@@ -196,4 +196,61 @@ fn words_that_are_not_what_they_seem() {
     let words = ["sim", "worlds/closed_room.world", "--robot", KBOT, "--duration", "0.1"];
     let output = periplus(&[&words[..], &["--costmap", &file]].concat());
     assert!(output.status.code() == Some(1) && told(&output).contains("has no costmap"));
+    for (text, code, part) in [
+        ("talker:\n  ros__parameters:\n    rate: 3\n", 1, "has no parameters for slam_toolbox"),
+        ("a: [1, 2\n", 1, "this is not YAML"),
+        ("just some words\n", 1, "holds no parameters"),
+        ("slam_toolbox: {ros__parameters: {resolutoin: 0.1}}\n", 0, "did you mean `resolution`?"),
+    ] {
+        fs::write(&file, text).unwrap();
+        let output = periplus(&[&words[..], &["--slam", &file]].concat());
+        assert_eq!(output.status.code(), Some(code), "{text}: {}", told(&output));
+        assert!(told(&output).contains(part), "{text}: {}", told(&output));
+    }
+}
+
+/// `launch` went on without a page and `sim` stopped; both take another port unless one was named.
+#[test]
+fn a_page_takes_another_port_where_the_usual_one_is_taken() {
+    // Where it cannot be had, another program has it already.
+    let _usual = std::net::TcpListener::bind(("127.0.0.1", 8765));
+    let page = ["--page", "--no-browser", "--duration", "0.1"];
+    let output = periplus(&[&["sim", "worlds/closed_room.world"][..], &page].concat());
+    assert!(output.status.success(), "{}", told(&output));
+    assert!(
+        told(&output).contains("port 8765 is taken, the page gets another"),
+        "{}",
+        told(&output)
+    );
+    let named = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+    let page = format!("--page={}", named.local_addr().unwrap().port());
+    let words = ["sim", "worlds/closed_room.world", &page, "--no-browser", "--duration", "0.1"];
+    let output = periplus(&words);
+    assert_eq!(output.status.code(), Some(1), "{}", told(&output));
+    assert!(told(&output).contains("name another port, such as --page=8766"), "{}", told(&output));
+}
+
+/// `launch` warns of these; `sim --robot` and `check` took them without a word.
+#[test]
+fn misspelt_arguments_of_xacro_are_named() {
+    let world = "worlds/closed_room.world";
+    let run = |words: &[&str]| {
+        let output = periplus(words);
+        let all = format!("{}{}", told(&output), String::from_utf8_lossy(&output.stdout));
+        (output.status.code(), all)
+    };
+    let robot = ["sim", world, "--duration", "0.1", "--robot", KBOT];
+    let (code, told) = run(&[&robot[..], &["laser_beams:=180"]].concat());
+    assert!(code == Some(0) && !told.contains("has no argument"), "{told}");
+    let (code, told) = run(&[&robot[..], &["laser_beem:=180"]].concat());
+    assert!(code == Some(0) && told.contains("has no argument `laser_beem`"), "{told}");
+    assert!(told.contains("did you mean `laser_beams`?"), "{told}");
+    let (_, told) = run(&["sim", world, "speed:=1", "--duration", "0.1"]);
+    assert!(told.contains("`closed_room.world` has no argument `speed`"), "{told}");
+    assert!(told.contains("only xacro files take arguments"), "{told}");
+    let (_, told) = run(&["check", KBOT, "laser_beem:=180"]);
+    assert!(told.contains("did you mean `laser_beams`?"), "{told}");
+    // Files that are checked together share the arguments.
+    let (_, told) = run(&["check", KBOT, world, "laser_beams:=180"]);
+    assert!(!told.contains("has no argument"), "{told}");
 }

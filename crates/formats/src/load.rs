@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
 use periplus_resources::{Kind, ReadError, nearest};
 use periplus_scene::Scene;
 use periplus_urdf::Robot;
@@ -41,6 +41,42 @@ pub struct Loaded {
     pub contents: Vec<String>,
     /// Other files that took part, in order of use.
     pub files: Vec<PathBuf>,
+    /// Names of the arguments that it declares or reads; empty for what is no xacro.
+    pub known_arguments: Vec<String>,
+}
+
+impl Loaded {
+    /// The names among these arguments that the file knows nothing of. None of a file that could not
+    /// be expanded.
+    #[must_use]
+    pub fn unknown_arguments<'a>(&self, given: &'a [(String, String)]) -> Vec<&'a str> {
+        if self.document.is_none() {
+            return Vec::new();
+        }
+        let names = given.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| !self.known_arguments.iter().any(|known| known == name)).collect()
+    }
+
+    /// Warns of an argument that has no effect on the file.
+    pub fn warn_of_argument(&mut self, name: &str) {
+        let file = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let warning = Diagnostic::warning(
+            "unknown-argument",
+            format!("`{file}` has no argument `{name}`: `{name}:=...` changes nothing"),
+        );
+        let known = self.known_arguments.iter().map(String::as_str);
+        let warning = match closest(name, known) {
+            Some(near) => warning.help(format!("did you mean `{near}`?")),
+            None if self.language != Language::Xacro => {
+                warning.help("only xacro files take arguments")
+            }
+            None if self.known_arguments.is_empty() => {
+                warning.help("declare it: <xacro:arg name=\"...\" default=\"...\"/>")
+            }
+            None => warning.help(format!("it has {}", self.known_arguments.join(", "))),
+        };
+        self.diagnostics.push(warning);
+    }
 }
 
 /// Reads a file of any kind that is known.
@@ -186,6 +222,7 @@ fn empty(path: PathBuf) -> Loaded {
         mesh: None,
         contents: Vec::new(),
         files: Vec::new(),
+        known_arguments: Vec::new(),
     }
 }
 
@@ -217,6 +254,7 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
         );
         let Some(expanded) = expanded else { return };
         loaded.files.extend(expanded.includes);
+        loaded.known_arguments = expanded.known_arguments;
         expanded.document
     } else {
         document

@@ -95,7 +95,11 @@ impl Composition {
 /// Findings are in [`Composition::files`]; what could not be read is missing.
 #[must_use]
 pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Composition {
-    compose_loaded(load(world, setting), robots, setting)
+    let mut first = load(world, setting);
+    for name in first.unknown_arguments(&setting.arguments) {
+        first.warn_of_argument(name);
+    }
+    compose_loaded(first, robots, setting)
 }
 
 /// A plane in the sun with nothing on it.
@@ -171,6 +175,9 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
         let own = Setting { arguments: robot.arguments.clone(), ..setting.clone() };
         let mut loaded = load(&robot.file, &own);
         settle(&mut loaded, &own);
+        for name in loaded.unknown_arguments(&robot.arguments) {
+            loaded.warn_of_argument(name);
+        }
         let scene = loaded.scene.take().unwrap_or_default();
         let description = description_of(&loaded);
         let models = models_of(scene);

@@ -44,6 +44,8 @@ pub struct Expanded {
     pub includes: Vec<PathBuf>,
     /// The arguments that it used, with the values they had.
     pub arguments: Vec<(String, String)>,
+    /// Names of the arguments that it declares or reads.
+    pub known_arguments: Vec<String>,
 }
 
 /// Expands a document. When anything is wrong there is an error in `diagnostics`, and no result:
@@ -62,6 +64,7 @@ pub fn expand(
     let walked = state.expand_root(&document.root, &mut root);
     let includes = state.includes.take();
     let arguments = state.arguments.take().into_iter().collect();
+    let known_arguments = state.known_arguments.take().into_iter().collect();
     drop(state);
     diagnostics.append(found);
     if walked.is_err() || diagnostics.errors() > errors_before {
@@ -69,7 +72,7 @@ pub fn expand(
     }
     let document =
         Document { before: document.before.clone(), root, after: document.after.clone() };
-    Some(Expanded { document, includes, arguments })
+    Some(Expanded { document, includes, arguments, known_arguments })
 }
 
 impl State<'_> {
@@ -376,6 +379,7 @@ impl State<'_> {
         self.check_attributes(element, &["name"], &["name", "default"], frame)?;
         self.check_childless(element, frame);
         let name = element.value("name").unwrap_or_default().to_owned();
+        self.known_arguments.borrow_mut().insert(name.clone());
         if self.arguments.borrow().contains_key(&name) {
             return Ok(());
         }

@@ -79,6 +79,7 @@ impl State<'_> {
     /// The value of an argument of the file.
     #[inline(never)]
     pub(crate) fn argument(&self, name: &str, origin: Origin) -> Result<String, Failed> {
+        self.known_arguments.borrow_mut().insert(name.to_owned());
         if let Some(value) = self.arguments.borrow().get(name) {
             return Ok(value.clone());
         }

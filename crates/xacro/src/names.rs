@@ -40,6 +40,7 @@ impl Scope for Names<'_, '_> {
             if matches!(name, "e" | "pi" | "tau" | "inf" | "nan" | "true" | "false") {
                 return Ok(None);
             }
+            self.state.known_arguments.borrow_mut().insert(name.to_owned());
             let argument = self.state.arguments.borrow().get(name).cloned();
             return Ok(argument.map(|text| automatic(&text)));
         }

@@ -1,7 +1,7 @@
 //! What is shared by all of an expansion.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
@@ -28,6 +28,8 @@ pub(crate) struct State<'a> {
     pub(crate) diagnostics: RefCell<&'a mut Diagnostics>,
     pub(crate) scopes: RefCell<Scopes>,
     pub(crate) arguments: RefCell<BTreeMap<String, String>>,
+    /// Names of arguments that the file declares or reads.
+    pub(crate) known_arguments: RefCell<BTreeSet<String>>,
     /// The files being read, outermost first.
     pub(crate) files: RefCell<Vec<PathBuf>>,
     pub(crate) includes: RefCell<Vec<PathBuf>>,
@@ -76,6 +78,7 @@ impl<'a> State<'a> {
             diagnostics: RefCell::new(diagnostics),
             scopes: RefCell::new(Scopes::new()),
             arguments: RefCell::new(arguments),
+            known_arguments: RefCell::default(),
             files: RefCell::new(vec![file]),
             includes: RefCell::default(),
             resolving: RefCell::default(),
