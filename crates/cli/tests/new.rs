@@ -196,8 +196,8 @@ fn others_read_the_files() {
     }
 }
 
-/// A new user's walk: a robot and a room, three mistakes, check, a drive with a map, and the robot found
-/// again on that map.
+/// A new user's walk: a robot and a room, three mistakes, check, a drive with a map, the robot found
+/// again on that map, and both with the usual stack.
 #[test]
 fn the_walk_of_a_new_user() {
     let folder = Folder::new("walk");
@@ -235,6 +235,24 @@ fn the_walk_of_a_new_user() {
     let said = well(here, &["map", "info", "map/map.yaml"]);
     assert!(said.contains("8.") && said.contains("cells of 0.05 m"), "{said}");
     let said = well(here, &["localize", "run.mcap", "--map", "map/map.yaml", "--out", "found"]);
+    let share = said.lines().find_map(|line| line.trim().strip_prefix("tracking "));
+    let share: f64 = share.unwrap().trim_end_matches(" %").parse().unwrap();
+    assert!(share > 95.0, "{said}");
+
+    // The usual stack in one option: filter, mapping and costmaps; the map is saved, and the robot is
+    // found on it.
+    let results = ["--duration", "30", "--stack", "--slam-out", "stack", "--record", "stack.mcap"];
+    let said = well(here, &[&run[..], &results].concat());
+    assert!(said.contains("stack: scans on /scan"), "{said}");
+    assert!(said.contains("the map is in stack"), "{said}");
+    let said = well(here, &["bag", "info", "stack.mcap"]);
+    for topic in ["/map", "/local_costmap/costmap", "/global_costmap/costmap"] {
+        assert!(said.contains(&format!("Topic: {topic} |")), "no {topic} in {said}");
+    }
+    let results = ["--duration", "30", "--stack", "--localize", "stack/map.yaml"];
+    let said = well(here, &[&run[..], &results].concat());
+    assert!(said.contains("localization: at (") && said.contains(": Tracking"), "{said}");
+    let said = well(here, &["localize", "stack.mcap", "--map", "stack/map.yaml", "--out", "again"]);
     let share = said.lines().find_map(|line| line.trim().strip_prefix("tracking "));
     let share: f64 = share.unwrap().trim_end_matches(" %").parse().unwrap();
     assert!(share > 95.0, "{said}");

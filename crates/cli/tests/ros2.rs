@@ -413,18 +413,24 @@ impl Domain {
         Running::start(&mut command)
     }
 
-    /// Our lifecycle manager of one node.
-    fn manager(self, name: &str) -> (Running, Folder) {
+    /// Our lifecycle manager of one node, with more parameters and, perhaps, a world.
+    fn manager_with(self, name: &str, more: &[&str], world: Option<&Path>) -> (Running, Folder) {
         let folder = Folder::new(&format!("manager-{}", self.0));
         let parameters = folder.path("manager.yaml");
-        let yaml = format!(
+        let mut yaml = format!(
             "/lifecycle_manager:\n  ros__parameters:\n    autostart: true\n    node_names: \
              [\"{name}\"]\n    bond_timeout: 2.0\n"
         );
+        for line in more {
+            yaml.push_str(&format!("    {line}\n"));
+        }
         std::fs::write(&parameters, yaml).unwrap();
         let launch = folder.path("manager.launch.xml");
+        let simulated = world.map_or_else(String::new, |world| {
+            format!("<executable cmd=\"gz sim -r -s {}\"/>", world.display())
+        });
         let xml = format!(
-            "<launch><node pkg=\"nav2_lifecycle_manager\" exec=\"lifecycle_manager\" \
+            "<launch>{simulated}<node pkg=\"nav2_lifecycle_manager\" exec=\"lifecycle_manager\" \
              name=\"lifecycle_manager\"><param from=\"{}\"/></node></launch>",
             parameters.display()
         );
@@ -432,6 +438,159 @@ impl Domain {
         let words = ["launch", &launch.to_string_lossy()];
         (Running::start(&mut self.periplus(None, &words)), folder)
     }
+
+    fn manager(self, name: &str) -> (Running, Folder) {
+        self.manager_with(name, &[], None)
+    }
+}
+
+fn world() -> PathBuf {
+    here().join("../../worlds/demo_room.sdf")
+}
+
+/// Longer than any heartbeat may be missing.
+const PAUSE: Duration = Duration::from_secs(6);
+
+/// Heartbeats ran on the time of the simulation: a pause broke the bond with every lifecycle manager
+/// outside, which then took the whole system down.
+#[test]
+fn bonds_hold_while_the_simulation_is_paused() {
+    let Some(python) = cyclone() else { return };
+    // A managed node of a simulation, and a manager outside.
+    let domain = Domain(123);
+    let (world, slam) = (world(), here().join("../../robots/kbot/urdf/kbot.urdf.xacro"));
+    let (world, slam) = (world.to_string_lossy(), slam.to_string_lossy());
+    let words = ["sim", &*world, "--robot", &*slam, "--slam", "--rtf", "1"];
+    let _simulation = Running::start(&mut domain.periplus(None, &words));
+    let manager = domain.bond(&python, "manager", "slam_toolbox");
+    // Our manager in a simulation, and a managed node outside.
+    let other = Domain(124);
+    let node = other.bond(&python, "node", "alpha");
+    node.says("ready");
+    let (own_manager, _folder) = other.manager_with("alpha", &[], Some(Path::new(&*world)));
+    manager.says("formed");
+    node.says("formed");
+    own_manager.tells("managed nodes are active");
+    for domain in [domain, other] {
+        domain.gives(&["service", "call", "/pause_physics", "std_srvs/srv/Empty"]);
+    }
+    std::thread::sleep(PAUSE);
+    for end in [&manager, &node] {
+        while let Ok(line) = end.lines.try_recv() {
+            assert!(!line.starts_with("broken") && !line.starts_with("ended"), "{line}");
+        }
+    }
+    while let Ok(line) = own_manager.lines.try_recv() {
+        assert!(!line.contains("is down"), "{line}");
+    }
+    // While paused, too, an end that stops is noticed.
+    drop(node);
+    own_manager.tells("`alpha` is down");
+}
+
+/// Nav2's `attempt_respawn_reconnection` (default true): the system starts again with a node that was
+/// started anew.
+#[test]
+fn a_lifecycle_manager_starts_again_when_its_nodes_come_back() {
+    let Some(python) = cyclone() else { return };
+    let start = |domain: Domain, more: &[&str]| {
+        let node = domain.bond(&python, "node", "alpha");
+        node.says("ready");
+        let (manager, folder) = domain.manager_with("alpha", more, None);
+        manager.tells("managed nodes are active");
+        drop(node);
+        manager.tells("`alpha` is down");
+        (manager, folder)
+    };
+    let domain = Domain(125);
+    let (manager, _folder) = start(domain, &[]);
+    let node = domain.bond(&python, "node", "alpha");
+    manager.tells("all nodes answer again after a bond broke");
+    node.says("formed");
+    manager.tells("managed nodes are active");
+
+    let (manager, _folder) = start(Domain(126), &["bond_respawn_max_duration: 1.0"]);
+    manager.tells("not all nodes came back after a bond broke");
+
+    let domain = Domain(127);
+    let (manager, _folder) = start(domain, &["attempt_respawn_reconnection: false"]);
+    let node = domain.bond(&python, "node", "alpha");
+    node.says("ready");
+    std::thread::sleep(Duration::from_secs(3));
+    assert!(!node.lines.try_iter().any(|line| line.starts_with("asked")));
+    assert!(!manager.lines.try_iter().any(|line| line.contains("started again")));
+}
+
+/// Tools ask a node for the definitions of the types that it uses, as every node of ROS 2 has had
+/// them since Jazzy.
+#[test]
+fn nodes_describe_their_types_as_nodes_of_ros_do() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(128);
+    let (_server, _folder) = domain.map_server();
+    let peer = domain.peer(&python, None, &["describe", "/map_server"]);
+    for name in [
+        "nav_msgs/msg/OccupancyGrid",
+        "rcl_interfaces/msg/ParameterEvent",
+        "rcl_interfaces/srv/SetParameters",
+        "type_description_interfaces/srv/GetTypeDescription",
+    ] {
+        assert_eq!(peer.says(&format!("{name} ")), format!("{name} same"));
+    }
+    peer.says("other Type not currently in use by this node");
+    peer.says("nonsense Failed to parse type hash");
+}
+
+/// `rosbag2` notes the distribution, and the QoS that publishers announce.
+#[test]
+fn recordings_note_the_distribution_and_the_qos_of_publishers() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(129);
+    let robot = domain.peer(&python, None, &["robot"]);
+    robot.says("ready");
+    let (_server, folder) = domain.map_server();
+    let output = folder.path("bag").to_string_lossy().into_owned();
+    let mut record = domain.periplus(None, &["bag", "record", "-o", &output, "/chatter", "/map"]);
+    let mut recording = Running::start(record.env("ROS_DISTRO", "jazzy"));
+    // Until Ctrl-C; and both topics, in any order.
+    (0..3).for_each(|_| recording.tells("records "));
+    std::thread::sleep(Duration::from_secs(2));
+    let id = recording.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert!(recording.child.wait().unwrap().success());
+    let metadata = std::fs::read_to_string(folder.path("bag/metadata.yaml")).unwrap();
+    assert!(metadata.contains("ros_distro: jazzy"), "{metadata}");
+    let offered = |topic: &str| {
+        let at = metadata.find(&format!("name: {topic}\n")).unwrap();
+        let history = metadata[at..].find("history: ").unwrap() + at;
+        metadata[history..].lines().take(2).map(str::trim).collect::<Vec<_>>().join(" ")
+    };
+    eprintln!("{} | {}", offered("/chatter"), offered("/map"));
+    assert_eq!(offered("/chatter"), "history: unknown depth: 0");
+    assert_eq!(offered("/map"), "history: keep_last depth: 1");
+}
+
+/// Byte arrays became lists of integers.
+#[test]
+fn byte_arrays_of_a_node_of_ros_survive_a_dump() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(130);
+    let robot = domain.peer(&python, None, &["bytes"]);
+    robot.says("ready");
+    let dump = domain.gives(&["param", "dump", "/bytes"]);
+    let folder = Folder::new("ros2-bytes");
+    let file = folder.path("dump.yaml").to_string_lossy().into_owned();
+    std::fs::write(&file, &dump).unwrap();
+    // PyYAML, by which `ros2 param` reads and writes, has the same values.
+    let same = "import sys, yaml; d = yaml.safe_load(open(sys.argv[1])); \
+                assert d['/bytes']['ros__parameters']['key'] == [b'\\x01', b'\\xff'], d";
+    let read = Command::new(&python).args(["-c", same, &file]).output().unwrap();
+    assert!(read.status.success(), "{dump}{}", String::from_utf8_lossy(&read.stderr));
+    domain.gives(&["param", "set", "/bytes", "key", "!!binary AAA="]);
+    assert!(domain.gives(&["param", "dump", "/bytes"]) != dump);
+    // One of its parameters is read-only, which `load` reports.
+    domain.ends(&["param", "load", "/bytes", &file]);
+    assert_eq!(domain.gives(&["param", "dump", "/bytes"]), dump);
 }
 
 /// A lifecycle manager of Nav2 gives up a node that keeps no bond with it.

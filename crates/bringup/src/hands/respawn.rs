@@ -98,7 +98,7 @@ impl Respawn {
         }
         let age_ns = attempt.asked_ns.map(|asked_ns| now_ns - asked_ns);
         let is_over = pending.is_empty() || age_ns.is_some_and(|age| age >= SERVICE_TIMEOUT_NS);
-        if age_ns.is_none_or(|age_ns| age_ns >= PERIOD_NS || age_ns < 0) && is_over {
+        if age_ns.is_none_or(|age_ns| !(0..PERIOD_NS).contains(&age_ns)) && is_over {
             attempt.asked_ns = Some(now_ns);
             // All in one round: who answered before may be gone by now.
             states.clear();

@@ -4,22 +4,27 @@
     rclpy_peer.py call COUNT             waits for services, calls each once and the first COUNT times;
                                          says how long that took
     rclpy_peer.py robot                  a node with a topic, a service, parameters and an action
+    rclpy_peer.py describe NODE          compares the type descriptions of a node with those of ROS
+    rclpy_peer.py bytes                  a node `bytes` with a byte array as a parameter
     rclpy_peer.py meet HEARD SAID        prints the Strings of one topic, publishes to another
 """
 
 import importlib
+import json
 import sys
 import threading
 import time
 
 import rclpy
 from rcl_interfaces.msg import ParameterDescriptor
+from nav_msgs.msg import OccupancyGrid
 from rclpy.action import ActionServer, GoalResponse
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from test_msgs.action import Fibonacci
+from type_description_interfaces.srv import GetTypeDescription
 
 
 def trigger(_, response):
@@ -114,4 +119,55 @@ def meet(heard, said):
     rclpy.spin(node)
 
 
-{"nodes": nodes, "call": call, "robot": robot, "meet": meet}[sys.argv[1]](*sys.argv[2:])
+def type_hash(path):
+    with open(f"{sys.prefix}/share/{path}.json") as file:
+        names = {one["type_name"]: one["hash_string"] for one in json.load(file)["type_hashes"]}
+    return names[path]
+
+
+def describe(name):
+    """Compares the descriptions of types that a node gives with those of a node of ROS."""
+    rclpy.init()
+    node = rclpy.create_node("describer")
+    node.create_publisher(OccupancyGrid, "/unused", 1)
+    context = Context()
+    rclpy.init(context=context)
+    reference = rclpy.create_node("reference", context=context)
+    reference.create_publisher(OccupancyGrid, "/unused", 1)
+    threading.Thread(target=spin, args=(context, reference), daemon=True).start()
+
+    def ask(of, hash, kind=""):
+        client = node.create_client(GetTypeDescription, f"{of}/get_type_description")
+        assert client.wait_for_service(timeout_sec=10.0), of
+        request = GetTypeDescription.Request(type_name=kind, type_hash=hash, include_type_sources=True)
+        future = client.call_async(request)
+        rclpy.spin_until_future_complete(node, future, timeout_sec=10.0)
+        return future.result()
+
+    for kind in (
+        "nav_msgs/msg/OccupancyGrid",
+        "rcl_interfaces/msg/ParameterEvent",
+        "rcl_interfaces/srv/SetParameters",
+        "type_description_interfaces/srv/GetTypeDescription",
+    ):
+        ours, theirs = (ask(of, type_hash(kind), kind) for of in (name, "/reference"))
+        same = ours.successful and theirs.successful and ours.type_description == theirs.type_description
+        sources = [[(one.type_name, one.encoding) for one in of.type_sources] for of in (ours, theirs)]
+        if not same:
+            print(ours.failure_reason, theirs.failure_reason, ours.type_description, theirs.type_description)
+        if sources[0] != sources[1]:
+            print(sources)
+        print(kind, "same" if same and sources[0] == sources[1] else "DIFFERENT", flush=True)
+    print("other", ask(name, type_hash("sensor_msgs/msg/LaserScan")).failure_reason, flush=True)
+    print("nonsense", ask(name, "RIHS01_xyz").failure_reason, flush=True)
+
+
+def byte_array():
+    rclpy.init()
+    node = rclpy.create_node("bytes")
+    node.declare_parameter("key", [b"\x01", b"\xff"])
+    print("ready", flush=True)
+    rclpy.spin(node)
+
+
+{"bytes": byte_array, "describe": describe, "nodes": nodes, "call": call, "robot": robot, "meet": meet}[sys.argv[1]](*sys.argv[2:])
