@@ -457,7 +457,7 @@ const PAUSE: Duration = Duration::from_secs(6);
 fn bonds_hold_while_the_simulation_is_paused() {
     let Some(python) = cyclone() else { return };
     // A managed node of a simulation, and a manager outside.
-    let domain = Domain(123);
+    let domain = Domain(131);
     let (world, slam) = (world(), here().join("../../robots/kbot/urdf/kbot.urdf.xacro"));
     let (world, slam) = (world.to_string_lossy(), slam.to_string_lossy());
     let words = ["sim", &*world, "--robot", &*slam, "--slam", "--rtf", "1"];
