@@ -130,6 +130,46 @@ def generate_launch_description():
     assert_eq!(code, Some(0), "{said}");
 }
 
+/// `env` is all that a process gets, `additional_env` comes on top: of it, or of the launch's own variables.
+#[test]
+fn env_replaces_the_environment_and_additional_env_adds_to_it() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, SetEnvironmentVariable
+
+
+def generate_launch_description():
+    run = [ARGUMENTS]
+    return LaunchDescription([SetEnvironmentVariable('SET', 'by_launch'), *run])
+";
+    let printed = |name: &str, arguments: &str| {
+        let process = format!("ExecuteProcess(cmd=['/usr/bin/env'], output='screen', {arguments})");
+        let text = text.replace("ARGUMENTS", &process);
+        let folder = workspace(name, &[("a.launch.py", &text)]);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+        command.arg("launch").arg(folder.join("a.launch.py")).args([
+            "--ros2",
+            "off",
+            "--duration",
+            "1",
+        ]);
+        command.env("NO_COLOR", "1").env("OWN", "of_the_launch");
+        let output = command.output().unwrap();
+        let both = [output.stdout, output.stderr].concat();
+        String::from_utf8_lossy(&both).into_owned()
+    };
+    let has = |text: &str, variable: &str| text.contains(variable);
+    let told = printed("env_replaces", "env={'ONLY': 'this'}, additional_env={'MORE': 'too'}");
+    assert!(has(&told, "ONLY=this") && has(&told, "MORE=too"), "{told}");
+    assert!(!has(&told, "OWN=of_the_launch") && !has(&told, "SET=by_launch"), "{told}");
+    let told = printed("env_adds", "additional_env={'MORE': 'too'}");
+    assert!(has(&told, "MORE=too") && has(&told, "OWN=of_the_launch"), "{told}");
+    assert!(has(&told, "SET=by_launch"), "{told}");
+}
+
 #[test]
 fn what_does_not_end_is_ended() {
     if !has_python() {
@@ -491,6 +531,42 @@ def generate_launch_description():
     {
         assert!(said.contains(wanted), "{wanted}: {said}");
     }
+}
+
+/// MoveIt's builder finds files where a build would install them from, as `open` does.
+#[test]
+fn parameter_builders_read_files_that_a_build_would_install() {
+    if !has_python() {
+        return;
+    }
+    let text = "
+from launch import LaunchDescription
+from launch_param_builder import ParameterBuilder
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    limits = ParameterBuilder('arm').yaml('config/limits.yaml').to_dict()
+    return LaunchDescription([Node(package='p', executable='e', parameters=[limits])])
+";
+    let manifest = "<package format='3'><name>arm</name><version>0.0.1</version></package>";
+    let folder = workspace(
+        "builder_sources",
+        &[
+            ("src/arm/package.xml", manifest),
+            (
+                "src/arm/CMakeLists.txt",
+                "project(arm)\ninstall(DIRECTORY cfg/ DESTINATION share/arm/config)\n",
+            ),
+            ("src/arm/cfg/limits.yaml", "speed_m_s: 0.25\n"),
+            ("src/arm/launch/a.launch.py", text),
+        ],
+    );
+    let output = launch(&folder.join("src/arm/launch/a.launch.py"), &[]);
+    let (plan, said) =
+        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(plan.contains("speed_m_s") && plan.contains("0.25"), "{plan}");
 }
 
 /// A module that is not on this machine ends a plan where it is used, and not where it is imported.

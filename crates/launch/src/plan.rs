@@ -220,6 +220,10 @@ pub struct Running {
     /// Variables of the environment that differ from the launch's own; null for one that is taken away.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub environment: BTreeMap<String, Option<String>>,
+    /// True if the program gets the variables of `environment` alone, and none of the launch's own: `env=`
+    /// of `ExecuteProcess`.
+    #[serde(skip_serializing_if = "is_false")]
+    pub replaces_environment: bool,
     /// Where its output goes: `screen`, `log`, `both`, ...
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,

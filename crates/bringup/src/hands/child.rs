@@ -109,6 +109,7 @@ impl Child {
         let tools = self.tools.as_ref()?.display().to_string();
         let set = match self.running.environment.get("PATH") {
             Some(set) => set.clone(),
+            None if self.running.replaces_environment => return None,
             None => Machine.variable("PATH"),
         };
         let set = set.unwrap_or_default();
@@ -133,6 +134,9 @@ impl Child {
                 ));
             }
             command.current_dir(folder);
+        }
+        if self.running.replaces_environment {
+            command.env_clear();
         }
         for (name, value) in &self.running.environment {
             match value {

@@ -152,6 +152,7 @@ impl Evaluation<'_> {
             prefix: self.perform_some(running.prefix.as_ref())?.filter(|text| !text.is_empty()),
             folder: self.perform_some(running.folder.as_ref())?,
             environment,
+            replaces_environment: running.only_environment.is_some(),
             output: self.perform_some(running.output.as_ref())?,
             respawn_after_s,
             // What happens at its end is said in steps of their own.

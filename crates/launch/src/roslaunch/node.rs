@@ -127,6 +127,8 @@ impl Loader<'_, '_> {
             wrong("launch-node", &format!("`{delay}` is no number of seconds"), element)
         })?;
         Ok(Running {
+            // Variables of `<env>` are added to the launch's own.
+            replaces_environment: false,
             prefix: self.optional(element, "launch-prefix", scope)?.filter(|text| !text.is_empty()),
             folder: self.optional(element, "cwd", scope)?,
             environment: scope.environment.clone(),
