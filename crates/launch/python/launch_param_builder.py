@@ -15,15 +15,17 @@ ParameterValueType = object
 
 
 def raise_if_file_not_found(file_path):
-    if not Path(file_path).exists():
+    """Gives the path, in the sources of its package where a build would install it from."""
+    source = Path(conversation.ask("in_sources", path=str(file_path)))
+    if not source.exists():
         raise ParameterBuilderFileNotFoundError(f"File {file_path} doesn't exist")
+    return source
 
 
 def load_file(file_path):
     if conversation.note_missing(file_path):
         return ""
-    raise_if_file_not_found(file_path)
-    return Path(file_path).read_text(encoding="utf-8")
+    return raise_if_file_not_found(file_path).read_text(encoding="utf-8")
 
 
 def load_yaml(file_path):
@@ -33,8 +35,7 @@ def load_yaml(file_path):
 def load_xacro(file_path, mappings=None):
     if conversation.note_missing(file_path):
         return ""
-    raise_if_file_not_found(file_path)
-    return xacro.process_file(file_path, mappings=mappings).toxml()
+    return xacro.process_file(str(raise_if_file_not_found(file_path)), mappings=mappings).toxml()
 
 
 def get_path(package_name, file_path):
