@@ -324,7 +324,9 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["nav2_lifecycle_manager::LifecycleManager"],
         "lifecycle_manager",
         Role::LifecycleManager,
-        "configures and activates the nodes that it is told, in order; those that nobody has are left out",
+        "configures and activates the nodes of `node_names`, in order; those that no program has are left \
+         out. It keeps bonds (`bond_timeout`) and starts the system again when its nodes come back \
+         (`attempt_respawn_reconnection`, `bond_respawn_max_duration`)",
     ),
     entry(
         &["robot_localization"],

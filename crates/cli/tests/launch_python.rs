@@ -155,6 +155,8 @@ def generate_launch_description():
             "off",
             "--duration",
             "1",
+            "--rtf",
+            "1",
         ]);
         command.env("NO_COLOR", "1").env("OWN", "of_the_launch");
         let output = command.output().unwrap();
