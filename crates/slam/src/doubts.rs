@@ -43,6 +43,48 @@ pub enum Doubt {
     Disagreeing,
     /// For so much way only odometry told how far the robot went \[m\]: walls look the same all along.
     Corridor(f64),
+    /// There is no odometry: scans alone tell how the robot moved.
+    NoOdometry,
+    /// Odometry stood still while scans show so much way \[m\].
+    OdometryStill(f64),
+    /// Odometry jumped by so much from one scan to the next \[m\].
+    OdometryJumped(f64),
+    /// So large a share of the scans fits nothing that was seen before.
+    Unfitting(f64),
+    /// The robot was carried, or a part of the log is missing: scans suddenly fit nothing that was seen
+    /// before, and a separate piece of map begins.
+    Carried,
+    /// No closure has joined so many pieces of map to the rest.
+    Unjoined(usize),
+    /// Two passes contradict each other around this place of the map \[m\]: so large a share of what both
+    /// see agrees.
+    Contradiction(f64, f64, f64),
+}
+
+impl Remark {
+    /// Whether the map may be wrong for it; others only tell what to set right, or what limits a map.
+    #[must_use]
+    pub const fn is_warning(&self) -> bool {
+        match self.doubt {
+            Doubt::WayScale(_)
+            | Doubt::TurnScale(..)
+            | Doubt::Corridor(_)
+            | Doubt::OdometryJumped(_)
+            | Doubt::Carried => false,
+            Doubt::ScannerTurned(_)
+            | Doubt::Mirrored
+            | Doubt::Backwards
+            | Doubt::AxesSwapped
+            | Doubt::XNegated
+            | Doubt::YNegated
+            | Doubt::Disagreeing
+            | Doubt::NoOdometry
+            | Doubt::OdometryStill(_)
+            | Doubt::Unfitting(_)
+            | Doubt::Unjoined(_)
+            | Doubt::Contradiction(..) => true,
+        }
+    }
 }
 
 impl std::fmt::Display for Remark {
@@ -89,6 +131,42 @@ impl std::fmt::Display for Remark {
                 "odometry and scans disagree for long, and neither the size of the wheels nor the \
                  mounting of the scanner explains it: look for slipping wheels, wrong time stamps, \
                  or odometry that stands still",
+            ),
+            Doubt::NoOdometry => f.write_str(
+                "there is no odometry: scans alone tell how the robot moved, so that fast turns, bare \
+                 corridors and gaps in the log may be drawn wrongly",
+            ),
+            Doubt::OdometryStill(metres) => write!(
+                f,
+                "odometry stands still while scans show a way of {metres:.1} m: it is not used until it \
+                 moves; look for a drive that does not publish, or a wrong topic"
+            ),
+            Doubt::OdometryJumped(metres) => write!(
+                f,
+                "odometry jumped by {metres:.1} m from one scan to the next: that step is not believed"
+            ),
+            Doubt::Unfitting(share) => write!(
+                f,
+                "{:.0} % of the scans fit nothing that was seen before: the map is not to be relied on; \
+                 look at the scanner's transform, at the stamps, and at readings that come and go",
+                100.0 * share
+            ),
+            Doubt::Carried => f.write_str(
+                "scans suddenly fit nothing that was seen before: the robot was carried, or a part of the \
+                 log is missing; a separate piece of map begins here, until a closure joins it to the rest",
+            ),
+            Doubt::Unjoined(1) => f.write_str(
+                "no closure joins a piece of the map to the rest: where it lies is not known",
+            ),
+            Doubt::Unjoined(pieces) => write!(
+                f,
+                "no closure joins {pieces} pieces of the map to the rest: where they lie is not known"
+            ),
+            Doubt::Contradiction(x_m, y_m, share) => write!(
+                f,
+                "two passes contradict each other around ({x_m:.1}, {y_m:.1}) in the map: of what both \
+                 see only {:.0} % agree; something has moved there, or the map is wrong",
+                100.0 * share
             ),
             Doubt::Corridor(metres) => write!(
                 f,
@@ -210,6 +288,11 @@ impl Doubts {
     /// Takes note of the first scan.
     pub(crate) fn begin(&mut self, odom_from_base: Option<Pose2>) {
         self.before = odom_from_base;
+    }
+
+    /// Takes note of something that was seen elsewhere.
+    pub(crate) fn remark(&mut self, time_ns: i64, doubt: Doubt) {
+        self.remarks.push(Remark { time_ns, doubt });
     }
 
     /// Takes note of a kept scan.

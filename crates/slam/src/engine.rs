@@ -1,25 +1,32 @@
 //! Scans in, poses out.
 
+mod look;
+mod piece;
 mod place;
 mod state;
 mod thin;
+mod trial;
 mod work;
 
 use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_matching::{Cloud, PackedPlaces, Symmetric3};
 
-use crate::doubts::{Doubts, Remark, Step};
+use crate::audit::audit;
+use crate::doubts::{Doubt, Doubts, Remark, Step};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::{Key, Track};
-use crate::local::{apart, floored, grouped, locate, neighbours};
+use crate::local::{apart, floored};
 use crate::loops::{Closure, Loops};
 use crate::map::Sketch;
 use crate::odometry::Trust;
 use crate::refine::refine;
 use crate::scan::{Ends, Scan};
 use crate::settings::Settings;
+use crate::wheels::{Belief, Wheels};
 
+use look::{Look, per_second};
+use piece::Strange;
 use work::Work;
 
 /// What was done with a scan.
@@ -78,6 +85,19 @@ pub enum Link {
     Closure,
 }
 
+/// What is known between two kept scans, and how far the map is off from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// From which kept scan to which.
+    pub keys: (usize, usize),
+    /// By what.
+    pub link: Link,
+    /// Distance between where it has the later scan and where the map has it \[m\].
+    pub residual_m: f64,
+    /// The same for the heading \[rad\].
+    pub residual_rad: f64,
+}
+
 /// The scan before.
 struct Last {
     time_ns: i64,
@@ -102,23 +122,18 @@ pub struct Slam {
     work: Work,
     counts: Counts,
     doubts: Doubts,
+    wheels: Wheels,
+    strange: Strange,
+    /// The first kept scan of the newest piece of map: what was seen before lies elsewhere.
+    piece: usize,
     /// Part of the points that usually find partners.
     usual: f64,
     /// Where somebody says that the robot is, and how sure: for the next scan.
     start: Option<(Pose2, Symmetric3)>,
 }
 
-/// Less motion than this is standing still \[m, rad\].
-const STILL_M: f64 = 0.002;
-const STILL_RAD: f64 = 0.001;
-/// More motion than this since the scan before asks for a search \[m, rad\].
-const SEARCH_M: f64 = 0.1;
-const SEARCH_RAD: f64 = 0.05;
 /// Clouds of fewer points cannot be laid onto others.
 const LEAST_POINTS: usize = 12;
-/// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
-const JUMP_M: f64 = 4.0;
-const FASTEST_M_S: f64 = 5.0;
 /// Without odometry the robot is thought to go on as it did, when it was not faster than this.
 const STEADY_M_S: f64 = 2.0;
 const STEADY_RAD_S: f64 = 2.5;
@@ -126,6 +141,9 @@ const STEADY_RAD_S: f64 = 2.5;
 const DRAWN: f32 = 0.6;
 /// How fast it is learnt what is usual.
 const USUAL: f64 = 0.05;
+/// When more scans than these, and a larger share, fit nothing, a map is not to be relied on.
+const FEW_LOST: usize = 10;
+const MOST_LOST: f64 = 0.1;
 /// A turn of a radian counts as so much way \[m\].
 const TURN_WAY_M: f64 = 0.3;
 
@@ -144,6 +162,9 @@ impl Slam {
             work: Work::default(),
             counts: Counts::default(),
             doubts: Doubts::default(),
+            wheels: Wheels::default(),
+            strange: Strange::default(),
+            piece: 0,
             usual: 0.7,
             start: None,
         }
@@ -198,55 +219,53 @@ impl Slam {
             _ => None,
         };
         // Odometry that was set back, or is lost for a while, tells nothing of this step.
-        let told = told.filter(|motion| {
-            libm::hypot(motion.x_m, motion.y_m) < JUMP_M + FASTEST_M_S * seconds.max(0.0)
-        });
-        let is_recent = seconds > 0.0 && seconds < 1.0;
-        let motion = told.or_else(|| {
-            let before = last.motion.filter(|_| is_recent)?;
-            Some(Pose2::new(before.x_m * seconds, before.y_m * seconds, before.yaw_rad * seconds))
-        });
-        let motion = motion.unwrap_or(Pose2::IDENTITY);
-        let covariance =
-            if told.is_some() { self.trust.covariance(motion) } else { Trust::blind() };
-        let per_second = |motion: Pose2| {
-            let rate = 1.0 / seconds;
-            is_recent
-                .then(|| Pose2::new(motion.x_m * rate, motion.y_m * rate, motion.yaw_rad * rate))
-        };
-        let ends = scan.ends(per_second(motion), self.settings.used_m());
-        let (metres, radians) = apart(motion, Pose2::IDENTITY);
-        let is_still = told.is_some() && metres < STILL_M && radians < STILL_RAD;
-        let expected = (last.key_from_base * motion).normalized();
-        let cloud = ends.cloud(&self.settings.cloud);
-        let is_blank = cloud.points().len() < LEAST_POINTS;
-        let group: Vec<usize> = neighbours(&self.keys, &self.graph, self.settings.local_scans);
+        let believed = told.filter(|step| self.trust.is_possible(*step, seconds));
+        let jumped = told.filter(|_| believed.is_none());
+        let belief = self.wheels.take(odom_from_base);
+        let believed = believed.filter(|_| belief != Belief::None);
         let (key, before) = (last.key, last.key_from_base);
-        let (key_from_base, information, doubted, is_matched, firmness) = if is_blank {
-            let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
-            (expected, information, information, false, 0.0)
-        } else {
-            // The prior is about a motion that began at the last scan.
-            let turned = covariance.turned(before.yaw_rad);
-            let searches = told.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
-            let group = grouped(&self.keys, &self.graph, &group, key);
-            let group = group.placed();
-            let located =
-                locate(&cloud, &group, expected, &turned, &self.settings, searches, self.usual);
-            if located.is_matched {
-                self.usual += USUAL * (located.fit.matched - self.usual);
-            }
-            (
-                located.fit.target_from_moving,
-                located.information,
-                located.doubted,
-                located.is_matched,
-                located.fit.firmness,
-            )
-        };
-        let moved = (before.inverse() * key_from_base).normalized();
+        let mut look = self.look(scan, last, believed, seconds);
+        let moved_to = |look: &Look| (before.inverse() * look.key_from_base).normalized();
+        if belief == Belief::Unproved
+            && believed.is_some()
+            && !look.is_blank
+            && Wheels::is_suspect(moved_to(&look), look.is_matched)
+        {
+            look = self.look(scan, last, None, seconds);
+        }
+        if let Some(step) = jumped {
+            let metres = libm::hypot(step.x_m, step.y_m);
+            self.doubts.remark(scan.time_ns, Doubt::OdometryJumped(metres));
+        }
+        if self.is_carried(&look, seconds, jumped.is_some()) {
+            return self.begin_piece(scan, odom_from_base, &look);
+        }
+        let moved = moved_to(&look);
+        let Look {
+            ends,
+            cloud,
+            told,
+            motion,
+            covariance,
+            key_from_base,
+            information,
+            doubted,
+            is_blank,
+            is_still,
+            is_matched,
+            is_doubted,
+            firmness,
+            matched,
+            ..
+        } = look;
+        let per_second = |motion| per_second(motion, seconds);
+        if is_matched {
+            self.usual += USUAL * (matched - self.usual);
+            let doubt = self.wheels.found(moved);
+            doubt.into_iter().for_each(|it| self.doubts.remark(scan.time_ns, it));
+        }
         if told.is_some() && is_matched && !is_still {
-            self.trust.learn(motion, moved);
+            self.trust.learn(motion, moved, is_doubted);
         }
         let (shift_m, turn_rad) = apart(key_from_base, Pose2::IDENTITY);
         // Where neither scans nor odometry tell where it is, a scan would only spoil the map.
@@ -274,7 +293,8 @@ impl Slam {
             let heading_rad = self.graph.poses[key].yaw_rad;
             self.doubts.take(&Step {
                 time_ns: scan.time_ns,
-                odom_from_base,
+                // What is not believed is no witness against scans.
+                odom_from_base: odom_from_base.filter(|_| told.is_some()),
                 key_from_base,
                 heading_rad,
                 is_matched,
@@ -291,7 +311,8 @@ impl Slam {
             next.key_from_base = Pose2::IDENTITY;
             self.work.ties.push_back(new);
             if self.settings.closes_loops {
-                self.loops.notice(&self.keys, &self.graph, self.work.tied_m);
+                let is_torn = self.piece > 0 && !self.unjoined().is_empty();
+                self.loops.notice(&self.keys, &self.graph, self.work.tied_m, is_torn);
             }
         }
         self.push_track(Track {
@@ -346,18 +367,75 @@ impl Slam {
         let end_ns = self.tracks.last().map_or(0, |it| it.time_ns);
         self.doubts.leave_corridor(end_ns);
         self.settle();
+        if self.settings.closes_loops && self.keys.len() > 1 {
+            self.try_waiting();
+            self.doubt_closures();
+        }
         if self.keys.len() > 1 {
             refine(&self.keys, &mut self.graph, &self.settings);
         }
+        self.conclude(end_ns);
+    }
+
+    /// Tells what a person should know of the map as a whole.
+    fn conclude(&mut self, end_ns: i64) {
+        if self.counts.scans > 1 && self.last.as_ref().is_some_and(|it| it.odom_from_base.is_none())
+        {
+            self.doubts.remark(end_ns, Doubt::NoOdometry);
+        }
+        let share = self.counts.lost as f64 / self.counts.scans.max(1) as f64;
+        if self.counts.lost > FEW_LOST && share > MOST_LOST {
+            self.doubts.remark(end_ns, Doubt::Unfitting(share));
+        }
+        match self.unjoined().len() {
+            0 => {}
+            pieces => self.doubts.remark(end_ns, Doubt::Unjoined(pieces)),
+        }
+        for it in audit(&self.keys, &self.graph) {
+            let time_ns = self.time_of(it.keys.0).unwrap_or(end_ns);
+            let doubt =
+                Doubt::Contradiction(it.map_from_base.x_m, it.map_from_base.y_m, it.agreeing);
+            self.doubts.remark(time_ns, doubt);
+        }
+    }
+
+    /// When a kept scan came \[ns\].
+    fn time_of(&self, key: usize) -> Option<i64> {
+        let first = self.tracks.partition_point(|track| track.key < key);
+        self.tracks.get(first).map(|track| track.time_ns)
     }
 
     /// Where the robot was at each scan, in the order in which they came \[ns\].
     #[must_use]
     pub fn trajectory(&self) -> Vec<(i64, Pose2)> {
-        let place = |track: &Track| {
-            (track.time_ns, (self.graph.poses[track.key] * track.key_from_base).normalized())
+        self.tracks.iter().map(|track| (track.time_ns, self.on_the_way(track))).collect()
+    }
+
+    /// Where the robot was at a scan that may not be one of those kept.
+    ///
+    /// Such a scan was laid onto those before it. What the map says since of the way from the kept scan
+    /// before it to the one after is shared out along that way, so that the scan next to the one after
+    /// moves with it.
+    fn on_the_way(&self, track: &Track) -> Pose2 {
+        let pose =
+            |key_from_base: Pose2| (self.graph.poses[track.key] * key_from_base).normalized();
+        let next = track.key + 1;
+        let edges = self.graph.at.get(next).into_iter().flatten();
+        let step = edges
+            .map(|&edge| &self.graph.edges[edge as usize])
+            .find(|edge| edge.kind == Kind::Chain && edge.from == track.key && edge.to == next);
+        let Some(step) = step else { return pose(track.key_from_base) };
+        let way = |pose: Pose2| {
+            let (metres, radians) = apart(pose, Pose2::IDENTITY);
+            metres + TURN_WAY_M * radians
         };
-        self.tracks.iter().map(place).collect()
+        let (done, whole) = (way(track.key_from_base), way(step.from_from_to));
+        let part = if whole > 0.0 { (done / whole).min(1.0) } else { 0.0 };
+        let [x_m, y_m, yaw_rad] = step.error(&self.graph.poses);
+        let here = track.key_from_base;
+        // The error is a shift along the axes of the kept scan before, and a turn about the one after.
+        let turn = part * yaw_rad;
+        pose(Pose2::new(here.x_m + part * x_m, here.y_m + part * y_m, here.yaw_rad + turn))
     }
 
     /// Which of the scans of [`Slam::trajectory`] are kept; closures name them by their place here.
@@ -410,6 +488,17 @@ impl Slam {
             };
             (edge.from, edge.to, link)
         })
+    }
+
+    /// Everything that is known between kept scans and counts, with how far the map is off from it.
+    pub fn edges(&self) -> impl Iterator<Item = Held> {
+        self.links().zip(self.graph.edges.iter().filter(|edge| edge.weight > 0.0)).map(
+            |((from, to, link), edge)| {
+                let [x_m, y_m, yaw_rad] = edge.error(&self.graph.poses);
+                let (residual_m, residual_rad) = (libm::hypot(x_m, y_m), yaw_rad.abs());
+                Held { keys: (from, to), link, residual_m, residual_rad }
+            },
+        )
     }
 
     /// Grows with every bend of the map: who keeps places of scans looks whether it has changed.

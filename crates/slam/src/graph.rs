@@ -41,6 +41,9 @@ pub(crate) struct Edge {
     pub(crate) weight: f64,
 }
 
+/// Information of a step of which nothing is known.
+const GAP: f64 = 1e-4;
+
 impl Edge {
     pub(crate) fn new(
         (from, to): (usize, usize),
@@ -52,6 +55,17 @@ impl Edge {
         let covariance = information.inverse().unwrap_or(Symmetric3::diagonal(1e6, 1e6, 1e6));
         let covariances = [covariance, reversed(&covariance, from_from_to)];
         Self { from, to, from_from_to, information, covariances, kind, weight: 1.0 }
+    }
+
+    /// A step of which nothing is known: a separate piece of map begins after it.
+    pub(crate) fn gap((from, to): (usize, usize), from_from_to: Pose2) -> Self {
+        let nothing = Symmetric3::diagonal(GAP, GAP, GAP);
+        Self::new((from, to), from_from_to, nothing, Kind::Chain)
+    }
+
+    /// Whether nothing is known of it.
+    pub(crate) fn is_gap(&self) -> bool {
+        self.kind == Kind::Chain && self.information.xx <= GAP
     }
 
     /// The same, with another information for questions of uncertainty.

@@ -16,6 +16,7 @@
 //! [`Gmapping`] is another method behind the same interface, [`Mapper`]: particles with a map each.
 //! Both take the parameters that programs of ROS have for them ([`tables`]).
 
+mod audit;
 mod doubts;
 mod drift;
 mod engine;
@@ -32,19 +33,23 @@ mod near;
 mod odometry;
 mod refine;
 mod relations;
+mod remedy;
 mod scan;
 mod session;
 mod settings;
 pub mod tables;
+mod wheels;
 
+pub use audit::Contradiction;
 pub use doubts::{Doubt, Remark};
-pub use engine::{Counts, Link, Slam, Taken, Update};
+pub use engine::{Counts, Held, Link, Slam, Taken, Update};
 pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;
 pub use map::Sketch;
 pub use method::{Mapper, Method};
 pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
+pub use remedy::{Cure, Remedy};
 pub use scan::Scan;
 pub use session::{SESSION_MAGIC, SESSION_VERSION, SessionError};
 pub use settings::Settings;

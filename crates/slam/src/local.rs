@@ -40,13 +40,18 @@ pub(crate) struct Located {
     pub(crate) doubted: Symmetric3,
     /// Whether the scan fits, or only odometry tells where it is.
     pub(crate) is_matched: bool,
+    /// Whether it fits although scans contradict each other there.
+    pub(crate) is_doubted: bool,
+    /// Where fewer points than usual find partners: the share that agrees of what both the scan and those
+    /// before see; else 1. Where it is small, it may be a scan of another place.
+    pub(crate) agreeing: f64,
 }
 
-/// The key scans that a new one is laid onto: the last ones, nearby.
-pub(crate) fn neighbours(keys: &[Key], graph: &Graph, most: usize) -> Vec<usize> {
+/// The key scans that a new one is laid onto: the last ones, nearby, from the first of a piece of map on.
+pub(crate) fn neighbours(keys: &[Key], graph: &Graph, most: usize, first: usize) -> Vec<usize> {
     let Some(last) = keys.len().checked_sub(1) else { return Vec::new() };
     let here = graph.poses[last];
-    (0..keys.len())
+    (first..keys.len())
         .rev()
         .take(3 * most)
         .filter(|&key| {
@@ -172,21 +177,123 @@ pub(crate) fn locate(
             {
                 let fit = finish(&fit, &prior);
                 let information = prior.information + fit.information;
-                return Located { fit, information, doubted: information, is_matched: true };
+                return Located {
+                    fit,
+                    information,
+                    doubted: information,
+                    is_matched: true,
+                    is_doubted: false,
+                    agreeing: 1.0,
+                };
             }
         }
     }
     let fit = finish(&best, &Prior { information, ..prior });
     let is_matched = fit.matched > LEAST_MATCHED * 0.7;
+    let agreeing = match is_matched {
+        true if is_poor(&fit) => against(cloud, group, fit.target_from_moving).share(),
+        true => 1.0,
+        false => 0.0,
+    };
     if !is_matched {
         best.target_from_moving = frame_from_base;
         let doubted = doubted(&information, 0.0);
-        return Located { fit: best, information, doubted, is_matched };
+        let is_doubted = false;
+        return Located { fit: best, information, doubted, is_matched, is_doubted, agreeing };
     }
     let doubted = doubted(&information, fit.firmness) + fit.information;
     let information = information + fit.information;
-    Located { fit, information, doubted, is_matched }
+    Located { fit, information, doubted, is_matched, is_doubted: false, agreeing }
 }
+
+/// Weighs scans against odometry where the two differ and scans contradict each other as well.
+///
+/// Ground that rises before the scanner gives lines that move along with the robot, and so do people
+/// who walk beside it: a scan fits them where the robot is not, but other points are then seen through.
+/// Hedges are so rough that a fit along them drifts. `typical` is the covariance of an ordinary step
+/// of odometry: where the scan was found farther off, it counts the less, the less scans agree there
+/// and, within what is possible for odometry, the rougher they are.
+pub(crate) fn weighed(
+    located: Located,
+    cloud: &Cloud,
+    group: &[Placed<'_>],
+    frame_from_base: Pose2,
+    typical: &Symmetric3,
+    settings: &Settings,
+) -> Located {
+    let found = located.fit.target_from_moving;
+    let off = [
+        found.x_m - frame_from_base.x_m,
+        found.y_m - frame_from_base.y_m,
+        normalize_angle(found.yaw_rad - frame_from_base.yaw_rad),
+    ];
+    let Some(information) = typical.inverse() else { return located };
+    let distance = information.quadratic(off);
+    if distance < ORDINARY {
+        return located;
+    }
+    let seen = against(cloud, group, found);
+    let part = ((seen.share() - DISAGREED) / (AGREED - DISAGREED)).clamp(LEAST_PART, 1.0);
+    let smooth = settings.register.sigma_m / located.fit.rms_m.max(settings.register.sigma_m);
+    let rough = if distance < POSSIBLE { smooth * smooth } else { 1.0 };
+    let trusted = part.powi(4) * rough;
+    if trusted > NEARLY_ALL {
+        return located;
+    }
+    let information = information * (1.0 / trusted);
+    let prior = Prior { target_from_moving: frame_from_base, information };
+    let how = close_by(&settings.register);
+    let mut fit = register(&[Placed::alone(cloud)], group, frame_from_base, Some(&prior), &how);
+    // Wheels that slipped, or that were counted late, do not change how well scans agree.
+    if against(cloud, group, fit.target_from_moving).share() < seen.share() - WORSE {
+        return Located { is_doubted: true, ..located };
+    }
+    fit.information = fit.information * trusted;
+    let information = information * trusted + fit.information;
+    Located { fit, information, is_doubted: true, ..located }
+}
+
+/// Whether a scan clearly fits better in one place than in another.
+pub(crate) fn is_better(
+    cloud: &Cloud,
+    group: &[Placed<'_>],
+    one: &Located,
+    other: &Located,
+) -> bool {
+    if !one.is_matched || one.fit.matched < CLEARLY * other.fit.matched {
+        return false;
+    }
+    let seen = |it: &Located| against(cloud, group, it.fit.target_from_moving).share();
+    !other.is_matched || seen(one) > (seen(other) + CLEARLY_SEEN).min(SURE)
+}
+
+/// What scans and odometry leave uncertain, for asking how far off a place may be; `typical` is the
+/// covariance of an ordinary step of odometry.
+pub(crate) fn uncertain(located: &Located, typical: &Symmetric3) -> Symmetric3 {
+    let firmness = if located.is_doubted { 0.0 } else { located.fit.firmness };
+    match typical.inverse() {
+        Some(information) => doubted(&information, firmness) + located.fit.information,
+        None => located.doubted,
+    }
+}
+
+/// Squared Mahalanobis distance from odometry up to which a step is ordinary.
+const ORDINARY: f64 = 1.0;
+/// Beyond this the step cannot be an ordinary one: 99.9 % for 3 degrees of freedom.
+const POSSIBLE: f64 = 16.3;
+/// Scans that agree on this part of what both can see count in full; at the second hardly at all. At
+/// least so much of their weight is left, before its fourth power.
+const AGREED: f64 = 0.95;
+const DISAGREED: f64 = 0.65;
+const LEAST_PART: f64 = 0.05;
+/// A scan fits clearly better where so many times the points find partners, and so much more of what both
+/// see agrees.
+const CLEARLY: f64 = 1.1;
+const CLEARLY_SEEN: f64 = 0.05;
+/// Where scans agree less by this part when odometry is followed, they are right.
+const WORSE: f64 = 0.02;
+/// Scans that keep more than this part of their weight are left as they are.
+const NEARLY_ALL: f64 = 0.9;
 
 /// What odometry tells where scans do not hold, when it is asked how far off a place may be. Along a
 /// corridor its errors are all to one side: they add up and do not average out, so that for the

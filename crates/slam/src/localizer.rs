@@ -154,7 +154,8 @@ impl Localizer {
             None => self.start,
             Some(last) => {
                 let motion = told.unwrap_or(Pose2::IDENTITY);
-                let spread = told.map_or_else(Trust::blind, |motion| self.trust.covariance(motion));
+                let spread =
+                    told.map_or_else(Trust::blind, |motion| self.trust.covariance(motion, 0.0));
                 let grown = last.covariance + spread.turned(last.map_from_base.yaw_rad);
                 ((last.map_from_base * motion).normalized(), bounded(&grown))
             }
@@ -204,7 +205,7 @@ impl Localizer {
         if taken == Taken::Passed {
             if let (Some(motion), Some(last)) = (told, &self.last) {
                 let moved = (last.map_from_base.inverse() * next.map_from_base).normalized();
-                self.trust.learn(motion, moved);
+                self.trust.learn(motion, moved, false);
             }
             let is_new = self.own.back().is_none_or(|own| {
                 let (metres, radians) = apart(own.map_from_key, next.map_from_base);

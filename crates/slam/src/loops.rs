@@ -39,7 +39,7 @@ const MEET_M: f64 = 9.0;
 /// So far is searched, to see whether something better lies just beyond \[m\].
 const SEEN_M: f64 = 10.5;
 /// Beyond this nothing is searched \[m\]: standard deviation of the place.
-const MOST_M: f64 = 25.0;
+const MOST_M: f64 = 60.0;
 /// Below this ties to near scans find all there is, 3 standard deviations \[m, rad\].
 const KNOWN_M: f64 = 0.5;
 const KNOWN_RAD: f64 = 0.2;
@@ -55,18 +55,39 @@ const AGREEING: f64 = 0.88;
 const JUDGED: u32 = 400;
 const MATCHED: f64 = 0.6;
 const TOLERANCE_M: f32 = 0.2;
+/// The same where two stretches were driven in opposite directions, and each shows a part that is
+/// hidden from the other: fewer partners, but more points that both can judge and that agree.
+const PARTLY_MATCHED: f64 = 0.3;
+const PARTLY_JUDGED: u32 = 800;
+const PARTLY_AGREEING: f64 = 0.9;
 /// Peaks this near to the rim of what was searched are none \[m\].
 const RIM_M: f64 = 0.15;
 /// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
 const CONSISTENT: f64 = 11.3;
 /// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
 const ONE_WITNESS_M: f64 = 2.0;
+const PARTLY_ONE_WITNESS_M: f64 = 1.0;
 const TWO_WITNESSES_M: f64 = 12.0;
-/// Witnesses are at least this way apart \[m\].
+/// Witnesses are at least this way apart \[m\], and are heard over so much way.
 const APART_M: f64 = 4.0;
+const HEARD_M: f64 = 60.0;
+/// That two closures agree says nothing where three standard deviations of the ways between them are
+/// more than this part of the smaller region, and more than this \[m\]: by chance they would agree as well.
+const EMPTY: f64 = 0.5;
+const EMPTY_M: f64 = 2.0;
 /// Searches for one stretch, and searches that wait, at most.
 const MOST_ASKED: usize = 30;
 const MOST_WAITING: usize = 300;
+/// What is known of places in other pieces of map: nothing. As many of them are asked for at once, each
+/// as if it were so far out in its region.
+const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
+/// Whole buildings look alike in places: where nothing is known, the agreement and the witnesses must be
+/// better.
+const ANYWHERE_M: f64 = 250.0;
+const ANYWHERE_AGREEING: f64 = 0.95;
+const ANYWHERE_WITNESSES: usize = 5;
+const MOST_ELSEWHERE: usize = 24;
+const FARTHER: f64 = 2.0;
 /// Fields that are kept.
 const KEPT_FIELDS: usize = 12;
 /// Points of a stretch that are searched with.
@@ -113,6 +134,51 @@ struct Candidate {
     region_m: f64,
     share: f64,
     is_unique: bool,
+    /// Whether most points of one stretch are hidden from the other.
+    is_partial: bool,
+}
+
+impl Candidate {
+    fn told(&self) -> Closure {
+        Closure {
+            keys: (self.middle, self.anchor),
+            old_from_new: self.middle_from_anchor,
+            is_accepted: false,
+            region_m: self.region_m,
+            agreeing: self.share,
+            reason: String::new(),
+        }
+    }
+
+    fn edge(&self) -> Edge {
+        let keys = (self.middle, self.anchor);
+        Edge::new(keys, self.middle_from_anchor, self.information, Kind::Loop)
+    }
+}
+
+/// What other closures say of one.
+struct Evidence {
+    /// Closures that agree with it.
+    agreeing: Vec<usize>,
+    /// Independent stretches that tell the same, itself among them.
+    witnesses: usize,
+    wanted: usize,
+    /// Independent stretches that tell something else.
+    rivals: usize,
+}
+
+impl Evidence {
+    fn is_enough(&self) -> bool {
+        self.witnesses >= self.wanted && self.witnesses > self.rivals
+    }
+}
+
+/// What two closures say of each other.
+enum Word {
+    Agrees,
+    Opposes,
+    /// The ways between them are so uncertain that anything would agree.
+    Silent,
 }
 
 /// A field that is kept, of a place.
@@ -138,7 +204,7 @@ pub(crate) struct Loops {
 
 impl Loops {
     /// Takes note of a new key; asks for searches when it is time.
-    pub(crate) fn notice(&mut self, keys: &[Key], graph: &Graph, tied_m: f64) {
+    pub(crate) fn notice(&mut self, keys: &[Key], graph: &Graph, tied_m: f64, is_torn: bool) {
         let last = keys.len() - 1;
         let travel_m = keys[last].travel_m;
         if travel_m - keys[self.place_from].travel_m >= PLACE_M {
@@ -156,11 +222,13 @@ impl Loops {
         if travel_m - tied_m < STRETCH_M {
             return;
         }
-        self.ask(keys, graph, last);
+        self.ask(keys, graph, last, is_torn);
     }
 
     /// Asks for all old stretches that the one up to a key may have met.
-    pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize) {
+    ///
+    /// Where the map is torn, all that lies in other pieces of it is asked for as well.
+    pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize, is_torn: bool) {
         let start = (0..last)
             .rev()
             .find(|&key| keys[last].travel_m - keys[key].travel_m > STRETCH_M)
@@ -178,11 +246,17 @@ impl Loops {
             covariances[sighting.key] = Some(sighting);
         }
         let mut asked: Vec<(f64, Task)> = Vec::new();
+        let mut elsewhere: Vec<(f64, Task)> = Vec::new();
         for (place, old) in self.places.iter().enumerate() {
             if keys[start].travel_m - keys[old.keys.end - 1].travel_m < OLD_M - STRETCH_M {
                 break;
             }
-            let Some(sighting) = &covariances[old.middle] else { continue };
+            let Some(sighting) = &covariances[old.middle] else {
+                // It lies in another piece of map, or so far away that nothing is known of it.
+                let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
+                elsewhere.push((FARTHER, task));
+                continue;
+            };
             let (region_m, region_rad) = (3.0 * sighting.shift_m(), 3.0 * sighting.turn_rad());
             if region_m < KNOWN_M && region_rad < KNOWN_RAD {
                 continue;
@@ -198,6 +272,10 @@ impl Loops {
         }
         asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
         asked.truncate(MOST_ASKED);
+        if is_torn {
+            let every = elsewhere.len().div_ceil(MOST_ELSEWHERE).max(1);
+            asked.extend(elsewhere.into_iter().skip(anchor % every).step_by(every));
+        }
         // Under load the oldest questions go unanswered; they are asked again at the end.
         let over = (self.tasks.len() + asked.len()).saturating_sub(MOST_WAITING);
         self.tasks.drain(..over.min(self.tasks.len()));
@@ -299,6 +377,14 @@ impl Loops {
             self.told.push(told);
             return None;
         }
+        if region_m > ANYWHERE_M && verdict.share < ANYWHERE_AGREEING {
+            told.reason = format!(
+                "{:.0} % of the points are seen through, too many for a place that may be anywhere",
+                100.0 * (1.0 - verdict.share)
+            );
+            self.told.push(told);
+            return None;
+        }
         let place = verdict.fit.target_from_moving;
         let rival = second.map(|peak| verify(peak.pose, &new, &old, settings)).filter(|other| {
             let (metres, radians) = apart(other.fit.target_from_moving, place);
@@ -314,6 +400,7 @@ impl Loops {
             region_m,
             share: verdict.share,
             is_unique: rival.is_none() && verdict.fit.firmness > 0.0,
+            is_partial: verdict.fit.matched < MATCHED,
         })
     }
 
@@ -347,93 +434,141 @@ impl Loops {
         })
     }
 
-    /// Whether enough speaks for a closure; then its edge and those of its witnesses.
+    /// Whether enough speaks for a closure, and for those that agree with it; then their edges.
+    ///
+    /// Each is believed by its own evidence: as many witnesses as its own region asks for, among those
+    /// that agree with it. Those that fit elsewhere too are never believed: near scans will tell better
+    /// once the place is known. But they are done with.
     fn weigh(&mut self, new: Candidate, keys: &[Key], graph: &Graph) -> Vec<Edge> {
-        self.pending.push(new.clone());
-        let from_anchor = sightings(graph, new.anchor);
-        let from_middle = sightings(graph, new.middle);
-        let is_consistent = |other: &Candidate| {
-            consistency(&new, other, graph, &from_anchor, &from_middle) < CONSISTENT
-        };
-        let now_m = keys[new.anchor].travel_m;
-        let mut agreed: Vec<usize> = Vec::new();
-        let mut opposed: Vec<usize> = Vec::new();
-        for (index, other) in self.pending.iter().enumerate().take(self.pending.len() - 1) {
-            // What was far back says nothing of what is here.
-            if now_m - keys[other.anchor].travel_m > 60.0 {
-                continue;
-            }
-            if is_consistent(other) {
-                agreed.push(index);
-            } else if other.is_unique {
-                opposed.push(index);
-            }
-        }
-        // Witnesses: unique ones, far enough from each other.
-        let mut witnesses = vec![self.pending.len() - 1];
-        for &index in agreed.iter().rev() {
-            let candidate = &self.pending[index];
-            let is_apart = witnesses.iter().all(|&it| {
-                (keys[self.pending[it].anchor].travel_m - keys[candidate.anchor].travel_m).abs()
-                    >= APART_M
-            });
-            if is_apart {
-                witnesses.push(index);
-            }
-        }
-        let unique = witnesses.iter().filter(|&&it| self.pending[it].is_unique).count();
-        let mut rivals: Vec<f64> = Vec::new();
-        for &index in &opposed {
-            let travel_m = keys[self.pending[index].anchor].travel_m;
-            if rivals.iter().all(|other| (other - travel_m).abs() >= APART_M) {
-                rivals.push(travel_m);
-            }
-        }
-        let wanted = match new.region_m {
-            ..ONE_WITNESS_M => 1,
-            ..TWO_WITNESSES_M => 2,
-            _ => 3,
-        };
-        let is_believed = unique >= wanted && unique > rivals.len();
-        // Those that fit elsewhere too are not believed: near scans will tell better, now that the place
-        // is known. But they are done with.
-        let mut settled = agreed;
-        settled.push(self.pending.len() - 1);
-        let of_one = |&index: &usize| is_believed && self.pending[index].is_unique;
-        let believed: Vec<usize> = settled.iter().copied().filter(of_one).collect();
-        // What is told is the newest of those that become part of the map.
-        let told = believed.last().map_or(&new, |&index| &self.pending[index]);
-        let words = match (new.is_unique, is_believed) {
-            (true, _) => "the only place in the region",
-            (false, false) => "fits elsewhere too",
-            (false, true) => "a stretch that fits elsewhere too agrees with it",
-        };
-        let reason = format!(
-            "{unique} of {wanted} independent witnesses, {} against; {words}",
-            rivals.len(),
-        );
-        self.told.push(Closure {
-            keys: (told.middle, told.anchor),
-            old_from_new: told.middle_from_anchor,
-            is_accepted: is_believed,
-            region_m: told.region_m,
-            agreeing: told.share,
-            reason,
-        });
-        if !is_believed {
+        self.told.push(new.told());
+        self.pending.push(new);
+        let newest = self.pending.len() - 1;
+        let evidence = self.evidence(newest, keys, graph);
+        self.tell(newest, &evidence, evidence.is_enough());
+        if !evidence.is_enough() || !self.pending[newest].is_unique {
             return Vec::new();
         }
-        let edges = believed.iter().map(|&index| {
-            let it = &self.pending[index];
-            Edge::new((it.middle, it.anchor), it.middle_from_anchor, it.information, Kind::Loop)
-        });
-        let edges = edges.collect();
+        let mut believed = Vec::new();
+        for &index in evidence.agreeing.iter().chain([&newest]) {
+            if !self.pending[index].is_unique {
+                continue;
+            }
+            let own = self.evidence(index, keys, graph);
+            if own.is_enough() {
+                self.tell(index, &own, true);
+                believed.push(index);
+            }
+        }
+        let edges = believed.iter().map(|&index| self.pending[index].edge()).collect();
+        // Others that agreed may still find witnesses of their own.
+        let is_done = |index: usize, it: &Candidate| {
+            believed.contains(&index) || (evidence.agreeing.contains(&index) && !it.is_unique)
+        };
         let mut index = 0;
-        self.pending.retain(|_| {
+        self.pending.retain(|it| {
             index += 1;
-            !settled.contains(&(index - 1))
+            !is_done(index - 1, it)
         });
         edges
+    }
+
+    /// What other closures say of one.
+    fn evidence(&self, of: usize, keys: &[Key], graph: &Graph) -> Evidence {
+        let it = &self.pending[of];
+        let from_anchor = sightings(graph, it.anchor);
+        let from_middle = sightings(graph, it.middle);
+        let here_m = keys[it.anchor].travel_m;
+        let mut agreeing: Vec<usize> = Vec::new();
+        let mut rivals: Vec<f64> = Vec::new();
+        // Witnesses: unique ones, far enough from each other.
+        let mut witnesses: Vec<f64> = Vec::new();
+        let is_apart = |ways: &[f64], way: f64| ways.iter().all(|it| (it - way).abs() >= APART_M);
+        if it.is_unique {
+            witnesses.push(here_m);
+        }
+        for (index, other) in self.pending.iter().enumerate().rev() {
+            let there_m = keys[other.anchor].travel_m;
+            // What is far away says nothing of what is here.
+            if index == of || (here_m - there_m).abs() > HEARD_M {
+                continue;
+            }
+            match consistency(it, other, graph, &from_anchor, &from_middle) {
+                Word::Agrees => {
+                    agreeing.push(index);
+                    if other.is_unique && is_apart(&witnesses, there_m) {
+                        witnesses.push(there_m);
+                    }
+                }
+                Word::Opposes if other.is_unique && is_apart(&rivals, there_m) => {
+                    rivals.push(there_m);
+                }
+                _ => {}
+            }
+        }
+        let wanted = match it.region_m {
+            ..PARTLY_ONE_WITNESS_M => 1,
+            ..ONE_WITNESS_M if !it.is_partial => 1,
+            ..TWO_WITNESSES_M => 2,
+            ..ANYWHERE_M => 3,
+            _ => ANYWHERE_WITNESSES,
+        };
+        Evidence { agreeing, witnesses: witnesses.len(), wanted, rivals: rivals.len() }
+    }
+
+    /// Writes down what became of a closure.
+    fn tell(&mut self, index: usize, evidence: &Evidence, is_believed: bool) {
+        let it = &self.pending[index];
+        let (keys, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
+        let words = match (it.is_unique, is_believed) {
+            (true, _) => "the only place in the region",
+            (false, false) => "fits elsewhere too",
+            (false, true) => "fits elsewhere too, though others agree with it",
+        };
+        let is_accepted = is_believed && it.is_unique;
+        let told = self.told.iter_mut().rev();
+        let Some(told) = { told }.find(|told| told.keys == keys && told.old_from_new == pose)
+        else {
+            return;
+        };
+        told.is_accepted = is_accepted;
+        told.reason = format!(
+            "{} of {} independent witnesses, {} against; {words}",
+            evidence.witnesses, evidence.wanted, evidence.rivals,
+        );
+    }
+
+    /// Closures that lack a witness, that nothing speaks against, and that fit nowhere else: those with the
+    /// most witnesses first.
+    pub(crate) fn waiting(&self, keys: &[Key], graph: &Graph) -> Vec<Edge> {
+        let mut waiting: Vec<(usize, f64, usize)> = (0..self.pending.len())
+            .filter(|&index| self.pending[index].is_unique && !self.pending[index].is_partial)
+            .filter_map(|index| {
+                let evidence = self.evidence(index, keys, graph);
+                let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
+                let is_near = lacks <= 1 && evidence.rivals == 0;
+                is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
+            })
+            .collect();
+        waiting.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        waiting.into_iter().map(|it| self.pending[it.2].edge()).collect()
+    }
+
+    /// A closure that waited is part of the map.
+    pub(crate) fn believe(&mut self, edge: &Edge, reason: String) {
+        self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
+        let told = self.told.iter_mut().rev();
+        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+            (told.is_accepted, told.reason) = (true, reason);
+        }
+    }
+
+    /// A closure is part of the map no more.
+    pub(crate) fn disbelieve(&mut self, edge: &Edge, reason: &str) {
+        for told in self.told_of(std::slice::from_ref(edge)) {
+            told.is_accepted = false;
+            told.reason = reason.to_owned();
+        }
     }
 
     /// The map has moved: what was asked before is asked of another map.
@@ -442,19 +577,17 @@ impl Loops {
         self.fields.clear();
     }
 
-    /// Says of the newest closure that it was undone.
-    pub(crate) fn undone(&mut self, reason: String) {
-        if let Some(last) = self.told.iter_mut().rev().find(|it| it.is_accepted) {
-            last.is_accepted = false;
-            last.reason = reason;
-        }
-    }
-
-    /// Adds to what is told of the newest closure.
-    pub(crate) fn confirmed(&mut self, how: &str) {
-        if let Some(last) = self.told.iter_mut().rev().find(|it| it.is_accepted) {
-            last.reason.push_str(how);
-        }
+    /// What is told of the closures that these edges are.
+    pub(crate) fn told_of<'a>(
+        &'a mut self,
+        edges: &'a [Edge],
+    ) -> impl Iterator<Item = &'a mut Closure> {
+        self.told.iter_mut().filter(move |told| {
+            let is_of = |edge: &Edge| {
+                (edge.from, edge.to) == told.keys && edge.from_from_to == told.old_from_new
+            };
+            told.is_accepted && edges.iter().any(is_of)
+        })
     }
 
     /// Bytes held.
@@ -493,7 +626,10 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         }
     }
     let share = sum.share();
-    let fault = if fit.matched < MATCHED {
+    // Seen from the other end, most points of one are hidden from the other.
+    let is_partial =
+        fit.matched > PARTLY_MATCHED && share > PARTLY_AGREEING && sum.judged() > PARTLY_JUDGED;
+    let fault = if fit.matched < MATCHED && !is_partial {
         Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
     } else if sum.judged() < JUDGED {
         Some(format!("only {} points are seen from both", sum.judged()))
@@ -530,8 +666,7 @@ fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {
     found
 }
 
-/// How far two closures are from agreeing over the ways between them, squared Mahalanobis distance:
-/// from the one old place along the old way to the other, by its closure to the new way, back along
+/// Whether two closures agree over the ways between them, by squared Mahalanobis distance: from the one old place along the old way to the other, by its closure to the new way, back along
 /// it, and by the first closure home. (Pairwise consistency: Mangelson et al. 2018.)
 fn consistency(
     a: &Candidate,
@@ -539,9 +674,9 @@ fn consistency(
     graph: &Graph,
     from_anchor_a: &[Option<Symmetric3>],
     from_middle_a: &[Option<Symmetric3>],
-) -> f64 {
+) -> Word {
     let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
-        return f64::MAX;
+        return Word::Silent;
     };
     // Both paths from the old place of a to the anchor of b.
     let by_old = graph.between(a.middle, b.middle);
@@ -557,5 +692,14 @@ fn consistency(
         normalize_angle(over_old.yaw_rad - over_new.yaw_rad),
     ];
     let sum = old_covariance + new_covariance;
-    sum.inverse().map_or(f64::MAX, |information| information.quadratic(error))
+    let Some(information) = sum.inverse() else { return Word::Silent };
+    if information.quadratic(error) >= CONSISTENT {
+        return Word::Opposes;
+    }
+    let by_chance_m = 3.0 * sum.largest_shift().sqrt();
+    if by_chance_m < (EMPTY * a.region_m.min(b.region_m)).max(EMPTY_M) {
+        Word::Agrees
+    } else {
+        Word::Silent
+    }
 }

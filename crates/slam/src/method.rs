@@ -7,7 +7,7 @@ use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 
 use crate::doubts::Remark;
-use crate::engine::{Counts, Slam, Update};
+use crate::engine::{Counts, Held, Slam, Update};
 use crate::loops::Closure;
 use crate::scan::Scan;
 
@@ -44,6 +44,11 @@ pub trait Mapper: Send {
     /// loops one by one.
     fn closures(&self) -> &[Closure] {
         &[]
+    }
+
+    /// Everything that is known between kept scans and counts, of methods that keep a graph.
+    fn edges(&self) -> Vec<Held> {
+        Vec::new()
     }
 
     /// What a person should know of the drive, in the order in which it was noticed; grows only.
@@ -131,6 +136,10 @@ impl Mapper for Slam {
 
     fn closures(&self) -> &[Closure] {
         Self::closures(self)
+    }
+
+    fn edges(&self) -> Vec<Held> {
+        Self::edges(self).collect()
     }
 
     fn remarks(&self) -> &[Remark] {

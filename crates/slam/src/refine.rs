@@ -13,6 +13,8 @@ use crate::settings::Settings;
 
 /// Scans farther apart than this are not compared \[m\].
 const REACH_M: f64 = 5.0;
+/// A turn of a radian between two scans counts as so far apart \[m\].
+const TURN_M: f64 = 0.3;
 /// Scans within this way of each other need no proof that they see the same \[m\].
 const SAME_VISIT_M: f64 = 6.0;
 /// Widths of partners and of weights from the first sweep to the last \[m\].
@@ -127,18 +129,24 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
                 let there = cells.get(&(column + dx, row + dy)).into_iter().flatten();
                 near.extend(there.filter_map(|&other| {
                     let (metres, radians) = apart(graph.poses[key], graph.poses[other]);
-                    (metres < REACH_M).then_some((metres + radians, other))
+                    (metres < REACH_M).then_some((metres + TURN_M * radians, other))
                 }));
             }
         }
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut count = 0;
-        let mut is_chained = key == 0;
+        let is_gap = |&edge: &u32| {
+            let edge = &graph.edges[edge as usize];
+            edge.is_gap() && edge.to == key
+        };
+        // A piece of map that begins here is chained to nothing.
+        let begins = key == 0 || graph.at[key].iter().any(is_gap);
+        let mut is_chained = begins;
         for (_, other) in near {
             if count >= settings.refine_neighbours {
                 break;
             }
-            if other + 1 == key || is_alike(&mut clouds, graph, other, key) {
+            if (other + 1 == key && !begins) || is_alike(&mut clouds, graph, other, key) {
                 pairs.push((other, key));
                 is_chained |= other + 1 == key;
                 count += 1;

@@ -22,7 +22,7 @@ pub(crate) use bytes::{Bytes, Fault, Pack, Reader, packed};
 /// What a file of a session begins with.
 pub const SESSION_MAGIC: [u8; 8] = *b"PERISLAM";
 /// The version that is written, and the only one that is read.
-pub const SESSION_VERSION: u32 = 2;
+pub const SESSION_VERSION: u32 = 3;
 
 /// Bytes before the first section: magic and version.
 const HEAD: usize = 12;

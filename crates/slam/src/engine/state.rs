@@ -3,6 +3,7 @@
 use periplus_base::Pose2;
 use periplus_matching::Symmetric3;
 
+use super::piece::Strange;
 use super::work::Work;
 use super::{Counts, Last, Slam};
 use crate::doubts::Doubts;
@@ -12,12 +13,14 @@ use crate::loops::Loops;
 use crate::odometry::Trust;
 use crate::session::{Bytes, Pack, Reader, SessionError, packed, whole};
 use crate::settings::Settings;
+use crate::wheels::Wheels;
 
 packed!(Counts { scans, kept, lost, ignored, ties, searches, slices });
 packed!(Last { time_ns, odom_from_base, key, key_from_base, motion, covariance });
 
 /// The section `LAST`.
-type Rest = (Option<Last>, (f64, (Counts, Option<(Pose2, Symmetric3)>)));
+type Rest =
+    (Option<Last>, (f64, (Counts, (Option<(Pose2, Symmetric3)>, (Wheels, (Strange, usize))))));
 
 impl Slam {
     /// All sections by name, in order.
@@ -34,6 +37,9 @@ impl Slam {
             counts,
             usual,
             start,
+            wheels,
+            strange,
+            piece,
             // What was noticed is no part of the map: who goes on begins with an open mind.
             doubts: _,
         } = self;
@@ -43,6 +49,9 @@ impl Slam {
         usual.pack(&mut rest);
         counts.pack(&mut rest);
         start.pack(&mut rest);
+        wheels.pack(&mut rest);
+        strange.pack(&mut rest);
+        piece.pack(&mut rest);
         vec![
             (*b"KEYS", Bytes::of(keys)),
             (*b"POSE", Bytes::of(poses)),
@@ -88,7 +97,11 @@ impl Slam {
             return misfit(b"TRAK", "a pose hangs on a scan that is not there");
         }
         let trust: Trust = whole(section(b"ODOM")?)?;
-        let (last, (usual, (counts, start))): Rest = whole(section(b"LAST")?)?;
+        let (last, (usual, (counts, (start, (wheels, (strange, piece)))))): Rest =
+            whole(section(b"LAST")?)?;
+        if piece >= keys.len().max(1) {
+            return misfit(b"LAST", "a piece of map begins with a scan that is not there");
+        }
         let is_last = match &last {
             Some(last) => last.key < keys.len(),
             None => keys.is_empty(),
@@ -117,6 +130,9 @@ impl Slam {
             counts,
             usual,
             start,
+            wheels,
+            strange,
+            piece,
             doubts,
         })
     }

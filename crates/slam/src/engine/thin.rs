@@ -88,6 +88,7 @@ impl Slam {
             first_of += usize::from(is_first);
             is_first || at > recent
         });
+        self.piece = number[self.piece..].iter().find_map(|it| *it).unwrap_or(0);
         if let Some(last) = &mut self.last
             && let Some(new) = number[last.key]
         {

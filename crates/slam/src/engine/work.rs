@@ -8,7 +8,7 @@ use periplus_base::Pose2;
 use periplus_matching::{Agreement, agreement};
 
 use super::Slam;
-use crate::graph::{Kind, Outcome, Saved, Size, Solver};
+use crate::graph::{Edge, Kind, Outcome, Saved, Size, Solver};
 use crate::local::apart;
 use crate::loops::Loops;
 use crate::near::ties;
@@ -140,6 +140,7 @@ impl Slam {
             return;
         }
         let poses = self.graph.poses.clone();
+        self.lay_pieces(&edges);
         let added = edges.into_iter().map(|edge| self.graph.add_edge(edge)).collect();
         self.solve(Some((poses, added)));
     }
@@ -192,6 +193,7 @@ impl Slam {
     /// Keeps a closure when what now overlaps agrees, or goes back.
     fn judge(&mut self, before: Vec<Pose2>, edges: &[usize]) {
         let sum = self.overlap();
+        let closed: Vec<Edge> = edges.iter().map(|&edge| self.graph.edges[edge]).collect();
         if sum.judged() > JUDGED && sum.share() < AGREEING {
             for &edge in edges {
                 self.graph.edges[edge].weight = 0.0;
@@ -201,17 +203,21 @@ impl Slam {
             }
             // Keys that came in the meantime hang on the chain.
             self.graph.hang(before.len());
-            self.loops.undone(format!(
-                "undone: in the map that came of it {:.0} % of the points were seen through",
-                100.0 * (1.0 - sum.share())
-            ));
+            for told in self.loops.told_of(&closed) {
+                told.is_accepted = false;
+                told.reason = format!(
+                    "undone: in the map that came of it {:.0} % of the points were seen through",
+                    100.0 * (1.0 - sum.share())
+                );
+            }
             return;
         }
-        self.loops.confirmed(&format!(
+        let how = format!(
             "; then {} points overlap and {:.0} % agree",
             sum.judged(),
             100.0 * sum.share()
-        ));
+        );
+        self.loops.told_of(&closed).for_each(|told| told.reason.push_str(&how));
         // The uncertainty is gone: near scans can now be compared directly.
         self.loops.forget();
         let first = self.keys.len().saturating_sub(LOOKED_AT);
@@ -248,9 +254,9 @@ impl Slam {
         self.solve(None);
         self.work_slices(usize::MAX);
         if self.settings.closes_loops {
-            // Places are known better now.
+            // Places are known better now, but for those in other pieces of map, which were asked for.
             for key in Loops::unheld(&self.keys, &self.graph) {
-                self.loops.ask(&self.keys, &self.graph, key);
+                self.loops.ask(&self.keys, &self.graph, key, false);
                 self.work_slices(usize::MAX);
             }
         }

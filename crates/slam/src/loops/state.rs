@@ -6,7 +6,16 @@ use crate::session::{Bytes, Fault, Pack, Reader, packed};
 packed!(Closure { keys, old_from_new, is_accepted, region_m, agreeing, reason });
 packed!(Task { stretch, anchor, place, covariance });
 packed!(Place { keys, middle });
-packed!(Candidate { anchor, middle, middle_from_anchor, information, region_m, share, is_unique });
+packed!(Candidate {
+    anchor,
+    middle,
+    middle_from_anchor,
+    information,
+    region_m,
+    share,
+    is_unique,
+    is_partial
+});
 packed!(Loops { places, place_from, searched_m, tasks, pending, fields, told });
 
 /// What is told of closures, at most, in a map that lives for ever.
@@ -58,8 +67,13 @@ impl Loops {
             }
             _ => false,
         });
-        let many = self.told.len().saturating_sub(MOST_TOLD);
-        self.told.drain(..many);
+        // Those that are part of the map stay.
+        let mut many = self.told.len().saturating_sub(MOST_TOLD);
+        self.told.retain(|it| {
+            let stays = it.is_accepted || many == 0;
+            many -= usize::from(!stays);
+            stays
+        });
     }
 
     /// Whether all keys and places that are named are there.

@@ -1,0 +1,164 @@
+//! The map held against itself after the last solve.
+//!
+//! Where the robot passed a place twice, each pass saw what the other saw, unless something moved or the
+//! map is wrong there: then one pass looks through the walls of the other. Kept scans of different passes
+//! that lie close together are held against each other both ways, and what they say is summed along the
+//! way, so that a door or a person does not count as a wall.
+
+use std::collections::BTreeMap;
+
+use periplus_base::Pose2;
+use periplus_matching::{Agreement, agreement};
+
+use crate::graph::Graph;
+use crate::key::Key;
+use crate::local::apart;
+
+/// A stretch of the way that contradicts what another pass saw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contradiction {
+    /// Kept scans at its ends.
+    pub keys: (usize, usize),
+    /// Kept scan of the other pass, nearest to its middle.
+    pub other: usize,
+    /// Its middle in the map \[m, rad\].
+    pub map_from_base: Pose2,
+    /// Share of the points that both passes can judge and that agree.
+    pub agreeing: f64,
+    /// Its length \[m\].
+    pub way_m: f64,
+}
+
+/// Scans of different passes this near to each other are held against each other \[m\]. A turn of a radian
+/// counts as so much way \[m\].
+const NEAR_M: f64 = 2.5;
+const TURN_M: f64 = 0.5;
+/// Way between two scans before they belong to different passes \[m\].
+const OTHER_PASS_M: f64 = 12.0;
+/// How near two points are the same \[m\].
+const TOLERANCE_M: f32 = 0.2;
+/// Length over which scans are summed \[m\], and points that are evidence.
+const STRETCH_M: f64 = 3.0;
+const JUDGED: u32 = 400;
+/// Stretches whose scans agree on less are contradictions.
+const AGREEING: f64 = 0.7;
+/// Passes that each scan is held against.
+const PASSES: usize = 2;
+
+/// A scan held against another pass.
+struct Held {
+    key: usize,
+    other: usize,
+    sum: Agreement,
+}
+
+/// All stretches that contradict another pass, in the order of the way.
+pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
+    let held = passes(keys, graph);
+    let mut found: Vec<Contradiction> = Vec::new();
+    let mut start = 0;
+    while start < held.len() {
+        let from_m = keys[held[start].key].travel_m;
+        let mut sum = Agreement::default();
+        let mut end = start;
+        while end < held.len() && keys[held[end].key].travel_m - from_m < STRETCH_M {
+            sum += held[end].sum;
+            end += 1;
+        }
+        if sum.judged() > JUDGED && sum.share() < AGREEING {
+            let middle = &held[(start + end) / 2];
+            let next = Contradiction {
+                keys: (held[start].key, held[end - 1].key),
+                other: middle.other,
+                map_from_base: graph.poses[middle.key],
+                agreeing: sum.share(),
+                way_m: keys[held[end - 1].key].travel_m - from_m,
+            };
+            match found.last_mut() {
+                Some(last) if next.keys.0 <= last.keys.1 + 1 => {
+                    last.keys.1 = next.keys.1;
+                    last.way_m = keys[last.keys.1].travel_m - keys[last.keys.0].travel_m;
+                    if next.agreeing < last.agreeing {
+                        (last.agreeing, last.other) = (next.agreeing, next.other);
+                        last.map_from_base = next.map_from_base;
+                    }
+                }
+                _ => found.push(next),
+            }
+            start = end;
+        } else {
+            // Half a stretch on.
+            let half_m = from_m + 0.5 * STRETCH_M;
+            start += 1;
+            while start < end && keys[held[start].key].travel_m < half_m {
+                start += 1;
+            }
+        }
+    }
+    found
+}
+
+/// Each scan against the nearest ones of earlier passes.
+fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
+    let cell =
+        |pose: Pose2| ((pose.x_m / NEAR_M).floor() as i32, (pose.y_m / NEAR_M).floor() as i32);
+    let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
+    let mut all = Vec::new();
+    for key in 0..keys.len() {
+        let pose = graph.poses[key];
+        let (column, row) = cell(pose);
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        for there in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y))) {
+            near.extend(cells.get(&there).into_iter().flatten().filter_map(|&other| {
+                let (metres, radians) = apart(pose, graph.poses[other]);
+                let is_other = keys[key].travel_m - keys[other].travel_m > OTHER_PASS_M;
+                (is_other && metres < NEAR_M).then_some((metres + TURN_M * radians, other))
+            }));
+        }
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut tried: Vec<f64> = Vec::new();
+        for (_, other) in near {
+            let way_m = keys[other].travel_m;
+            if tried.iter().any(|it| (it - way_m).abs() < OTHER_PASS_M) {
+                continue;
+            }
+            tried.push(way_m);
+            let other_from_key = graph.between(other, key);
+            let (new, old) = (keys[key].cloud(), keys[other].cloud());
+            let mut sum = agreement(&new, &old, other_from_key, TOLERANCE_M);
+            sum += agreement(&old, &new, other_from_key.inverse(), TOLERANCE_M);
+            all.push(Held { key, other, sum });
+            if tried.len() >= PASSES {
+                break;
+            }
+        }
+        cells.entry((column, row)).or_default().push(key);
+    }
+    all
+}
+
+/// Scans around one kept scan held against those around another, both ways.
+pub(crate) fn overlap(
+    keys: &[Key],
+    graph: &Graph,
+    new: usize,
+    old: usize,
+    around_m: f64,
+) -> Agreement {
+    let beside = |of: usize| {
+        let is_near = move |key: &usize| (keys[*key].travel_m - keys[of].travel_m).abs() < around_m;
+        (0..keys.len()).filter(is_near)
+    };
+    let mut sum = Agreement::default();
+    for key in beside(new) {
+        let here = graph.poses[key];
+        let distance = |other: &usize| apart(here, graph.poses[*other]).0;
+        let nearest = beside(old).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(other) = nearest.filter(|it| distance(it) < 2.0 * NEAR_M) else { continue };
+        let other_from_key = graph.between(other, key);
+        let (a, b) = (keys[key].cloud(), keys[other].cloud());
+        sum += agreement(&a, &b, other_from_key, TOLERANCE_M);
+        sum += agreement(&b, &a, other_from_key.inverse(), TOLERANCE_M);
+    }
+    sum
+}

@@ -1,0 +1,103 @@
+//! Closures on trial when all scans are in: those that lacked a witness when the log ended are tried, and
+//! those that the rest of the map pulls at are left out in turn. What the map says of itself decides.
+
+use periplus_base::Pose2;
+
+use super::Slam;
+use crate::audit::{audit, overlap};
+use crate::graph::{Edge, Kind};
+use crate::local::apart;
+
+/// Closures that are tried, and that are left out, at most.
+const MOST_TRIED: usize = 8;
+const MOST_LEFT_OUT: usize = 8;
+/// Way around a closure over which its scans are held against each other \[m\], the points that must be
+/// judged, and the share of them that must agree.
+const AROUND_M: f64 = 6.0;
+const JUDGED: u32 = 600;
+const AGREEING: f64 = 0.9;
+/// A closure that the map agrees with to this is not tried \[m, rad\].
+const KNOWN_M: f64 = 0.3;
+const KNOWN_RAD: f64 = 0.1;
+/// A closure that is off by more is pulled at (squared Mahalanobis distance: 99.99 % for 3 degrees of
+/// freedom).
+const PULLED: f64 = 21.1;
+
+impl Slam {
+    /// Tries closures that wait, the best supported first.
+    pub(super) fn try_waiting(&mut self) {
+        let mut refused: Vec<(usize, usize)> = Vec::new();
+        for _ in 0..MOST_TRIED {
+            let waiting = self.loops.waiting(&self.keys, &self.graph);
+            let next = waiting.into_iter().find(|edge| {
+                let known = self.graph.between(edge.from, edge.to);
+                let (metres, radians) = apart(known, edge.from_from_to);
+                let is_other = metres > KNOWN_M || radians > KNOWN_RAD;
+                is_other && !refused.contains(&(edge.from, edge.to))
+            });
+            let Some(edge) = next else { return };
+            if !self.try_closure(edge) {
+                refused.push((edge.from, edge.to));
+            }
+        }
+    }
+
+    /// Bends the map by a closure, and keeps it when both passes agree along it and nowhere else worse.
+    fn try_closure(&mut self, edge: Edge) -> bool {
+        let poses = self.graph.poses.clone();
+        let worse = audit(&self.keys, &self.graph).len();
+        self.lay_pieces(&[edge]);
+        let index = self.graph.add_edge(edge);
+        self.solve(None);
+        self.work_slices(usize::MAX);
+        let sum = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
+        let is_kept = sum.judged() > JUDGED
+            && sum.share() > AGREEING
+            && audit(&self.keys, &self.graph).len() <= worse;
+        if is_kept {
+            let how = format!(
+                "kept on trial when the log had ended: {} points overlap and {:.0} % agree",
+                sum.judged(),
+                100.0 * sum.share()
+            );
+            self.loops.believe(&edge, how);
+        } else {
+            self.leave_out(index, poses);
+        }
+        is_kept
+    }
+
+    fn leave_out(&mut self, edge: usize, poses: Vec<Pose2>) {
+        self.graph.edges[edge].weight = 0.0;
+        self.graph.poses[..poses.len()].copy_from_slice(&poses);
+        self.graph.hang(poses.len());
+    }
+
+    /// Leaves out closures in turn where passes contradict each other, and those that the others pull at.
+    pub(super) fn doubt_closures(&mut self) {
+        for _ in 0..MOST_LEFT_OUT {
+            let worse = audit(&self.keys, &self.graph).len();
+            let graph = &self.graph;
+            let is_closure = |edge: &Edge| edge.kind == Kind::Loop && edge.weight > 0.0;
+            let pulled = graph.edges.iter().enumerate().filter(|(_, edge)| is_closure(edge));
+            let pulled = pulled.map(|(index, edge)| (index, edge.chi2(&graph.poses)));
+            let most = pulled.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            let Some((index, chi2)) = most.filter(|it| it.1 > PULLED && worse > 0) else { return };
+            let (poses, edge) = (graph.poses.clone(), graph.edges[index]);
+            self.graph.edges[index].weight = 0.0;
+            self.solve(None);
+            self.work_slices(usize::MAX);
+            if audit(&self.keys, &self.graph).len() < worse {
+                let reason = format!(
+                    "left out when all scans were in: the others pulled at it (squared distance \
+                     {chi2:.0}), and without it fewer passes contradict each other"
+                );
+                self.loops.disbelieve(&edge, &reason);
+            } else {
+                self.graph.edges[index].weight = edge.weight;
+                self.graph.poses = poses;
+                return;
+            }
+        }
+    }
+}
