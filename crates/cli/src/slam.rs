@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use periplus_host::Stopwatch;
 use periplus_maps::{Distro, Saving, render};
-use periplus_slam::Mapper;
+use periplus_slam::{Cure, Mapper, Remedy};
 
 use crate::log::Log;
 use crate::{paths, picture, terminal};
@@ -66,32 +66,31 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             return Ok(ExitCode::FAILURE);
         }
     };
-    let slam = made.mapper_mut();
     // Poses of the session have their places in the trajectory before those of the log.
-    let before = slam.trajectory().len();
+    let before = made.mapper().trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
-    let mut spent_s = Vec::with_capacity(log.scans.len());
-    // Which scans have a line in the trajectory.
-    let mut stamps = Vec::with_capacity(log.scans.len());
     let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
-    for (number, logged) in log.scans.iter().enumerate().step_by(parameters.every()) {
-        bar.set_position(number as u64);
-        let one = Stopwatch::start();
-        let before = slam.counts().ignored;
-        let _ = slam.add_scan(&logged.scan, logged.odom_from_base);
-        spent_s.push(one.elapsed().as_secs_f64());
-        if slam.counts().ignored == before {
-            stamps.push(logged.stamp.as_str());
-        }
-    }
-    bar.finish_and_clear();
-    let saved = match (&options.save_session, made.graph()) {
-        (Some(path), Some(graph)) => put(path, &graph.save()),
-        _ => Ok(()),
-    };
+    let mut drive = drive(&mut made, &log, parameters.every(), None, &bar);
+    let mut saved = save(options, &made);
     let last = Stopwatch::start();
     made.mapper_mut().finish();
+    let remedy = Remedy::of(made.mapper().remarks()).filter(|_| options.session.is_none());
+    if let Some(remedy) = remedy {
+        // A fault of mounting or axes is certain: the map is made again without it.
+        made = match Made::new(options, &parameters) {
+            Ok(made) => made,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        };
+        drive = self::drive(&mut made, &log, parameters.every(), Some(remedy), &bar);
+        saved = save(options, &made);
+        made.mapper_mut().finish();
+    }
+    bar.finish_and_clear();
     let slam = made.mapper();
+    let Drive { spent_s, stamps } = drive;
     let report = Report {
         options,
         slam,
@@ -101,6 +100,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         finish_s: last.elapsed().as_secs_f64(),
         wall_s: watch.elapsed().as_secs_f64(),
         spent_s: &spent_s,
+        remedy,
     };
     let written = saved
         .and_then(|()| write(&options.out, slam, (&stamps, before), &report))
@@ -119,7 +119,57 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     for fault in &log.faults {
         terminal::complain(fault);
     }
+    if let Some(why) = report.failure() {
+        terminal::complain(&why);
+        return Ok(ExitCode::FAILURE);
+    }
     Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What came of the scans of a log, one by one.
+struct Drive<'a> {
+    /// CPU for each scan \[s\].
+    spent_s: Vec<f64>,
+    /// Stamps of the scans that have a line in the trajectory.
+    stamps: Vec<&'a str>,
+}
+
+/// Maps a log, with the data corrected when a fault of it is known.
+fn drive<'a>(
+    made: &mut Made,
+    log: &'a Log,
+    every: usize,
+    remedy: Option<Remedy>,
+    bar: &indicatif::ProgressBar,
+) -> Drive<'a> {
+    let slam = made.mapper_mut();
+    let mut cure = remedy.map(Cure::new);
+    let mut drive = Drive { spent_s: Vec::with_capacity(log.scans.len()), stamps: Vec::new() };
+    for (number, logged) in log.scans.iter().enumerate().step_by(every) {
+        bar.set_position(number as u64);
+        let one = Stopwatch::start();
+        let before = slam.counts().ignored;
+        let _ = match &mut cure {
+            Some(cure) => {
+                let (scan, odom_from_base) = cure.apply(&logged.scan, logged.odom_from_base);
+                slam.add_scan(&scan, odom_from_base)
+            }
+            None => slam.add_scan(&logged.scan, logged.odom_from_base),
+        };
+        drive.spent_s.push(one.elapsed().as_secs_f64());
+        if slam.counts().ignored == before {
+            drive.stamps.push(logged.stamp.as_str());
+        }
+    }
+    drive
+}
+
+/// Writes the session that is asked for.
+fn save(options: &SlamOptions, made: &Made) -> Result<(), String> {
+    match (&options.save_session, made.graph()) {
+        (Some(path), Some(graph)) => put(path, &graph.save()),
+        _ => Ok(()),
+    }
 }
 
 /// So many faults of a log are told one by one.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use periplus_slam::{Mapper, Method};
+use periplus_slam::{Link, Mapper, Method, Remedy};
 use serde_json::{Value, json};
 
 use super::options::SlamOptions;
@@ -24,7 +24,13 @@ pub(super) struct Report<'a> {
     pub(super) wall_s: f64,
     /// For each scan.
     pub(super) spent_s: &'a [f64],
+    /// The map was made again with this fault of the data undone.
+    pub(super) remedy: Option<Remedy>,
 }
+
+/// A map is a failure when a larger share of the scans fits nothing, of more scans than these.
+const UNFITTING: f64 = 0.2;
+const FEW_SCANS: usize = 10;
 
 impl Report<'_> {
     /// For a program.
@@ -68,8 +74,42 @@ impl Report<'_> {
             "resamplings": self.slam.resamplings(),
             "map_memory_bytes": self.slam.size(),
             "closures": closures,
+            "edges": self.edges(),
+            "remedy": self.remedy.map(|it| it.to_string()),
             "warnings": self.warnings(),
             "faults": self.log.faults,
+        })
+    }
+
+    /// Every edge of the graph, as `--g2o` writes it: from which kept scan to which, by what, and how far the
+    /// map is off from it \[m, rad\].
+    fn edges(&self) -> Vec<Value> {
+        let edges = self.slam.edges().into_iter();
+        let told = edges.map(|edge| {
+            let link = match edge.link {
+                Link::Chain => "chain",
+                Link::Tie => "tie",
+                Link::Closure => "closure",
+            };
+            json!({
+                "keys": [edge.keys.0, edge.keys.1],
+                "link": link,
+                "residual": [edge.residual_m, edge.residual_rad],
+            })
+        });
+        told.collect()
+    }
+
+    /// Why the map is not one that anybody should use.
+    pub(super) fn failure(&self) -> Option<String> {
+        let counts = self.slam.counts();
+        let share = counts.lost as f64 / counts.scans.max(1) as f64;
+        (counts.lost > FEW_SCANS && share > UNFITTING).then(|| {
+            format!(
+                "{} of {} scans fit nothing that was seen before: do not use the map; look at the \
+                 scanner's transform (`periplus doctor`), at the stamps, and at readings that come and go",
+                counts.lost, counts.scans
+            )
         })
     }
 
@@ -112,7 +152,8 @@ impl Report<'_> {
             let after_s = remark.time_ns.saturating_sub(begin_ns) as f64 * 1e-9;
             format!("{remark} (noticed after {after_s:.0} s)")
         });
-        self.log.warnings.iter().cloned().chain(remarks).collect()
+        let remedy = self.remedy.map(|it| format!("the map was made again: {it}"));
+        self.log.warnings.iter().cloned().chain(remedy).chain(remarks).collect()
     }
 
     /// Parameters that somebody set.
