@@ -59,6 +59,8 @@ pub enum Doubt {
     /// Two passes contradict each other around this place of the map \[m\]: so large a share of what both
     /// see agrees.
     Contradiction(f64, f64, f64),
+    /// The maps of all particles would take too much memory: only so many of them go on.
+    FewerMaps(usize),
 }
 
 impl Remark {
@@ -70,7 +72,8 @@ impl Remark {
             | Doubt::TurnScale(..)
             | Doubt::Corridor(_)
             | Doubt::OdometryJumped(_)
-            | Doubt::Carried => false,
+            | Doubt::Carried
+            | Doubt::FewerMaps(_) => false,
             Doubt::ScannerTurned(_)
             | Doubt::Mirrored
             | Doubt::Backwards
@@ -172,6 +175,12 @@ impl std::fmt::Display for Remark {
                 f,
                 "for {metres:.0} m walls looked the same all along: there only odometry told how far \
                  the robot went"
+            ),
+            Doubt::FewerMaps(count) => write!(
+                f,
+                "the maps of all particles would take too much memory: the best {count} of them go on, \
+                 several times each; fewer particles, a coarser `delta` or a shorter `maxUrange` need \
+                 less"
             ),
         }
     }

@@ -416,7 +416,7 @@ impl Slam {
     /// Such a scan was laid onto those before it. What the map says since of the way from the kept scan
     /// before it to the one after is shared out along that way, so that the scan next to the one after
     /// moves with it.
-    fn on_the_way(&self, track: &Track) -> Pose2 {
+    pub(crate) fn on_the_way(&self, track: &Track) -> Pose2 {
         let pose =
             |key_from_base: Pose2| (self.graph.poses[track.key] * key_from_base).normalized();
         let next = track.key + 1;
@@ -436,6 +436,37 @@ impl Slam {
         // The error is a shift along the axes of the kept scan before, and a turn about the one after.
         let turn = part * yaw_rad;
         pose(Pose2::new(here.x_m + part * x_m, here.y_m + part * y_m, here.yaw_rad + turn))
+    }
+
+    /// The last scan relative to a kept one: where it was is asked by [`Slam::on_the_way`] at any time later.
+    pub(crate) fn newest(&self) -> Option<Track> {
+        let last = self.last.as_ref()?;
+        Some(Track { time_ns: last.time_ns, key: last.key, key_from_base: last.key_from_base })
+    }
+
+    /// How uncertain the way from a scan to the newest one is, along the axes of the former: what scans and
+    /// odometry leave open together from one kept scan to the next. None where they are not in a row.
+    pub(crate) fn scatter_since(&self, from: &Track) -> Option<Symmetric3> {
+        const LONGEST: usize = 64;
+        let last = self.last.as_ref()?;
+        if last.key < from.key || last.key - from.key > LONGEST {
+            return None;
+        }
+        let mut way = Pose2::IDENTITY;
+        let mut sum = Symmetric3::ZERO;
+        for next in from.key + 1..=last.key {
+            let edges = self.graph.at[next].iter().map(|&edge| &self.graph.edges[edge as usize]);
+            let step = edges.into_iter().find(|edge| {
+                edge.kind == Kind::Chain && edge.from + 1 == next && edge.to == next
+            })?;
+            let covariance = step.information.inverse()?;
+            sum = sum.compounded(way, step.from_from_to, &covariance);
+            way = way * step.from_from_to;
+        }
+        if last.key_from_base != Pose2::IDENTITY {
+            sum = sum.compounded(way, last.key_from_base, &last.covariance.turned(0.0));
+        }
+        Some(sum.turned(-from.key_from_base.yaw_rad))
     }
 
     /// Which of the scans of [`Slam::trajectory`] are kept; closures name them by their place here.
@@ -542,8 +573,8 @@ impl Slam {
         }
     }
 
-    /// Forgets what was seen before the last few kept scans, and where: for those who only ask how the
-    /// robot moves.
+    /// Forgets what was seen before the last few kept scans, and where, and closes no more loops: for those
+    /// who only ask how the robot moves.
     pub(crate) fn forget(&mut self, kept: usize) {
         let old = self.keys.len().saturating_sub(kept);
         let nothing = Cloud::new([], [0.0; 2], 0.0, &self.settings.cloud);
@@ -553,6 +584,7 @@ impl Slam {
         }
         self.work.ties.clear();
         self.tracks.clear();
+        self.settings.closes_loops = false;
     }
 
     /// Bytes held, about.

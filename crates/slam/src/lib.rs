@@ -46,7 +46,7 @@ pub use engine::{Counts, Held, Link, Slam, Taken, Update};
 pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;
-pub use map::Sketch;
+pub use map::{Plan, Sketch, SketchPlan};
 pub use method::{Mapper, Method};
 pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
 pub use remedy::{Cure, Remedy};

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use periplus_base::Pose2;
-use periplus_grid::OccupancyGrid;
 use periplus_matching::{Cloud, Placed, Symmetric3};
 
 use crate::engine::{Counts, Slam, Taken, Update};
 use crate::local::{Group, apart, locate};
-use crate::map::Sketch;
+use crate::map::{Plan, Sketch};
 use crate::method::{Mapper, Method};
 use crate::odometry::Trust;
 use crate::scan::Scan;
@@ -292,8 +291,8 @@ impl Mapper for Localizer {
         self.poses.iter().copied().collect()
     }
 
-    fn map(&self) -> Option<OccupancyGrid> {
-        self.stored.map()
+    fn plan(&self) -> Option<Box<dyn Plan + '_>> {
+        Some(Box::new(self.stored.sketch().plan()?))
     }
 
     fn counts(&self) -> Counts {

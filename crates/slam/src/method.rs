@@ -9,6 +9,7 @@ use periplus_grid::OccupancyGrid;
 use crate::doubts::Remark;
 use crate::engine::{Counts, Held, Slam, Update};
 use crate::loops::Closure;
+use crate::map::Plan;
 use crate::scan::Scan;
 
 /// A map that grows with every scan, by whichever method.
@@ -31,8 +32,15 @@ pub trait Mapper: Send {
     /// Where the robot was at each scan that was not ignored, in the order in which they came \[ns\].
     fn trajectory(&self) -> Vec<(i64, Pose2)>;
 
+    /// What it takes to draw the map as it is now a few rows at a time; none when it would be too large
+    /// even so.
+    fn plan(&self) -> Option<Box<dyn Plan + '_>>;
+
     /// The map as it is now; none when it would be too large to hold.
-    fn map(&self) -> Option<OccupancyGrid>;
+    fn map(&self) -> Option<OccupancyGrid> {
+        let plan = self.plan()?;
+        Some(plan.rows(0..plan.lattice().height))
+    }
 
     /// Counts of what happened.
     fn counts(&self) -> Counts;
@@ -122,8 +130,8 @@ impl Mapper for Slam {
         Self::trajectory(self)
     }
 
-    fn map(&self) -> Option<OccupancyGrid> {
-        Self::map(self)
+    fn plan(&self) -> Option<Box<dyn Plan + '_>> {
+        Some(Box::new(self.sketch().plan()?))
     }
 
     fn counts(&self) -> Counts {

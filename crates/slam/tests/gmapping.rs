@@ -4,7 +4,7 @@ mod worlds;
 
 use periplus_base::{Pose2, normalize_angle};
 use periplus_slam::{Gmapping, GmappingSettings, Mapper, Scan, Taken};
-use worlds::{Moment, ROBOT, World};
+use worlds::{Moment, ROBOT, Robot, World};
 
 fn map_of(moments: &[Moment], settings: GmappingSettings) -> Gmapping {
     let mut slam = Gmapping::new(settings);
@@ -77,6 +77,47 @@ fn a_loop_closes() {
     let slam = map_of(&moments, GmappingSettings::default());
     let (metres, radians) = worst(&slam, &moments);
     assert!(metres < 0.35 && radians < 0.05, "{metres} {radians}");
+}
+
+/// Wheels that turn in and slip: at the end of a long round odometry is metres off.
+const BAD: Robot = Robot { way_error: 0.1, turn_error: 0.1, bias_rad_per_m: 0.03, ..ROBOT };
+
+#[test]
+fn a_long_round_closes_with_every_seed() {
+    let world = World::ring(50.0, 30.0, 2.4, 3);
+    let corners =
+        [(6.0, 0.0), (50.0, 0.0), (50.0, 30.0), (0.0, 30.0), (0.0, 0.0), (6.0, 0.0), (30.0, 0.0)];
+    let moments = world.drive(&corners, 0.5, &BAD, 1);
+    for seed in 0..3 {
+        let slam = map_of(&moments, GmappingSettings { seed, ..few() });
+        let (metres, radians) = worst(&slam, &moments);
+        assert!(metres < 0.2 && radians < 0.03, "seed {seed}: {metres} {radians}");
+        // The map is that of this way: walls of the first and of the last round are the same ones.
+        let map = slam.map().unwrap();
+        let walls = map.cells.iter().filter(|&&cell| cell == 100).count() as f64 * 0.05;
+        assert!(walls < 1.6 * world.walls_m(), "seed {seed}: {walls} m of {}", world.walls_m());
+    }
+}
+
+#[test]
+fn maps_of_all_particles_stay_within_their_memory() {
+    // A hall in fine cells: thirty maps of it would take far more.
+    let mut hall = World { walls: Vec::new() };
+    hall.rectangle([0.0, 0.0, 50.0, 40.0]);
+    hall.rectangle([15.0, 20.0, 16.0, 21.5]);
+    let far = Robot { beams: 541, range_max_m: 80.0, field_rad: 6.0, ..ROBOT };
+    let moments = hall.drive(&[(15.0, 10.0), (25.0, 10.0)], 1.0, &far, 1);
+    let settings = GmappingSettings { resolution_m: 0.02, ..GmappingSettings::default() };
+    let mut slam = Gmapping::new(settings);
+    let mut most = 0;
+    for moment in &moments {
+        let _ = slam.add_scan(&moment.scan, Some(moment.odometry));
+        most = most.max(slam.size());
+    }
+    assert!(most < 110_000_000, "{most} bytes");
+    let told: Vec<String> = slam.remarks().iter().map(ToString::to_string).collect();
+    assert!(told.iter().any(|it| it.contains("too much memory")), "{told:?}");
+    assert!(worst(&slam, &moments).0 < 0.2, "{:?}", worst(&slam, &moments));
 }
 
 #[test]

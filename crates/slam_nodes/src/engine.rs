@@ -52,9 +52,16 @@ pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize
     }
 }
 
+/// Particles have nobody who does their work between scans.
+const LEAST_SLICES: usize = 4;
+
 /// The settings of the particles for a node, which may run for weeks.
-fn gmapping_settings(values: &Values) -> GmappingSettings {
-    GmappingSettings { keeps_each_pose: false, ..GmappingSettings::of(values) }
+fn gmapping_settings(values: &Values, slices_per_scan: usize) -> GmappingSettings {
+    GmappingSettings {
+        slices_per_scan: slices_per_scan.max(LEAST_SLICES),
+        keeps_each_pose: false,
+        ..GmappingSettings::of(values)
+    }
 }
 
 impl Engine {
@@ -63,7 +70,7 @@ impl Engine {
         match program {
             Program::Localization => None,
             Program::Gmapping => {
-                Some(Self::Particles(Box::new(Gmapping::new(gmapping_settings(values)))))
+                Some(Self::Particles(Box::new(Gmapping::new(gmapping_settings(values, slices)))))
             }
             Program::Async | Program::Sync | Program::Lifelong => {
                 Some(Self::Graph(Box::new(Slam::new(settings(program, values, slices)))))

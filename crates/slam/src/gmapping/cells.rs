@@ -1,11 +1,13 @@
 //! The map of one particle, shared with those of others as far as they are the same.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use periplus_base::Pose2;
 use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
 
 use super::trace::Trace;
+use crate::map::{Plan, part};
 
 /// Cells along a side of a tile, and tiles along a side of a page.
 pub(super) const SIDE: i32 = 32;
@@ -16,6 +18,20 @@ const PAGE: i32 = SIDE * TILES;
 const MOST_PAGES: i64 = 1 << 16;
 /// Counts of a cell are halved when they get here, so that what changed is learnt in the end.
 const MOST_COUNT: u8 = 250;
+
+/// A cell that so many beams passed is free.
+const SURELY: u8 = 3;
+
+/// What a map has where a beam ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Seen {
+    /// A solid cell, so far away: squared, in cells.
+    Near(f64),
+    /// Too little was seen there.
+    Nothing,
+    /// Beams went through there.
+    Through,
+}
 
 /// What beams said of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,12 +44,25 @@ pub(super) struct Cell {
     mean: [u8; 2],
 }
 
-/// A square of cells. What is seldom solid is found by bits.
+/// Beams that ended in a cell: how many, and the mean of where.
+#[derive(Clone, Copy)]
+struct End {
+    hits: u8,
+    mean: [u8; 2],
+}
+
+/// A square of cells. Beams end in few of them: those are found by bits, and so are the solid ones.
 #[derive(Clone)]
 struct Tile {
-    cells: [Cell; (SIDE * SIDE) as usize],
-    /// For each row a bit for each cell that is solid.
+    /// Beams that ended in a cell or passed.
+    beams: [u8; (SIDE * SIDE) as usize],
+    /// For each row a bit for each cell that is solid, and for each in which beams ended.
     solid: [u32; SIDE as usize],
+    ended: [u32; SIDE as usize],
+    /// How many cells in which beams ended come before each row.
+    before: [u16; SIDE as usize],
+    /// Those cells in order.
+    ends: Vec<End>,
 }
 
 #[derive(Clone)]
@@ -55,9 +84,18 @@ pub(super) struct Cells {
     pages: Vec<Option<Arc<Page>>>,
 }
 
+/// Bytes of a tile, about.
+pub(super) const TILE_SIZE: usize = size_of::<Tile>() + 32 * size_of::<End>();
+
 impl Default for Tile {
     fn default() -> Self {
-        Self { cells: [Cell::default(); (SIDE * SIDE) as usize], solid: [0; SIDE as usize] }
+        Self {
+            beams: [0; (SIDE * SIDE) as usize],
+            solid: [0; SIDE as usize],
+            ended: [0; SIDE as usize],
+            before: [0; SIDE as usize],
+            ends: Vec::new(),
+        }
     }
 }
 
@@ -198,19 +236,47 @@ impl Cells {
         best.0.is_finite().then_some(best.1)
     }
 
+    /// What the map has where a beam ended, at most `kernel` cells away. Place in cells.
+    pub(super) fn seen(&self, x: f64, y: f64, kernel: i32) -> Seen {
+        if let Some([dx, dy]) = self.nearest(x, y, kernel) {
+            return Seen::Near(dx * dx + dy * dy);
+        }
+        let (column, row) = (floor(x), floor(y));
+        let beams = self.tile(column, row).map_or(0, |tile| tile.beams[cell_index(column, row)]);
+        if beams < SURELY { Seen::Nothing } else { Seen::Through }
+    }
+
+    /// How many solid cells a scan sees through.
+    pub(super) fn passed(&self, trace: &Trace) -> u32 {
+        let (low, high) = trace.bounds();
+        let mut sum = 0;
+        for row in (low[1]..=high[1]).step_by(SIDE as usize) {
+            for column in (low[0]..=high[0]).step_by(SIDE as usize) {
+                if !trace.touches(column, row) {
+                    continue;
+                }
+                let Some(tile) = self.tile(column, row) else { continue };
+                for (line, solid) in tile.solid.iter().enumerate().filter(|it| *it.1 != 0) {
+                    sum += (solid & trace.free(column, row + line as i32)).count_ones();
+                }
+            }
+        }
+        sum
+    }
+
     /// What beams said of a cell.
     #[cfg(test)]
     pub(super) fn cell(&self, column: i32, row: i32) -> Cell {
-        self.tile(column, row).map_or(Cell::default(), |tile| tile.cells[cell_index(column, row)])
+        self.tile(column, row).map_or(Cell::default(), |tile| tile.cell(cell_index(column, row)))
     }
 
     /// Least and most columns and rows of tiles that were drawn to.
     fn extent(&self) -> Option<([i32; 2], [i32; 2])> {
         let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
         self.each_tile(|corner, _, tile| {
-            for (line, cells) in tile.cells.chunks_exact(SIDE as usize).enumerate() {
-                for (place, cell) in cells.iter().enumerate() {
-                    if cell.beams > 0 {
+            for (line, cells) in tile.beams.chunks_exact(SIDE as usize).enumerate() {
+                for (place, &beams) in cells.iter().enumerate() {
+                    if beams > 0 {
                         let at = [corner[0] + place as i32, corner[1] + line as i32];
                         for axis in 0..2 {
                             low[axis] = low[axis].min(at[axis]);
@@ -246,18 +312,14 @@ impl Cells {
         for page in self.pages.iter().flatten() {
             bytes += size_of::<Page>() as f64 / Arc::strong_count(page) as f64;
         }
-        self.each_tile(|_, shared, _| bytes += size_of::<Tile>() as f64 / shared);
+        self.each_tile(|_, shared, tile| bytes += tile.size() as f64 / shared);
         bytes as usize
     }
 
-    /// The map as others read it: cells of which more than a share of beams ended there are occupied.
-    /// It reaches over all that was seen, and the corners that are asked for \[m\]. None when it would
-    /// be too large.
-    pub(super) fn to_grid(
-        &self,
-        occupied_share: f64,
-        bounds_m: [Option<f64>; 4],
-    ) -> Option<OccupancyGrid> {
+    /// What it takes to draw the map as others read it: cells of which more than a share of beams ended
+    /// there are occupied. It reaches over all that was seen, and the corners that are asked for \[m\]. None
+    /// when it would be too large.
+    pub(super) fn plan(self, occupied_share: f64, bounds_m: [Option<f64>; 4]) -> Option<CellsPlan> {
         const MARGIN: i32 = 4;
         let seen = self.extent();
         let (mut low, mut high) = seen.unwrap_or(([0; 2], [0; 2]));
@@ -275,20 +337,45 @@ impl Cells {
         let origin = Pose2::new(origin[0], origin[1], 0.0);
         let size: [usize; 2] = std::array::from_fn(|axis| (high[axis] - low[axis] + 1) as usize);
         let lattice = Lattice::new(self.resolution_m, size[0], size[1], origin).ok()?;
-        let mut grid: OccupancyGrid = Grid::new(lattice, occupancy::UNKNOWN);
-        self.each_tile(|corner, _, tile| {
-            for (place, cell) in tile.cells.iter().enumerate() {
-                if cell.beams == 0 {
+        Some(CellsPlan { cells: self, lattice, low, occupied_share })
+    }
+}
+
+/// A map of cells, to be drawn a few rows at a time.
+pub(super) struct CellsPlan {
+    cells: Cells,
+    lattice: Lattice,
+    /// The cell at the corner.
+    low: [i32; 2],
+    occupied_share: f64,
+}
+
+impl Plan for CellsPlan {
+    fn lattice(&self) -> Lattice {
+        self.lattice
+    }
+
+    fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
+        let mut grid = Grid::new(part(&self.lattice, &rows), occupancy::UNKNOWN);
+        let low = [self.low[0], self.low[1] + rows.start as i32];
+        let count = rows.len() as i32;
+        self.cells.each_tile(|corner, _, tile| {
+            let first = corner[1] - low[1];
+            if first >= count || first + SIDE <= 0 {
+                return;
+            }
+            for (place, &beams) in tile.beams.iter().enumerate() {
+                let row = first + place as i32 / SIDE;
+                if beams == 0 || row < 0 || row >= count {
                     continue;
                 }
-                let at = [corner[0] + place as i32 % SIDE, corner[1] + place as i32 / SIDE];
-                let at = (at[0] - low[0], at[1] - low[1]);
-                let is_occupied = cell.share() > occupied_share;
-                grid[(at.0 as usize, at.1 as usize)] =
+                let column = corner[0] + place as i32 % SIDE - low[0];
+                let is_occupied = tile.cell(place).share() > self.occupied_share;
+                grid[(column as usize, row as usize)] =
                     if is_occupied { occupancy::OCCUPIED } else { occupancy::FREE };
             }
         });
-        Some(grid)
+        grid
     }
 }
 
@@ -297,39 +384,78 @@ impl Cell {
     fn share(&self) -> f64 {
         f64::from(self.hits) / f64::from(self.beams.max(1))
     }
-
-    fn halve(&mut self) {
-        if self.beams >= MOST_COUNT {
-            (self.hits, self.beams) = (self.hits / 2, self.beams / 2);
-        }
-    }
 }
 
 impl Tile {
+    /// What beams said of a cell.
+    fn cell(&self, index: usize) -> Cell {
+        let beams = self.beams[index];
+        let end = self.has_end(index).then(|| self.ends[self.end(index)]);
+        end.map_or(Cell { beams, ..Cell::default() }, |End { hits, mean }| Cell {
+            hits,
+            beams,
+            mean,
+        })
+    }
+
+    #[inline]
+    fn has_end(&self, index: usize) -> bool {
+        self.ended[index >> 5] >> (index & 31) & 1 == 1
+    }
+
+    /// Where the end of a cell is, or belongs.
+    #[inline]
+    fn end(&self, index: usize) -> usize {
+        let (row, bit) = (index >> 5, index & 31);
+        let before = self.ended[row] & ((1 << bit) - 1);
+        usize::from(self.before[row]) + before.count_ones() as usize
+    }
+
+    /// Bytes held.
+    fn size(&self) -> usize {
+        size_of::<Self>() + self.ends.capacity() * size_of::<End>()
+    }
+
+    fn halve(&mut self, index: usize) {
+        if self.beams[index] >= MOST_COUNT {
+            self.beams[index] /= 2;
+            if self.has_end(index) {
+                let end = self.end(index);
+                self.ends[end].hits /= 2;
+            }
+        }
+    }
+
     #[inline]
     fn pass(&mut self, index: usize, solid_share: f64) {
-        let cell = &mut self.cells[index];
-        cell.halve();
-        cell.beams += 1;
-        if cell.hits > 0 {
+        self.halve(index);
+        self.beams[index] += 1;
+        if self.has_end(index) {
             self.judge(index, solid_share);
         }
     }
 
     fn hit(&mut self, index: usize, part: [f64; 2], solid_share: f64) {
-        let cell = &mut self.cells[index];
-        cell.halve();
-        (cell.hits, cell.beams) = (cell.hits + 1, cell.beams + 1);
-        for (mean, part) in cell.mean.iter_mut().zip(part) {
+        self.halve(index);
+        self.beams[index] += 1;
+        let end = self.end(index);
+        if !self.has_end(index) {
+            self.ends.insert(end, End { hits: 0, mean: [0; 2] });
+            self.ended[index >> 5] |= 1 << (index & 31);
+            self.before[(index >> 5) + 1..].iter_mut().for_each(|it| *it += 1);
+        }
+        let End { hits, mean } = &mut self.ends[end];
+        *hits += 1;
+        for (mean, part) in mean.iter_mut().zip(part) {
             let new = 256.0 * part - 0.5;
             let old = f64::from(*mean);
-            *mean = (old + (new - old) / f64::from(cell.hits) + 0.5).clamp(0.0, 255.0) as u8;
+            *mean = (old + (new - old) / f64::from(*hits) + 0.5).clamp(0.0, 255.0) as u8;
         }
         self.judge(index, solid_share);
     }
 
     fn judge(&mut self, index: usize, solid_share: f64) {
-        let is_solid = self.cells[index].share() > solid_share;
+        let is_solid = self.cell(index).share() > solid_share;
         let bit = 1 << (index & 31);
         let row = &mut self.solid[index >> 5];
         *row = if is_solid { *row | bit } else { *row & !bit };
@@ -357,8 +483,8 @@ impl Tile {
             while bits != 0 {
                 let bit = bits.trailing_zeros();
                 bits &= bits - 1;
-                let cell = &self.cells[line << 5 | (shift + bit) as usize];
-                let mean = cell.mean.map(|it| (f64::from(it) + 0.5) * (1.0 / 256.0));
+                let end = &self.ends[self.end(line << 5 | (shift + bit) as usize)];
+                let mean = end.mean.map(|it| (f64::from(it) + 0.5) * (1.0 / 256.0));
                 let x = place[0] - (f64::from(from[0] + bit as i32) + mean[0]);
                 let y = place[1] - (f64::from(row) + mean[1]);
                 let squared = x * x + y * y;
@@ -440,9 +566,9 @@ mod tests {
         draw(&mut second, Pose2::new(0.5, 0.5, 0.0), &[[4.0, 0.0]]);
         assert_eq!((first.cell(4, 0), second.cell(4, 0).hits), (before, 2));
         // One tile was copied, with the pointers of its page; all else is still shared.
-        let copied = size_of::<Tile>() + size_of::<Page>();
+        let copied = first.tile(0, 0).unwrap().size() + size_of::<Page>();
         let both = first.size() + second.size();
-        assert!(both.abs_diff(alone + copied + 8 * second.pages.len()) <= 2, "{both} {alone}");
+        assert!(both.abs_diff(alone + copied + 8 * second.pages.len()) <= 24, "{both} {alone}");
         let shares = |cells: &Cells, column: i32, row: i32| {
             std::ptr::from_ref(cells.tile(column, row).unwrap())
         };
@@ -458,17 +584,27 @@ mod tests {
         let size = cells.size();
         draw(&mut cells, Pose2::new(5e8, 5e8, 0.0), &[[4.0, 0.0]]);
         assert_eq!(cells.size(), size);
-        assert!(cells.to_grid(0.25, [None; 4]).is_some());
+        assert!(cells.plan(0.25, [None; 4]).is_some());
     }
 
     #[test]
     fn the_grid_has_what_was_seen() {
         let cells = drawn(&[[3.0, 0.0]]);
-        let grid = cells.to_grid(0.25, [None; 4]).unwrap();
+        let drawn = |bounds_m| {
+            let plan = cells.clone().plan(0.25, bounds_m).unwrap();
+            let whole = plan.rows(0..plan.lattice.height);
+            for low in 0..plan.lattice.height - 2 {
+                let band = plan.rows(low..low + 3);
+                let width = plan.lattice.width;
+                assert_eq!(band.cells, whole.cells[low * width..(low + 3) * width]);
+            }
+            whole
+        };
+        let grid = drawn([None; 4]);
         assert_eq!(grid.at(1.5, 0.5), Some(&occupancy::FREE));
         assert_eq!(grid.at(3.5, 0.5), Some(&occupancy::OCCUPIED));
         assert_eq!(grid.at(4.5, 0.5), Some(&occupancy::UNKNOWN));
-        let wide = cells.to_grid(0.25, [Some(-10.0), Some(-20.0), Some(10.0), Some(20.0)]).unwrap();
+        let wide = drawn([Some(-10.0), Some(-20.0), Some(10.0), Some(20.0)]);
         assert_eq!((wide.lattice.width, wide.lattice.height), (20, 40));
         assert_eq!(wide.at(3.5, 0.5), Some(&occupancy::OCCUPIED));
     }

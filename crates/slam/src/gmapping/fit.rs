@@ -13,6 +13,13 @@ pub(super) struct Guess {
     pub(super) map_from_base: Pose2,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
+    /// What the front end leaves uncertain of the way to here, along the axes of the robot where it began;
+    /// none where it does not know either.
+    pub(super) front: Option<Symmetric3>,
+    /// Heading of the robot there \[rad\].
+    pub(super) began_rad: f64,
+    /// Errors that last for some way, in standard deviations, along the same axes.
+    pub(super) lasting: [f64; 3],
 }
 
 /// A point of the scan and what the map has near it.
@@ -157,6 +164,16 @@ impl Fit {
         self.pairs.iter().map(one).sum()
     }
 
+    /// What the points say of a shift and a turn of the scan.
+    pub(super) fn information(&self, settings: &GmappingSettings) -> Symmetric3 {
+        let mut information = Symmetric3::ZERO;
+        let mut pull = [0.0; 3];
+        for pair in &self.pairs {
+            pair.add(settings, &mut information, &mut pull);
+        }
+        information
+    }
+
     /// Part of the points that the map has something near.
     pub(super) fn matched(&self) -> f64 {
         self.pairs.len() as f64 / self.points.max(1) as f64
@@ -206,7 +223,14 @@ mod tests {
     }
 
     fn guess(x_m: f64, y_m: f64, yaw_rad: f64) -> Guess {
-        Guess { map_from_base: Pose2::new(x_m, y_m, yaw_rad), sigma_m: 10.0, sigma_rad: 10.0 }
+        Guess {
+            map_from_base: Pose2::new(x_m, y_m, yaw_rad),
+            sigma_m: 10.0,
+            sigma_rad: 10.0,
+            front: None,
+            began_rad: 0.0,
+            lasting: [0.0; 3],
+        }
     }
 
     #[test]

@@ -64,7 +64,10 @@ pub(super) fn around(
         let off: [f64; 3] = std::array::from_fn(|axis| shift[axis] - mean[axis]);
         covariance.add_outer(off, weight / sum);
     }
-    let noise = draw(&covariance, stream);
+    let noise = match open(fit, guess, settings) {
+        Some(covariance) => drift(&covariance, guess, stream),
+        None => draw(&covariance, stream),
+    };
     Drawn {
         map_from_base: Pose2::new(
             best.x_m + mean[0] + noise[0],
@@ -75,7 +78,34 @@ pub(super) fn around(
     }
 }
 
-/// Draws from what odometry says alone, where the scan does not fit.
+/// What front end and map together leave open, where that is more than what is sampled around the best fit:
+/// along a corridor only odometry tells, and particles that all went where it says would share its error.
+fn open(fit: &Fit, guess: &Guess, settings: &GmappingSettings) -> Option<Symmetric3> {
+    let front = guess.front?.turned(guess.began_rad);
+    let covariance = (front.inverse()? + fit.information(settings)).inverse()?;
+    let sampled_m = settings.sample_range[0].max(LEAST_OPEN_M);
+    (covariance.largest_shift() > sampled_m * sampled_m).then_some(covariance)
+}
+
+/// Draws an error of which a part is that of the step before: wheels are too small, or a floor is slippery,
+/// for a while and not for a step.
+fn drift(covariance: &Symmetric3, guess: &Guess, stream: &mut Stream) -> [f64; 3] {
+    let along = root(&covariance.turned(-guess.began_rad));
+    let fresh = [stream.normal(), stream.normal(), stream.normal()];
+    let units: [f64; 3] =
+        std::array::from_fn(|axis| FRESH * fresh[axis] + LASTING * guess.lasting[axis]);
+    let [x, y, turn] = along.map(|row| row.iter().zip(units).map(|(a, b)| a * b).sum());
+    let (s, c) = libm::sincos(guess.began_rad);
+    [c * x - s * y, s * x + c * y, turn]
+}
+
+/// Less than this is never taken for open \[m\].
+const LEAST_OPEN_M: f64 = 0.01;
+/// Parts of an error that are new and that last; their squares add up to 1.
+const FRESH: f64 = 0.6;
+const LASTING: f64 = 0.8;
+
+/// Draws from what the front end says alone, or odometry, where the scan does not fit.
 pub(super) fn blind(
     fit: &Fit,
     guess: &Guess,
@@ -83,6 +113,14 @@ pub(super) fn blind(
     stream: &mut Stream,
 ) -> Drawn {
     let pose = guess.map_from_base;
+    if let Some(front) = guess.front {
+        let [x, y, turn] = drift(&front.turned(guess.began_rad), guess, stream);
+        let yaw_rad = normalize_angle(pose.yaw_rad + turn);
+        return Drawn {
+            map_from_base: Pose2::new(pose.x_m + x, pose.y_m + y, yaw_rad),
+            likelihood: fit.likelihood([0.0; 3], settings),
+        };
+    }
     let mut normal = |sigma: f64| sigma * stream.normal();
     let (x, y) = (normal(guess.sigma_m), normal(guess.sigma_m));
     let yaw = normal(guess.sigma_rad);
@@ -101,9 +139,14 @@ impl Guess {
     }
 }
 
-/// Three numbers of a normal distribution around 0: by the Cholesky factor of its covariance.
+/// Three numbers of a normal distribution around 0.
 fn draw(covariance: &Symmetric3, stream: &mut Stream) -> [f64; 3] {
-    let [a, b, c] = [stream.normal(), stream.normal(), stream.normal()];
+    let units = [stream.normal(), stream.normal(), stream.normal()];
+    root(covariance).map(|row| row.iter().zip(units).map(|(a, b)| a * b).sum())
+}
+
+/// The Cholesky factor of a covariance, row by row.
+fn root(covariance: &Symmetric3) -> [[f64; 3]; 3] {
     let root = |square: f64| square.max(0.0).sqrt();
     let part = |of: f64, by: f64| if by > 0.0 { of / by } else { 0.0 };
     let xx = root(covariance.xx);
@@ -112,7 +155,7 @@ fn draw(covariance: &Symmetric3, stream: &mut Stream) -> [f64; 3] {
     let yy = root(covariance.yy - yx * yx);
     let ty = part(covariance.yt - tx * yx, yy);
     let tt = root(covariance.tt - tx * tx - ty * ty);
-    [xx * a, yx * a + yy * b, tx * a + ty * b + tt * c]
+    [[xx, 0.0, 0.0], [yx, yy, 0.0], [tx, ty, tt]]
 }
 
 #[cfg(test)]

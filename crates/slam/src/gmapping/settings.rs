@@ -66,6 +66,8 @@ pub struct GmappingSettings {
     pub occupied_share: f64,
     /// The map reaches at least over this: least x and y, most x and y \[m\].
     pub bounds_m: [Option<f64>; 4],
+    /// Slices of work of the front end on closures of loops that follow a scan, at most.
+    pub slices_per_scan: usize,
     /// True if the pose of each scan is kept. Otherwise at most two are kept for each scan that is used, so
     /// that memory does not grow while the robot stands still.
     pub keeps_each_pose: bool,

@@ -80,6 +80,11 @@ impl Trace {
         }
     }
 
+    /// How many tiles have cells that were passed.
+    pub(super) fn tiles(&self) -> usize {
+        self.touched.iter().filter(|it| **it).count()
+    }
+
     /// First and last column and row.
     pub(super) fn bounds(&self) -> ([i32; 2], [i32; 2]) {
         (self.low, self.high)

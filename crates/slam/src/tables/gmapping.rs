@@ -213,6 +213,7 @@ impl GmappingSettings {
             resolution_m: number("delta"),
             occupied_share: number("occ_thresh"),
             bounds_m: [given("xmin"), given("ymin"), given("xmax"), given("ymax")],
+            slices_per_scan: usize::MAX,
             keeps_each_pose: true,
         }
     }

@@ -47,6 +47,11 @@ impl World {
         self.walls.extend([[x0, y0, x1, y0], [x1, y0, x1, y1], [x1, y1, x0, y1], [x0, y1, x0, y0]]);
     }
 
+    /// Length of all walls \[m\].
+    pub(crate) fn walls_m(&self) -> f64 {
+        self.walls.iter().map(|[x0, y0, x1, y1]| libm::hypot(x1 - x0, y1 - y0)).sum()
+    }
+
     /// A square ring of corridors with niches that are not the same anywhere.
     pub(crate) fn ring(width_m: f64, height_m: f64, corridor_m: f64, seed: u64) -> Self {
         let mut world = Self { walls: Vec::new() };
