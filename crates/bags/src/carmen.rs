@@ -6,6 +6,7 @@
 //! a step before 90, an odd one includes both.
 
 use std::f64::consts::PI;
+use std::io::{self, BufRead};
 
 use periplus_base::Pose2;
 
@@ -69,23 +70,53 @@ const NOTHING: usize = 3;
 /// Reads a log. Lines that say something else are passed over; broken ones are told.
 #[must_use]
 pub fn read_carmen(text: &[u8]) -> CarmenLog {
-    let mut log = CarmenLog::default();
-    let mut offset_m = 0.0;
-    for (index, line) in text.split(|&byte| byte == b'\n').enumerate() {
+    let mut reading = Reading::default();
+    for line in text.split(|&byte| byte == b'\n') {
+        reading.take(line);
+    }
+    reading.finish()
+}
+
+/// Reads a log as [`read_carmen`] does, line by line: its text is never held as a whole.
+///
+/// # Errors
+/// When the text cannot be read.
+pub fn read_carmen_from(text: &mut dyn BufRead) -> io::Result<CarmenLog> {
+    let mut reading = Reading::default();
+    let mut line = Vec::new();
+    while text.read_until(b'\n', &mut line)? > 0 {
+        reading.take(&line);
+        line.clear();
+    }
+    Ok(reading.finish())
+}
+
+/// A log of which some lines were read.
+#[derive(Default)]
+struct Reading {
+    log: CarmenLog,
+    offset_m: f64,
+    lines: usize,
+}
+
+impl Reading {
+    fn take(&mut self, line: &[u8]) {
+        let Self { log, offset_m, lines } = self;
+        *lines += 1;
         let line = String::from_utf8_lossy(line);
         let mut words = line.split_ascii_whitespace();
-        let Some(kind) = words.next() else { continue };
+        let Some(kind) = words.next() else { return };
         let rest: Vec<&str> = words.collect();
         let read = match kind {
             "ODOM" => odometry(&rest).map(|it| log.odometry.push(it)),
-            "FLASER" => old_laser(kind, &rest, offset_m).map(|it| log.push(it)),
+            "FLASER" => old_laser(kind, &rest, *offset_m).map(|it| log.push(it)),
             "ROBOTLASER1" => new_laser(kind, &rest, true).map(|it| log.push(it)),
             "RAWLASER1" => new_laser(kind, &rest, false).map(|it| log.push(it)),
             "PARAM" => {
                 if let ["robot_frontlaser_offset" | "robot_front_laser_offset", value, ..] =
                     rest[..]
                 {
-                    offset_m = value.parse().unwrap_or(offset_m);
+                    *offset_m = value.parse().unwrap_or(*offset_m);
                 }
                 Ok(())
             }
@@ -94,11 +125,14 @@ pub fn read_carmen(text: &[u8]) -> CarmenLog {
         if let Err(what) = read
             && log.faults.len() < MOST_FAULTS
         {
-            log.faults.push((index + 1, format!("{kind}: {what}")));
+            log.faults.push((*lines, format!("{kind}: {what}")));
         }
     }
-    fill_limits(&mut log.scans);
-    log
+
+    fn finish(mut self) -> CarmenLog {
+        fill_limits(&mut self.log.scans);
+        self.log
+    }
 }
 
 /// Whether a text looks like such a log.
@@ -214,6 +248,18 @@ fn fill_limits(scans: &mut [CarmenScan]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn line_by_line_it_is_the_same() {
+        let text: &[u8] =
+            b"PARAM robot_frontlaser_offset 0.1 host 0\r\nODOM 1 2 0.5 0 0 0 9.5 h 0.1\n\n\
+              FLASER 2 1.5 80 1.1 2 0 1 2 0 10.25 h 0.2\nFLASER x\nODOM 1 2\n\xff\xfe\nFLASER";
+        for text in [text, &text[..text.len() - 6], b"", b"\n"] {
+            // Three bytes at once: lines come in pieces.
+            let mut reader = std::io::BufReader::with_capacity(3, text);
+            assert_eq!(read_carmen_from(&mut reader).unwrap(), read_carmen(text));
+        }
+    }
 
     #[test]
     fn both_kinds_of_lines() {

@@ -2,12 +2,13 @@
 
 pub(crate) mod bag;
 
-use std::io;
+use std::io::{self, BufRead as _};
 use std::path::Path;
 
 use clap::Args;
-use periplus_bags::{CarmenScan, is_carmen, read_carmen};
+use periplus_bags::{CarmenLog, CarmenScan, is_carmen, read_carmen_from};
 use periplus_base::Pose2;
+use periplus_diagnostics::plain_words;
 use periplus_slam::Scan;
 
 use crate::paths;
@@ -61,14 +62,18 @@ impl Log {
         if is_recording {
             return bag::read(path, options);
         }
-        let text = match paths::read(path) {
+        let mut text = match paths::reader(path) {
             Ok(text) => text,
             Err(why) => return Ok(Err(why)),
         };
-        if !is_carmen(&text) {
-            return bag::read(path, options);
-        }
-        Ok(Ok(carmen(&text)))
+        let log = match text.fill_buf() {
+            Ok(head) if !is_carmen(head) => return bag::read(path, options),
+            Ok(_) => read_carmen_from(&mut text),
+            Err(error) => Err(error),
+        };
+        Ok(log
+            .map(carmen)
+            .map_err(|error| format!("cannot read {}: {}", path.display(), plain_words(&error))))
     }
 
     /// From the first scan to the last \[s\].
@@ -79,8 +84,7 @@ impl Log {
     }
 }
 
-fn carmen(text: &[u8]) -> Log {
-    let log = read_carmen(text);
+fn carmen(log: CarmenLog) -> Log {
     let faults = log.faults.iter().map(|(line, what)| format!("line {line}: {what}"));
     let faults = faults.collect();
     let mut kinds: Vec<&str> = log.scans.iter().map(|scan| scan.kind.as_str()).collect();

@@ -1,5 +1,6 @@
 //! Files that are named on the command line: reading and writing them, with words that help.
 
+use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
 
 use periplus_bagfiles::{Bag, BagError};
@@ -26,10 +27,20 @@ pub(crate) fn advice(path: &Path) -> String {
 /// # Errors
 /// The path and the reason, with the nearest file where it is missing.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, String> {
-    Machine.read(path).map_err(|error| {
-        let advice = if error == ReadError::Missing { advice(path) } else { String::new() };
-        format!("cannot read {}: {error}{advice}", path.display())
-    })
+    Machine.read(path).map_err(|error| unreadable(path, &error))
+}
+
+/// The same, to be read bit by bit.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn reader(path: &Path) -> Result<impl BufRead + use<>, String> {
+    Machine.reader(path).map_err(|error| unreadable(path, &error))
+}
+
+fn unreadable(path: &Path, error: &ReadError) -> String {
+    let advice = if *error == ReadError::Missing { advice(path) } else { String::new() };
+    format!("cannot read {}: {error}{advice}", path.display())
 }
 
 /// The text of a file.
@@ -63,6 +74,19 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), String> {
     std::fs::create_dir_all(path).map_err(|error| {
         format!("cannot make the folder {}: {}", path.display(), plain_words(&error))
     })
+}
+
+/// Writes a file bit by bit, as a whole in the place of an old one.
+///
+/// # Errors
+/// The path and the reason.
+pub(crate) fn write_by(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), String> {
+    Machine
+        .replace_by(path, content)
+        .map_err(|why| format!("cannot write {}: {why}", path.display()))
 }
 
 /// Writes a file as a whole, in the place of an old one.

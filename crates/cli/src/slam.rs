@@ -10,12 +10,14 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use periplus_base::Pose2;
 use periplus_host::Stopwatch;
-use periplus_maps::{Distro, Saving, render};
+use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_slam::{Cure, Mapper, Remedy};
 
 use crate::log::Log;
-use crate::{paths, picture, terminal};
+use crate::picture::draw_by;
+use crate::{paths, terminal};
 use parameters::Parameters;
 use report::Report;
 use session::Made;
@@ -70,7 +72,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     let before = made.mapper().trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
-    let mut drive = drive(&mut made, &log, parameters.every(), None, &bar);
+    let mut drive = drive(&mut made, &mut log, parameters.every(), None, &bar);
     let mut saved = save(options, &made);
     let last = Stopwatch::start();
     made.mapper_mut().finish();
@@ -84,13 +86,22 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
                 return Ok(ExitCode::FAILURE);
             }
         };
-        drive = self::drive(&mut made, &log, parameters.every(), Some(remedy), &bar);
+        // Its readings are gone: they are read once more.
+        log = match Log::open(&options.log, &input)? {
+            Ok(log) => log,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        };
+        drive = self::drive(&mut made, &mut log, parameters.every(), Some(remedy), &bar);
         saved = save(options, &made);
         made.mapper_mut().finish();
     }
     bar.finish_and_clear();
     let slam = made.mapper();
-    let Drive { spent_s, stamps } = drive;
+    let Drive { spent_s, used } = drive;
+    let stamps: Vec<&str> = used.iter().map(|&number| log.scans[number].stamp.as_str()).collect();
     let report = Report {
         options,
         slam,
@@ -102,12 +113,13 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         spent_s: &spent_s,
         remedy,
     };
+    // The report is last: it tells the peak of memory.
     let written = saved
-        .and_then(|()| write(&options.out, slam, (&stamps, before), &report))
         .and_then(|()| match (&options.g2o, made.graph()) {
             (Some(path), Some(graph)) => put(path, graph.to_g2o().as_bytes()),
             _ => Ok(()),
-        });
+        })
+        .and_then(|()| write(&options.out, slam, (&stamps, before), &report));
     if !options.quiet {
         report.tell(&mut anstream::stdout().lock(), written.is_ok())?;
     }
@@ -115,8 +127,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         terminal::complain(&why);
         return Ok(ExitCode::FAILURE);
     }
-    log.faults.truncate(MOST_TOLD);
-    for fault in &log.faults {
+    for fault in log.faults.iter().take(MOST_TOLD) {
         terminal::complain(fault);
     }
     if let Some(why) = report.failure() {
@@ -127,25 +138,26 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
 }
 
 /// What came of the scans of a log, one by one.
-struct Drive<'a> {
+struct Drive {
     /// CPU for each scan \[s\].
     spent_s: Vec<f64>,
-    /// Stamps of the scans that have a line in the trajectory.
-    stamps: Vec<&'a str>,
+    /// Which scans have a line in the trajectory.
+    used: Vec<usize>,
 }
 
-/// Maps a log, with the data corrected when a fault of it is known.
-fn drive<'a>(
+/// Maps a log, with the data corrected when a fault of it is known. Of the log everything is left but the
+/// readings: they are most of it, the map has what it needs of them, and memory is for one of both.
+fn drive(
     made: &mut Made,
-    log: &'a Log,
+    log: &mut Log,
     every: usize,
     remedy: Option<Remedy>,
     bar: &indicatif::ProgressBar,
-) -> Drive<'a> {
+) -> Drive {
     let slam = made.mapper_mut();
     let mut cure = remedy.map(Cure::new);
-    let mut drive = Drive { spent_s: Vec::with_capacity(log.scans.len()), stamps: Vec::new() };
-    for (number, logged) in log.scans.iter().enumerate().step_by(every) {
+    let mut drive = Drive { spent_s: Vec::with_capacity(log.scans.len()), used: Vec::new() };
+    for (number, logged) in log.scans.iter_mut().enumerate().step_by(every) {
         bar.set_position(number as u64);
         let one = Stopwatch::start();
         let before = slam.counts().ignored;
@@ -158,8 +170,9 @@ fn drive<'a>(
         };
         drive.spent_s.push(one.elapsed().as_secs_f64());
         if slam.counts().ignored == before {
-            drive.stamps.push(logged.stamp.as_str());
+            drive.used.push(number);
         }
+        logged.scan.ranges_m = Vec::new();
     }
     drive
 }
@@ -199,15 +212,43 @@ fn write(
         })
         .collect();
     put("trajectory.txt", lines.as_bytes())?;
+    let drawn = draw(out, slam, &trajectory);
     put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
-    let Some(map) = slam.map() else {
+    drawn
+}
+
+/// Draws the map and the way, some rows at a time: large maps are never held as a whole.
+fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<(), String> {
+    let Some(plan) = slam.plan() else {
         return Err("the map is too large to draw; try `--max-range 30` or a coarser \
                     `--resolution`. The trajectory is written"
             .into());
     };
-    let files = render(&map, &Saving::new("map", Distro::Jazzy));
-    put(&files.image_path, &files.image)?;
-    put(&files.yaml_path, files.yaml.as_bytes())?;
+    let lattice = plan.lattice();
+    let saving = Saving::new("map", Distro::Jazzy);
+    let (image_path, yaml_path, yaml) = render_yaml(&lattice, &saving);
     let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
-    put("trajectory.png", &picture::draw(&map, &poses))
+    let mut png = Vec::new();
+    paths::write_by(&out.join(image_path), |image| {
+        let mut rows = PgmRows::begin(image, &lattice, &saving)?;
+        png = draw_by(lattice, &poses, |picture| {
+            let at_once = (CELLS_AT_ONCE / lattice.width.max(1)).max(1);
+            let mut top = lattice.height;
+            while top > 0 {
+                let low = top.saturating_sub(at_once);
+                for row in plan.rows(low..top).rows().rev() {
+                    rows.push(row)?;
+                    picture.push(row)?;
+                }
+                top = low;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    put(&out.join(yaml_path), yaml.as_bytes())?;
+    put(&out.join("trajectory.png"), &png)
 }
+
+/// Of a map so many cells are drawn at once: some 12 MB.
+const CELLS_AT_ONCE: usize = 4 << 20;

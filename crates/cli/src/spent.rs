@@ -12,13 +12,6 @@ pub(crate) fn cpu_s() -> Option<f64> {
     Some(ns * 1e-9)
 }
 
-/// Most memory that was ever held, where Linux tells \[bytes\].
-pub(crate) fn peak_bytes() -> Option<u64> {
-    let status = words("/proc/self/status")?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
-}
-
 fn words(path: &str) -> Option<String> {
     String::from_utf8(Machine.read(Path::new(path)).ok()?).ok()
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
 
 use std::fs;
-use std::io::{ErrorKind, Read as _, Write as _};
+use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
@@ -58,14 +58,39 @@ impl Host for Machine {
     }
 }
 
-impl Store for Machine {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+impl Machine {
+    /// Reads a file bit by bit: what is large need not be held as a whole.
+    ///
+    /// # Errors
+    /// As [`Host::read`], but for what happens while it is read.
+    pub fn reader(&self, path: &Path) -> Result<impl BufRead + use<>, ReadError> {
+        let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
+        if !metadata.is_file() {
+            return Err(ReadError::NotAFile);
+        }
+        if metadata.len() > LARGEST_FILE {
+            return Err(ReadError::TooLarge(metadata.len()));
+        }
+        let file = fs::File::open(path).map_err(|error| refusal(&error))?;
+        Ok(BufReader::with_capacity(READ_AT_ONCE, file.take(LARGEST_FILE)))
+    }
+
+    /// Writes a file bit by bit, as a whole in the place of an old one: until all of it is written the old
+    /// one stays.
+    ///
+    /// # Errors
+    /// In words why it cannot be, also when `write` says so.
+    pub fn replace_by(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+    ) -> Result<(), String> {
         let words = |error: std::io::Error| plain_words(&error);
         let mut name = path.file_name().ok_or("this names no file")?.to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let beside = path.with_file_name(name);
         remove_stale(path);
-        let written = write_new(&beside, content).and_then(|()| fs::rename(&beside, path));
+        let written = write_new(&beside, write).and_then(|()| fs::rename(&beside, path));
         if written.is_err() {
             // Nobody can do more about it here.
             let _ = fs::remove_file(&beside);
@@ -73,6 +98,15 @@ impl Store for Machine {
         written.map_err(words)
     }
 }
+
+impl Store for Machine {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+        self.replace_by(path, |file| file.write_all(content))
+    }
+}
+
+/// So much of a file is read ahead \[bytes\].
+const READ_AT_ONCE: usize = 64 << 10;
 
 /// Age from which a part of a process that is gone is nobody's \[s\].
 const STALE_S: u64 = 60;
@@ -107,10 +141,14 @@ fn remove_stale(path: &Path) {
 }
 
 /// On the disk before it gets its name, so that a loss of power leaves no empty file under it.
-fn write_new(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let mut file = fs::File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
+fn write_new(
+    path: &Path,
+    write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> std::io::Result<()> {
+    let mut file = BufWriter::new(fs::File::create(path)?);
+    write(&mut file)?;
+    file.flush()?;
+    file.get_ref().sync_all()
 }
 
 fn refusal(error: &std::io::Error) -> ReadError {

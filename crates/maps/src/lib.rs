@@ -40,6 +40,6 @@ pub use distro::{Distro, Mode};
 pub use load::{Loaded, Map, Status, expand_home, grid_of, load, load_image};
 pub use message::{BadMap, from_message, to_message};
 pub use rule::Rule;
-pub use save::{BadThresholds, Format, MapFiles, Saving, Wish, render};
+pub use save::{BadThresholds, Format, MapFiles, PgmRows, Saving, Wish, render, render_yaml};
 pub use truth::{BesideTruth, beside_truth};
 pub use words::{Words, WrongWords, read_words, usage};

@@ -1,9 +1,10 @@
 //! A map to its files.
 
 use std::fmt;
+use std::io::{self, Write};
 
-use periplus_grid::OccupancyGrid;
-use periplus_pictures::{Layout, write_bmp, write_pgm, write_png};
+use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_pictures::{Layout, pgm_head, write_bmp, write_png};
 
 use crate::distro::{Distro, Mode};
 use crate::number::{fixed, general};
@@ -179,21 +180,8 @@ pub struct MapFiles {
 /// Sources: `map_server/src/map_saver.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp`.
 #[must_use]
 pub fn render(map: &OccupancyGrid, saving: &Saving) -> MapFiles {
-    let is_noetic = saving.distro == Distro::Noetic;
-    let saving = &if is_noetic {
-        Saving { mode: Mode::Trinary, format: Format::Pgm, ..saving.clone() }
-    } else {
-        saving.clone()
-    };
-    let image_path = format!("{}.{}", saving.name, saving.format.ending());
-    let yaml =
-        if is_noetic { noetic_yaml(map, &image_path) } else { yaml(map, saving, &image_path) };
-    MapFiles {
-        image: picture(map, saving),
-        image_path,
-        yaml_path: format!("{}.yaml", saving.name),
-        yaml,
-    }
+    let (image_path, yaml_path, yaml) = render_yaml(&map.lattice, saving);
+    MapFiles { image: picture(map, &settled(saving)), image_path, yaml_path, yaml }
 }
 
 fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
@@ -212,6 +200,22 @@ fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
             _ => write_png(width, height, Layout::Rgba, &pixels),
         };
     }
+    let table = table(saving);
+    let pixels = top_down.map(|cell| table[usize::from(cell.cast_unsigned())]);
+    match saving.format {
+        Format::Png => write_png(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
+        Format::Bmp => write_bmp(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
+        Format::Pgm => {
+            let mut bytes = head(&map.lattice, saving).into_bytes();
+            bytes.reserve_exact(map.lattice.len());
+            bytes.extend(pixels);
+            bytes
+        }
+    }
+}
+
+/// The brightness of each value of a cell, but for mode scale with unknown cells.
+fn table(saving: &Saving) -> [u8; 256] {
     let percent = |share: f64| (share * 100.0).round_ties_even() as i64;
     let (free, occupied) = (percent(saving.free_thresh), percent(saving.occupied_thresh));
     let grey = |cell: i8| match saving.mode {
@@ -225,22 +229,73 @@ fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
             }
         }
     };
-    let table: Vec<u8> = (0..=u8::MAX).map(|value| grey(value.cast_signed())).collect();
-    let pixels: Vec<u8> = top_down.map(|cell| table[usize::from(cell.cast_unsigned())]).collect();
-    match saving.format {
-        Format::Png => write_png(width, height, Layout::Grey, &pixels),
-        Format::Bmp => write_bmp(width, height, Layout::Grey, &pixels),
-        Format::Pgm => {
-            let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(map));
-            let comment = (saving.distro == Distro::Noetic).then_some(comment.as_str());
-            write_pgm(width, height, &pixels, comment)
-        }
+    std::array::from_fn(|value| grey((value as u8).cast_signed()))
+}
+
+/// What the PGM of a map begins with.
+fn head(lattice: &Lattice, saving: &Saving) -> String {
+    let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
+    let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(lattice));
+    let comment = (saving.distro == Distro::Noetic).then_some(comment.as_str());
+    pgm_head(side(lattice.width), side(lattice.height), comment)
+}
+
+/// The PGM of a map, written row by row: the map itself need not be held as a whole.
+pub struct PgmRows<'a> {
+    out: &'a mut dyn Write,
+    table: [u8; 256],
+    line: Vec<u8>,
+}
+
+impl<'a> PgmRows<'a> {
+    /// Begins the picture of a map that lies there.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn begin(
+        out: &'a mut dyn Write,
+        lattice: &Lattice,
+        saving: &Saving,
+    ) -> io::Result<PgmRows<'a>> {
+        let saving = settled(saving);
+        out.write_all(head(lattice, &saving).as_bytes())?;
+        Ok(PgmRows { out, table: table(&saving), line: Vec::new() })
+    }
+
+    /// The cells of the next row; the highest comes first.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn push(&mut self, cells: &[i8]) -> io::Result<()> {
+        self.line.clear();
+        self.line.extend(cells.iter().map(|cell| self.table[usize::from(cell.cast_unsigned())]));
+        self.out.write_all(&self.line)
+    }
+}
+
+/// Paths of both files of a map, and what the YAML says: image, YAML, text.
+#[must_use]
+pub fn render_yaml(lattice: &Lattice, saving: &Saving) -> (String, String, String) {
+    let saving = settled(saving);
+    let image_path = format!("{}.{}", saving.name, saving.format.ending());
+    let yaml = match saving.distro {
+        Distro::Noetic => noetic_yaml(lattice, &image_path),
+        _ => yaml(lattice, &saving, &image_path),
+    };
+    (image_path, format!("{}.yaml", saving.name), yaml)
+}
+
+/// As the saver of the distribution can do it.
+fn settled(saving: &Saving) -> Saving {
+    match saving.distro {
+        Distro::Noetic => Saving { mode: Mode::Trinary, format: Format::Pgm, ..saving.clone() },
+        _ => saving.clone(),
     }
 }
 
 /// Messages carry the resolution in single precision, and savers print that.
-fn resolution(map: &OccupancyGrid) -> f64 {
-    f64::from(map.lattice.resolution_m as f32)
+fn resolution(lattice: &Lattice) -> f64 {
+    f64::from(lattice.resolution_m as f32)
 }
 
 fn is_known(cell: i8) -> bool {
@@ -270,15 +325,15 @@ fn scale_grey(cell: i8) -> u8 {
     }
 }
 
-fn yaml(map: &OccupancyGrid, saving: &Saving, image_path: &str) -> String {
+fn yaml(lattice: &Lattice, saving: &Saving, image_path: &str) -> String {
     let image = image_path.rsplit(['/', '\\']).next().unwrap_or(image_path);
     let (image, mode) = (scalar(image), saving.mode.name());
-    let origin = map.lattice.origin;
+    let origin = lattice.origin;
     let numbers = if saving.distro == Distro::Humble {
         // Three significant digits, not three decimals: what lies 12.345 m away comes back at 12.3.
         let short = |value: f64| general(value, 3);
         [
-            short(resolution(map)),
+            short(resolution(lattice)),
             short(origin.x_m),
             short(origin.y_m),
             short(origin.yaw_rad),
@@ -292,7 +347,7 @@ fn yaml(map: &OccupancyGrid, saving: &Saving, image_path: &str) -> String {
             _ => (fixed(saving.occupied_thresh, 3), fixed(saving.free_thresh, 3)),
         };
         [
-            fixed(resolution(map), 3),
+            fixed(resolution(lattice), 3),
             fixed(origin.x_m, 3),
             fixed(origin.y_m, 3),
             general(origin.yaw_rad, 7),
@@ -307,12 +362,12 @@ fn yaml(map: &OccupancyGrid, saving: &Saving, image_path: &str) -> String {
     )
 }
 
-fn noetic_yaml(map: &OccupancyGrid, image_path: &str) -> String {
-    let origin = map.lattice.origin;
+fn noetic_yaml(lattice: &Lattice, image_path: &str) -> String {
+    let origin = lattice.origin;
     format!(
         "image: {image_path}\nresolution: {:.6}\norigin: [{:.6}, {:.6}, {:.6}]\nnegate: 0\n\
          occupied_thresh: 0.65\nfree_thresh: 0.196\n\n",
-        resolution(map),
+        resolution(lattice),
         origin.x_m,
         origin.y_m,
         origin.yaw_rad,
@@ -452,6 +507,14 @@ mod tests {
             let free_thresh = if mode == Mode::Trinary { 0.196 } else { 0.25 };
             let saving = Saving { mode, format, free_thresh, ..Saving::new("/m/a", distro) };
             let files = render(&map, &saving);
+            if saving.format == Format::Pgm || distro == Distro::Noetic {
+                let mut rows = Vec::new();
+                let mut writer = PgmRows::begin(&mut rows, &map.lattice, &saving).unwrap();
+                for row in map.rows().rev() {
+                    writer.push(row).unwrap();
+                }
+                prop_assert_eq!(&rows, &files.image);
+            }
             let host = MemoryHost::new()
                 .with_file(&files.image_path, files.image)
                 .with_file(&files.yaml_path, files.yaml);

@@ -1,5 +1,7 @@
 //! Pictures to bytes.
 
+use std::io::{self, Write};
+
 use crate::raster::Layout;
 
 /// A PNG of eight bits a sample. What does not fit together, which is a mistake of the caller's, is
@@ -7,18 +9,11 @@ use crate::raster::Layout;
 #[must_use]
 pub fn write_png(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(match layout {
-        Layout::Grey => png::ColorType::Grayscale,
-        Layout::GreyAlpha => png::ColorType::GrayscaleAlpha,
-        Layout::Rgb => png::ColorType::Rgb,
-        Layout::Rgba => png::ColorType::Rgba,
-    });
-    encoder.set_depth(png::BitDepth::Eight);
-    let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(samples)?;
-        writer.finish()
-    });
+    let written =
+        encoder(&mut bytes, width, height, layout).write_header().and_then(|mut writer| {
+            writer.write_image_data(samples)?;
+            writer.finish()
+        });
     debug_assert!(written.is_ok(), "{written:?}");
     if written.is_err() {
         bytes.clear();
@@ -26,13 +21,51 @@ pub fn write_png(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec
     bytes
 }
 
+/// A PNG of eight bits a sample from samples that are written bit by bit, row by row from the top: the
+/// picture is never held as a whole, but as what it is packed to.
+///
+/// # Errors
+/// What `samples` says, and when rows are missing or there is no pixel at all.
+pub fn pack_png(
+    width: u32,
+    height: u32,
+    layout: Layout,
+    samples: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut writer = encoder(&mut bytes, width, height, layout).write_header()?;
+    let mut stream = writer.stream_writer()?;
+    samples(&mut stream)?;
+    stream.finish()?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+fn encoder<W: Write>(out: W, width: u32, height: u32, layout: Layout) -> png::Encoder<'static, W> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(match layout {
+        Layout::Grey => png::ColorType::Grayscale,
+        Layout::GreyAlpha => png::ColorType::GrayscaleAlpha,
+        Layout::Rgb => png::ColorType::Rgb,
+        Layout::Rgba => png::ColorType::Rgba,
+    });
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder
+}
+
 /// A PGM in bytes (`P5`), with a comment behind its kind if there is one.
 #[must_use]
 pub fn write_pgm(width: u32, height: u32, grey: &[u8], comment: Option<&str>) -> Vec<u8> {
-    let comment = comment.map_or(String::new(), |words| format!("# {words}\n"));
-    let mut bytes = format!("P5\n{comment}{width} {height}\n255\n").into_bytes();
+    let mut bytes = pgm_head(width, height, comment).into_bytes();
     bytes.extend_from_slice(grey);
     bytes
+}
+
+/// What a PGM in bytes begins with; brightness follows, a byte for each pixel, row by row from the top.
+#[must_use]
+pub fn pgm_head(width: u32, height: u32, comment: Option<&str>) -> String {
+    let comment = comment.map_or(String::new(), |words| format!("# {words}\n"));
+    format!("P5\n{comment}{width} {height}\n255\n")
 }
 
 /// A BMP as `GraphicsMagick` writes it, byte for byte: 24 bits a pixel, grey or not, and 32 with
@@ -123,6 +156,11 @@ mod tests {
             let whole = Raster { width, height, layout, is_deep: false, bytes };
             let png = write_png(width, height, layout, &whole.bytes);
             prop_assert_eq!(&Raster::decode(&png).unwrap(), &whole);
+            let mut rows = whole.bytes.chunks(width as usize * channels);
+            let packed = pack_png(width, height, layout, |out| {
+                rows.try_for_each(|row| out.write_all(row))
+            });
+            prop_assert_eq!(&Raster::decode(&packed.unwrap()).unwrap(), &whole);
             let bmp = write_bmp(width, height, layout, &whole.bytes);
             prop_assert_eq!(Image::decode(&bmp).unwrap(), Image::decode(&png).unwrap());
             if layout == Layout::Grey {

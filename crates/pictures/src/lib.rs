@@ -2,7 +2,8 @@
 //!
 //! [`Raster`] holds what a file holds: PNG, JPEG, BMP or PNM (PGM, PPM, PBM), brought to eight or
 //! sixteen bits a sample. [`Image`] is the same in red, green, blue and alpha, and [`Grey`] its
-//! brightness alone. [`write_png`], [`write_bmp`] and [`write_pgm`] are the ways back.
+//! brightness alone. [`write_png`], [`write_bmp`] and [`write_pgm`] are the ways back; [`pack_png`] is one
+//! that does not need the whole picture at once.
 //!
 //! Sizes are checked before memory is asked for, so no file makes a reader take more than 256 MiB
 //! for its samples.
@@ -26,5 +27,5 @@ mod pnm;
 mod raster;
 
 pub use decode::{Grey, Image};
-pub use encode::{write_bmp, write_pgm, write_png};
+pub use encode::{pack_png, pgm_head, write_bmp, write_pgm, write_png};
 pub use raster::{BadImage, LONGEST_SIDE, Layout, MOST_BYTES, Raster};

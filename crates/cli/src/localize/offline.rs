@@ -182,7 +182,8 @@ fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), Str
         format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
     };
     put("trajectory.txt", trajectory.iter().map(line).collect::<String>().as_bytes())?;
-    put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
     let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
-    put("trajectory.png", &picture::draw(map, &poses))
+    let drawn = put("trajectory.png", &picture::draw(map, &poses));
+    put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
+    drawn
 }

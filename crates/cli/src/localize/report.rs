@@ -3,12 +3,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use periplus_host::peak_memory_bytes;
 use periplus_localization::Amcl;
 use serde_json::{Map, Value, json};
 
 use super::offline::Outcome;
 use crate::log::Log;
-use crate::spent::{cpu_s, peak_bytes, steps_ms};
+use crate::spent::{cpu_s, steps_ms};
 
 /// How a run went.
 pub(super) struct Report<'a> {
@@ -25,7 +26,7 @@ pub(super) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// For a program.
+    /// For a program. It is asked for last of all: the peak of memory has in it what came before.
     pub(super) fn to_json(&self) -> Value {
         let Outcome { settled, states, changes, refused, .. } = self.outcome;
         let changes: Vec<Value> = changes
@@ -52,7 +53,7 @@ impl Report<'_> {
             "map": self.map_path,
             "wall_s": self.wall_s,
             "cpu_s": cpu_s(),
-            "peak_memory_bytes": peak_bytes(),
+            "peak_memory_bytes": peak_memory_bytes(),
             "load_s": self.loaded_s,
             "update_ms": steps_ms(&self.outcome.spent_s),
             "scans": self.log.scans.len(),

@@ -2,13 +2,14 @@
 
 use std::io::{self, Write};
 
+use periplus_host::peak_memory_bytes;
 use periplus_slam::{Link, Mapper, Method, Remedy};
 use serde_json::{Value, json};
 
 use super::options::SlamOptions;
 use super::parameters::Parameters;
 use crate::log::Log;
-use crate::spent::{cpu_s, peak_bytes, steps_ms};
+use crate::spent::{cpu_s, steps_ms};
 
 /// How a run went.
 pub(super) struct Report<'a> {
@@ -33,7 +34,7 @@ const UNFITTING: f64 = 0.2;
 const FEW_SCANS: usize = 10;
 
 impl Report<'_> {
-    /// For a program.
+    /// For a program. It is asked for last of all: the peak of memory has in it what came before.
     pub(super) fn to_json(&self) -> Value {
         let counts = self.slam.counts();
         let closures: Vec<Value> = self
@@ -58,7 +59,7 @@ impl Report<'_> {
             "kind": self.log.kind,
             "wall_s": self.wall_s,
             "cpu_s": cpu_s(),
-            "peak_memory_bytes": peak_bytes(),
+            "peak_memory_bytes": peak_memory_bytes(),
             "load_s": self.loaded_s,
             "finish_s": self.finish_s,
             "scan_ms": steps_ms(self.spent_s),
