@@ -104,9 +104,12 @@ fn maps_of_all_particles_stay_within_their_memory() {
     // A hall in fine cells: thirty maps of it would take far more.
     let mut hall = World { walls: Vec::new() };
     hall.rectangle([0.0, 0.0, 50.0, 40.0]);
-    hall.rectangle([15.0, 20.0, 16.0, 21.5]);
+    for at in 0..4_i8 {
+        let x = 10.0 + 8.0 * f64::from(at);
+        hall.rectangle([x, 14.0, x + 1.0, 15.5]);
+    }
     let far = Robot { beams: 541, range_max_m: 80.0, field_rad: 6.0, ..ROBOT };
-    let moments = hall.drive(&[(15.0, 10.0), (25.0, 10.0)], 1.0, &far, 1);
+    let moments = hall.drive(&[(15.0, 10.0), (25.0, 10.0)], 0.5, &far, 1);
     let settings = GmappingSettings { resolution_m: 0.02, ..GmappingSettings::default() };
     let mut slam = Gmapping::new(settings);
     let mut most = 0;

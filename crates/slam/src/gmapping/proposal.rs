@@ -160,7 +160,13 @@ fn root(covariance: &Symmetric3) -> [[f64; 3]; 3] {
 
 #[cfg(test)]
 mod tests {
+    use periplus_matching::Point;
+
     use super::*;
+    use crate::gmapping::beams::Beams;
+    use crate::gmapping::cells::Cells;
+    use crate::gmapping::fit::climb;
+    use crate::gmapping::trace::Trace;
 
     #[test]
     fn draws_have_the_covariance_that_was_asked_for() {
@@ -175,6 +181,56 @@ mod tests {
         for (found, asked) in found.iter().zip([4.0, 2.0, 5.0, -2.0, 1.0, 6.0]) {
             assert!((found - asked).abs() < 0.2, "{found} {asked}");
         }
+    }
+
+    /// A corridor along x, seen from its middle.
+    fn corridor() -> (Cells, Vec<Point>) {
+        let points: Vec<Point> = (-60..=60_i8)
+            .flat_map(|at| {
+                let x = 0.1 * f32::from(at);
+                [1.22, -1.22_f32].map(|y| Point { x, y, nx: 0.0, ny: -y.signum() })
+            })
+            .collect();
+        let beams = Beams {
+            points: points.clone(),
+            hits: points.iter().map(|it| [it.x, it.y]).collect(),
+            rims: Vec::new(),
+            origin: [0.0; 2],
+        };
+        let mut cells = Cells::new(0.05, 0.1);
+        let mut trace = Trace::default();
+        trace.fill(&beams, Pose2::IDENTITY, cells.per_m());
+        cells.draw(&trace);
+        (cells, points)
+    }
+
+    #[test]
+    fn along_a_corridor_particles_are_spread_as_widely_as_odometry_errs() {
+        let (cells, points) = corridor();
+        let settings = GmappingSettings::default();
+        let front = Symmetric3::diagonal(0.09 * 0.09, 0.01 * 0.01, 0.003 * 0.003);
+        let mut stream = Stream::keyed(1, "corridor", 0);
+        let mut squares = [0.0; 3];
+        let count = 2000;
+        for _ in 0..count {
+            let lasting = [stream.normal(), stream.normal(), stream.normal()];
+            let guess = Guess {
+                map_from_base: Pose2::IDENTITY,
+                sigma_m: 0.1,
+                sigma_rad: 0.1,
+                front: Some(front),
+                began_rad: 0.0,
+                lasting,
+            };
+            let fit = climb(&cells, &points, &guess, &settings);
+            let pose = around(&fit, &guess, &settings, &mut stream).map_from_base;
+            for (sum, off) in squares.iter_mut().zip([pose.x_m, pose.y_m, pose.yaw_rad]) {
+                *sum += off * off / f64::from(count);
+            }
+        }
+        let [x, y, turn] = squares.map(f64::sqrt);
+        assert!((x - 0.09).abs() < 0.02, "{x}");
+        assert!(y < 0.011 && turn < 0.004, "{y} {turn}");
     }
 
     #[test]
