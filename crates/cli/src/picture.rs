@@ -149,7 +149,7 @@ mod tests {
                 let row = height - 1 - row / every;
                 picture.sample(row * picture.width as usize + column / every).to_vec()
             };
-            assert_eq!(at(7, 3), [0, 0, 0], "{side}");
+            assert_eq!(at(7, 3), [1; 3], "{side}");
             assert_eq!(at(20, 3), [255; 3], "{side}");
             assert_eq!(at(20, 39), [205; 3], "{side}");
             // From blue to red.
