@@ -191,6 +191,59 @@ fn a_drive_is_the_same_in_logs_of_every_kind() {
     check(&other, &moments);
 }
 
+/// Wheels that are counted with the wrong sign: the log is mapped again without that, which is told; the
+/// report has the edges that g2o reads.
+#[test]
+fn a_log_with_reversed_wheels_is_mapped_again() {
+    let folder = Folder::new("slam-reversed");
+    let world = World::ring(12.0, 8.0, 2.4, 1);
+    let corners = [(2.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0), (0.0, 0.0), (2.0, 0.0)];
+    let mut moments = world.drive(&corners, 0.3, &ROBOT, 1);
+    let mut stream = periplus_base::Stream::keyed(1, "ahead", 0);
+    let (mut before, mut pose) = (moments[0].odometry, moments[0].odometry);
+    for moment in &mut moments {
+        let laser = moment.truth * Pose2::new(AHEAD_M, 0.0, 0.0);
+        moment.scan = world.scan(laser, &ROBOT, BEGIN_NS + moment.scan.time_ns, &mut stream);
+        let step = before.inverse() * moment.odometry;
+        before = moment.odometry;
+        pose = (pose * Pose2::new(-step.x_m, -step.y_m, -step.yaw_rad)).normalized();
+        moment.odometry = pose;
+    }
+    let log = folder.path("reversed.log");
+    std::fs::write(&log, carmen(&moments)).unwrap();
+    let (out, g2o) = (folder.path("out"), folder.path("graph.g2o"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    let command = command.arg("slam").arg(&log).arg("--out").arg(&out).arg("--g2o").arg(&g2o);
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.contains("the map was made again"), "{said}");
+    let mapped = slam(&log, &out);
+    assert_eq!(mapped.code, Some(0));
+    check(&mapped, &moments);
+    let graph = std::fs::read_to_string(&g2o).unwrap();
+    let edges = graph.lines().filter(|line| line.starts_with("EDGE_SE2")).count();
+    assert_eq!(mapped.report["edges"].as_array().unwrap().len(), edges);
+    assert!(mapped.report["remedy"].is_string());
+}
+
+/// Scans of a building in which each second one is of elsewhere: no map, and exit code 1.
+#[test]
+fn a_log_whose_scans_fit_nothing_fails() {
+    let folder = Folder::new("slam-unfitting");
+    let mut moments = drive();
+    let mut stream = periplus_base::Stream::keyed(2, "elsewhere", 0);
+    for moment in moments.iter_mut().skip(10).step_by(2) {
+        let ranges = moment.scan.ranges_m.iter_mut();
+        ranges.for_each(|range| *range = (0.5 + 9.0 * stream.unit()) as f32);
+    }
+    let log = folder.path("unfitting.log");
+    std::fs::write(&log, carmen(&moments)).unwrap();
+    let mapped = slam(&log, &folder.path("out"));
+    assert_eq!(mapped.code, Some(1), "{:?} {}", mapped.report["lost_scans"], mapped.report["scans"]);
+    let warnings = mapped.report["warnings"].to_string();
+    assert!(warnings.contains("fit nothing that was seen before"), "{warnings}");
+}
+
 #[test]
 fn a_damaged_log_is_used_as_far_as_it_goes() {
     let folder = Folder::new("slam-damaged");

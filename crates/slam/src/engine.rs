@@ -142,7 +142,7 @@ const DRAWN: f32 = 0.6;
 /// How fast it is learnt what is usual.
 const USUAL: f64 = 0.05;
 /// When more scans than these, and a larger share, fit nothing, a map is not to be relied on.
-const FEW_LOST: usize = 10;
+const FEW_LOST: usize = 5;
 const MOST_LOST: f64 = 0.1;
 /// A turn of a radian counts as so much way \[m\].
 const TURN_WAY_M: f64 = 0.3;

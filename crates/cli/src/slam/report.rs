@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use periplus_host::peak_memory_bytes;
-use periplus_slam::{Link, Mapper, Method, Remedy};
+use periplus_slam::{Doubt, Link, Mapper, Method, Remark, Remedy};
 use serde_json::{Value, json};
 
 use super::options::SlamOptions;
@@ -28,10 +28,6 @@ pub(super) struct Report<'a> {
     /// The map was made again with this fault of the data undone.
     pub(super) remedy: Option<Remedy>,
 }
-
-/// A map is a failure when a larger share of the scans fits nothing, of more scans than these.
-const UNFITTING: f64 = 0.2;
-const FEW_SCANS: usize = 10;
 
 impl Report<'_> {
     /// For a program. It is asked for last of all: the peak of memory has in it what came before.
@@ -104,8 +100,8 @@ impl Report<'_> {
     /// Why the map is not one that anybody should use.
     pub(super) fn failure(&self) -> Option<String> {
         let counts = self.slam.counts();
-        let share = counts.lost as f64 / counts.scans.max(1) as f64;
-        (counts.lost > FEW_SCANS && share > UNFITTING).then(|| {
+        let is_unfitting = |remark: &Remark| matches!(remark.doubt, Doubt::Unfitting(_));
+        self.slam.remarks().iter().any(is_unfitting).then(|| {
             format!(
                 "{} of {} scans fit nothing that was seen before: do not use the map; look at the \
                  scanner's transform (`periplus doctor`), at the stamps, and at readings that come and go",
