@@ -7,11 +7,14 @@ use periplus_matching::Peak;
 
 mod astray;
 mod finer;
+mod trust;
 
 use self::finer::Seen;
+use self::trust::Trust;
 use crate::anywhere::Everywhere;
 use crate::bins::{Cluster, Taken, clusters};
 use crate::guess::{Guess, check_place, scatter};
+use crate::hunt::{Completeness, Hunt};
 use crate::known_map::KnownMap;
 use crate::motion::move_all;
 use crate::particles::{Covariance2, Moments, Particles};
@@ -86,6 +89,18 @@ pub struct Amcl {
     is_settled: bool,
     /// The map, prepared for the search on all of it.
     everywhere: Option<Everywhere>,
+    /// A search on all of the map that is not at its end, and where odometry had the robot at its scan.
+    search: Option<(Hunt, Pose2)>,
+    /// What one has found, and the same.
+    found: Option<(Vec<Peak>, Completeness, Pose2)>,
+    /// With how many scans it was searched on this map.
+    searches: u64,
+    /// How many lookups that was with the last one.
+    searched: u64,
+    /// What the beams measured with which it was looked for last \[m\].
+    sought_m: Vec<f32>,
+    /// What speaks for the place that is told.
+    trust: Trust,
     /// Places of which one is the right one.
     rivals: Option<Rivals>,
     /// The refined pose, and where odometry had the robot then.
@@ -129,6 +144,12 @@ impl Amcl {
             sought: None,
             is_settled: false,
             everywhere: None,
+            search: None,
+            found: None,
+            searches: 0,
+            searched: 0,
+            sought_m: Vec::new(),
+            trust: Trust::default(),
             rivals: None,
             fine: None,
             ahead: None,
@@ -190,6 +211,15 @@ impl Amcl {
         self.sought = None;
         self.fine = None;
         self.home = None;
+        self.search = None;
+        self.found = None;
+    }
+
+    /// How much was done with the last scan to look for the robot on all of the map, in lookups of
+    /// points. It is bounded, whatever the map: a search that takes more goes on with the next scans.
+    #[must_use]
+    pub fn searched(&self) -> u64 {
+        self.searched
     }
 
     /// How well scans fit, as recovery sees it.
@@ -209,6 +239,8 @@ impl Amcl {
             self.map = Some(KnownMap::new(grid, settings.map())?);
             self.terms = None;
             self.everywhere = None;
+            self.search = None;
+            self.found = None;
         }
         self.settings = settings;
         Ok(())
@@ -236,9 +268,12 @@ impl Amcl {
         }
         let map = KnownMap::new(grid, self.settings.map())?;
         self.grid = Some(grid.clone());
+        self.everywhere = self.settings.searches().then(|| Everywhere::new(&map));
         self.map = Some(map);
         self.terms = None;
-        self.everywhere = None;
+        self.search = None;
+        self.found = None;
+        self.searches = 0;
         let known = self.estimate.as_ref().map(|it| (it.pose, it.covariance));
         match self.waiting.take().or(known) {
             Some((pose, covariance)) => {
@@ -296,6 +331,7 @@ impl Amcl {
         }
         self.begin(particles);
         self.is_settled = true;
+        self.trust.open(0);
         Ok(())
     }
 
@@ -311,9 +347,20 @@ impl Amcl {
         }
         let seen = Seen::new(scan, &self.settings)?;
         let peaks = self.look_everywhere(&seen);
+        self.start_at_peaks(&seen, &peaks, Completeness::Best)?;
+        Ok(peaks)
+    }
+
+    /// Starts at places that a search has found.
+    fn start_at_peaks(
+        &mut self,
+        seen: &Seen,
+        peaks: &[Peak],
+        completeness: Completeness,
+    ) -> Result<(), Box<Diagnostic>> {
         let Some(map) = &self.map else { return Err(no_map()) };
         let poses = peaks.iter().map(|peak| peak.pose);
-        let Some(rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses) else {
+        let Some(rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses, completeness) else {
             let (hits, beams) = (seen.ends.len(), seen.beams.beams.len());
             return Err(Diagnostic::error(FITS_NOWHERE, "the scan fits nowhere on the map")
                 .note(format!("{hits} of its {beams} beams hit anything"))
@@ -322,8 +369,9 @@ impl Amcl {
         };
         let particles = self.drawn_from(&rivals);
         self.begin(particles);
+        self.trust.open(0);
         self.rivals = Some(rivals);
-        Ok(peaks)
+        Ok(())
     }
 
     /// Uses the next scan whether or not the robot moved.
@@ -340,6 +388,10 @@ impl Amcl {
         self.watch = Watch::default();
         self.waiting = None;
         self.sought = None;
+        self.search = None;
+        self.found = None;
+        self.trust = Trust::default();
+        self.vain = 0;
         self.is_settled = false;
         self.rivals = None;
         self.fine = None;
@@ -390,9 +442,12 @@ impl Amcl {
             .help("check what publishes `odom_frame_id` to `base_frame_id`")
             .into());
         }
-        if self.particles.is_empty() {
-            self.seek(odom_from_base, scan)?;
+        self.searched = 0;
+        if self.particles.is_empty() && !self.seek(odom_from_base, scan)? {
+            return Ok(None);
         }
+        self.go_on();
+        self.is_forced |= self.found.is_some();
         if let Some(old) = self.odom_from_base
             && !self.is_forced
             && !has_moved(old, odom_from_base, self.settings.update_min)
@@ -442,19 +497,18 @@ impl Amcl {
         self.polish(&mut estimate, &seen, odom_from_base);
         let fit = self.fit_of_best(&estimate, &seen.beams);
         self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
-        if self.seeks(random_share, odom_from_base)
-            && self.seek_again(&mut estimate, &seen, odom_from_base)
-        {
+        if self.look_out(&mut estimate, &seen, random_share, odom_from_base) {
             self.watch.forgive();
             let fit = self.fit_of_best(&estimate, &seen.beams);
             self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
         }
+        self.see_at(&seen, estimate.pose, odom_from_base);
+        self.undoubted = None;
+        self.doubt();
         if self.status.state == State::Tracking {
             self.is_settled = true;
             self.vain = 0;
         }
-        self.undoubted = None;
-        self.doubt();
         let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
         self.map_from_odom = Some(map_from_odom);
         self.estimate = Some(estimate.clone());
@@ -462,24 +516,37 @@ impl Amcl {
         Ok(Some(Update { estimate, map_from_odom, likelihood, random_share, is_resampled, status }))
     }
 
-    /// Looks for the robot on all of the map, once for each place where odometry has it.
-    fn seek(&mut self, odom_from_base: Pose2, scan: &Scan) -> Result<(), Box<Diagnostic>> {
+    /// Looks for the robot on all of the map, once for each place where odometry has it; whether there
+    /// are places where it may be. A search that takes longer goes on with the next scan.
+    fn seek(&mut self, odom_from_base: Pose2, scan: &Scan) -> Result<bool, Box<Diagnostic>> {
         if !self.settings.starts_anywhere {
             return Err(no_pose());
         }
-        if let Some((place, why)) = &self.sought
-            && !self.is_forced
-            && !has_moved(*place, odom_from_base, self.settings.update_min)
-        {
-            return Err(why.clone());
+        let seen = Seen::new(scan, &self.settings)?;
+        if self.search.is_some() {
+            self.go_on();
+        } else {
+            if let Some((_, why)) = &self.sought
+                && !self.is_forced
+                && !self.is_elsewhere(&seen, odom_from_base)
+            {
+                return Err(why.clone());
+            }
+            self.begin_search(&seen, odom_from_base, 0.0);
         }
-        let found = self.start_anywhere(scan);
+        let Some((peaks, completeness)) = self.take_found(odom_from_base) else {
+            self.status.reason = "the robot is being looked for on all of the map".into();
+            return Ok(false);
+        };
+        let place = self.sought.take().map_or(odom_from_base, |(place, _)| place);
+        let found = self.start_at_peaks(&seen, &peaks, completeness);
         if let Err(why) = &found
             && why.code == FITS_NOWHERE
         {
-            self.sought = Some((odom_from_base, why.clone()));
+            self.sought = Some((place, why.clone()));
+            self.vain += 1;
         }
-        found.map(|_| ())
+        found.map(|()| true)
     }
 
     /// Draws particles anew, each as often as it counts, until there are enough for the bins they

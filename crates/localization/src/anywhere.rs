@@ -1,35 +1,38 @@
 //! Where a robot may be of which nothing is known: where in all of the map its scan fits.
 
-use std::f64::consts::PI;
-
 use periplus_base::Pose2;
-use periplus_matching::{Field, FieldSettings, Peak, Wanted, Window};
+use periplus_matching::Peak;
 
-use crate::known_map::KnownMap;
+use crate::hunt::{Hunt, Pyramid, Wanted as Places};
+use crate::known_map::{CellState, KnownMap};
 
 /// More cells than this and they are taken larger.
 const MOST_CELLS: f64 = 4e6;
+/// Nor more along a side.
+const MOST_ALONG: f64 = 60_000.0;
 /// Finer cells cost time and tell nothing more: particles find the rest.
 const LEAST_CELL_M: f64 = 0.1;
 /// More points cost time and tell nothing more.
-const MOST_POINTS: usize = 90;
-/// Places where a smaller part of the scan fits are none.
-const LEAST_SCORE: f64 = 0.35;
-/// Which places are looked for: those that fit nearly as well as the best may be the one.
-const WANTED: Wanted =
-    Wanted { least: LEAST_SCORE, share: 0.75, most: 200, apart: (0.4, 0.3), most_work: 50_000_000 };
-/// Around a place there are few.
-const WANTED_NEAR: Wanted =
-    Wanted { least: LEAST_SCORE, share: 0.85, most: 6, apart: (0.3, 0.2), most_work: 4_000_000 };
+const MOST_POINTS: usize = 45;
+/// Places where a smaller part of the scan fits are none: with 60 % of it on walls a place has more.
+const LEAST_SCORE: f64 = 0.42;
+/// Places that fit nearly as well as the best may be the one: down to this share of it.
+const SHARE: f64 = 0.8;
+/// Never more places, and of such near to each other the better one.
+const PLACES: Places = Places { most: 200, apart: (0.4, 0.3) };
+/// After so many lookups only what reaches a larger share of the best is wanted, and of a scan, so that
+/// the end comes soon; after twice as many it has come.
+const MOST_WORK: u64 = 16_000_000;
+const NARROW: (f64, f64) = (0.92, 0.5);
+/// Around a place there are few, and they come soon.
+const PLACES_NEAR: Places = Places { most: 6, apart: (0.3, 0.2) };
+const SHARE_NEAR: f64 = 0.85;
+const MOST_WORK_NEAR: u64 = 600_000;
 
 /// A map, prepared for the search on all of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Everywhere {
-    field: Field,
-    cell_m: f64,
-    /// The middle of the map \[m\]: places are counted from it, so that floats suffice.
-    middle: [f64; 2],
-    half_m: [f64; 2],
+    pyramid: Pyramid,
 }
 
 impl Everywhere {
@@ -46,56 +49,68 @@ impl Everywhere {
         let (x_m, half_x_m) = span(corners.map(|corner| corner.0));
         let (y_m, half_y_m) = span(corners.map(|corner| corner.1));
         let least = libm::sqrt(4.0 * half_x_m * half_y_m / MOST_CELLS);
-        let cell_m = lattice.resolution_m.max(LEAST_CELL_M).max(least);
-        let walls: Vec<[f32; 2]> =
-            map.walls().map(|(x, y)| [(x - x_m) as f32, (y - y_m) as f32]).collect();
-        let settings = FieldSettings {
-            resolution_m: cell_m as f32,
-            sigma_m: 1.2 * cell_m as f32,
-            most_half_m: (half_x_m.max(half_y_m) + cell_m) as f32,
-            levels: 6,
-        };
-        let field = Field::new(&walls, [0.0, 0.0], &settings);
-        Self { field, cell_m, middle: [x_m, y_m], half_m: [half_x_m, half_y_m] }
+        let longest = 2.0 * half_x_m.max(half_y_m) / MOST_ALONG;
+        let cell_m = lattice.resolution_m.max(LEAST_CELL_M).max(least).max(longest);
+        let corners = [[x_m - half_x_m, y_m - half_y_m], [x_m + half_x_m, y_m + half_y_m]];
+        let free = map.places(CellState::Free);
+        let pyramid = Pyramid::new(map.walls(), free, corners, cell_m);
+        Self { pyramid }
+    }
+
+    /// Begins to look for where points fit that a scanner saw, in the frame of the base \[m\]. Of
+    /// places that fit less than `least` (0 to 1) nothing is wanted.
+    pub(crate) fn hunt(&self, ends: &[[f32; 2]], least: f64) -> Hunt {
+        let (points, step_rad) = self.thinned(ends);
+        self.pyramid.hunt(&points, step_rad, (least.max(LEAST_SCORE), SHARE), None)
+    }
+
+    /// Goes on for about so many lookups.
+    pub(crate) fn go_on(&self, hunt: &mut Hunt, most: u64) {
+        self.pyramid.go_on(hunt, most, &PLACES);
+        if hunt.work() > MOST_WORK && !hunt.is_done() {
+            hunt.narrow(NARROW.0, NARROW.1);
+        }
+        if hunt.work() > 2 * MOST_WORK {
+            hunt.give_up();
+        }
+    }
+
+    /// Which part of points that a scanner saw fits at a pose, as the search counts it.
+    pub(crate) fn score(&self, ends: &[[f32; 2]], pose: Pose2) -> f64 {
+        let (points, _) = self.thinned(ends);
+        self.pyramid.score(&points, pose)
     }
 
     /// Where points fit that a scanner saw, in the frame of the base \[m\], the best first.
     pub(crate) fn peaks(&self, ends: &[[f32; 2]]) -> Vec<Peak> {
-        self.search(ends, Pose2::IDENTITY, self.half_m, PI, &WANTED)
+        let mut hunt = self.hunt(ends, 0.0);
+        while !hunt.is_done() {
+            self.go_on(&mut hunt, MOST_WORK / 4);
+        }
+        hunt.into_peaks().0
     }
 
-    /// The same not farther from a pose than so, along each axis of the map.
+    /// The same not farther from a pose than so, along each axis of the map and in heading.
     pub(crate) fn peaks_near(
         &self,
         ends: &[[f32; 2]],
         pose: Pose2,
         (half_m, half_rad): (f64, f64),
     ) -> Vec<Peak> {
-        let [x, y] = self.middle;
-        let middle = Pose2::new(pose.x_m - x, pose.y_m - y, pose.yaw_rad);
-        self.search(ends, middle, [half_m; 2], half_rad, &WANTED_NEAR)
+        let (points, step_rad) = self.thinned(ends);
+        let wanted = (LEAST_SCORE, SHARE_NEAR);
+        let mut hunt = self.pyramid.hunt(&points, step_rad, wanted, Some((pose, half_m, half_rad)));
+        self.pyramid.go_on(&mut hunt, MOST_WORK_NEAR, &PLACES_NEAR);
+        hunt.into_peaks().0
     }
 
-    fn search(
-        &self,
-        ends: &[[f32; 2]],
-        middle: Pose2,
-        half_m: [f64; 2],
-        half_rad: f64,
-        wanted: &Wanted,
-    ) -> Vec<Peak> {
+    /// No more points than are useful, and from heading to heading.
+    fn thinned(&self, ends: &[[f32; 2]]) -> (Vec<[f32; 2]>, f64) {
         let every = ends.len().div_ceil(MOST_POINTS).max(1);
         let points: Vec<[f32; 2]> = ends.iter().step_by(every).copied().collect();
         let farthest = points.iter().map(|[x, y]| x * x + y * y).fold(0.0, f32::max).sqrt();
         // The farthest of points moves by one cell from heading to heading.
-        let step_rad = (self.cell_m / f64::from(farthest).max(0.1)).clamp(0.01, 0.1);
-        let half_rad = half_rad.min(PI - 0.5 * step_rad);
-        let window = Window { middle, half_m, half_rad, step_rad };
-        let (mut peaks, _) = self.field.peaks(&points, &window, wanted);
-        for peak in &mut peaks {
-            peak.pose.x_m += self.middle[0];
-            peak.pose.y_m += self.middle[1];
-        }
-        peaks
+        let step_rad = (self.pyramid.cell_m / f64::from(farthest).max(0.1)).clamp(0.02, 0.1);
+        (points, step_rad)
     }
 }

@@ -192,6 +192,17 @@ impl KnownMap {
         state.is_some_and(|state| state != CellState::Unknown)
     }
 
+    /// Whether a point, or one no farther than so along an axis of the map, is in a free cell \[m\].
+    pub(crate) fn is_free_near(&self, x_m: f64, y_m: f64, near_m: f64) -> bool {
+        let (column, row) = self.cell_at(x_m, y_m);
+        let is_free = |cell| self.state(cell) == Some(CellState::Free);
+        // No more than so many cells are asked.
+        let reach = (near_m / self.lattice.resolution_m).min(20.0) as i64;
+        is_free((column, row))
+            || (-reach..=reach)
+                .any(|up| (-reach..=reach).any(|right| is_free((column + right, row + up))))
+    }
+
     /// How far a point of the map is from what scanners see \[m\]; outside of the map as far as can be.
     #[must_use]
     pub fn distance_m(&self, x_m: f64, y_m: f64) -> f64 {
@@ -283,8 +294,13 @@ impl KnownMap {
 
     /// Middles of all occupied cells \[m\].
     pub fn walls(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.places(CellState::Occupied)
+    }
+
+    /// Middles of all cells that say so \[m\].
+    pub(crate) fn places(&self, wanted: CellState) -> impl Iterator<Item = (f64, f64)> + '_ {
         let cells = self.states.iter().enumerate();
-        cells.filter(|(_, state)| **state == CellState::Occupied).map(|(index, _)| {
+        cells.filter(move |(_, state)| **state == wanted).map(|(index, _)| {
             let (column, row) = self.lattice.cell(index);
             self.middle_of((column as i64, row as i64))
         })

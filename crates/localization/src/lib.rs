@@ -50,6 +50,7 @@ mod anywhere;
 mod bins;
 mod evidence;
 mod guess;
+mod hunt;
 mod known_map;
 mod models;
 mod motion;

@@ -217,6 +217,11 @@ impl Settings {
         }
     }
 
+    /// Whether the robot may ever be looked for on all of the map.
+    pub(crate) fn searches(&self) -> bool {
+        self.starts_anywhere || self.seeks_when_lost
+    }
+
     /// How a map is prepared.
     #[must_use]
     pub fn map(&self) -> MapSettings {

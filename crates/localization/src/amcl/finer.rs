@@ -5,11 +5,13 @@ use periplus_diagnostics::Diagnostic;
 use periplus_matching::{Peak, Symmetric3};
 
 use super::astray::{ENOUGH, Followed, TRUSTED_M, Way};
+use super::trust::RIVALLING;
 use super::{Amcl, Estimate, has_moved};
 use crate::anywhere::Everywhere;
 use crate::bins::Cluster;
 use crate::evidence::{agreement, evidence};
 use crate::guess::scatter;
+use crate::hunt::Completeness;
 use crate::known_map::KnownMap;
 use crate::models::Model;
 use crate::particles::{Covariance2, Particles};
@@ -39,6 +41,14 @@ const UNEVEN: (f64, f64) = (0.05, 0.05);
 const EVEN: f64 = 0.005;
 /// Without so much motion the lost are not looked for again \[m\], \[rad\].
 const AGAIN: (f64, f64) = (0.5, 0.5);
+/// Of all of the map so much is searched with a scan, in lookups of points: some milliseconds; more
+/// with the very first one, when nothing is known yet.
+const SLICE: u64 = 1_800_000;
+const FIRST_SLICE: u64 = 13_000_000;
+/// A scan of which such a part of the beams is longer or shorter than this is another one \[m\].
+const CHANGED: (f64, f64) = (0.3, 0.3);
+/// After so much way with several places it is looked for others, too \[m\].
+const STUCK_M: f64 = 4.0;
 /// Who was looked for in vain is looked for less often: after so many times the way at most.
 const SELDOM: u32 = 3;
 /// With a larger share of particles that should be anywhere, the robot is looked for.
@@ -50,9 +60,9 @@ const BETTER: f64 = 0.03;
 /// With a smaller part of what is usual on walls the robot has left the map, or the map is of old:
 /// odometry alone goes on.
 pub(super) const STRAY: f64 = 0.5;
-/// Another place is believed when such a part of what is usual is on walls there, and at least half of
-/// the scan.
-pub(super) const CONVINCING: (f64, f64) = (0.8, 0.5);
+/// Another place is believed when such a part of what is usual is on walls there, and at least so much
+/// of the scan.
+pub(super) const CONVINCING: (f64, f64) = (0.8, 0.6);
 /// Clusters so much less likely than the best (as a logarithm) are left over from before.
 pub(super) const REFUTED: f64 = 4.6;
 
@@ -80,6 +90,60 @@ impl Amcl {
     pub(super) fn look_everywhere(&mut self, seen: &Seen) -> Vec<Peak> {
         let Some(map) = &self.map else { return Vec::new() };
         self.everywhere.get_or_insert_with(|| Everywhere::new(map)).peaks(&seen.ends)
+    }
+
+    /// Begins to look for a scan on all of the map, for what fits more than `least`.
+    pub(super) fn begin_search(&mut self, seen: &Seen, odom_from_base: Pose2, least: f64) {
+        let Some(map) = &self.map else { return };
+        let everywhere = self.everywhere.get_or_insert_with(|| Everywhere::new(map));
+        let hunt = everywhere.hunt(&seen.ends, least);
+        self.search = Some((hunt, odom_from_base));
+        let ranges_m = seen.beams.beams.iter().map(|beam| beam.range_m as f32).collect();
+        self.sought = Some((odom_from_base, super::no_pose()));
+        self.sought_m = ranges_m;
+        self.go_on();
+    }
+
+    /// Goes on with a search that was begun. Its scan may be of some time ago.
+    pub(super) fn go_on(&mut self) {
+        let Some((mut hunt, place)) = self.search.take() else { return };
+        let Some(everywhere) = &self.everywhere else { return };
+        let most = if self.searches == 0 { FIRST_SLICE } else { SLICE };
+        self.searches += 1;
+        let before = hunt.work();
+        everywhere.go_on(&mut hunt, most);
+        self.searched += hunt.work() - before;
+        if hunt.is_done() {
+            let (peaks, completeness) = hunt.into_peaks();
+            self.found = Some((peaks, completeness, place));
+        } else {
+            self.search = Some((hunt, place));
+        }
+    }
+
+    /// What a search has found, where odometry has led to since.
+    pub(super) fn take_found(
+        &mut self,
+        odom_from_base: Pose2,
+    ) -> Option<(Vec<Peak>, Completeness)> {
+        let (mut peaks, completeness, place) = self.found.take()?;
+        let step = place.inverse() * odom_from_base;
+        for peak in &mut peaks {
+            peak.pose = (peak.pose * step).normalized();
+        }
+        Some((peaks, completeness))
+    }
+
+    /// Whether a scan is unlike the one with which it was looked for last.
+    pub(super) fn is_other(&self, seen: &Seen) -> bool {
+        let beams = &seen.beams.beams;
+        let (share, far_m) = CHANGED;
+        let differ = beams
+            .iter()
+            .zip(&self.sought_m)
+            .filter(|(beam, old)| (beam.range_m - f64::from(**old)).abs() > far_m)
+            .count();
+        beams.len() != self.sought_m.len() || differ as f64 > share * beams.len() as f64
     }
 
     /// Particles for places, more where the robot is more likely.
@@ -120,21 +184,41 @@ impl Amcl {
             }
             self.home = Some((known, odom_from_base));
         }
-        self.believe(estimate, rivals, fit);
+        self.believe(estimate, rivals, fit, seen);
     }
 
     /// Makes places what is estimated; `fit` is that of the best.
-    fn believe(&mut self, estimate: &mut Estimate, rivals: Rivals, fit: f64) {
+    pub(super) fn believe(
+        &mut self,
+        estimate: &mut Estimate,
+        rivals: Rivals,
+        fit: f64,
+        seen: &Seen,
+    ) {
         self.particles = self.drawn_from(&rivals);
         let best = rivals.best().known;
         *estimate = self.sum_up();
         estimate.pose = best.pose;
         estimate.clusters = rivals.clusters(self.particles.len());
         self.fine = None;
-        if rivals.is_decided() && fit >= self.convincing() {
+        // With nothing known before there is nothing to lose.
+        let is_decided = rivals.is_decided() || self.home.is_none() && rivals.is_only();
+        if is_decided && fit >= self.convincing() {
+            let is_home = self.home.is_some_and(|(known, _)| is_same(known.pose, best.pose));
+            if !is_home || self.trust.is_open() {
+                self.found_at(best.pose, seen, &rivals);
+            }
             self.home = None;
             // A place that is new has to fit as a whole before it is followed beyond the map.
             self.astray_m = TRUSTED_M;
+            return;
+        }
+        if rivals.are_hopeless() {
+            // It is at none of them.
+            self.trust.open(0);
+            if let Some((known, odom_from_base)) = self.home {
+                self.stay(estimate, known, odom_from_base);
+            }
             return;
         }
         // Nobody is told to be elsewhere before it is certain.
@@ -265,11 +349,14 @@ impl Amcl {
             }
             found.map_or(fit, |found| found.fit)
         };
+        if let Some(map_from_odom) = self.map_from_odom {
+            self.see_at(&seen, (map_from_odom * odom_from_base).normalized(), odom_from_base);
+        }
         self.doubt();
         // What may be the sign of a robot that was carried away is worth the work at once; not so
         // where it has been lost for some time, nor for whoever stands before one that waits.
         self.is_forced |=
-            has_gone && self.status.state == State::Tracking && self.watch.suspects(fit);
+            has_gone && self.base_state() == State::Tracking && self.watch.suspects(fit);
     }
 
     fn told_at(&mut self, map_from_base: Pose2, odom_from_base: Pose2) {
@@ -304,47 +391,98 @@ impl Amcl {
         (best.0, Way::Turned)
     }
 
-    /// A robot of which odometry and the scan say something different is not sure, for the moment.
+    /// A robot of which odometry and the scan say something different is not sure, for the moment; nor
+    /// is one whose place is not proven.
     pub(super) fn doubt(&mut self) {
         if let Some(before) = self.undoubted.take() {
             self.status = before;
         }
-        let Some((off_m, off_rad)) = self.jump.take() else { return };
+        let jump = self.jump.take().map(|(off_m, off_rad)| {
+            format!(
+                "the scan has the robot {off_m:.2} m and {:.0} degrees from where odometry has it",
+                off_rad.to_degrees(),
+            )
+        });
+        let Some(reason) = jump.or_else(|| self.distrust()) else { return };
         if self.status.state == State::Tracking {
             self.undoubted = Some(self.status.clone());
             self.status.state = State::Ambiguous;
-            self.status.reason = format!(
-                "the scan has the robot {off_m:.2} m and {:.0} degrees from where odometry has it",
-                off_rad.to_degrees(),
-            );
+            self.status.reason = reason;
         }
     }
 
-    /// Whether the robot is to be looked for on all of the map.
-    pub(super) fn seeks(&self, random_share: f64, odom_from_base: Pose2) -> bool {
-        let is_lost = self.status.state == State::Lost
-            || random_share > CARRIED
-            || self.watch.suspects(self.status.fit);
+    /// Whether the robot has moved since it was looked for, the further the more often that was in vain,
+    /// or sees something else.
+    pub(super) fn is_elsewhere(&self, seen: &Seen, odom_from_base: Pose2) -> bool {
         let times = f64::from(1 + self.vain.min(SELDOM - 1));
         let again = (times * AGAIN.0, times * AGAIN.1);
-        let is_new =
-            self.sought.as_ref().is_none_or(|(place, _)| has_moved(*place, odom_from_base, again));
-        self.settings.seeks_when_lost && is_lost && is_new
+        self.sought.as_ref().is_none_or(|(place, _)| {
+            has_moved(*place, odom_from_base, again) || self.is_other(seen)
+        })
     }
 
-    /// Looks for a robot that is lost; whether it may be elsewhere.
-    pub(super) fn seek_again(
+    /// Whether the robot is to be looked for on all of the map.
+    fn seeks(&self, seen: &Seen, random_share: f64, odom_from_base: Pose2) -> bool {
+        if !self.settings.seeks_when_lost || self.search.is_some() {
+            return false;
+        }
+        let is_stuck = self.rivals.as_ref().is_none_or(|rivals| rivals.way_m() > STUCK_M);
+        if self.rivals.is_some() && !is_stuck {
+            return false;
+        }
+        let is_lost = self.status.state == State::Lost
+            || random_share > CARRIED
+            || self.watch.suspects(self.status.fit)
+            || self.rivals.is_some();
+        is_lost && self.is_elsewhere(seen, odom_from_base) || self.is_proof_due(odom_from_base)
+    }
+
+    /// Looks for a robot that is lost, or whose place is not proven; whether it may be elsewhere.
+    pub(super) fn look_out(
+        &mut self,
+        estimate: &mut Estimate,
+        seen: &Seen,
+        random_share: f64,
+        odom_from_base: Pose2,
+    ) -> bool {
+        if self.status.state == State::Lost && !self.trust.is_open() {
+            self.trust.open(0);
+        }
+        if self.found.is_none() && self.seeks(seen, random_share, odom_from_base) {
+            // Where the place fits, only what fits nearly as well could be it.
+            let fits = self.status.fit.is_some_and(|fit| fit >= self.convincing());
+            let is_only_proof = self.is_proof_due(odom_from_base) && fits && self.rivals.is_none();
+            let own =
+                self.everywhere.as_ref().map_or(0.0, |it| it.score(&seen.ends, estimate.pose));
+            let least = if is_only_proof { RIVALLING * own } else { 0.0 };
+            self.begin_search(seen, odom_from_base, least);
+        }
+        let Some((peaks, completeness)) = self.take_found(odom_from_base) else { return false };
+        let poses: Vec<Pose2> = peaks.iter().map(|peak| peak.pose).collect();
+        if self.is_unproven()
+            && self.rivals.is_none()
+            && self.prove(seen, estimate.pose, &poses, completeness)
+        {
+            self.vain = 0;
+            return false;
+        }
+        self.vain += 1;
+        self.weigh_found(estimate, seen, odom_from_base, &poses, completeness)
+    }
+
+    /// Whether one of the places that were found may be the right one, rather than where the robot seems
+    /// to be.
+    fn weigh_found(
         &mut self,
         estimate: &mut Estimate,
         seen: &Seen,
         odom_from_base: Pose2,
+        poses: &[Pose2],
+        completeness: Completeness,
     ) -> bool {
-        self.sought = Some((odom_from_base, super::no_pose()));
-        self.vain += 1;
-        let peaks = self.look_everywhere(seen);
         let Some(map) = &self.map else { return false };
-        let poses = peaks.iter().map(|peak| peak.pose);
-        let Some(mut rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses) else {
+        let all = poses.iter().copied();
+        let Some(mut rivals) = Rivals::new(map, &seen.beams, &seen.ends, all, completeness) else {
             return false;
         };
         let least = STRAY * self.watch.usual();
@@ -353,7 +491,7 @@ impl Amcl {
         if !rivals.keep(|place| fits(place.known.pose)) {
             return false;
         }
-        let stays = Rivals::new(map, &seen.beams, &seen.ends, [estimate.pose]);
+        let stays = Rivals::new(map, &seen.beams, &seen.ends, [estimate.pose], completeness);
         // Who never knew cannot have gone off the map from there.
         let knew = self.watch.was_sure();
         if let Some(stays) = stays.filter(|_| knew) {
@@ -365,12 +503,12 @@ impl Amcl {
             return false;
         }
         let is_here = libm::hypot(best.x_m - estimate.pose.x_m, best.y_m - estimate.pose.y_m) < 0.5;
-        if is_here && rivals.is_decided() {
+        if is_here && (rivals.is_decided() || rivals.is_alone()) {
             return false;
         }
         let here = Known { pose: estimate.pose, information: loosely(0.2, 0.1) };
         self.home = knew.then(|| self.fine.unwrap_or((here, odom_from_base)));
-        self.believe(estimate, rivals, fit);
+        self.believe(estimate, rivals, fit, seen);
         true
     }
 }
