@@ -43,8 +43,8 @@ const EVEN: f64 = 0.005;
 const AGAIN: (f64, f64) = (0.5, 0.5);
 /// Of all of the map so much is searched with a scan, in lookups of points: some milliseconds; more
 /// with the very first one, when nothing is known yet.
-const SLICE: u64 = 1_800_000;
-const FIRST_SLICE: u64 = 13_000_000;
+const SLICE: u64 = 1_500_000;
+const FIRST_SLICE: u64 = 11_000_000;
 /// A scan of which such a part of the beams is longer or shorter than this is another one \[m\].
 const CHANGED: (f64, f64) = (0.3, 0.3);
 /// After so much way with several places it is looked for others, too \[m\].

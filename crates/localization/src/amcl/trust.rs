@@ -31,10 +31,10 @@ const OPEN: f64 = 0.25;
 const AGREEING: u32 = 2;
 /// So many where odometry has the robot far from there and off the map, which is where it may well be:
 /// one corridor is like another.
-const AGREEING_FAR: u32 = 4;
+const AGREEING_FAR: u32 = 6;
 /// Places are far from where odometry has the robot beyond this, and this share of the way since its
 /// place was trusted last; or turned further \[m\], \[rad\].
-const FAR: (f64, f64, f64) = (1.0, 0.1, 0.5);
+const FAR: (f64, f64, f64) = (1.5, 0.1, 0.6);
 const LONG_AGO_M: f64 = 10.0;
 /// A longer step of odometry from scan to scan is not known well enough \[m\].
 const LONG_M: f64 = 2.5;
