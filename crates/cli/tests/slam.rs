@@ -239,7 +239,13 @@ fn a_log_whose_scans_fit_nothing_fails() {
     let log = folder.path("unfitting.log");
     std::fs::write(&log, carmen(&moments)).unwrap();
     let mapped = slam(&log, &folder.path("out"));
-    assert_eq!(mapped.code, Some(1), "{:?} {}", mapped.report["lost_scans"], mapped.report["scans"]);
+    assert_eq!(
+        mapped.code,
+        Some(1),
+        "{:?} {}",
+        mapped.report["lost_scans"],
+        mapped.report["scans"]
+    );
     let warnings = mapped.report["warnings"].to_string();
     assert!(warnings.contains("fit nothing that was seen before"), "{warnings}");
 }
