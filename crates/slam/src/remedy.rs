@@ -27,7 +27,9 @@ pub enum Remedy {
 }
 
 /// Mountings are by quarter turns; an angle this near to one is one \[rad\].
-const QUARTER_RAD: f64 = 0.035;
+const QUARTER_RAD: f64 = 0.1;
+/// Smaller angles are told, and left to the person: wheels that pull to one side look the same \[rad\].
+const LEAST_TURN_RAD: f64 = 0.3;
 
 impl Remedy {
     /// What undoes the fault that remarks tell of, if they tell of one.
@@ -51,7 +53,7 @@ impl Remedy {
             .or_else(|| first(|doubt| matches!(doubt, Doubt::Mirrored).then_some(Self::Flip)))
             .or_else(|| {
                 first(|doubt| match *doubt {
-                    Doubt::ScannerTurned(turn_rad) => {
+                    Doubt::ScannerTurned(turn_rad) if turn_rad.abs() > LEAST_TURN_RAD => {
                         let quarter_rad = (turn_rad / FRAC_PI_2).round() * FRAC_PI_2;
                         let is_quarter = (turn_rad - quarter_rad).abs() < QUARTER_RAD;
                         Some(Self::Turn(if is_quarter { quarter_rad } else { turn_rad }))
@@ -183,6 +185,7 @@ mod tests {
         assert_eq!(Remedy::of(&remarks), Some(Remedy::Reverse));
         let turned = [remark(Doubt::ScannerTurned(-FRAC_PI_2 + 0.005))];
         assert_eq!(Remedy::of(&turned), Some(Remedy::Turn(-FRAC_PI_2)));
+        assert_eq!(Remedy::of(&[remark(Doubt::ScannerTurned(0.12))]), None);
         assert_eq!(Remedy::of(&[remark(Doubt::WayScale(1.1))]), None);
     }
 }
