@@ -15,7 +15,7 @@ use periplus_host::Stopwatch;
 use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_slam::{Cure, Mapper, Remedy};
 
-use crate::log::Log;
+use crate::log::{Log, LogOptions};
 use crate::picture::draw_by;
 use crate::{paths, terminal};
 use parameters::Parameters;
@@ -50,57 +50,27 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         return Ok(ExitCode::FAILURE);
     }
     let input = parameters.input(&options.input);
-    let mut log = match Log::open(&options.log, &input)? {
-        Ok(log) => log,
+    let mut run = match map(options, &parameters, &input, None)? {
+        Ok(run) => run,
         Err(why) => {
             terminal::complain(&why);
             return Ok(ExitCode::FAILURE);
         }
     };
-    if log.scans.is_empty() {
-        terminal::complain(&format!("{} holds no scans", options.log.display()));
-        return Ok(ExitCode::FAILURE);
-    }
-    let mut made = match Made::new(options, &parameters) {
-        Ok(made) => made,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
-    // Poses of the session have their places in the trajectory before those of the log.
-    let before = made.mapper().trajectory().len();
-    let loaded_s = watch.elapsed().as_secs_f64();
-    let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
-    let mut drive = drive(&mut made, &mut log, parameters.every(), None, &bar);
-    let mut saved = save(options, &made);
-    let last = Stopwatch::start();
-    made.mapper_mut().finish();
-    let remedy = Remedy::of(made.mapper().remarks()).filter(|_| options.session.is_none());
-    if let Some(remedy) = remedy {
+    let remedy = Remedy::of(run.made.mapper().remarks()).filter(|_| options.session.is_none());
+    if remedy.is_some() {
         // A fault of mounting or axes is certain: the map is made again without it.
-        made = match Made::new(options, &parameters) {
-            Ok(made) => made,
+        drop(run);
+        run = match map(options, &parameters, &input, remedy)? {
+            Ok(run) => run,
             Err(why) => {
                 terminal::complain(&why);
                 return Ok(ExitCode::FAILURE);
             }
         };
-        // Its readings are gone: they are read once more.
-        log = match Log::open(&options.log, &input)? {
-            Ok(log) => log,
-            Err(why) => {
-                terminal::complain(&why);
-                return Ok(ExitCode::FAILURE);
-            }
-        };
-        drive = self::drive(&mut made, &mut log, parameters.every(), Some(remedy), &bar);
-        saved = save(options, &made);
-        made.mapper_mut().finish();
     }
-    bar.finish_and_clear();
+    let Run { log, made, before, spent_s, used, saved, loaded_s, finish_s } = run;
     let slam = made.mapper();
-    let Drive { spent_s, used } = drive;
     let stamps: Vec<&str> = used.iter().map(|&number| log.scans[number].stamp.as_str()).collect();
     let report = Report {
         options,
@@ -108,7 +78,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         parameters: &parameters,
         log: &log,
         loaded_s,
-        finish_s: last.elapsed().as_secs_f64(),
+        finish_s,
         wall_s: watch.elapsed().as_secs_f64(),
         spent_s: &spent_s,
         remedy,
@@ -137,30 +107,54 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// What came of the scans of a log, one by one.
-struct Drive {
+/// A log that was mapped.
+struct Run {
+    /// Without its readings: they are most of it, the map has what it needs of them, and memory is for one of
+    /// both.
+    log: Log,
+    made: Made,
+    /// Poses of the session, which have their places in the trajectory before those of the log.
+    before: usize,
     /// CPU for each scan \[s\].
     spent_s: Vec<f64>,
     /// Which scans have a line in the trajectory.
     used: Vec<usize>,
+    /// Whether the session that is asked for was written.
+    saved: Result<(), String>,
+    /// Reading the log, and the last refinement \[s\].
+    loaded_s: f64,
+    finish_s: f64,
 }
 
-/// Maps a log, with the data corrected when a fault of it is known. Of the log everything is left but the
-/// readings: they are most of it, the map has what it needs of them, and memory is for one of both.
-fn drive(
-    made: &mut Made,
-    log: &mut Log,
-    every: usize,
+/// Maps the log, with its data corrected when a fault of it is known.
+fn map(
+    options: &SlamOptions,
+    parameters: &Parameters,
+    input: &LogOptions,
     remedy: Option<Remedy>,
-    bar: &indicatif::ProgressBar,
-) -> Drive {
-    let slam = made.mapper_mut();
+) -> io::Result<Result<Run, String>> {
+    let watch = Stopwatch::start();
+    let mut log = match Log::open(&options.log, input)? {
+        Ok(log) => log,
+        Err(why) => return Ok(Err(why)),
+    };
+    if log.scans.is_empty() {
+        return Ok(Err(format!("{} holds no scans", options.log.display())));
+    }
+    let mut made = match Made::new(options, parameters) {
+        Ok(made) => made,
+        Err(why) => return Ok(Err(why)),
+    };
+    let before = made.mapper().trajectory().len();
+    let loaded_s = watch.elapsed().as_secs_f64();
+    let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
     let mut cure = remedy.map(Cure::new);
-    let mut drive = Drive { spent_s: Vec::with_capacity(log.scans.len()), used: Vec::new() };
-    for (number, logged) in log.scans.iter_mut().enumerate().step_by(every) {
+    let (mut spent_s, mut used) = (Vec::with_capacity(log.scans.len()), Vec::new());
+    let slam = made.mapper_mut();
+    for (number, logged) in log.scans.iter_mut().enumerate().step_by(parameters.every()) {
         bar.set_position(number as u64);
         let one = Stopwatch::start();
-        let before = slam.counts().ignored;
+        let ignored = slam.counts().ignored;
         let _ = match &mut cure {
             Some(cure) => {
                 let (scan, odom_from_base) = cure.apply(&logged.scan, logged.odom_from_base);
@@ -168,13 +162,18 @@ fn drive(
             }
             None => slam.add_scan(&logged.scan, logged.odom_from_base),
         };
-        drive.spent_s.push(one.elapsed().as_secs_f64());
-        if slam.counts().ignored == before {
-            drive.used.push(number);
+        spent_s.push(one.elapsed().as_secs_f64());
+        if slam.counts().ignored == ignored {
+            used.push(number);
         }
         logged.scan.ranges_m = Vec::new();
     }
-    drive
+    bar.finish_and_clear();
+    let saved = save(options, &made);
+    let last = Stopwatch::start();
+    made.mapper_mut().finish();
+    let finish_s = last.elapsed().as_secs_f64();
+    Ok(Ok(Run { log, made, before, spent_s, used, saved, loaded_s, finish_s }))
 }
 
 /// Writes the session that is asked for.
