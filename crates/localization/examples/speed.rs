@@ -12,9 +12,9 @@ mod worlds;
 
 use std::time::Instant;
 
-use periplus_base::{Pose2, Stream};
-use periplus_localization::{Amcl, Guess, Model, Settings};
-use worlds::{Wanderer, World};
+use periplus_base::Stream;
+use periplus_localization::{Amcl, Model, Settings};
+use worlds::{Wanderer, World, guess};
 
 fn main() {
     println!("| work | map | least ms | median ms |");
@@ -67,10 +67,4 @@ fn main() {
             }
         }
     }
-}
-
-fn guess(pose: Pose2) -> Guess {
-    let mut covariance = [0.0; 36];
-    (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
-    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
 }

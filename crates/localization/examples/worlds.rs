@@ -11,11 +11,11 @@
 #[allow(dead_code, reason = "each tool uses its part")]
 mod worlds;
 
-use periplus_base::{Pose2, Stream};
+use periplus_base::Stream;
 use periplus_diagnostics::Diagnostics;
-use periplus_localization::{Amcl, Guess, Settings, State};
+use periplus_localization::{Amcl, Settings, State};
 use periplus_params::Given;
-use worlds::{Wanderer, World, off};
+use worlds::{Wanderer, World, cpu_s, guess, off};
 
 /// Farther off than this an answer is wrong \[m\], \[rad\].
 const RIGHT: (f64, f64) = (0.5, 0.26);
@@ -194,17 +194,4 @@ fn carried(what: &str, worlds: &[World], settings: &Settings, starts: u64, is_ki
             most(&costs),
         );
     }
-}
-
-/// Seconds of this thread on a CPU: others who want it do not count. Where Linux does not tell, 0.
-fn cpu_s() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let ns: Option<f64> = text.split_whitespace().next().and_then(|it| it.parse().ok());
-    1e-9 * ns.unwrap_or_default()
-}
-
-fn guess(pose: Pose2) -> Guess {
-    let mut covariance = [0.0; 36];
-    (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
-    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
 }

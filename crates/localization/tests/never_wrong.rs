@@ -7,21 +7,15 @@
 #[allow(dead_code, reason = "each test uses its part")]
 mod worlds;
 
-use periplus_base::{Pose2, Stream};
+use periplus_base::Stream;
 use periplus_grid::{OccupancyGrid, occupancy};
-use periplus_localization::{Amcl, Guess, Settings, State};
-use worlds::{Wanderer, World, off};
+use periplus_localization::{Amcl, Settings, State};
+use worlds::{Wanderer, World, guess, off};
 
 /// Scans in which a robot may be sure before it has noticed.
 const NOTICED: usize = 2;
 /// Farther off an answer is wrong \[m\], \[rad\].
 const RIGHT: (f64, f64) = (1.0, 0.52);
-
-fn guess(pose: Pose2) -> Guess {
-    let mut covariance = [0.0; 36];
-    (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
-    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
-}
 
 fn amcl(map: &OccupancyGrid, seed: u64) -> Amcl {
     let mut amcl = Amcl::new(Settings { seed, ..Settings::default() });

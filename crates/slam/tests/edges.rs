@@ -2,14 +2,16 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 
+mod carmen;
 mod worlds;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use carmen::scan_of;
 use periplus_bags::read_carmen;
-use periplus_slam::{Link, Scan, Settings, Slam};
+use periplus_slam::{Link, Settings, Slam};
 use worlds::{ROBOT, World};
 
 /// Edges of a graph as g2o reads it, by the scans that they tie.
@@ -68,19 +70,7 @@ fn the_edges_of_real_logs_are_told() {
         };
         let mut slam = Slam::new(Settings::default());
         for scan in &read_carmen(&text).scans {
-            let odometry = scan.odom_from_base;
-            let scan = Scan {
-                time_ns: (scan.time_s * 1e6).round() as i64 * 1000,
-                base_from_laser: scan.base_from_laser,
-                is_flipped: false,
-                angle_min_rad: scan.angle_min_rad,
-                angle_increment_rad: scan.angle_increment_rad,
-                time_increment_s: 0.0,
-                range_min_m: 0.05,
-                range_max_m: scan.range_max_m,
-                ranges_m: scan.ranges_m.clone(),
-            };
-            let _ = slam.add_scan(&scan, odometry);
+            let _ = slam.add_scan(&scan_of(scan), scan.odom_from_base);
         }
         slam.finish();
         check(&slam, name);

@@ -9,6 +9,7 @@ use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
 use periplus_localization::Scan;
 use periplus_slam::Slam;
 
+use crate::carmen::scan_of;
 use crate::worlds::{Wanderer, World};
 
 /// Ends so near to a wall of the map are on it \[m\].
@@ -45,17 +46,7 @@ impl Course {
         for (number, scan) in scans.step_by(every).enumerate() {
             let Some(odom_from_base) = scan.odom_from_base else { continue };
             let time_ns = number as i64 * 100_000_000;
-            let as_seen = periplus_slam::Scan {
-                time_ns,
-                base_from_laser: scan.base_from_laser,
-                is_flipped: false,
-                angle_min_rad: scan.angle_min_rad,
-                angle_increment_rad: scan.angle_increment_rad,
-                time_increment_s: 0.0,
-                range_min_m: 0.05,
-                range_max_m: scan.range_max_m,
-                ranges_m: scan.ranges_m.clone(),
-            };
+            let as_seen = periplus_slam::Scan { time_ns, ..scan_of(&scan) };
             let _ = slam.add_scan(&as_seen, Some(odom_from_base));
             let scan = Scan {
                 base_from_laser: scan.base_from_laser,

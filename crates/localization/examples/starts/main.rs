@@ -12,6 +12,8 @@
     reason = "a tool that measures time and says how it went"
 )]
 
+#[path = "../../../slam/tests/carmen/mod.rs"]
+mod carmen;
 mod courses;
 mod trials;
 #[path = "../worlds/mod.rs"]

@@ -2,9 +2,10 @@
 
 use periplus_base::{Pose2, Stream, normalize_angle};
 use periplus_grid::OccupancyGrid;
-use periplus_localization::{Amcl, Guess, Settings, State};
+use periplus_localization::{Amcl, Settings, State};
 
 use crate::courses::{Course, Cover, Sight, erased, rearranged};
+use crate::worlds::{cpu_s, guess};
 
 /// Farther off than this an answer is wrong \[m\], \[rad\].
 const RIGHT: (f64, f64) = (1.0, std::f64::consts::FRAC_PI_6);
@@ -329,17 +330,4 @@ impl Tests {
 /// How far apart two poses are: \[m\], \[rad\].
 fn apart(a: Pose2, b: Pose2) -> (f64, f64) {
     ((a.x_m - b.x_m).hypot(a.y_m - b.y_m), normalize_angle(a.yaw_rad - b.yaw_rad).abs())
-}
-
-/// Seconds of this thread on a CPU: others who want it do not count. Where Linux does not tell, 0.
-fn cpu_s() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let ns: Option<f64> = text.split_whitespace().next().and_then(|it| it.parse().ok());
-    1e-9 * ns.unwrap_or_default()
-}
-
-fn guess(pose: Pose2) -> Guess {
-    let mut covariance = [0.0; 36];
-    (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
-    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use periplus_base::{Pose2, Stream, normalize_angle};
 use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
-use periplus_localization::Scan;
+use periplus_localization::{Guess, Scan};
 
 /// Side of a cell of the map \[m\].
 const CELL_M: f64 = 0.05;
@@ -335,4 +335,19 @@ impl Wanderer {
 pub(crate) fn off(truth: Pose2, found: Pose2) -> (f64, f64) {
     let error = truth.inverse() * found;
     (libm::hypot(error.x_m, error.y_m), normalize_angle(error.yaw_rad).abs())
+}
+
+/// Seconds of this thread on a CPU: others who want it do not count. Where Linux does not tell, 0.
+#[allow(clippy::disallowed_methods, reason = "it measures")]
+pub(crate) fn cpu_s() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let ns: Option<f64> = text.split_whitespace().next().and_then(|it| it.parse().ok());
+    1e-9 * ns.unwrap_or_default()
+}
+
+/// What somebody says who points at the robot on the map.
+pub(crate) fn guess(pose: Pose2) -> Guess {
+    let mut covariance = [0.0; 36];
+    (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
+    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
 }

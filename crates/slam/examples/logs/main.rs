@@ -8,6 +8,8 @@
     reason = "a tool that reads logs, measures time and says how it went"
 )]
 
+#[path = "../../tests/carmen/mod.rs"]
+mod carmen;
 mod perturb;
 
 use std::collections::BTreeMap;
@@ -19,10 +21,11 @@ use periplus_base::Pose2;
 use periplus_diagnostics::Diagnostics;
 use periplus_params::{Given, Values};
 use periplus_slam::{
-    Cure, Gmapping, GmappingSettings, Mapper, Method, Miss, Relation, Remedy, Scan, Score,
-    Settings, Slam, Stamped, misses, read_relations, score,
+    Cure, Gmapping, GmappingSettings, Mapper, Method, Miss, Relation, Remedy, Score, Settings,
+    Slam, Stamped, misses, read_relations, score,
 };
 
+use carmen::scan_of;
 use perturb::{Copy, RUNS, perturbed};
 
 /// A map whose loops are off by more in the mean is wrong \[m\].
@@ -146,17 +149,7 @@ fn drive(slam: &mut dyn Mapper, copy: &Copy, remedy: Option<Remedy>) -> (Vec<u64
     for scan in &copy.scans {
         let begin = cpu_ns();
         let mut odometry = scan.odom_from_base;
-        let mut scan = Scan {
-            time_ns: (scan.time_s * 1e6).round() as i64 * 1000,
-            base_from_laser: scan.base_from_laser,
-            is_flipped: false,
-            angle_min_rad: scan.angle_min_rad,
-            angle_increment_rad: scan.angle_increment_rad,
-            time_increment_s: 0.0,
-            range_min_m: 0.05,
-            range_max_m: scan.range_max_m,
-            ranges_m: scan.ranges_m.clone(),
-        };
+        let mut scan = scan_of(scan);
         if let Some(cure) = &mut cure {
             (scan, odometry) = cure.apply(&scan, odometry);
         }

@@ -265,6 +265,22 @@ impl Cells {
     }
 
     /// What beams said of a cell.
+    /// A map with one scan from the origin, of walls at these points.
+    #[cfg(test)]
+    pub(super) fn of_points(points: &[periplus_matching::Point]) -> Self {
+        let beams = super::beams::Beams {
+            points: points.to_vec(),
+            hits: points.iter().map(|it| [it.x, it.y]).collect(),
+            rims: Vec::new(),
+            origin: [0.0; 2],
+        };
+        let mut cells = Self::new(0.05, 0.1);
+        let mut trace = Trace::default();
+        trace.fill(&beams, Pose2::IDENTITY, cells.per_m());
+        cells.draw(&trace);
+        cells
+    }
+
     #[cfg(test)]
     pub(super) fn cell(&self, column: i32, row: i32) -> Cell {
         self.tile(column, row).map_or(Cell::default(), |tile| tile.cell(cell_index(column, row)))

@@ -191,8 +191,6 @@ impl Fit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gmapping::beams::Beams;
-    use crate::gmapping::trace::Trace;
 
     /// A square room of 4 m around the origin, seen from its middle.
     fn room() -> (Cells, Vec<Point>) {
@@ -209,17 +207,7 @@ mod tests {
                 });
             }
         }
-        let beams = Beams {
-            points: points.clone(),
-            hits: points.iter().map(|it| [it.x, it.y]).collect(),
-            rims: Vec::new(),
-            origin: [0.0; 2],
-        };
-        let mut cells = Cells::new(0.05, 0.1);
-        let mut trace = Trace::default();
-        trace.fill(&beams, Pose2::IDENTITY, cells.per_m());
-        cells.draw(&trace);
-        (cells, points)
+        (Cells::of_points(&points), points)
     }
 
     fn guess(x_m: f64, y_m: f64, yaw_rad: f64) -> Guess {

@@ -163,10 +163,8 @@ mod tests {
     use periplus_matching::Point;
 
     use super::*;
-    use crate::gmapping::beams::Beams;
     use crate::gmapping::cells::Cells;
     use crate::gmapping::fit::climb;
-    use crate::gmapping::trace::Trace;
 
     #[test]
     fn draws_have_the_covariance_that_was_asked_for() {
@@ -191,17 +189,7 @@ mod tests {
                 [1.22, -1.22_f32].map(|y| Point { x, y, nx: 0.0, ny: -y.signum() })
             })
             .collect();
-        let beams = Beams {
-            points: points.clone(),
-            hits: points.iter().map(|it| [it.x, it.y]).collect(),
-            rims: Vec::new(),
-            origin: [0.0; 2],
-        };
-        let mut cells = Cells::new(0.05, 0.1);
-        let mut trace = Trace::default();
-        trace.fill(&beams, Pose2::IDENTITY, cells.per_m());
-        cells.draw(&trace);
-        (cells, points)
+        (Cells::of_points(&points), points)
     }
 
     #[test]
