@@ -8,25 +8,20 @@
 use std::collections::BTreeMap;
 
 use periplus_base::Pose2;
-use periplus_matching::{Agreement, agreement};
+use periplus_matching::Agreement;
 
 use crate::graph::Graph;
 use crate::key::Key;
-use crate::local::apart;
+use crate::local::{apart, both_ways};
 
 /// A stretch of the way that contradicts what another pass saw.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contradiction {
+pub(crate) struct Contradiction {
     /// Kept scans at its ends.
-    pub keys: (usize, usize),
-    /// Kept scan of the other pass, nearest to its middle.
-    pub other: usize,
+    pub(crate) keys: (usize, usize),
     /// Its middle in the map \[m, rad\].
-    pub map_from_base: Pose2,
+    pub(crate) map_from_base: Pose2,
     /// Share of the points that both passes can judge and that agree.
-    pub agreeing: f64,
-    /// Its length \[m\].
-    pub way_m: f64,
+    pub(crate) agreeing: f64,
 }
 
 /// Scans of different passes this near to each other are held against each other \[m\]. A turn of a radian
@@ -48,7 +43,6 @@ const PASSES: usize = 2;
 /// A scan held against another pass.
 struct Held {
     key: usize,
-    other: usize,
     sum: Agreement,
 }
 
@@ -66,21 +60,16 @@ pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
             end += 1;
         }
         if sum.judged() > JUDGED && sum.share() < AGREEING {
-            let middle = &held[(start + end) / 2];
             let next = Contradiction {
                 keys: (held[start].key, held[end - 1].key),
-                other: middle.other,
-                map_from_base: graph.poses[middle.key],
+                map_from_base: graph.poses[held[(start + end) / 2].key],
                 agreeing: sum.share(),
-                way_m: keys[held[end - 1].key].travel_m - from_m,
             };
             match found.last_mut() {
                 Some(last) if next.keys.0 <= last.keys.1 + 1 => {
                     last.keys.1 = next.keys.1;
-                    last.way_m = keys[last.keys.1].travel_m - keys[last.keys.0].travel_m;
                     if next.agreeing < last.agreeing {
-                        (last.agreeing, last.other) = (next.agreeing, next.other);
-                        last.map_from_base = next.map_from_base;
+                        (last.agreeing, last.map_from_base) = (next.agreeing, next.map_from_base);
                     }
                 }
                 _ => found.push(next),
@@ -125,9 +114,7 @@ fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
             tried.push(way_m);
             let other_from_key = graph.between(other, key);
             let (new, old) = (keys[key].cloud(), keys[other].cloud());
-            let mut sum = agreement(&new, &old, other_from_key, TOLERANCE_M);
-            sum += agreement(&old, &new, other_from_key.inverse(), TOLERANCE_M);
-            all.push(Held { key, other, sum });
+            all.push(Held { key, sum: both_ways(&new, &old, other_from_key, TOLERANCE_M) });
             if tried.len() >= PASSES {
                 break;
             }
@@ -157,8 +144,7 @@ pub(crate) fn overlap(
         let Some(other) = nearest.filter(|it| distance(it) < 2.0 * NEAR_M) else { continue };
         let other_from_key = graph.between(other, key);
         let (a, b) = (keys[key].cloud(), keys[other].cloud());
-        sum += agreement(&a, &b, other_from_key, TOLERANCE_M);
-        sum += agreement(&b, &a, other_from_key.inverse(), TOLERANCE_M);
+        sum += both_ways(&a, &b, other_from_key, TOLERANCE_M);
     }
     sum
 }

@@ -40,7 +40,6 @@ mod settings;
 pub mod tables;
 mod wheels;
 
-pub use audit::Contradiction;
 pub use doubts::{Doubt, Remark};
 pub use engine::{Counts, Held, Link, Slam, Taken, Update};
 pub use gmapping::{Gmapping, GmappingSettings, Noise};

@@ -307,9 +307,15 @@ fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agre
     let mut sum = Agreement::default();
     for one in group.iter().take(3) {
         let one_from_cloud = one.group_from_cloud.inverse() * group_from_cloud;
-        sum += agreement(cloud, one.cloud, one_from_cloud, TOLERANCE_M);
-        sum += agreement(one.cloud, cloud, one_from_cloud.inverse(), TOLERANCE_M);
+        sum += both_ways(cloud, one.cloud, one_from_cloud, TOLERANCE_M);
     }
+    sum
+}
+
+/// Two scans held against each other: what each sees of the points of the other.
+pub(crate) fn both_ways(a: &Cloud, b: &Cloud, b_from_a: Pose2, tolerance_m: f32) -> Agreement {
+    let mut sum = agreement(a, b, b_from_a, tolerance_m);
+    sum += agreement(b, a, b_from_a.inverse(), tolerance_m);
     sum
 }
 

@@ -15,14 +15,12 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use periplus_base::{Pose2, normalize_angle};
-use periplus_matching::{
-    Agreement, Field, Fit, Placed, Prior, Symmetric3, Window, agreement, register,
-};
+use periplus_matching::{Agreement, Field, Fit, Placed, Prior, Symmetric3, Window, register};
 
 use crate::drift::{Sighting, from_here, reversed};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
-use crate::local::{Group, apart, close_by, floored, grouped, heading_step, points_of};
+use crate::local::{Group, apart, both_ways, close_by, floored, grouped, heading_step, points_of};
 use crate::settings::Settings;
 
 /// Length of a stretch that is searched for, and from one search to the next \[m\].
@@ -563,9 +561,9 @@ impl Loops {
         }
     }
 
-    /// A closure is part of the map no more.
-    pub(crate) fn disbelieve(&mut self, edge: &Edge, reason: &str) {
-        for told in self.told_of(std::slice::from_ref(edge)) {
+    /// Closures are part of the map no more.
+    pub(crate) fn disbelieve(&mut self, edges: &[Edge], reason: &str) {
+        for told in self.told_of(edges) {
             told.is_accepted = false;
             told.reason = reason.to_owned();
         }
@@ -621,8 +619,7 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, other) in near.iter().take(3) {
             let other_from_one = other.group_from_cloud.inverse() * old_from_one;
-            sum += agreement(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
-            sum += agreement(other.cloud, one.cloud, other_from_one.inverse(), TOLERANCE_M);
+            sum += both_ways(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
         }
     }
     let share = sum.share();
@@ -666,8 +663,9 @@ fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {
     found
 }
 
-/// Whether two closures agree over the ways between them, by squared Mahalanobis distance: from the one old place along the old way to the other, by its closure to the new way, back along
-/// it, and by the first closure home. (Pairwise consistency: Mangelson et al. 2018.)
+/// Whether two closures agree over the ways between them, by squared Mahalanobis distance: from the one
+/// old place along the old way to the other, by its closure to the new way, back along it, and by the
+/// first closure home. (Pairwise consistency: Mangelson et al. 2018.)
 fn consistency(
     a: &Candidate,
     b: &Candidate,

@@ -1,12 +1,14 @@
 //! Ties to old scans at places that are known well enough to compare directly.
 
 use periplus_base::normalize_angle;
-use periplus_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, agreement, register};
+use periplus_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, register};
 
 use crate::drift::{Sighting, within};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
-use crate::local::{apart, close_by, floored, grouped, heading_step, points_of, sampled};
+use crate::local::{
+    apart, both_ways, close_by, floored, grouped, heading_step, points_of, sampled,
+};
 use crate::settings::Settings;
 
 /// A place is known well enough when its uncertainty is below this \[m\] (a turn counted with it).
@@ -144,8 +146,7 @@ pub(crate) fn tie(
     let mut sum = Agreement::default();
     for one in &group {
         let one_from_key = one.group_from_cloud.inverse() * found;
-        sum += agreement(cloud, one.cloud, one_from_key, TOLERANCE_M);
-        sum += agreement(one.cloud, cloud, one_from_key.inverse(), TOLERANCE_M);
+        sum += both_ways(cloud, one.cloud, one_from_key, TOLERANCE_M);
     }
     if sum.judged() < JUDGED || sum.share() < AGREEING {
         return None;

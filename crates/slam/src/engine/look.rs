@@ -55,11 +55,12 @@ pub(super) fn per_second(motion: Pose2, seconds: f64) -> Option<Pose2> {
 impl Slam {
     /// Looks for a scan among those just before.
     pub(super) fn look(&self, scan: &Scan, last: &Last, told: Option<Pose2>, seconds: f64) -> Look {
-        let motion = told.or_else(|| {
-            let before = last.motion.filter(|_| seconds > 0.0 && seconds < RECENT_S)?;
-            Some(Pose2::new(before.x_m * seconds, before.y_m * seconds, before.yaw_rad * seconds))
-        });
-        let motion = motion.unwrap_or(Pose2::IDENTITY);
+        // As the robot moved before.
+        let inertia = last
+            .motion
+            .filter(|_| seconds > 0.0 && seconds < RECENT_S)
+            .map(|it| Pose2::new(it.x_m * seconds, it.y_m * seconds, it.yaw_rad * seconds));
+        let motion = told.or(inertia).unwrap_or(Pose2::IDENTITY);
         let covariance =
             if told.is_some() { self.trust.covariance(motion, seconds) } else { Trust::blind() };
         let ends = scan.ends(per_second(motion, seconds), self.settings.used_m());
@@ -95,10 +96,6 @@ impl Slam {
         let turned = covariance.turned(last.key_from_base.yaw_rad);
         let searches = told.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
         let mut found = locate(cloud, &group, expected, &turned, settings, searches, self.usual);
-        let inertia = last
-            .motion
-            .filter(|_| seconds > 0.0 && seconds < RECENT_S)
-            .map(|it| Pose2::new(it.x_m * seconds, it.y_m * seconds, it.yaw_rad * seconds));
         let is_against_inertia = |inertia: &Pose2| {
             let (metres, radians) = apart(motion, *inertia);
             metres > SEARCH_M || radians > SEARCH_RAD

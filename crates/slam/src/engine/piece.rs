@@ -2,16 +2,17 @@
 //! of the log is missing. Then a new piece begins, and only closures join it to the rest.
 
 use periplus_base::Pose2;
-use periplus_matching::Symmetric3;
+use periplus_matching::{Cloud, Symmetric3};
 
 use super::{Last, Look, Slam, TURN_WAY_M, Taken, drawn};
 use crate::doubts::Doubt;
 use crate::graph::{Edge, Kind};
 use crate::key::{Key, Track};
 use crate::local::apart;
-use crate::scan::Scan;
+use crate::scan::{Ends, Scan};
 
-/// Old scans are old ones after so much way \[m\].
+/// The robot was set elsewhere: as far away as this from what was before, by way \[m\]. Old scans are
+/// then old ones, to be tied to.
 const CARRIED_M: f64 = 30.0;
 /// After so long a time without scans the robot may be anywhere \[s\].
 const GAP_S: f64 = 10.0;
@@ -62,25 +63,38 @@ impl Slam {
         let Some(last) = &self.last else { return Taken::Lost };
         self.strange = Strange::default();
         let key_from_base = (last.key_from_base * look.motion).normalized();
-        let new = self.graph.add_pose((self.graph.poses[last.key] * key_from_base).normalized());
-        let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;
-        self.keys.push(Key::new(&look.cloud, drawn(&look.ends, &self.settings), travel_m));
-        self.graph.add_edge(Edge::gap((last.key, new), key_from_base));
+        let before = last.key;
+        let pose = (self.graph.poses[before] * key_from_base).normalized();
+        let new = self.set_down((scan.time_ns, odom_from_base), (&look.cloud, &look.ends), pose);
+        self.graph.add_edge(Edge::gap((before, new), key_from_base));
         self.piece = new;
-        self.doubts.begin(odom_from_base);
         self.doubts.remark(scan.time_ns, Doubt::Carried);
+        Taken::Kept
+    }
+
+    /// Keeps a scan at a place that the robot did not drive to, and goes on from there; gives its key.
+    pub(super) fn set_down(
+        &mut self,
+        (time_ns, odom_from_base): (i64, Option<Pose2>),
+        (cloud, ends): (&Cloud, &Ends),
+        map_from_base: Pose2,
+    ) -> usize {
+        let new = self.graph.add_pose(map_from_base);
+        let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;
+        self.keys.push(Key::new(cloud, drawn(ends, &self.settings), travel_m));
+        self.doubts.begin(odom_from_base);
         self.loops.restart(new, travel_m);
         let here = Pose2::IDENTITY;
-        self.tracks.push(Track { time_ns: scan.time_ns, key: new, key_from_base: here });
+        self.tracks.push(Track { time_ns, key: new, key_from_base: here });
         self.last = Some(Last {
-            time_ns: scan.time_ns,
+            time_ns,
             odom_from_base,
             key: new,
             key_from_base: here,
             motion: None,
             covariance: Symmetric3::ZERO,
         });
-        Taken::Kept
+        new
     }
 
     /// First scans of all pieces that no closure joins to those before.

@@ -5,16 +5,12 @@ use std::collections::BTreeMap;
 use periplus_base::Pose2;
 use periplus_matching::{Placed, Prior, Symmetric3, register};
 
-use super::{LEAST_POINTS, Last, Slam, Taken, drawn};
+use super::{LEAST_POINTS, Slam, Taken};
 use crate::graph::{Edge, Kind};
-use crate::key::{Key, Track};
 use crate::local::{apart, close_by, floored, grouped, locate};
 use crate::loops::Closure;
 use crate::scan::Scan;
 
-/// The robot was set elsewhere: as far away as this from what was before, by way \[m\]. Old scans are
-/// then old ones, to be tied to.
-const CARRIED_M: f64 = 30.0;
 /// Scans this near look at the same things \[m\].
 const REACH_M: f64 = 5.0;
 /// Scans within this way of each other belong together anyway \[m\].
@@ -71,25 +67,11 @@ impl Slam {
             let found = locate(&cloud, &group, expected, &turned, &self.settings, true, self.usual);
             (found.fit.target_from_moving, found.information, found.doubted, found.is_matched)
         };
-        self.doubts.begin(odom_from_base);
         let pose = (map_from_key * key_from_base).normalized();
-        let new = self.graph.add_pose(pose);
-        let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;
-        self.keys.push(Key::new(&cloud, drawn(&ends, &self.settings), travel_m));
+        let new = self.set_down((scan.time_ns, odom_from_base), (&cloud, &ends), pose);
         let edge = Edge::new((key, new), key_from_base, floored(&information), Kind::Chain);
         self.graph.add_edge(edge.doubting(&floored(&doubted)));
-        self.loops.restart(new, travel_m);
         self.work.ties.push_back(new);
-        let here = Pose2::IDENTITY;
-        self.tracks.push(Track { time_ns: scan.time_ns, key: new, key_from_base: here });
-        self.last = Some(Last {
-            time_ns: scan.time_ns,
-            odom_from_base,
-            key: new,
-            key_from_base: here,
-            motion: None,
-            covariance: Symmetric3::ZERO,
-        });
         // A scan that fits nothing is kept all the same: somebody knows where it is.
         if is_matched || near.is_empty() { Taken::Kept } else { Taken::Lost }
     }

@@ -1,8 +1,6 @@
 //! Closures on trial when all scans are in: those that lacked a witness when the log ended are tried, and
 //! those that the rest of the map pulls at are left out in turn. What the map says of itself decides.
 
-use periplus_base::Pose2;
-
 use super::Slam;
 use crate::audit::{audit, overlap};
 use crate::graph::{Edge, Kind};
@@ -62,15 +60,9 @@ impl Slam {
             );
             self.loops.believe(&edge, how);
         } else {
-            self.leave_out(index, poses);
+            self.undo(&poses, &[index]);
         }
         is_kept
-    }
-
-    fn leave_out(&mut self, edge: usize, poses: Vec<Pose2>) {
-        self.graph.edges[edge].weight = 0.0;
-        self.graph.poses[..poses.len()].copy_from_slice(&poses);
-        self.graph.hang(poses.len());
     }
 
     /// Leaves out closures in turn where passes contradict each other, and those that the others pull at.
@@ -92,7 +84,7 @@ impl Slam {
                     "left out when all scans were in: the others pulled at it (squared distance \
                      {chi2:.0}), and without it fewer passes contradict each other"
                 );
-                self.loops.disbelieve(&edge, &reason);
+                self.loops.disbelieve(&[edge], &reason);
             } else {
                 self.graph.edges[index].weight = edge.weight;
                 self.graph.poses = poses;

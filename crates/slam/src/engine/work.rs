@@ -5,11 +5,11 @@ mod state;
 use std::collections::VecDeque;
 
 use periplus_base::Pose2;
-use periplus_matching::{Agreement, agreement};
+use periplus_matching::Agreement;
 
 use super::Slam;
 use crate::graph::{Edge, Kind, Outcome, Saved, Size, Solver};
-use crate::local::apart;
+use crate::local::{apart, both_ways};
 use crate::loops::Loops;
 use crate::near::ties;
 
@@ -195,21 +195,12 @@ impl Slam {
         let sum = self.overlap();
         let closed: Vec<Edge> = edges.iter().map(|&edge| self.graph.edges[edge]).collect();
         if sum.judged() > JUDGED && sum.share() < AGREEING {
-            for &edge in edges {
-                self.graph.edges[edge].weight = 0.0;
-            }
-            for (pose, old) in self.graph.poses.iter_mut().zip(&before) {
-                *pose = *old;
-            }
-            // Keys that came in the meantime hang on the chain.
-            self.graph.hang(before.len());
-            for told in self.loops.told_of(&closed) {
-                told.is_accepted = false;
-                told.reason = format!(
-                    "undone: in the map that came of it {:.0} % of the points were seen through",
-                    100.0 * (1.0 - sum.share())
-                );
-            }
+            self.undo(&before, edges);
+            let reason = format!(
+                "undone: in the map that came of it {:.0} % of the points were seen through",
+                100.0 * (1.0 - sum.share())
+            );
+            self.loops.disbelieve(&closed, &reason);
             return;
         }
         let how = format!(
@@ -222,6 +213,16 @@ impl Slam {
         self.loops.forget();
         let first = self.keys.len().saturating_sub(LOOKED_AT);
         self.work.ties.extend(first..self.keys.len());
+    }
+
+    /// Goes back to the poses before some edges were on trial, which count no more.
+    pub(super) fn undo(&mut self, before: &[Pose2], edges: &[usize]) {
+        for &edge in edges {
+            self.graph.edges[edge].weight = 0.0;
+        }
+        self.graph.poses[..before.len()].copy_from_slice(before);
+        // Keys that came in the meantime hang on the chain.
+        self.graph.hang(before.len());
     }
 
     /// Holds the newest way against the old scans that it now lies on.
@@ -239,8 +240,7 @@ impl Slam {
             for &(_, old) in near.iter().take(2) {
                 let old_from_key = self.graph.between(old, key);
                 let (a, b) = (self.keys[key].cloud(), self.keys[old].cloud());
-                sum += agreement(&a, &b, old_from_key, 0.25);
-                sum += agreement(&b, &a, old_from_key.inverse(), 0.25);
+                sum += both_ways(&a, &b, old_from_key, 0.25);
             }
         }
         sum
