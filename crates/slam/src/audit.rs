@@ -15,9 +15,14 @@ use crate::key::Key;
 use crate::local::{apart, both_ways};
 
 /// A stretch of the way that contradicts what another pass saw.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Contradiction {
     /// Kept scans at its ends.
     pub(crate) keys: (usize, usize),
+    /// Kept scans at the ends of the stretch of the other pass.
+    pub(crate) others: (usize, usize),
+    /// The kept scan in its middle.
+    pub(crate) middle: usize,
     /// Its middle in the map \[m, rad\].
     pub(crate) map_from_base: Pose2,
     /// Share of the points that both passes can judge and that agree.
@@ -26,7 +31,7 @@ pub(crate) struct Contradiction {
 
 /// Scans of different passes this near to each other are held against each other \[m\]. A turn of a radian
 /// counts as so much way \[m\].
-const NEAR_M: f64 = 2.5;
+pub(crate) const NEAR_M: f64 = 2.5;
 const TURN_M: f64 = 0.5;
 /// Way between two scans before they belong to different passes \[m\].
 const OTHER_PASS_M: f64 = 12.0;
@@ -41,14 +46,21 @@ const AGREEING: f64 = 0.7;
 const PASSES: usize = 2;
 
 /// A scan held against another pass.
-struct Held {
-    key: usize,
-    sum: Agreement,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Held {
+    pub(crate) key: usize,
+    pub(crate) other: usize,
+    pub(crate) other_from_key: Pose2,
+    pub(crate) sum: Agreement,
 }
 
 /// All stretches that contradict another pass, in the order of the way.
 pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
-    let held = passes(keys, graph);
+    contradictions(&passes(keys, graph), keys, graph)
+}
+
+/// The same of scans that were held against each other before, in the order of the way.
+pub(crate) fn contradictions(held: &[Held], keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
     let mut found: Vec<Contradiction> = Vec::new();
     let mut start = 0;
     while start < held.len() {
@@ -60,16 +72,19 @@ pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
             end += 1;
         }
         if sum.judged() > JUDGED && sum.share() < AGREEING {
+            let middle = held[(start + end) / 2].key;
             let next = Contradiction {
                 keys: (held[start].key, held[end - 1].key),
-                map_from_base: graph.poses[held[(start + end) / 2].key],
+                others: other_stretch(&held[start..end], keys),
+                middle,
+                map_from_base: graph.poses[middle],
                 agreeing: sum.share(),
             };
             match found.last_mut() {
                 Some(last) if next.keys.0 <= last.keys.1 + 1 => {
                     last.keys.1 = next.keys.1;
                     if next.agreeing < last.agreeing {
-                        (last.agreeing, last.map_from_base) = (next.agreeing, next.map_from_base);
+                        *last = Contradiction { keys: last.keys, ..next };
                     }
                 }
                 _ => found.push(next),
@@ -87,6 +102,15 @@ pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
     found
 }
 
+/// The stretch of the other pass that a stretch contradicts most.
+fn other_stretch(held: &[Held], keys: &[Key]) -> (usize, usize) {
+    let worst = held.iter().max_by_key(|it| it.sum.contradicting).map_or(0, |it| it.other);
+    let is_same =
+        |other: &usize| (keys[*other].travel_m - keys[worst].travel_m).abs() < OTHER_PASS_M;
+    let others = || held.iter().map(|it| it.other).filter(is_same);
+    (others().min().unwrap_or(worst), others().max().unwrap_or(worst))
+}
+
 /// Each scan against the nearest ones of earlier passes.
 fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
     let cell =
@@ -94,34 +118,52 @@ fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
     let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
     let mut all = Vec::new();
     for key in 0..keys.len() {
-        let pose = graph.poses[key];
-        let (column, row) = cell(pose);
-        let mut near: Vec<(f64, usize)> = Vec::new();
-        for there in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y))) {
-            near.extend(cells.get(&there).into_iter().flatten().filter_map(|&other| {
-                let (metres, radians) = apart(pose, graph.poses[other]);
-                let is_other = keys[key].travel_m - keys[other].travel_m > OTHER_PASS_M;
-                (is_other && metres < NEAR_M).then_some((metres + TURN_M * radians, other))
-            }));
-        }
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut tried: Vec<f64> = Vec::new();
-        for (_, other) in near {
-            let way_m = keys[other].travel_m;
-            if tried.iter().any(|it| (it - way_m).abs() < OTHER_PASS_M) {
-                continue;
-            }
-            tried.push(way_m);
-            let other_from_key = graph.between(other, key);
-            let (new, old) = (keys[key].cloud(), keys[other].cloud());
-            all.push(Held { key, sum: both_ways(&new, &old, other_from_key, TOLERANCE_M) });
-            if tried.len() >= PASSES {
-                break;
-            }
+        let (column, row) = cell(graph.poses[key]);
+        let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y)));
+        let near = around.filter_map(|there| cells.get(&there)).flatten().copied();
+        for other in other_passes(keys, graph, key, near) {
+            all.push(hold(keys, graph, key, other));
         }
         cells.entry((column, row)).or_default().push(key);
     }
     all
+}
+
+/// The nearest scans of earlier passes, one of each, among some.
+pub(crate) fn other_passes(
+    keys: &[Key],
+    graph: &Graph,
+    key: usize,
+    among: impl Iterator<Item = usize>,
+) -> Vec<usize> {
+    let pose = graph.poses[key];
+    let mut near: Vec<(f64, usize)> = among
+        .filter_map(|other| {
+            let (metres, radians) = apart(pose, graph.poses[other]);
+            let is_other = keys[key].travel_m - keys[other].travel_m > OTHER_PASS_M;
+            (is_other && metres < NEAR_M).then_some((metres + TURN_M * radians, other))
+        })
+        .collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut chosen: Vec<usize> = Vec::new();
+    for (_, other) in near {
+        let is_same = |it: &usize| (keys[*it].travel_m - keys[other].travel_m).abs() < OTHER_PASS_M;
+        if !chosen.iter().any(is_same) {
+            chosen.push(other);
+            if chosen.len() >= PASSES {
+                break;
+            }
+        }
+    }
+    chosen
+}
+
+/// A scan held against one of another pass.
+pub(crate) fn hold(keys: &[Key], graph: &Graph, key: usize, other: usize) -> Held {
+    let other_from_key = graph.between(other, key);
+    let (new, old) = (keys[key].cloud(), keys[other].cloud());
+    let sum = both_ways(&new, &old, other_from_key, TOLERANCE_M);
+    Held { key, other, other_from_key, sum }
 }
 
 /// Scans around one kept scan held against those around another, both ways.

@@ -354,6 +354,17 @@ impl Doubts {
         self.doubts().into_iter().find(|it| !self.told.contains(&std::mem::discriminant(it)))
     }
 
+    /// What has been told and still holds, with the time at which it was told.
+    pub(crate) fn holding(&self) -> Vec<Remark> {
+        let told = |doubt: Doubt| {
+            let kind = std::mem::discriminant(&doubt);
+            let is_it = |it: &&Remark| std::mem::discriminant(&it.doubt) == kind;
+            let remark = self.remarks.iter().rev().find(is_it)?;
+            Some(Remark { time_ns: remark.time_ns, doubt })
+        };
+        self.doubts().into_iter().filter_map(told).collect()
+    }
+
     fn doubts(&self) -> Vec<Doubt> {
         let mut doubts = Vec::new();
         let has_turned = self.turn_rad > LEAST_TURN_RAD;

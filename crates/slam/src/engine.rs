@@ -1,5 +1,6 @@
 //! Scans in, poses out.
 
+mod live_audit;
 mod look;
 mod piece;
 mod place;
@@ -25,6 +26,9 @@ use crate::scan::{Ends, Scan};
 use crate::settings::Settings;
 use crate::wheels::{Belief, Wheels};
 
+pub use live_audit::MapContradiction;
+
+use live_audit::LiveAudit;
 use look::{Look, per_second};
 use piece::Strange;
 use work::Work;
@@ -124,6 +128,9 @@ pub struct Slam {
     doubts: Doubts,
     wheels: Wheels,
     strange: Strange,
+    live_audit: LiveAudit,
+    /// Whether no scan came since [`Slam::finish`].
+    is_finished: bool,
     /// The first kept scan of the newest piece of map: what was seen before lies elsewhere.
     piece: usize,
     /// Part of the points that usually find partners.
@@ -164,6 +171,8 @@ impl Slam {
             doubts: Doubts::default(),
             wheels: Wheels::default(),
             strange: Strange::default(),
+            live_audit: LiveAudit::default(),
+            is_finished: false,
             piece: 0,
             usual: 0.7,
             start: None,
@@ -174,6 +183,9 @@ impl Slam {
     /// (ties, loops, bending of the map) goes on for as many slices as the settings allow.
     pub fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
         self.counts.scans += 1;
+        if std::mem::take(&mut self.is_finished) && !self.settings.audits_live {
+            self.live_audit = LiveAudit::default();
+        }
         let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
         let bends = self.work.bends;
         let taken = match scan.fault() {
@@ -391,7 +403,10 @@ impl Slam {
             0 => {}
             pieces => self.doubts.remark(end_ns, Doubt::Unjoined(pieces)),
         }
-        for it in audit(&self.keys, &self.graph) {
+        let found = audit(&self.keys, &self.graph);
+        self.live_audit = LiveAudit::concluded(found.clone());
+        self.is_finished = true;
+        for it in found {
             let time_ns = self.time_of(it.keys.0).unwrap_or(end_ns);
             let doubt =
                 Doubt::Contradiction(it.map_from_base.x_m, it.map_from_base.y_m, it.agreeing);

@@ -545,6 +545,10 @@ impl Mapper for Gmapping {
         &self.remarks
     }
 
+    fn current_remarks(&self) -> Vec<Remark> {
+        self.front.current_remarks()
+    }
+
     fn size(&self) -> usize {
         self.maps_size()
             + self.ways.size()

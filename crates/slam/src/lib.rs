@@ -41,7 +41,7 @@ pub mod tables;
 mod wheels;
 
 pub use doubts::{Doubt, Remark};
-pub use engine::{Counts, Held, Link, Slam, Taken, Update};
+pub use engine::{Counts, Held, Link, MapContradiction, Slam, Taken, Update};
 pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;

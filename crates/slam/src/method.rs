@@ -7,7 +7,7 @@ use periplus_base::Pose2;
 use periplus_grid::OccupancyGrid;
 
 use crate::doubts::Remark;
-use crate::engine::{Counts, Held, Slam, Update};
+use crate::engine::{Counts, Held, MapContradiction, Slam, Update};
 use crate::loops::Closure;
 use crate::map::Plan;
 use crate::scan::Scan;
@@ -62,6 +62,16 @@ pub trait Mapper: Send {
     /// What a person should know of the drive, in the order in which it was noticed; grows only.
     fn remarks(&self) -> &[Remark] {
         &[]
+    }
+
+    /// Remarks that hold now, with the time at which each was noticed.
+    fn current_remarks(&self) -> Vec<Remark> {
+        Vec::new()
+    }
+
+    /// Places where passes contradict each other in the map, of methods that audit it.
+    fn contradictions(&self) -> Vec<MapContradiction> {
+        Vec::new()
     }
 
     /// How often particles were drawn anew, of methods that have some.
@@ -152,5 +162,13 @@ impl Mapper for Slam {
 
     fn remarks(&self) -> &[Remark] {
         Self::remarks(self)
+    }
+
+    fn current_remarks(&self) -> Vec<Remark> {
+        Self::current_remarks(self)
+    }
+
+    fn contradictions(&self) -> Vec<MapContradiction> {
+        Self::contradictions(self)
     }
 }

@@ -63,29 +63,29 @@ impl Remedy {
             })
     }
 
-    /// A scan and where odometry has the robot at its time, without the fault. `before` is odometry at the
-    /// scan before, as it came and as it was corrected; [`Cure`] keeps it.
-    fn cured(
-        self,
-        scan: &Scan,
-        odom_from_base: Option<Pose2>,
-        before: &mut Option<(Pose2, Pose2)>,
-    ) -> (Scan, Option<Pose2>) {
+    /// A scan without the fault.
+    fn scan(self, scan: &Scan) -> Scan {
         let mut scan = scan.clone();
-        let odometry = match self {
-            Self::Flip => {
-                scan.is_flipped = !scan.is_flipped;
-                odom_from_base
-            }
+        match self {
+            Self::Flip => scan.is_flipped = !scan.is_flipped,
             Self::Turn(turn_rad) => {
                 let Pose2 { x_m, y_m, yaw_rad } = scan.base_from_laser;
                 scan.base_from_laser = Pose2::new(x_m, y_m, normalize_angle(yaw_rad + turn_rad));
-                odom_from_base
             }
-            Self::SwapAxes => odom_from_base.map(|it| Pose2::new(it.y_m, it.x_m, it.yaw_rad)),
-            Self::NegateX => odom_from_base.map(|it| Pose2::new(-it.x_m, it.y_m, it.yaw_rad)),
-            Self::NegateY => odom_from_base.map(|it| Pose2::new(it.x_m, -it.y_m, it.yaw_rad)),
-            Self::Reverse => odom_from_base.map(|now| {
+            Self::SwapAxes | Self::NegateX | Self::NegateY | Self::Reverse => {}
+        }
+        scan
+    }
+
+    /// Odometry without the fault. `before` is odometry at the scan before, as it came and as it was
+    /// corrected; [`Cure`] keeps it.
+    fn odometry(self, now: Pose2, before: &mut Option<(Pose2, Pose2)>) -> Pose2 {
+        match self {
+            Self::Flip | Self::Turn(_) => now,
+            Self::SwapAxes => Pose2::new(now.y_m, now.x_m, now.yaw_rad),
+            Self::NegateX => Pose2::new(-now.x_m, now.y_m, now.yaw_rad),
+            Self::NegateY => Pose2::new(now.x_m, -now.y_m, now.yaw_rad),
+            Self::Reverse => {
                 let corrected = match *before {
                     Some((raw, corrected)) => {
                         let step = (raw.inverse() * now).normalized();
@@ -96,9 +96,8 @@ impl Remedy {
                 };
                 *before = Some((now, corrected));
                 corrected
-            }),
-        };
-        (scan, odometry)
+            }
+        }
     }
 }
 
@@ -137,9 +136,20 @@ impl Cure {
         Self { remedy, before: None }
     }
 
+    /// The fault that is undone.
+    #[must_use]
+    pub const fn remedy(&self) -> Remedy {
+        self.remedy
+    }
+
     /// A scan and where odometry has the robot at its time, without the fault.
     pub fn apply(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> (Scan, Option<Pose2>) {
-        self.remedy.cured(scan, odom_from_base, &mut self.before)
+        (self.remedy.scan(scan), odom_from_base.map(|now| self.odometry(now)))
+    }
+
+    /// Odometry alone, where no scan is needed.
+    pub fn odometry(&mut self, odom_from_base: Pose2) -> Pose2 {
+        self.remedy.odometry(odom_from_base, &mut self.before)
     }
 }
 

@@ -43,6 +43,10 @@ pub struct Settings {
     /// Whether the pose of each scan stays known. Without it there are at most two for each kept scan, so
     /// that a robot that stands still costs no memory: for runs without an end.
     pub keeps_each_pose: bool,
+    /// Whether the map is audited while the robot drives, when there is no other work in the background:
+    /// see [`Slam::contradictions`](crate::Slam::contradictions). [`Slam::finish`](crate::Slam::finish)
+    /// audits it anyway.
+    pub audits_live: bool,
 }
 
 impl Settings {
@@ -83,6 +87,7 @@ impl Default for Settings {
             solve_steps: 8,
             is_lifelong: false,
             keeps_each_pose: true,
+            audits_live: false,
         }
     }
 }

@@ -18,6 +18,11 @@ pub use toolbox::SLAM_TOOLBOX;
 
 use crate::method::Method;
 
+/// Meaning of `correct_mounting`, which neither program of ROS has.
+const CORRECT_MOUNTING: &str = "Whether a fault of the scanner's mounting or of odometry's axes is \
+                                corrected once it is certain: the map then begins again (offline: the \
+                                log is mapped again).";
+
 /// Parameters that change nothing here.
 struct Idle {
     names: &'static [&'static str],

@@ -71,6 +71,12 @@ impl Wheels {
         }
     }
 
+    /// The doubt that was told, as long as it holds.
+    pub(crate) fn standing_still(&self) -> Option<Doubt> {
+        let holds = self.is_still && self.is_told && self.unseen_m > TOLD_M;
+        holds.then_some(Doubt::OdometryStill(self.unseen_m))
+    }
+
     /// Whether a scan that was found there contradicts odometry that stands still.
     pub(crate) fn is_suspect(moved: Pose2, is_matched: bool) -> bool {
         let (metres, radians) = apart(moved, Pose2::IDENTITY);

@@ -48,6 +48,7 @@ pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize
         slices_per_scan,
         // A node may run for weeks.
         keeps_each_pose: false,
+        audits_live: true,
         ..Settings::of(values)
     }
 }

@@ -8,9 +8,11 @@
 //! Source of names and QoS: `slam_toolbox/src/slam_toolbox_common.cpp` and its siblings (humble to
 //! rolling, 2026), `gmapping/src/slam_gmapping.cpp` (noetic).
 
+mod correction;
 mod drawing;
 mod engine;
 mod file;
+mod health;
 mod inputs;
 mod markers;
 mod messages;

@@ -9,7 +9,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::visualization_msgs::{
     InteractiveMarker, InteractiveMarkerControl, Marker, MarkerArray,
 };
-use periplus_slam::{Link, Slam};
+use periplus_slam::{Link, MapContradiction, Slam};
 use periplus_whereabouts::pose;
 
 /// Colours: kept scans, those moved by hand, chains, ties, closures, closures that were refused.
@@ -19,6 +19,10 @@ const CHAIN: [f32; 3] = [0.2, 0.4, 1.0];
 const TIE: [f32; 3] = [0.1, 0.7, 0.3];
 const CLOSURE: [f32; 3] = [0.9, 0.8, 0.1];
 const REFUSED: [f32; 3] = [0.8, 0.2, 0.8];
+/// Contradictions of the map, their radius and the corners of a ring.
+const CONTRADICTION: [f32; 3] = [1.0, 0.0, 0.0];
+const RING_M: f64 = 1.5;
+const RING_CORNERS: u32 = 32;
 /// So many of the newest closures tell their reasons.
 const TOLD: usize = 30;
 
@@ -32,23 +36,10 @@ pub(crate) fn graph(
 ) -> MarkerArray {
     let poses = slam.poses();
     let place = |key: usize| poses.get(key).map(|pose| point(*pose));
-    let base = |ns: &str, id: usize, r#type: i32, colour: [f32; 3], size_m: f64| Marker {
-        header: Header::at(time_ns, frame),
-        ns: ns.to_owned(),
-        id: i32::try_from(id).unwrap_or(i32::MAX),
-        r#type,
-        action: Marker::ADD,
-        pose: pose(Pose2::IDENTITY),
-        scale: Vector3 { x: size_m, y: size_m, z: size_m },
-        color: ColorRGBA { r: colour[0], g: colour[1], b: colour[2], a: 1.0 },
-        ..Marker::default()
+    let base = |ns: &str, id: usize, r#type: i32, colour: [f32; 3], size_m: f64| {
+        marker((frame, time_ns), (ns, id), r#type, colour, size_m)
     };
-    let mut markers = vec![Marker {
-        header: Header::at(time_ns, frame),
-        action: Marker::DELETEALL,
-        pose: pose(Pose2::IDENTITY),
-        ..Marker::default()
-    }];
+    let mut markers = vec![nothing((frame, time_ns))];
     let mut spheres = base("slam_toolbox", 0, Marker::SPHERE_LIST, NODE, 0.1);
     spheres.points = poses.iter().map(|pose| point(*pose)).collect();
     markers.push(spheres);
@@ -91,6 +82,79 @@ pub(crate) fn graph(
         markers.push(refused);
     }
     MarkerArray { markers }
+}
+
+/// Contradictions: a ring around each place, the stretch of path, and a text with the share that agrees
+/// and the times of both passes. Without one, all markers of before are deleted.
+pub(crate) fn contradictions(
+    found: &[MapContradiction],
+    times: &[String],
+    poses: &[Pose2],
+    frame: &str,
+    time_ns: i64,
+) -> MarkerArray {
+    let at = (frame, time_ns);
+    let mut markers = vec![nothing(at)];
+    for (id, (found, times)) in found.iter().zip(times).enumerate() {
+        let Point { x, y, .. } = point(found.map_from_base);
+        let mut ring = marker(at, ("places", id), Marker::LINE_STRIP, CONTRADICTION, 0.08);
+        ring.points = (0..=RING_CORNERS)
+            .map(|corner| {
+                let angle_rad = f64::from(corner) * std::f64::consts::TAU / f64::from(RING_CORNERS);
+                let (sine, cosine) = libm::sincos(angle_rad);
+                Point { x: x + RING_M * cosine, y: y + RING_M * sine, z: 0.05 }
+            })
+            .collect();
+        markers.push(ring);
+        for (ns, (first, last)) in [("passes", found.keys), ("earlier_passes", found.earlier_keys)]
+        {
+            let stretch = poses.get(first..=last).unwrap_or_default();
+            if stretch.len() > 1 {
+                let mut line = marker(at, (ns, id), Marker::LINE_STRIP, CONTRADICTION, 0.05);
+                line.points = stretch.iter().map(|pose| point(*pose)).collect();
+                markers.push(line);
+            }
+        }
+        let mut text = marker(at, ("reasons", id), Marker::TEXT_VIEW_FACING, CONTRADICTION, 0.3);
+        text.pose.position = Point { x, y, z: 0.5 };
+        text.text = format!(
+            "contradiction: {:.0} % of what both passes see agrees\n{times}",
+            100.0 * found.agreeing_ratio
+        );
+        markers.push(text);
+    }
+    MarkerArray { markers }
+}
+
+/// A marker in a frame at a time, with its name, colour and size.
+fn marker(
+    (frame, time_ns): (&str, i64),
+    (ns, id): (&str, usize),
+    r#type: i32,
+    colour: [f32; 3],
+    size_m: f64,
+) -> Marker {
+    Marker {
+        header: Header::at(time_ns, frame),
+        ns: ns.to_owned(),
+        id: i32::try_from(id).unwrap_or(i32::MAX),
+        r#type,
+        action: Marker::ADD,
+        pose: pose(Pose2::IDENTITY),
+        scale: Vector3 { x: size_m, y: size_m, z: size_m },
+        color: ColorRGBA { r: colour[0], g: colour[1], b: colour[2], a: 1.0 },
+        ..Marker::default()
+    }
+}
+
+/// Deletes all markers of before.
+fn nothing((frame, time_ns): (&str, i64)) -> Marker {
+    Marker {
+        header: Header::at(time_ns, frame),
+        action: Marker::DELETEALL,
+        pose: pose(Pose2::IDENTITY),
+        ..Marker::default()
+    }
 }
 
 /// The kept scans as handles that can be dragged over the ground and turned, by their numbers.

@@ -15,12 +15,14 @@ use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
 use periplus_params::{Value, Values};
-use periplus_slam::{Closure, Counts, Slam, Taken, tables};
+use periplus_slam::{Closure, Counts, Cure, Remedy, Scan, Slam, Taken, Update, tables};
 use periplus_tf::Kind;
 use periplus_whereabouts::{Frames, Told, plain};
 
+use crate::correction::Anchor;
 use crate::drawing::Drawer;
-use crate::engine::{Engine, Start};
+use crate::engine::{Engine, SURE, Start};
+use crate::health::{self, SET_RIGHT, SlamHealth};
 use crate::inputs::{Inputs, Names, Placed};
 use crate::markers;
 use crate::messages::{covariance, pose2, scan};
@@ -84,6 +86,8 @@ pub struct SlamStatus {
     pub size: usize,
     /// What keeps it from its work.
     pub trouble: Option<String>,
+    /// The fault of the data that is corrected.
+    pub correction: Option<Remedy>,
 }
 
 pub(crate) struct State {
@@ -97,9 +101,10 @@ pub(crate) struct State {
     pub(crate) engine: Option<Engine>,
     frames: Frames,
     pub(crate) inputs: Option<Inputs>,
-    outputs: Option<Outputs>,
+    pub(crate) outputs: Option<Outputs>,
     pub(crate) told: Told,
-    is_active: bool,
+    pub(crate) health: SlamHealth,
+    pub(crate) is_active: bool,
     pub(crate) is_paused: bool,
     pub(crate) is_interactive: bool,
     /// Kept scans that were moved by hand.
@@ -109,6 +114,18 @@ pub(crate) struct State {
     scans: u64,
     /// Remarks of the engine that have been told.
     remarked: usize,
+    /// A fault of the data that is undone before the engine gets it.
+    pub(crate) correction: Option<Correction>,
+    /// Whether the map continues a stored one.
+    pub(crate) is_continued: bool,
+    /// Whether it was logged that a fault stays.
+    is_refused: bool,
+    /// From where odometry tells the pose in the map.
+    anchor: Option<Anchor>,
+    /// A pose that a client set, for the next scan.
+    said: Option<Pose2>,
+    /// Stamp of the first scan of this map \[ns\].
+    pub(crate) began_ns: Option<i64>,
     last: Option<Last>,
     /// Whether the clock has gone back since the last scan.
     is_back_in_time: bool,
@@ -123,6 +140,15 @@ pub(crate) struct State {
 struct Last {
     time_ns: i64,
     odom_from_base: Pose2,
+    /// Odometry as the engine got it.
+    corrected: Pose2,
+}
+
+/// A fault of the data that is undone.
+pub(crate) struct Correction {
+    pub(crate) cure: Cure,
+    /// Since when \[ns\].
+    pub(crate) time_ns: i64,
 }
 
 impl SlamNode {
@@ -154,6 +180,7 @@ impl SlamNode {
         pace: Pace,
     ) -> Result<Self, GraphError> {
         let is_live = node.graph().is_live();
+        let health = SlamHealth::new(&node)?;
         let state = State {
             program,
             values: values.clone(),
@@ -170,6 +197,7 @@ impl SlamNode {
             inputs: None,
             outputs: None,
             told: Told::default(),
+            health,
             is_active: false,
             is_paused: false,
             is_interactive: false,
@@ -177,6 +205,12 @@ impl SlamNode {
             handled: 0,
             scans: 0,
             remarked: 0,
+            correction: None,
+            is_continued: false,
+            is_refused: false,
+            anchor: None,
+            said: None,
+            began_ns: None,
             last: None,
             is_back_in_time: false,
             drawer: Drawer::new(is_live),
@@ -209,6 +243,7 @@ impl SlamNode {
             state.work(io.node());
         })?;
         actor.timer(LOOK_NS, |state, io| state.work(io.node()))?;
+        actor.timer(health::EVERY_NS, |state, io| state.publish_health(io.node()))?;
         if is_live {
             actor.timer(SLICE_NS, |state, _| {
                 if let Some(slam) = state.engine.as_mut().and_then(Engine::graph_mut) {
@@ -306,6 +341,7 @@ impl State {
                 self.inputs = None;
                 self.outputs = None;
                 self.begin(None);
+                self.correction = None;
                 self.told = Told::default();
                 StepOutcome::Success
             }
@@ -384,6 +420,12 @@ impl State {
         self.engine = engine;
         self.moved.clear();
         self.remarked = 0;
+        self.is_continued = false;
+        self.is_refused = false;
+        self.anchor = None;
+        self.said = None;
+        self.began_ns = None;
+        self.health.forget();
         self.last = None;
         self.drawer.forget();
         self.map = None;
@@ -392,7 +434,7 @@ impl State {
     }
 
     /// Names of the frames.
-    fn names(&self) -> Names {
+    pub(crate) fn names(&self) -> Names {
         let text = |name: &str| plain(&text(&self.values, name).unwrap_or_default()).to_owned();
         let (odom, told) = (text("odom_frame"), text("base_frame"));
         // Where nobody says, it is the one of the usual frames to which odometry leads.
@@ -455,25 +497,21 @@ impl State {
         if self.last.as_ref().is_some_and(is_early) {
             return;
         }
-        let Some(engine) = &mut self.engine else {
+        if self.engine.is_none() {
             let words = "there is no stored graph to find the robot on";
             let help = "set `map_file_name` to a session, or call `slam_toolbox/deserialize_map`";
             self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
             return;
-        };
-        if std::mem::take(&mut self.is_back_in_time)
-            && let Some(last) = &self.last
-        {
-            // A reset sets robot and odometry back together, so the map is still where it was in
-            // odometry. The engine alone would take that step for a slip.
-            let map_from_odom = engine.mapper().map_from_base() * last.odom_from_base.inverse();
-            let map_from_base = (map_from_odom * placed.places.odom_from_base).normalized();
-            let (place_m2, yaw_rad2) = AFTER_RESET_VARIANCES;
-            engine.place(map_from_base, Symmetric3::diagonal(place_m2, place_m2, yaw_rad2));
         }
         let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
         let scan = scan(&placed.message, placed.places.base_from_laser, is_inverted);
-        let update = engine.add_scan(&scan, placed.places.odom_from_base);
+        let odom_from_base = placed.places.odom_from_base;
+        let Some((mut update, mut corrected)) = self.add(&scan, odom_from_base) else { return };
+        self.log_remarks(node);
+        if let Some(again) = self.correct(&scan, odom_from_base, names, node) {
+            (update, corrected) = again;
+        }
+        let Some(engine) = &self.engine else { return };
         let covariance = engine.covariance();
         match update.taken {
             Taken::Ignored(reason) => {
@@ -490,17 +528,109 @@ impl State {
             }
             Taken::Kept | Taken::Passed => self.told.fine(),
         }
-        let remarks = self.engine.as_ref().and_then(Engine::graph).map_or(&[][..], Slam::remarks);
-        for remark in remarks.iter().skip(self.remarked) {
-            node.log(Level::Warn, remark);
-        }
-        self.remarked = remarks.len();
-        self.last = Some(Last { time_ns, odom_from_base: placed.places.odom_from_base });
+        self.health.count(update.taken);
+        self.last = Some(Last { time_ns, odom_from_base, corrected });
         let Some(outputs) = &self.outputs else { return };
         outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
         if update.taken == Taken::Kept {
             outputs.publish_scan(&placed.message);
         }
+    }
+
+    /// Hands a scan to the engine, with the fault of the data undone that is known; gives also odometry
+    /// as the engine got it.
+    fn add(&mut self, scan: &Scan, odom_from_base: Pose2) -> Option<(Update, Pose2)> {
+        let engine = self.engine.as_mut()?;
+        let cured = self.correction.as_mut().map(|it| it.cure.apply(scan, Some(odom_from_base)));
+        let (scan, corrected) = match &cured {
+            Some((scan, corrected)) => (scan, corrected.unwrap_or(odom_from_base)),
+            None => (scan, odom_from_base),
+        };
+        if std::mem::take(&mut self.is_back_in_time)
+            && let Some(last) = &self.last
+        {
+            // A reset sets robot and odometry back together, so the map is still where it was in
+            // odometry. The engine alone would take that step for a slip.
+            let map_from_odom = engine.mapper().map_from_base() * last.corrected.inverse();
+            let map_from_base = (map_from_odom * corrected).normalized();
+            let (place_m2, yaw_rad2) = AFTER_RESET_VARIANCES;
+            engine.place(map_from_base, Symmetric3::diagonal(place_m2, place_m2, yaw_rad2));
+            self.said = Some(map_from_base);
+        }
+        let update = engine.add_scan(scan, corrected);
+        if !matches!(update.taken, Taken::Ignored(_)) {
+            self.began_ns.get_or_insert(scan.time_ns);
+            match (&mut self.anchor, self.said.take()) {
+                (anchor, Some(said)) => *anchor = Some(Anchor::new(said, odom_from_base)),
+                (Some(anchor), None) => anchor.follow(odom_from_base),
+                (anchor @ None, None) => {
+                    *anchor = Some(Anchor::new(update.map_from_base, odom_from_base));
+                }
+            }
+        }
+        Some((update, corrected))
+    }
+
+    fn log_remarks(&mut self, node: &Node) {
+        let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
+        for remark in remarks.iter().skip(self.remarked) {
+            node.log(Level::Warn, remark);
+        }
+        self.remarked = remarks.len();
+    }
+
+    /// Begins the map again when a fault of the data is certain, with the fault undone; once only. Gives
+    /// what became of the scan then.
+    fn correct(
+        &mut self,
+        scan: &Scan,
+        odom_from_base: Pose2,
+        names: &Names,
+        node: &Node,
+    ) -> Option<(Update, Pose2)> {
+        let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
+        let remedy = Remedy::of(remarks)?;
+        let is_wanted = flag(&self.values, "correct_mounting").unwrap_or(false);
+        if !is_wanted || self.is_continued || self.correction.is_some() {
+            if !std::mem::replace(&mut self.is_refused, true) {
+                let why = if !is_wanted {
+                    "`correct_mounting` is false"
+                } else if self.is_continued {
+                    "the map continues a stored one"
+                } else {
+                    "another fault is corrected already, so that neither is certain"
+                };
+                let words = format!(
+                    "the map is wrong, and it is not begun again, since {why}: set the scanner's \
+                     transform or the drive's odometry right and map again"
+                );
+                node.log(Level::Warn, words);
+            }
+            return None;
+        }
+        let (cure, map_from_base) = self.anchor.as_ref()?.corrected(remedy, odom_from_base);
+        self.begin(Engine::empty(self.program, &self.values, self.slices));
+        self.correction = Some(Correction { cure, time_ns: scan.time_ns });
+        if let Some(engine) = &mut self.engine
+            && engine.place(map_from_base, SURE)
+        {
+            self.said = Some(map_from_base);
+        }
+        let again = self.add(scan, odom_from_base);
+        let here = again.map_or(map_from_base, |it| it.0.map_from_base);
+        let words = format!(
+            "the map begins again: {remedy}. What was mapped before is dropped. The robot is at ({:.2}, \
+             {:.2}, {:.2}) in `{}`, where it would have been from the beginning without the fault; drive \
+             again where it has been. {}{}. `correct_mounting: false` maps the data as it is",
+            here.x_m,
+            here.y_m,
+            here.yaw_rad,
+            names.map,
+            SET_RIGHT[..1].to_uppercase(),
+            &SET_RIGHT[1..]
+        );
+        node.log(Level::Warn, words);
+        again
     }
 
     /// As `position_covariance_scale` and `yaw_covariance_scale` want it.
@@ -579,6 +709,8 @@ impl State {
                 markers::graph(slam, &self.moved, &names.map, now_ns)
             })
         });
+        // Viewers that came since the last change see them, too.
+        self.health.draw_again(|drawn| self.draw_contradictions(now_ns, drawn));
         if self.is_interactive {
             self.handled += 1;
             outputs.publish_handles(self.handled, || self.handles(now_ns));
@@ -638,6 +770,7 @@ impl State {
                     .is_some_and(|it| it.place(pose, covariance(&message.pose.covariance)));
                 let said = format!("({:.2}, {:.2}, {:.2})", pose.x_m, pose.y_m, pose.yaw_rad);
                 if is_placed {
+                    self.said = Some(pose);
                     let words = format!("the robot is said to be at {said}; the next scan tells");
                     node.log(Level::Info, words);
                 } else {
@@ -724,7 +857,7 @@ impl State {
         Ok(())
     }
 
-    fn status(&self, node: String) -> SlamStatus {
+    pub(crate) fn status(&self, node: String) -> SlamStatus {
         let mapper = self.engine.as_ref().map(Engine::mapper);
         let graph = self.engine.as_ref().and_then(Engine::graph);
         SlamStatus {
@@ -738,6 +871,7 @@ impl State {
             map_from_base: mapper.map_or(Pose2::IDENTITY, periplus_slam::Mapper::map_from_base),
             size: mapper.map_or(0, periplus_slam::Mapper::size),
             trouble: self.told.trouble.clone(),
+            correction: self.correction.as_ref().map(|it| it.cure.remedy()),
         }
     }
 }

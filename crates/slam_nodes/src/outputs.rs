@@ -35,6 +35,7 @@ pub(crate) struct Outputs {
 struct Toolbox {
     pose: Publisher<PoseWithCovarianceStamped>,
     graph: Publisher<MarkerArray>,
+    contradictions: Publisher<MarkerArray>,
     scan: Publisher<LaserScan>,
     handles: Publisher<InteractiveMarkerUpdate>,
 }
@@ -46,6 +47,7 @@ impl Outputs {
             Ok(Toolbox {
                 pose: node.publisher("pose", Qos::reliable(10))?,
                 graph: node.publisher("slam_toolbox/graph_visualization", Qos::reliable(10))?,
+                contradictions: node.publisher("slam_toolbox/contradictions", Qos::latched(1))?,
                 scan: node.publisher("slam_toolbox/scan_visualization", Qos::reliable(10))?,
                 handles: node.publisher("slam_toolbox/update", Qos::reliable(100))?,
             })
@@ -100,6 +102,13 @@ impl Outputs {
     pub(crate) fn publish_graph(&self, draw: impl FnOnce() -> MarkerArray) {
         if let Some(toolbox) = self.toolbox.as_ref().filter(|it| it.graph.is_heard()) {
             toolbox.graph.publish(draw());
+        }
+    }
+
+    /// Contradictions of the map: kept for nodes that subscribe later.
+    pub(crate) fn publish_contradictions(&self, draw: impl FnOnce() -> MarkerArray) {
+        if let Some(toolbox) = &self.toolbox {
+            toolbox.contradictions.publish(draw());
         }
     }
 

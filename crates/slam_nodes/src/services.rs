@@ -206,6 +206,7 @@ impl State {
                 let kept = engine.graph().map_or(0, |slam| slam.poses().len());
                 node.log(Level::Info, format!("{} is loaded: {kept} scans", path.display()));
                 self.begin(Some(engine));
+                self.is_continued = true;
                 true
             }
             Err(why) => {

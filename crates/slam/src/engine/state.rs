@@ -3,6 +3,7 @@
 use periplus_base::Pose2;
 use periplus_matching::Symmetric3;
 
+use super::live_audit::LiveAudit;
 use super::piece::Strange;
 use super::work::Work;
 use super::{Counts, Last, Slam};
@@ -42,6 +43,8 @@ impl Slam {
             piece,
             // What was noticed is no part of the map: who goes on begins with an open mind.
             doubts: _,
+            live_audit: _,
+            is_finished: _,
         } = self;
         let Graph { poses, edges, at: _ } = graph;
         let mut rest = Bytes::default();
@@ -118,6 +121,7 @@ impl Slam {
             return misfit(b"WORK", "work is waiting for a scan that is not there");
         }
         let doubts = Doubts::default();
+        let live_audit = LiveAudit::default();
         Ok(Self {
             settings,
             keys,
@@ -134,6 +138,8 @@ impl Slam {
             strange,
             piece,
             doubts,
+            live_audit,
+            is_finished: false,
         })
     }
 }

@@ -101,6 +101,7 @@ impl Slam {
         renumber(&mut self.work.thins);
         self.work.renumbered(gone.len());
         self.loops.renumber(&number);
+        self.live_audit.renumber(&number);
     }
 }
 

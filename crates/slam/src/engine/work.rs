@@ -106,7 +106,9 @@ impl Slam {
         } else if let Some(key) = self.work.thins.pop_front() {
             self.thin(key);
         } else {
-            return false;
+            // Not counted: it changes nothing of the map.
+            return self.settings.audits_live
+                && self.live_audit.work(&self.keys, &self.graph, self.work.bends);
         }
         self.work.slices += 1;
         true

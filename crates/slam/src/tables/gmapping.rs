@@ -6,7 +6,7 @@
 use periplus_diagnostics::Diagnostic;
 use periplus_params::{Names, Table, Values, flag, integer, number, text};
 
-use super::Idle;
+use super::{CORRECT_MOUNTING, Idle};
 use crate::gmapping::{GmappingSettings, Noise};
 
 /// Of the node.
@@ -55,6 +55,7 @@ pub static GMAPPING: Table = Table {
         )
         .or("0")
         .within(0.0, 10_000.0),
+        flag("correct_mounting", CORRECT_MOUNTING).or("true"),
         // When scans are used.
         number("linearUpdate", "m", "A scan is used after so much motion ...").or("1").min(0.0),
         number("angularUpdate", "rad", "... or turn ...").or("0.5").min(0.0),

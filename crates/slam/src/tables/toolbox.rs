@@ -5,7 +5,7 @@
 
 use periplus_params::{Names, Table, Values, choice, flag, integer, number, numbers, text};
 
-use super::Idle;
+use super::{CORRECT_MOUNTING, Idle};
 use crate::settings::Settings;
 
 /// Of the node.
@@ -97,6 +97,7 @@ pub static SLAM_TOOLBOX: Table = Table {
         number("link_scan_maximum_distance", "m", "Scans farther apart are not linked.")
             .or("1.5")
             .min(0.0),
+        flag("correct_mounting", CORRECT_MOUNTING).or("true"),
         // Loops.
         flag("do_loop_closing", "Whether loops are closed.").or("true"),
         number("loop_search_maximum_distance", "m", "Loops are searched within.").or("3").min(0.0),
