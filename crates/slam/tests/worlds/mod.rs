@@ -1,6 +1,18 @@
 //! Worlds of straight walls, and a robot that drives through them with a noisy scanner and wheels.
 #![allow(dead_code, reason = "each user takes a part")]
 
+pub(crate) mod campus;
+pub(crate) mod crowd;
+pub(crate) mod doors;
+pub(crate) mod glass;
+pub(crate) mod hall;
+pub(crate) mod judge;
+pub(crate) mod kinds;
+pub(crate) mod office;
+pub(crate) mod ramp;
+pub(crate) mod rig;
+pub(crate) mod solid;
+
 use periplus_base::{Pose2, Stream, normalize_angle};
 use periplus_slam::Scan;
 
@@ -13,7 +25,7 @@ pub(crate) struct World {
 }
 
 /// What the robot is like.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Robot {
     pub(crate) beams: usize,
     pub(crate) field_rad: f64,
@@ -226,51 +238,80 @@ impl World {
         take: &mut dyn FnMut(Moment),
     ) {
         let mut stream = Stream::keyed(seed, "drive", 0);
-        let mut poses: Vec<Pose2> = Vec::new();
-        let mut yaw = 0.0;
-        for pair in corners.windows(2) {
-            let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
-            let (length, heading) = (libm::hypot(dx, dy), libm::atan2(dy, dx));
-            if poses.is_empty() {
-                yaw = heading;
-            }
-            let turn = normalize_angle(heading - yaw);
-            let turns = (turn.abs() / 0.35).ceil() as usize;
-            for step in 1..turns {
-                let part = step as f64 / turns as f64;
-                poses.push(Pose2::new(pair[0].0, pair[0].1, yaw + part * turn));
-            }
-            yaw = heading;
-            let steps = (length / step_m).round().max(1.0) as usize;
-            for step in 0..steps {
-                let part = step as f64 / steps as f64;
-                // Nobody drives along the very middle.
-                let aside = 0.1 * libm::sin(0.7 * part * length);
-                let (s, c) = libm::sincos(heading);
-                poses.push(Pose2::new(
-                    pair[0].0 + part * dx - aside * s,
-                    pair[0].1 + part * dy + aside * c,
-                    yaw + 0.05 * stream.normal(),
-                ));
-            }
-        }
-        let mut odometry = poses[0];
-        let mut last = poses[0];
+        let poses = poses_along(corners, step_m, &mut stream);
+        let mut wheels = Wheels::new(poses[0]);
         for (index, &truth) in poses.iter().enumerate() {
-            let step = last.inverse() * truth;
-            let way = libm::hypot(step.x_m, step.y_m);
-            let turn = normalize_angle(step.yaw_rad);
-            let noisy = Pose2::new(
-                step.x_m * (1.0 + robot.way_error * stream.normal()),
-                step.y_m + robot.way_error * way * stream.normal(),
-                turn * (1.0 + robot.turn_error * stream.normal())
-                    + robot.bias_rad_per_m * way
-                    + 0.3 * robot.turn_error * way * stream.normal(),
-            );
-            odometry = (odometry * noisy).normalized();
-            last = truth;
+            let odometry = wheels.roll_to(truth, robot, 1.0, &mut stream);
             let scan = self.scan(truth, robot, index as i64 * 500_000_000, &mut stream);
             take(Moment { truth, odometry, scan });
         }
+    }
+}
+
+/// Poses on the way from corner to corner, one every `step_m`, and every 20 degrees of a turn.
+pub(crate) fn poses_along(corners: &[(f64, f64)], step_m: f64, stream: &mut Stream) -> Vec<Pose2> {
+    let mut poses: Vec<Pose2> = Vec::new();
+    let mut yaw = 0.0;
+    for pair in corners.windows(2) {
+        let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+        let (length, heading) = (libm::hypot(dx, dy), libm::atan2(dy, dx));
+        if poses.is_empty() {
+            yaw = heading;
+        }
+        let turn = normalize_angle(heading - yaw);
+        let turns = (turn.abs() / 0.35).ceil() as usize;
+        for step in 1..turns {
+            let part = step as f64 / turns as f64;
+            poses.push(Pose2::new(pair[0].0, pair[0].1, yaw + part * turn));
+        }
+        yaw = heading;
+        let steps = (length / step_m).round().max(1.0) as usize;
+        for step in 0..steps {
+            let part = step as f64 / steps as f64;
+            // Nobody drives along the very middle.
+            let aside = 0.1 * libm::sin(0.7 * part * length);
+            let (s, c) = libm::sincos(heading);
+            poses.push(Pose2::new(
+                pair[0].0 + part * dx - aside * s,
+                pair[0].1 + part * dy + aside * c,
+                yaw + 0.05 * stream.normal(),
+            ));
+        }
+    }
+    poses
+}
+
+/// Wheels that are counted.
+pub(crate) struct Wheels {
+    odometry: Pose2,
+    last: Pose2,
+}
+
+impl Wheels {
+    pub(crate) fn new(start: Pose2) -> Self {
+        Self { odometry: start, last: start }
+    }
+
+    /// Where wheels have the robot when it has moved there; they tell so many times the way.
+    pub(crate) fn roll_to(
+        &mut self,
+        truth: Pose2,
+        robot: &Robot,
+        scale: f64,
+        stream: &mut Stream,
+    ) -> Pose2 {
+        let step = self.last.inverse() * truth;
+        let way = libm::hypot(step.x_m, step.y_m);
+        let turn = normalize_angle(step.yaw_rad);
+        let noisy = Pose2::new(
+            scale * step.x_m * (1.0 + robot.way_error * stream.normal()),
+            step.y_m + robot.way_error * way * stream.normal(),
+            turn * (1.0 + robot.turn_error * stream.normal())
+                + robot.bias_rad_per_m * way
+                + 0.3 * robot.turn_error * way * stream.normal(),
+        );
+        self.odometry = (self.odometry * noisy).normalized();
+        self.last = truth;
+        self.odometry
     }
 }

@@ -1,0 +1,58 @@
+//! Short drives through generated worlds of each kind, held against the truth. All seeds, at full
+//! length: `cargo run --release -p periplus-slam --example worlds`.
+
+mod worlds;
+
+use worlds::kinds::{KINDS, Verdict, outcome};
+
+fn check(name: &str, seed: u64) {
+    let Some(kind) = KINDS.iter().find(|it| it.name == name) else {
+        panic!("there is no kind {name}");
+    };
+    let moments = (kind.drive)(seed, true);
+    let outcome = outcome(kind, &moments);
+    assert_eq!(
+        outcome.verdict,
+        Verdict::Right,
+        "{:?} {:?}",
+        outcome.judgement,
+        outcome.slam.remarks()
+    );
+    // A drive that meets nothing again would be right whatever became of it.
+    assert!(outcome.judgement.loops > 8, "{:?}", outcome.judgement);
+}
+
+#[test]
+fn lawns_with_few_walls_and_trees() {
+    check("campus", 2);
+}
+
+#[test]
+fn a_campus_by_a_scanner_that_sees_far() {
+    check("campus", 1);
+}
+
+#[test]
+fn decks_with_ramps() {
+    check("car-park", 0);
+}
+
+#[test]
+fn a_hall_of_equal_racks() {
+    check("hall", 1);
+}
+
+#[test]
+fn panes_that_most_rays_pass() {
+    check("glass", 1);
+}
+
+#[test]
+fn doors_that_open_and_close() {
+    check("doors", 1);
+}
+
+#[test]
+fn a_scanner_that_cost_little() {
+    check("low-cost", 1);
+}
