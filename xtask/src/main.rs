@@ -79,6 +79,24 @@ enum Task {
         /// Of `ros2` and `subscribers`: few and short measurements, whose results are only shown
         #[arg(long)]
         quick: bool,
+        /// Of `slam`: logs by name, with commas between; the results are only shown
+        #[arg(long = "only", value_name = "LOG,..", id = "logs")]
+        logs: Option<String>,
+        /// Of `slam`: runs by name (`plain,rotate,..`), with commas between; the results are only shown
+        #[arg(long, value_name = "RUN,..")]
+        runs: Option<String>,
+        /// Of `slam`: a line of JSON for each run
+        #[arg(long)]
+        json: bool,
+        /// Of `slam`: fail where a figure differs from docs/slam-benchmark.md, times apart
+        #[arg(long, conflicts_with = "json")]
+        check: bool,
+        /// Of `slam`: go on with runs that were interrupted
+        #[arg(long)]
+        resume: bool,
+        /// Of `slam`: the program whose memory is measured, in place of a release build
+        #[arg(long, value_name = "FILE")]
+        program: Option<std::path::PathBuf>,
     },
     /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
     Codegen {
@@ -201,7 +219,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
-        Task::Bench { only, load, quick } => match only {
+        Task::Bench { only, load, quick, logs, runs, json, check, resume, program } => match only {
             Some(Contest::Bags) => bags::bench(),
             Some(Contest::Casters) => physics::casters(),
             Some(Contest::Costmap) => costmap::bench(),
@@ -213,7 +231,14 @@ fn perform(task: &Task) -> Result<(), Failed> {
             Some(Contest::Wire) => wire::bench(load.as_deref()),
             Some(Contest::Ros2) => ros2::bench(load.as_deref(), *quick),
             Some(Contest::Subscribers) => ros2::subscribers(*quick),
-            Some(Contest::Slam) => slam::bench(),
+            Some(Contest::Slam) => slam::bench(&slam::Wish {
+                logs: logs.clone(),
+                runs: runs.clone(),
+                json: *json,
+                check: *check,
+                resume: *resume,
+                program: program.clone(),
+            }),
             Some(Contest::SlamWorlds) => slam::worlds(),
             Some(Contest::Localization) => localization::bench(),
             None => corpus::bench()

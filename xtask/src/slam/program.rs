@@ -1,0 +1,146 @@
+//! `periplus slam` as a whole: the peak of its memory, and whether its report is what it wrote.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::step::{Failed, cargo, run};
+
+/// How a run of the program went.
+pub(crate) struct Whole {
+    pub(crate) log: String,
+    pub(crate) path_m: f64,
+    /// The larger of what the system and what the report have as the peak \[bytes\].
+    pub(crate) peak_bytes: f64,
+    /// CPU of the whole process \[s\], and its exit code.
+    pub(crate) cpu_s: f64,
+    pub(crate) code: Option<i32>,
+    /// Edges of the graph by `--g2o`, which are those of the report.
+    pub(crate) edges: usize,
+}
+
+/// What a process may take \[bytes\]: 30 MB and 8 MB for a kilometre.
+pub(crate) fn budget_bytes(path_m: f64) -> f64 {
+    30e6 + 8e6 * path_m / 1000.0
+}
+
+/// Runs the released program on each log.
+///
+/// # Errors
+/// When the program cannot be run, or the edges of its report are not those of the graph.
+pub(crate) fn measure(
+    program: Option<&Path>,
+    logs: &Path,
+    names: &[String],
+    out: &Path,
+) -> Result<Vec<Whole>, Failed> {
+    let periplus = match program {
+        Some(program) => program.to_owned(),
+        None => {
+            let mut build = cargo();
+            build.args(["build", "--quiet", "--release", "--package", "periplus-cli"]);
+            run(&mut build, "the command cannot be built")?;
+            super::target().join("release/periplus")
+        }
+    };
+    let one = |name: &String| {
+        eprintln!("periplus slam {name}");
+        measure_one(&periplus, &logs.join(name).join("raw.clf"), &out.join(name))
+            .map(|whole| Whole { log: name.clone(), ..whole })
+    };
+    names.iter().map(one).collect()
+}
+
+fn measure_one(periplus: &Path, log: &Path, out: &Path) -> Result<Whole, Failed> {
+    std::fs::create_dir_all(out).map_err(super::failed(out))?;
+    let g2o = out.join("graph.g2o");
+    let mut command = Command::new(periplus);
+    command.arg("slam").arg(log).arg("--out").arg(out).arg("--g2o").arg(&g2o).arg("--quiet");
+    let mut child = command.stderr(Stdio::null()).spawn().map_err(super::failed(periplus))?;
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak_bytes: f64 = 0.0;
+    let code = loop {
+        if let Some(code) = child.try_wait().map_err(super::failed(periplus))? {
+            break code.code();
+        }
+        peak_bytes = peak_bytes.max(high_water_bytes(&status).unwrap_or_default());
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let path = out.join("report.json");
+    let text = std::fs::read_to_string(&path).map_err(super::failed(&path))?;
+    let report: Value = serde_json::from_str(&text)
+        .map_err(|error| Failed(format!("{}: {error}", path.display())))?;
+    let number = |name: &str| report[name].as_f64().unwrap_or_default();
+    let graph = std::fs::read_to_string(&g2o).map_err(super::failed(&g2o))?;
+    let (told, written) = (edges_of_report(&report), edges_of_graph(&graph));
+    if told != written {
+        return Err(Failed(format!(
+            "{}: the report has {} edges, {} has {}, and they are not the same",
+            path.display(),
+            told.values().sum::<usize>(),
+            g2o.display(),
+            written.values().sum::<usize>()
+        )));
+    }
+    Ok(Whole {
+        log: String::new(),
+        path_m: number("path_m"),
+        peak_bytes: peak_bytes.max(number("peak_memory_bytes")),
+        cpu_s: number("cpu_s"),
+        code,
+        edges: written.values().sum(),
+    })
+}
+
+/// The peak of what a process had in memory \[bytes\].
+fn high_water_bytes(status: &str) -> Option<f64> {
+    let text = std::fs::read_to_string(status).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(1024.0 * line.split_whitespace().next()?.parse::<f64>().ok()?)
+}
+
+/// How often each pair of kept scans is tied.
+type Edges = BTreeMap<(u64, u64), usize>;
+
+fn edges_of_report(report: &Value) -> Edges {
+    let mut edges = Edges::new();
+    for edge in report["edges"].as_array().into_iter().flatten() {
+        let key = |at: usize| edge["keys"][at].as_u64().unwrap_or(u64::MAX);
+        *edges.entry((key(0), key(1))).or_default() += 1;
+    }
+    edges
+}
+
+fn edges_of_graph(text: &str) -> Edges {
+    let mut edges = Edges::new();
+    for line in text.lines().filter_map(|line| line.strip_prefix("EDGE_SE2 ")) {
+        let mut keys = line.split(' ').map(|word| word.parse().unwrap_or(u64::MAX));
+        let mut key = || keys.next().unwrap_or(u64::MAX);
+        *edges.entry((key(), key())).or_default() += 1;
+    }
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn edges_are_compared_by_what_they_tie() {
+        let graph =
+            "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
+        let report = json!({"edges": [{"keys": [0, 1]}, {"keys": [0, 1]}]});
+        assert_eq!(edges_of_graph(graph), edges_of_report(&report));
+        assert_ne!(edges_of_graph(graph), edges_of_report(&json!({"edges": [{"keys": [0, 1]}]})));
+    }
+
+    #[test]
+    fn a_kilometre_takes_eight_megabytes() {
+        assert_eq!(budget_bytes(2000.0), 46e6);
+    }
+}
