@@ -61,6 +61,9 @@ pub enum Doubt {
     Contradiction(f64, f64, f64),
     /// The maps of all particles would take too much memory: only so many of them go on.
     FewerMaps(usize),
+    /// The best particle's map violates so many closures and ties of the graph, which nothing contradicts:
+    /// all particles follow the graph's trajectory.
+    GraphFollowed(usize),
 }
 
 impl Remark {
@@ -73,7 +76,8 @@ impl Remark {
             | Doubt::Corridor(_)
             | Doubt::OdometryJumped(_)
             | Doubt::Carried
-            | Doubt::FewerMaps(_) => false,
+            | Doubt::FewerMaps(_)
+            | Doubt::GraphFollowed(_) => false,
             Doubt::ScannerTurned(_)
             | Doubt::Mirrored
             | Doubt::Backwards
@@ -181,6 +185,12 @@ impl std::fmt::Display for Remark {
                 "the maps of all particles would take too much memory: the best {count} of them go on, \
                  several times each; fewer particles, a coarser `delta` or a shorter `maxUrange` need \
                  less"
+            ),
+            Doubt::GraphFollowed(closures) => write!(
+                f,
+                "the best particle's map violates {closures} loop constraints of the graph, and no two passes \
+                 contradict each other in the graph's map: all particles follow the graph's trajectory; \
+                 more `particles` may close these loops by themselves"
             ),
         }
     }

@@ -9,7 +9,8 @@
 //! 3. it draws the scan into its map, of which it shares with others what is the same (`cells`);
 //! 4. when few particles explain most of what was seen, these are multiplied (`resample`);
 //! 5. the front end is a graph that closes loops: each way that comes of a closure is offered to some of the
-//!    particles, and weighed against what they explain (`offers`).
+//!    particles, and weighed against what they explain (`offers`); at the end its closures decide where the
+//!    particles' map violates them and nothing contradicts the graph's (`fallback`).
 //!
 //! Along corridors, where only odometry tells how far the robot went, particles are spread as widely as the
 //! front end is uncertain, each with errors of its own that last for some way (`proposal`). What the maps
@@ -19,6 +20,7 @@
 
 mod beams;
 mod cells;
+mod fallback;
 mod fit;
 mod nodes;
 mod offers;
@@ -505,6 +507,7 @@ impl Mapper for Gmapping {
         if !self.nodes.is_empty() {
             self.front.finish();
             self.offer(true);
+            self.fall_back();
         }
         self.tell(self.steps.last().map_or(0, |it| it.time_ns));
     }

@@ -16,6 +16,10 @@
 //! [`Gmapping`] is another method behind the same interface, [`Mapper`]: particles with a map each.
 //! Both take the parameters that programs of ROS have for them ([`tables`]).
 
+// Worlds of the tests are written for the crate as others see it.
+#[cfg(test)]
+extern crate self as periplus_slam;
+
 mod audit;
 mod doubts;
 mod drift;

@@ -48,7 +48,9 @@ impl Part {
             | Doubt::AxesSwapped
             | Doubt::XNegated
             | Doubt::YNegated => Self::Mounting,
-            Doubt::Carried | Doubt::Unjoined(_) | Doubt::FewerMaps(_) => Self::Pieces,
+            Doubt::Carried | Doubt::Unjoined(_) | Doubt::FewerMaps(_) | Doubt::GraphFollowed(_) => {
+                Self::Pieces
+            }
             Doubt::Contradiction(..) => Self::Contradictions,
         }
     }

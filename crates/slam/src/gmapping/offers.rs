@@ -34,13 +34,18 @@ const OPEN: f64 = -1.0;
 const THROUGH: f64 = -0.3;
 
 /// A map drawn along a way, and how well the way explains what was seen twice.
-struct Drawn {
-    cells: Cells,
+pub(super) struct Drawn {
+    pub(super) cells: Cells,
     log: f64,
 }
 
 /// Draws scans along a way. Each is held against what was drawn of those that are older by some way.
-fn draw(nodes: &[Node], way: &[Pose2], settings: &GmappingSettings, trace: &mut Trace) -> Drawn {
+pub(super) fn draw(
+    nodes: &[Node],
+    way: &[Pose2],
+    settings: &GmappingSettings,
+    trace: &mut Trace,
+) -> Drawn {
     let mut cells = Cells::new(settings.resolution_m, SOLID_SHARE);
     let mut log = 0.0;
     let mut old = 0;
@@ -115,10 +120,7 @@ impl Gmapping {
             return;
         }
         self.offered.taken += 1;
-        let mut tip = self.ways.begin(way[0]);
-        for &pose in &way[1..] {
-            tip = self.ways.go_on(tip, pose);
-        }
+        let tip = self.ways.along(&way);
         for (number, &index) in chosen.iter().enumerate() {
             if number > 0 {
                 self.ways.share(tip);

@@ -30,6 +30,12 @@ impl Ways {
         self.add(map_from_base, NONE)
     }
 
+    /// A new way along poses, of which there is at least one.
+    pub(super) fn along(&mut self, poses: &[Pose2]) -> Tip {
+        let tip = self.begin(poses[0]);
+        poses[1..].iter().fold(tip, |tip, &pose| self.go_on(tip, pose))
+    }
+
     /// Goes on from a tip, which thereby is none any more.
     pub(super) fn go_on(&mut self, tip: Tip, map_from_base: Pose2) -> Tip {
         // What held the tip now holds the new node, which holds the old one.
