@@ -29,8 +29,16 @@ enum Part {
 }
 
 impl Part {
-    const ALL: [Self; 5] =
-        [Self::Scans, Self::Odometry, Self::Mounting, Self::Pieces, Self::Contradictions];
+    /// Those that an engine knows of.
+    const fn of_engine(engine: &Engine) -> &'static [Self] {
+        match engine {
+            Engine::Graph(_) => {
+                &[Self::Scans, Self::Odometry, Self::Mounting, Self::Pieces, Self::Contradictions]
+            }
+            Engine::Particles(_) => &[Self::Scans, Self::Odometry, Self::Mounting, Self::Pieces],
+            Engine::Localizer(_) => &[Self::Scans],
+        }
+    }
 
     fn of(doubt: &Doubt) -> Self {
         match doubt {
@@ -152,7 +160,8 @@ impl State {
             if share > MOST_LOST {
                 remarks.push(Remark { time_ns: now_ns, doubt: Doubt::Unfitting(share) });
             }
-            for part in Part::ALL {
+            let parts = self.engine.as_ref().map_or(&[][..], Part::of_engine);
+            for &part in parts {
                 let own: Vec<&Remark> =
                     remarks.iter().filter(|it| Part::of(&it.doubt) == part).collect();
                 status.push(match part {

@@ -188,6 +188,20 @@ fn a_robot_that_was_carried_unnoticed_is_reported() {
 }
 
 #[test]
+fn a_separate_piece_is_reported_until_a_closure_joins_it() {
+    let mut it = Monitored::new(Program::Sync, &[]);
+    it.stage.odometry = |moved| moved;
+    it.drive(&rounds());
+    // Carried meanwhile: it goes on 6 m further in the aisle, and odometry does not know.
+    it.stage.advance(30_000);
+    it.stage.odometry = |moved| Pose2::new(moved.x_m - 6.0, moved.y_m, moved.yaw_rad);
+    let raised = it.drive(&rounds()[40..]);
+    assert!(raised.contains(&"pieces".to_owned()), "{raised:?}");
+    it.drive(&rounds());
+    assert_eq!(it.status("pieces").level, DiagnosticStatus::OK, "{:?}", it.status("pieces"));
+}
+
+#[test]
 fn odometry_that_stands_still_is_reported_until_it_moves() {
     let mut it = Monitored::new(Program::Sync, &[]);
     it.stage.odometry = |_| Pose2::IDENTITY;
