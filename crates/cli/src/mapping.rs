@@ -12,6 +12,7 @@ use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::{Value, Values};
+use periplus_slam::{MapContradiction, Slam};
 use periplus_slam_nodes::{Pace, Program, SlamNode};
 
 use crate::sim::stack::RobotProfile;
@@ -38,7 +39,8 @@ pub(crate) struct MoreMapping {
     /// one that the file is for
     #[arg(long, value_name = "PROGRAM")]
     slam_node: Option<Program>,
-    /// At the end write map.yaml, map.pgm, map.png with the graph's poses, and map.session to a folder
+    /// At the end write map.yaml, map.pgm, map.png with the graph's poses and a red ring where passes
+    /// contradict each other, and map.session to a folder
     #[arg(long, value_name = "DIR")]
     slam_out: Option<PathBuf>,
 }
@@ -231,6 +233,12 @@ impl Mapping {
         if let Some(trouble) = &status.trouble {
             writeln!(out, "  {trouble}")?;
         }
+        if let Some(remedy) = &status.correction {
+            terminal::warn(&format!("the map was begun again: {remedy}"));
+        }
+        for found in self.contradictions() {
+            terminal::warn(&found.remark().to_string());
+        }
         let accepted = status.closures.iter().filter(|it| it.is_accepted).count();
         if !status.closures.is_empty() {
             let refused = status.closures.len() - accepted;
@@ -247,6 +255,11 @@ impl Mapping {
         Ok(())
     }
 
+    /// Places where passes contradict each other in the map as it is now.
+    fn contradictions(&self) -> Vec<MapContradiction> {
+        self.node.look(Slam::audit).unwrap_or_default()
+    }
+
     /// Writes what was asked for; in words why it cannot be.
     pub(crate) fn write(&self) -> Result<Option<PathBuf>, String> {
         let Some(folder) = &self.out else { return Ok(None) };
@@ -260,8 +273,10 @@ impl Mapping {
         put(&files.image_path, &files.image)?;
         put(&files.yaml_path, files.yaml.as_bytes())?;
         let poses = self.node.look(|slam| slam.poses().to_vec()).unwrap_or_default();
-        put("map.png", &picture::draw(&map, &poses))?;
-        if let Some(session) = self.node.look(periplus_slam::Slam::save) {
+        let marked = self.contradictions().into_iter().map(|it| it.map_from_base);
+        let marked: Vec<(f64, f64)> = marked.map(|it| (it.x_m, it.y_m)).collect();
+        put("map.png", &picture::draw(&map, &poses, &marked))?;
+        if let Some(session) = self.node.look(Slam::save) {
             put("map.session", &session)?;
         }
         Ok(Some(folder.clone()))

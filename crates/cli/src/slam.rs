@@ -57,7 +57,9 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             return Ok(ExitCode::FAILURE);
         }
     };
-    let remedy = Remedy::of(run.made.mapper().remarks()).filter(|_| options.session.is_none());
+    let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
+    let remedy = Remedy::of(run.made.mapper().remarks())
+        .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {
         // A fault of mounting or axes is certain: the map is made again without it.
         drop(run);
@@ -216,7 +218,7 @@ fn write(
     drawn
 }
 
-/// Draws the map and the way, some rows at a time: large maps are never held as a whole.
+/// Draws the map, the way, and a ring where passes contradict each other, some rows at a time: large maps are never held as a whole.
 fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<(), String> {
     let Some(plan) = slam.plan() else {
         return Err("the map is too large to draw; try `--max-range 30` or a coarser \
@@ -227,10 +229,12 @@ fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<()
     let saving = Saving::new("map", Distro::Jazzy);
     let (image_path, yaml_path, yaml) = render_yaml(&lattice, &saving);
     let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
+    let marked = slam.contradictions().into_iter().map(|it| it.map_from_base);
+    let marked: Vec<_> = marked.map(|it| (it.x_m, it.y_m)).collect();
     let mut png = Vec::new();
     paths::write_by(&out.join(image_path), |image| {
         let mut rows = PgmRows::begin(image, &lattice, &saving)?;
-        png = draw_by(lattice, &poses, |picture| {
+        png = draw_by(lattice, &poses, &marked, |picture| {
             let at_once = (CELLS_AT_ONCE / lattice.width.max(1)).max(1);
             let mut top = lattice.height;
             while top > 0 {

@@ -224,6 +224,70 @@ fn a_log_with_reversed_wheels_is_mapped_again() {
     let edges = graph.lines().filter(|line| line.starts_with("EDGE_SE2")).count();
     assert_eq!(mapped.report["edges"].as_array().unwrap().len(), edges);
     assert!(mapped.report["remedy"].is_string());
+
+    let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
+    let command = command.arg("slam").arg(&log).arg("--out").arg(&out);
+    let output = command.args(["-p", "correct_mounting:=false"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("both wheels are counted with the wrong sign"), "{said}");
+    assert!(!said.contains("the map was made again"), "{said}");
+}
+
+/// Two shelves are gone when the robot passes the second time: the report has the place and the times of both
+/// passes, and the picture a red ring.
+#[test]
+fn passes_that_contradict_each_other_are_in_the_report_and_in_the_picture() {
+    let folder = Folder::new("slam-contradiction");
+    let mut empty = World { walls: Vec::new() };
+    empty.rectangle([0.0, 0.0, 16.0, 10.0]);
+    empty.rectangle([0.0, 7.0, 2.0, 10.0]);
+    let mut full = World { walls: empty.walls.clone() };
+    full.rectangle([3.5, 3.0, 12.5, 3.9]);
+    full.rectangle([4.5, 6.4, 11.0, 8.0]);
+    let round = [(2.0, 5.0), (14.0, 5.0), (14.0, 1.5), (2.0, 1.5)];
+    let corners = [&round[..], &round, &round[..1]].concat();
+    let mut moments = full.drive(&corners, 0.3, &ROBOT, 1);
+    let half = moments.len() / 2;
+    let mut stream = periplus_base::Stream::keyed(1, "ahead", 0);
+    for (index, moment) in moments.iter_mut().enumerate() {
+        let laser = moment.truth * Pose2::new(AHEAD_M, 0.0, 0.0);
+        let world = if index < half { &full } else { &empty };
+        moment.scan = world.scan(laser, &ROBOT, BEGIN_NS + moment.scan.time_ns, &mut stream);
+    }
+    let log = folder.path("changed.log");
+    std::fs::write(&log, carmen(&moments)).unwrap();
+    let mapped = slam(&log, &folder.path("out"));
+    check(&mapped, &moments);
+    let warnings = mapped.report["warnings"].to_string();
+    assert!(warnings.contains("two passes contradict each other around"), "{warnings}");
+    let found = mapped.report["contradictions"].as_array().unwrap();
+    assert!(!found.is_empty());
+    let half_s = moments[half].scan.time_ns as f64 * 1e-9;
+    for it in found {
+        let number = |value: &Value| value.as_f64().unwrap();
+        // The map has the frame of odometry, which begins at the truth.
+        let (x_m, y_m) = (number(&it["position"][0]), number(&it["position"][1]));
+        assert!((2.0..14.5).contains(&x_m) && (1.0..6.0).contains(&y_m), "({x_m}, {y_m})");
+        assert!(number(&it["agreeing"]) < 0.7, "{it}");
+        // Stamps are those of lines of the trajectory, one pass before the change and one after it.
+        let stamp = |pass: &str, end: usize| {
+            let text = it[pass]["stamps"][end].as_str().unwrap();
+            let stamp_s: f64 = text.parse().unwrap();
+            assert!(
+                mapped.trajectory.iter().any(|line| (line[0] - stamp_s).abs() < 1e-6),
+                "{text}"
+            );
+            stamp_s
+        };
+        let (first, last) = (stamp("earlier_pass", 1), stamp("pass", 1));
+        assert!(first < half_s && half_s <= last, "{first} {half_s} {last}");
+    }
+    let picture = std::fs::read(folder.path("out").join("trajectory.png")).unwrap();
+    let picture = periplus_pictures::Raster::decode(&picture).unwrap();
+    let pixels = (picture.width * picture.height) as usize;
+    let red = (0..pixels).filter(|&pixel| picture.sample(pixel) == [255, 0, 0]).count();
+    // A line of 3 pixels around 1.5 m.
+    assert!(red > 300, "{red}");
 }
 
 /// Scans of a building in which each second one is of elsewhere: no map, and exit code 1.

@@ -183,7 +183,7 @@ fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), Str
     };
     put("trajectory.txt", trajectory.iter().map(line).collect::<String>().as_bytes())?;
     let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
-    let drawn = put("trajectory.png", &picture::draw(map, &poses));
+    let drawn = put("trajectory.png", &picture::draw(map, &poses, &[]));
     put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
     drawn
 }

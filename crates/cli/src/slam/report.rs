@@ -72,6 +72,7 @@ impl Report<'_> {
             "map_memory_bytes": self.slam.size(),
             "closures": closures,
             "edges": self.edges(),
+            "contradictions": self.contradictions(),
             "remedy": self.remedy.map(|it| it.to_string()),
             "warnings": self.warnings(),
             "faults": self.log.faults,
@@ -92,6 +93,26 @@ impl Report<'_> {
                 "keys": [edge.keys.0, edge.keys.1],
                 "link": link,
                 "residual": [edge.residual_m, edge.residual_rad],
+            })
+        });
+        told.collect()
+    }
+
+    /// Places where two passes contradict each other: where the map has them \[m\], the share of what both see
+    /// that agrees, and for both passes the kept scans and stamps of the stretch, as in the trajectory.
+    fn contradictions(&self) -> Vec<Value> {
+        let stamp = |time_ns: i64| {
+            let logged = self.log.scans.iter().find(|it| it.scan.time_ns == time_ns);
+            logged.map_or_else(|| format!("{:.6}", time_ns as f64 * 1e-9), |it| it.stamp.clone())
+        };
+        let pass = |keys: (usize, usize), times_ns: (i64, i64)| json!({ "keys": [keys.0, keys.1], "stamps": [stamp(times_ns.0), stamp(times_ns.1)] });
+        let found = self.slam.contradictions().into_iter();
+        let told = found.map(|it| {
+            json!({
+                "position": [it.map_from_base.x_m, it.map_from_base.y_m],
+                "agreeing": it.agreeing_ratio,
+                "pass": pass(it.keys, it.times_ns),
+                "earlier_pass": pass(it.earlier_keys, it.earlier_times_ns),
             })
         });
         told.collect()
