@@ -9,19 +9,24 @@
 //!    pairwise with each other over the ways between them, and more do so than with any rival;
 //! 5. when the map has been bent accordingly, all that now overlaps still agrees; else all is undone.
 
+mod scale;
 mod state;
 
 use std::collections::VecDeque;
 use std::ops::Range;
 
 use periplus_base::{Pose2, normalize_angle};
-use periplus_matching::{Agreement, Field, Fit, Placed, Prior, Symmetric3, Window, register};
+use periplus_matching::{
+    Agreement, Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register,
+};
 
 use crate::drift::{Sighting, from_here, reversed};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
 use crate::local::{Group, apart, both_ways, close_by, floored, grouped, heading_step, points_of};
 use crate::settings::Settings;
+
+use scale::scale;
 
 /// Length of a stretch that is searched for, and from one search to the next \[m\].
 const STRETCH_M: f64 = 9.0;
@@ -86,8 +91,13 @@ const ANYWHERE_AGREEING: f64 = 0.95;
 const ANYWHERE_WITNESSES: usize = 5;
 const MOST_ELSEWHERE: usize = 24;
 const FARTHER: f64 = 2.0;
-/// Fields that are kept.
+/// Fields that are kept; the larger, the fewer.
 const KEPT_FIELDS: usize = 12;
+/// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
+const FAR_M: f32 = 14.0;
+const SPACING_M: f32 = 0.15;
+/// Where scans see farther, cells are larger up to so many times.
+const COARSE: f64 = 2.0;
 /// Points of a stretch that are searched with.
 const SEARCH_POINTS: usize = 350;
 
@@ -227,9 +237,10 @@ impl Loops {
     ///
     /// Where the map is torn, all that lies in other pieces of it is asked for as well.
     pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize, is_torn: bool) {
+        let scale = scale(keys, last);
         let start = (0..last)
             .rev()
-            .find(|&key| keys[last].travel_m - keys[key].travel_m > STRETCH_M)
+            .find(|&key| keys[last].travel_m - keys[key].travel_m > scale * STRETCH_M)
             .unwrap_or(0);
         let stretch = start..last + 1;
         let way = keys[last].travel_m - keys[start].travel_m;
@@ -245,8 +256,10 @@ impl Loops {
         }
         let mut asked: Vec<(f64, Task)> = Vec::new();
         let mut elsewhere: Vec<(f64, Task)> = Vec::new();
-        for (place, old) in self.places.iter().enumerate() {
-            if keys[start].travel_m - keys[old.keys.end - 1].travel_m < OLD_M - STRETCH_M {
+        // Places reach over those beside them.
+        for (place, old) in self.places.iter().enumerate().step_by(scale as usize) {
+            let gone_m = keys[start].travel_m - keys[old.keys.end - 1].travel_m;
+            if gone_m < scale * (OLD_M - STRETCH_M) {
                 break;
             }
             let Some(sighting) = &covariances[old.middle] else {
@@ -260,13 +273,13 @@ impl Loops {
                 continue;
             }
             let (metres, _) = apart(graph.poses[anchor], graph.poses[old.middle]);
-            if metres > region_m + MEET_M {
+            if metres > region_m + scale * MEET_M {
                 continue;
             }
             let covariance = reversed(&sighting.covariance, graph.between(anchor, old.middle));
             let task = Task { stretch: stretch.clone(), anchor, place, covariance };
             // The likeliest first: how far out in its region a meeting would be.
-            asked.push(((metres - MEET_M).max(0.0) / region_m.max(0.1), task));
+            asked.push(((metres - scale * MEET_M).max(0.0) / region_m.max(0.1), task));
         }
         asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
         asked.truncate(MOST_ASKED);
@@ -319,7 +332,8 @@ impl Loops {
         settings: &Settings,
     ) -> Option<Candidate> {
         let middle = self.places[task.place].middle;
-        let around = self.around(task.place, keys);
+        let scale = scale(keys, task.stretch.end - 1);
+        let around = self.around(task.place, keys, scale);
         let around: Vec<usize> = around.filter(|&key| key < task.stretch.start).collect();
         let old = grouped(keys, graph, &around, middle);
         let old = old.placed();
@@ -329,14 +343,15 @@ impl Loops {
         let expected = graph.between(middle, task.anchor);
         let region = [3.0 * task.covariance.xx.sqrt() + 0.4, 3.0 * task.covariance.yy.sqrt() + 0.4];
         let half_rad = (3.0 * task.covariance.tt.sqrt() + 0.03).min(std::f64::consts::PI);
+        let (meet_m, seen_m) = (scale * MEET_M, scale * SEEN_M);
         // Only the part of the region where the two can meet.
         let part = |middle: f64, half: f64| {
-            let (low, high) = ((middle - half).max(-SEEN_M), (middle + half).min(SEEN_M));
+            let (low, high) = ((middle - half).max(-seen_m), (middle + half).min(seen_m));
             (low < high).then_some((0.5 * (low + high), 0.5 * (high - low)))
         };
         let (x_m, half_x_m) = part(expected.x_m, region[0])?;
         let (y_m, half_y_m) = part(expected.y_m, region[1])?;
-        let points = spread(&points_of(&new), 0.15, 14.0);
+        let points = spread(&points_of(&new), scale as f32 * SPACING_M, scale as f32 * FAR_M);
         if points.len() < 40 {
             return None;
         }
@@ -344,16 +359,16 @@ impl Loops {
             middle: Pose2::new(x_m, y_m, expected.yaw_rad),
             half_m: [half_x_m, half_y_m],
             half_rad,
-            step_rad: heading_step(&points, settings.loop_field.resolution_m),
+            step_rad: heading_step(&points, settings.loop_field.resolution_m) / scale.min(COARSE),
         };
         let of = around.iter().map(|&key| (key, graph.between(middle, key)));
-        let field = self.field(task.place, of, keys, settings);
+        let field = self.field(task.place, of, keys, settings, scale);
         let (best, _) = field.search(&points, &window, LEAST_SCORE, None);
         let best = best?;
         // A peak at the rim is the slope of something beyond.
         let rim = [best.pose.x_m - x_m, best.pose.y_m - y_m];
         let is_at_rim = rim[0].abs() > half_x_m - RIM_M || rim[1].abs() > half_y_m - RIM_M;
-        let is_far = best.pose.x_m.abs() > MEET_M || best.pose.y_m.abs() > MEET_M;
+        let is_far = best.pose.x_m.abs() > meet_m || best.pose.y_m.abs() > meet_m;
         if is_at_rim || is_far {
             return None;
         }
@@ -403,10 +418,11 @@ impl Loops {
     }
 
     /// Keys of a place and those around it.
-    fn around(&self, place: usize, keys: &[Key]) -> Range<usize> {
+    fn around(&self, place: usize, keys: &[Key], scale: f64) -> Range<usize> {
         let own = &self.places[place].keys;
+        let around_m = scale * AROUND_M + 0.5 * (scale - 1.0) * PLACE_M;
         let (from_m, to_m) =
-            (keys[own.start].travel_m - AROUND_M, keys[own.end - 1].travel_m + AROUND_M);
+            (keys[own.start].travel_m - around_m, keys[own.end - 1].travel_m + around_m);
         let start = keys.partition_point(|key| key.travel_m < from_m);
         let end = keys.partition_point(|key| key.travel_m <= to_m);
         start..end
@@ -419,16 +435,17 @@ impl Loops {
         of: impl Iterator<Item = (usize, Pose2)>,
         keys: &[Key],
         settings: &Settings,
+        scale: f64,
     ) -> &Field {
         let at = self.fields.iter().position(|kept| kept.place == place);
         let kept = at.and_then(|at| self.fields.remove(at));
         let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
-        self.fields.truncate(KEPT_FIELDS - 1);
+        self.fields.truncate((KEPT_FIELDS as f64 / scale) as usize - 1);
         self.fields.push_front(kept);
         let Kept { of, field, .. } = &mut self.fields[0];
         field.get_or_insert_with(|| {
             let group = Group::new(of.iter().map(|&(key, pose)| (keys[key].cloud(), pose)));
-            Field::new(&points_of(&group.placed()), [0.0, 0.0], &settings.loop_field)
+            Field::new(&points_of(&group.placed()), [0.0, 0.0], &field_settings(settings, scale))
         })
     }
 
@@ -591,6 +608,18 @@ impl Loops {
     /// Bytes held.
     pub(crate) fn size(&self) -> usize {
         self.fields.iter().filter_map(|kept| kept.field.as_ref()).map(Field::size).sum()
+    }
+}
+
+/// The field of loops where scans see so many times as far as indoors.
+fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
+    let indoors = settings.loop_field;
+    let (scale, coarse) = (scale as f32, scale.min(COARSE) as f32);
+    FieldSettings {
+        resolution_m: coarse * indoors.resolution_m,
+        sigma_m: coarse * indoors.sigma_m,
+        most_half_m: scale * indoors.most_half_m,
+        ..indoors
     }
 }
 

@@ -33,6 +33,11 @@ fn a_campus_by_a_scanner_that_sees_far() {
 }
 
 #[test]
+fn loops_outdoors_close_by_what_is_far_away() {
+    check("campus", 11);
+}
+
+#[test]
 fn decks_with_ramps() {
     check("car-park", 0);
 }
