@@ -40,6 +40,8 @@ const TOLERANCE_M: f32 = 0.2;
 /// Length over which scans are summed \[m\], and points that are evidence.
 const STRETCH_M: f64 = 3.0;
 const JUDGED: u32 = 400;
+/// Outdoors both judge few points: a stretch then grows up to so much way \[m\].
+const LONGEST_M: f64 = 20.0;
 /// Stretches whose scans agree on less are contradictions.
 const AGREEING: f64 = 0.7;
 /// Passes that each scan is held against.
@@ -67,7 +69,11 @@ pub(crate) fn contradictions(held: &[Held], keys: &[Key], graph: &Graph) -> Vec<
         let from_m = keys[held[start].key].travel_m;
         let mut sum = Agreement::default();
         let mut end = start;
-        while end < held.len() && keys[held[end].key].travel_m - from_m < STRETCH_M {
+        let goes_on = |it: &Held, judged: u32| {
+            let way_m = keys[it.key].travel_m - from_m;
+            way_m < STRETCH_M || (judged <= JUDGED && way_m < LONGEST_M)
+        };
+        while end < held.len() && goes_on(&held[end], sum.judged()) {
             sum += held[end].sum;
             end += 1;
         }
@@ -189,4 +195,34 @@ pub(crate) fn overlap(
         sum += both_ways(&a, &b, other_from_key, TOLERANCE_M);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_matching::{Cloud, CloudSettings};
+
+    use super::*;
+
+    #[test]
+    fn scans_of_few_points_are_summed_over_more_way() {
+        let check = |agreeing: u32, contradicting: u32, wanted: usize| {
+            let nothing = Cloud::new([], [0.0; 2], 0.0, &CloudSettings::default());
+            let keys: Vec<Key> =
+                (0..60).map(|key| Key::new(&nothing, None, f64::from(key))).collect();
+            let mut graph = Graph::default();
+            keys.iter().for_each(|_| {
+                graph.add_pose(Pose2::IDENTITY);
+            });
+            let sum = Agreement { agreeing, contradicting, unseen: 0 };
+            let other_from_key = Pose2::IDENTITY;
+            let held = (30..60).map(|key| Held { key, other: key - 30, other_from_key, sum });
+            let held: Vec<Held> = held.collect();
+            assert_eq!(contradictions(&held, &keys, &graph).len(), wanted);
+        };
+        // A scan a metre: three metres judge 600 points, 150, and 15.
+        check(100, 100, 1);
+        check(25, 25, 1);
+        check(25, 5, 0);
+        check(3, 2, 0);
+    }
 }
