@@ -94,6 +94,9 @@ enum Task {
         /// Of `slam`: go on with runs that were interrupted
         #[arg(long)]
         resume: bool,
+        /// Of `slam`: write the page again from the runs of the last time
+        #[arg(long, conflicts_with_all = ["json", "check", "logs", "runs"])]
+        page: bool,
         /// Of `slam`: the program whose memory is measured, in place of a release build
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
@@ -219,34 +222,37 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
         Task::Corpus => corpus::run_all(),
-        Task::Bench { only, load, quick, logs, runs, json, check, resume, program } => match only {
-            Some(Contest::Bags) => bags::bench(),
-            Some(Contest::Casters) => physics::casters(),
-            Some(Contest::Costmap) => costmap::bench(),
-            Some(Contest::Loading) => corpus::bench(),
-            Some(Contest::Page) => viewer::bench(),
-            Some(Contest::Physics) => physics::bench(),
-            Some(Contest::Rays) => rays::bench(),
-            Some(Contest::Sim) => runs::bench(),
-            Some(Contest::Wire) => wire::bench(load.as_deref()),
-            Some(Contest::Ros2) => ros2::bench(load.as_deref(), *quick),
-            Some(Contest::Subscribers) => ros2::subscribers(*quick),
-            Some(Contest::Slam) => slam::bench(&slam::Wish {
-                logs: logs.clone(),
-                runs: runs.clone(),
-                json: *json,
-                check: *check,
-                resume: *resume,
-                program: program.clone(),
-            }),
-            Some(Contest::SlamWorlds) => slam::worlds(),
-            Some(Contest::Localization) => localization::bench(),
-            None => corpus::bench()
-                .and_then(|()| physics::bench())
-                .and_then(|()| rays::bench())
-                .and_then(|()| runs::bench())
-                .and_then(|()| costmap::bench()),
-        },
+        Task::Bench { only, load, quick, logs, runs, json, check, resume, page, program } => {
+            match only {
+                Some(Contest::Bags) => bags::bench(),
+                Some(Contest::Casters) => physics::casters(),
+                Some(Contest::Costmap) => costmap::bench(),
+                Some(Contest::Loading) => corpus::bench(),
+                Some(Contest::Page) => viewer::bench(),
+                Some(Contest::Physics) => physics::bench(),
+                Some(Contest::Rays) => rays::bench(),
+                Some(Contest::Sim) => runs::bench(),
+                Some(Contest::Wire) => wire::bench(load.as_deref()),
+                Some(Contest::Ros2) => ros2::bench(load.as_deref(), *quick),
+                Some(Contest::Subscribers) => ros2::subscribers(*quick),
+                Some(Contest::Slam) => slam::bench(&slam::Wish {
+                    logs: logs.clone(),
+                    runs: runs.clone(),
+                    json: *json,
+                    check: *check,
+                    resume: *resume,
+                    page: *page,
+                    program: program.clone(),
+                }),
+                Some(Contest::SlamWorlds) => slam::worlds(),
+                Some(Contest::Localization) => localization::bench(),
+                None => corpus::bench()
+                    .and_then(|()| physics::bench())
+                    .and_then(|()| rays::bench())
+                    .and_then(|()| runs::bench())
+                    .and_then(|()| costmap::bench()),
+            }
+        }
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
         Task::Attack { only, every, seed, program } => attack::attack(&attack::Wish {

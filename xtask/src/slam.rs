@@ -29,6 +29,8 @@ pub(crate) struct Wish {
     pub(crate) check: bool,
     /// Go on with runs that were interrupted.
     pub(crate) resume: bool,
+    /// Write the page from the runs that are there, and map nothing again.
+    pub(crate) page: bool,
     /// The program whose memory is measured, in place of a release build.
     pub(crate) program: Option<PathBuf>,
 }
@@ -45,21 +47,25 @@ pub(crate) fn bench(wish: &Wish) -> Result<(), Failed> {
 
     let is_part = wish.logs.is_some() || wish.runs.is_some();
     let graph = out.join(if is_part { "graph-part.json" } else { "graph.json" });
-    let mut command = logs_example(&logs, &graph, wish.resume);
-    wanted(&mut command, "--only", wish.logs.as_deref());
-    wanted(&mut command, "--runs", wish.runs.as_deref());
-    run(quiet(&mut command, wish), "a log of the folder cannot be read")?;
-    let mut records = record::read(&graph)?;
-
+    let particles = out.join(if is_part { "particles-part.json" } else { "particles.json" });
     // Thirty maps each: as they are only.
     let is_wanted =
         |run: &str| wish.runs.as_ref().is_none_or(|it| it.split(',').any(|it| it == run));
-    if is_wanted("plain") {
-        let particles = out.join(if is_part { "particles-part.json" } else { "particles.json" });
-        let mut command = logs_example(&logs, &particles, wish.resume);
-        command.args(["--method", "gmapping", "--runs", "plain", "--seeds", SEEDS]);
+    if !wish.page {
+        let why = "a log of the folder cannot be read";
+        let mut command = logs_example(&logs, &graph, wish.resume);
         wanted(&mut command, "--only", wish.logs.as_deref());
-        run(quiet(&mut command, wish), "a log of the folder cannot be read")?;
+        wanted(&mut command, "--runs", wish.runs.as_deref());
+        run(quiet(&mut command, wish), why)?;
+        if is_wanted("plain") {
+            let mut command = logs_example(&logs, &particles, wish.resume);
+            command.args(["--method", "gmapping", "--runs", "plain", "--seeds", SEEDS]);
+            wanted(&mut command, "--only", wish.logs.as_deref());
+            run(quiet(&mut command, wish), why)?;
+        }
+    }
+    let mut records = record::read(&graph)?;
+    if is_wanted("plain") {
         records.extend(record::read(&particles)?);
     }
     if wish.json {
@@ -75,13 +81,20 @@ pub(crate) fn bench(wish: &Wish) -> Result<(), Failed> {
         println!("\n{}", page::tables(&records, &[]));
         return Ok(());
     }
-    let whole = program::measure(wish.program.as_deref(), &logs, &names(&records), &out)?;
+    let whole = if wish.page {
+        program::read(&out)?
+    } else {
+        program::measure(wish.program.as_deref(), &logs, &names(&records), &out)?
+    };
     let mut picture = example("maps");
     picture.arg(&logs).arg(&out).arg(root().join(PICTURE));
     run(&mut picture, "the picture of the maps cannot be drawn")?;
     let page = root().join(PAGE);
     std::fs::write(&page, page::whole(&records, &whole)).map_err(failed(&page))?;
     println!("\n{PAGE} and {PICTURE} are written");
+    if wish.page {
+        return Ok(());
+    }
     run(&mut example("worlds"), "a world with known truth failed")
 }
 

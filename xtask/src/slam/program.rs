@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::step::{Failed, cargo, run};
 
@@ -51,7 +51,53 @@ pub(crate) fn measure(
         measure_one(&periplus, &logs.join(name).join("raw.clf"), &out.join(name))
             .map(|whole| Whole { log: name.clone(), ..whole })
     };
-    names.iter().map(one).collect()
+    let wholes: Vec<Whole> = names.iter().map(one).collect::<Result<_, _>>()?;
+    let lines: String = wholes.iter().map(|it| it.to_json().to_string() + "\n").collect();
+    let path = out.join(FILE);
+    std::fs::write(&path, lines).map_err(super::failed(&path))?;
+    Ok(wholes)
+}
+
+/// Runs of the program that [`measure`] has left.
+const FILE: &str = "program.json";
+
+/// Reads what the last [`measure`] found.
+///
+/// # Errors
+/// When there is none.
+pub(crate) fn read(out: &Path) -> Result<Vec<Whole>, Failed> {
+    let path = out.join(FILE);
+    let text = std::fs::read_to_string(&path).map_err(super::failed(&path))?;
+    let whole = |(index, line): (usize, &str)| {
+        let value = serde_json::from_str(line).ok();
+        let why = || Failed(format!("{}:{}: this is no run", path.display(), index + 1));
+        value.as_ref().and_then(Whole::of_json).ok_or_else(why)
+    };
+    text.lines().enumerate().map(whole).collect()
+}
+
+impl Whole {
+    fn to_json(&self) -> Value {
+        json!({
+            "log": self.log,
+            "path_m": self.path_m,
+            "peak_bytes": self.peak_bytes,
+            "cpu_s": self.cpu_s,
+            "code": self.code,
+            "edges": self.edges,
+        })
+    }
+
+    fn of_json(value: &Value) -> Option<Self> {
+        Some(Self {
+            log: value["log"].as_str()?.to_owned(),
+            path_m: value["path_m"].as_f64()?,
+            peak_bytes: value["peak_bytes"].as_f64()?,
+            cpu_s: value["cpu_s"].as_f64()?,
+            code: value["code"].as_i64().and_then(|it| i32::try_from(it).ok()),
+            edges: usize::try_from(value["edges"].as_u64()?).ok()?,
+        })
+    }
 }
 
 fn measure_one(periplus: &Path, log: &Path, out: &Path) -> Result<Whole, Failed> {
@@ -126,8 +172,6 @@ fn edges_of_graph(text: &str) -> Edges {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     #[test]
@@ -137,6 +181,20 @@ mod tests {
         let report = json!({"edges": [{"keys": [0, 1]}, {"keys": [0, 1]}]});
         assert_eq!(edges_of_graph(graph), edges_of_report(&report));
         assert_ne!(edges_of_graph(graph), edges_of_report(&json!({"edges": [{"keys": [0, 1]}]})));
+    }
+
+    #[test]
+    fn a_run_is_read_as_it_was_written() {
+        let whole = Whole {
+            log: "aces".to_owned(),
+            path_m: 321.5,
+            peak_bytes: 20.5e6,
+            cpu_s: 1.0,
+            code: None,
+            edges: 561,
+        };
+        let read = Whole::of_json(&whole.to_json()).unwrap();
+        assert_eq!(read.to_json(), whole.to_json());
     }
 
     #[test]
