@@ -3,8 +3,9 @@
 use periplus_base::Pose2;
 use periplus_matching::Peak;
 
-use crate::hunt::{Hunt, Pyramid, Wanted as Places};
+use crate::hunt::{Hunt, Wanted as Places};
 use crate::known_map::{CellState, KnownMap};
+use crate::pyramid::Pyramid;
 
 /// More cells than this and they are taken larger.
 const MOST_CELLS: f64 = 4e6;
@@ -61,12 +62,12 @@ impl Everywhere {
     /// places that fit less than `least` (0 to 1) nothing is wanted.
     pub(crate) fn hunt(&self, ends: &[[f32; 2]], least: f64) -> Hunt {
         let (points, step_rad) = self.thinned(ends);
-        self.pyramid.hunt(&points, step_rad, (least.max(LEAST_SCORE), SHARE), None)
+        Hunt::new(&self.pyramid, &points, step_rad, (least.max(LEAST_SCORE), SHARE), None)
     }
 
     /// Goes on for about so many lookups.
     pub(crate) fn go_on(&self, hunt: &mut Hunt, most: u64) {
-        self.pyramid.go_on(hunt, most, &PLACES);
+        hunt.go_on(&self.pyramid, most, &PLACES);
         if hunt.work() > MOST_WORK && !hunt.is_done() {
             hunt.narrow(NARROW.0, NARROW.1);
         }
@@ -99,8 +100,9 @@ impl Everywhere {
     ) -> Vec<Peak> {
         let (points, step_rad) = self.thinned(ends);
         let wanted = (LEAST_SCORE, SHARE_NEAR);
-        let mut hunt = self.pyramid.hunt(&points, step_rad, wanted, Some((pose, half_m, half_rad)));
-        self.pyramid.go_on(&mut hunt, MOST_WORK_NEAR, &PLACES_NEAR);
+        let near = Some((pose, half_m, half_rad));
+        let mut hunt = Hunt::new(&self.pyramid, &points, step_rad, wanted, near);
+        hunt.go_on(&self.pyramid, MOST_WORK_NEAR, &PLACES_NEAR);
         hunt.into_peaks().0
     }
 

@@ -1,371 +1,22 @@
 //! The search for a scan on all of a map, which can be done in parts.
 //!
 //! Branch and bound, the most promising first (Hess et al. 2016, "Real-time loop closure in 2D LIDAR
-//! SLAM"): the largest likelihood over a square of cells bounds what any place of the robot within it
-//! can reach. Besides, upper levels take several headings together, with squares that are wider by as
-//! much as points move between them, and where nothing is free the robot cannot be.
+//! SLAM"). Where nothing is free the robot cannot be.
 
-use std::collections::BinaryHeap;
 use std::f64::consts::PI;
 
 use periplus_base::{Pose2, normalize_angle};
 use periplus_matching::Peak;
 
-/// The coarsest squares have 2 to the power of this cells on a side.
-const TOP: usize = 6;
-/// Squares of that many levels below it stand for several headings.
-const FANNED: usize = 2;
-/// So many headings, one more than twice this to either side.
-const ASIDE: usize = 2;
-/// By so many cells points move between them at most, and one for rounding.
-const PAD: usize = ASIDE + 1;
-/// After so many points it is seen whether the rest can matter.
-const AT_ONCE: usize = 12;
+use crate::pyramid::{FULL, Pyramid, Reach, Square, TOP, Turned};
+
 /// To keep the order of nodes costs as much as so many lookups.
-const POPPED: u64 = 30;
-/// So many headings can be told apart, and so many points do not exceed the largest bound.
+const POPPED: u64 = 10;
+/// So many headings can be told apart, and so many points do not exceed the largest sum.
 const MOST_HEADINGS: usize = 2048;
 const MOST_POINTS: usize = 256;
-/// How far from a wall a point may be that belongs to it: one standard deviation, in cells.
-const SIGMA_CELLS: f32 = 1.2;
-/// Farther it does not count.
-const REACH_CELLS: usize = 2;
-
-/// Likelihoods of points over a map, with the largest over ever larger squares.
-#[derive(Clone, Debug)]
-pub(crate) struct Pyramid {
-    pub(crate) cell_m: f64,
-    /// Corner of cell (0, 0) \[m\].
-    corner_m: [f64; 2],
-    width: usize,
-    height: usize,
-    /// `levels[k]` at a cell is the largest over the square of 2^k cells that begins there.
-    levels: Vec<Vec<u8>>,
-    /// The same of the upper levels, over squares wider by [`PAD`] to each side.
-    fanned: Vec<Vec<u8>>,
-    /// Whether the robot can be anywhere in such a square.
-    free: Vec<Vec<u8>>,
-}
-
-impl Pyramid {
-    /// Of walls and free places within a box \[m\].
-    pub(crate) fn new(
-        walls: impl Iterator<Item = (f64, f64)>,
-        free: impl Iterator<Item = (f64, f64)>,
-        [low_m, high_m]: [[f64; 2]; 2],
-        cell_m: f64,
-    ) -> Self {
-        // On the low side there is room for squares that begin outside and reach in.
-        let before = (1 << TOP) + PAD + REACH_CELLS;
-        let after = PAD + REACH_CELLS + 1;
-        let cells = |axis: usize| ((high_m[axis] - low_m[axis]) / cell_m) as usize + before + after;
-        let (width, height) = (cells(0), cells(1));
-        let corner_m = low_m.map(|low| low - before as f64 * cell_m);
-        let cell_of = |(x, y): (f64, f64)| {
-            let column = (((x - corner_m[0]) / cell_m) as usize).clamp(REACH_CELLS, width - 3);
-            let row = (((y - corner_m[1]) / cell_m) as usize).clamp(REACH_CELLS, height - 3);
-            (column, row)
-        };
-        let mut finest = vec![0_u8; width * height];
-        for wall in walls {
-            let (column, row) = cell_of(wall);
-            finest[row * width + column] = 255;
-        }
-        let is_wall = finest.clone();
-        let side = 2 * REACH_CELLS + 1;
-        for index in (0..is_wall.len()).filter(|it| is_wall[*it] > 0) {
-            for near in 0..side * side {
-                let (right, up) = (near % side, near / side);
-                let (x, y) = (right as f32 - REACH_CELLS as f32, up as f32 - REACH_CELLS as f32);
-                let squared = (x * x + y * y) / (SIGMA_CELLS * SIGMA_CELLS);
-                let value = (255.0 * libm::expf(-0.5 * squared)) as u8;
-                let cell = index + up * width + right - REACH_CELLS * (width + 1);
-                finest[cell] = finest[cell].max(value);
-            }
-        }
-        let mut places = vec![0_u8; width * height];
-        for place in free {
-            let (column, row) = cell_of(place);
-            places[row * width + column] = 1;
-        }
-        // A map may have a piece of furniture where the robot can be by now.
-        let known = places.clone();
-        for index in (0..known.len()).filter(|it| known[*it] > 0) {
-            let (column, row) = (index % width, index / width);
-            let around = [index - 1, index + 1, index - width, index + width];
-            if around.iter().all(|it| known[*it] > 0) {
-                continue;
-            }
-            for up in row - REACH_CELLS..=row + REACH_CELLS {
-                let begin = up * width + column - REACH_CELLS;
-                places[begin..=begin + 2 * REACH_CELLS].fill(1);
-            }
-        }
-        let raised = |finest: Vec<u8>| {
-            let mut levels = vec![finest];
-            for level in 1..=TOP {
-                let mut next = levels[level - 1].clone();
-                widen(&mut next, width, 1 << (level - 1));
-                levels.push(next);
-            }
-            levels
-        };
-        let levels = raised(finest);
-        let fanned = (TOP - FANNED..=TOP)
-            .map(|level| {
-                let mut wider = levels[level].clone();
-                // Each makes the square one cell wider.
-                (0..2 * PAD).for_each(|_| widen(&mut wider, width, 1));
-                wider
-            })
-            .collect();
-        let free = raised(places);
-        Self { cell_m, corner_m, width, height, levels, fanned, free }
-    }
-
-    /// Begins to look for where points fit, in the frame of the base \[m\]. Of places that fit less than
-    /// `least` (0 to 1) nothing is wanted, nor of those below `share` of the best.
-    ///
-    /// Near a pose, not farther along each axis and in heading, the robot may also be where nothing is
-    /// known to be free: \[m\], \[rad\].
-    pub(crate) fn hunt(
-        &self,
-        points: &[[f32; 2]],
-        step_rad: f64,
-        (least, share): (f64, f64),
-        near: Option<(Pose2, f64, f64)>,
-    ) -> Hunt {
-        let fan = 2 * ASIDE + 1;
-        let fans = (libm::ceil(2.0 * PI / step_rad / fan as f64) as usize).max(1);
-        let fans = fans.min(MOST_HEADINGS / fan);
-        let headings = fans * fan;
-        // In an order in which the first ones come from all sides, so that a few tell enough.
-        let points = &points[..points.len().min(MOST_POINTS)];
-        let stride = (points.len() / AT_ONCE).max(1);
-        let ordered: Vec<[f32; 2]> = (0..stride)
-            .flat_map(|first| points.iter().skip(first).step_by(stride))
-            .copied()
-            .collect();
-        let mut offsets = Vec::with_capacity(headings * ordered.len());
-        let scale = (1.0 / self.cell_m) as f32;
-        for heading in 0..headings {
-            let (sine, cosine) = libm::sincos(2.0 * PI * heading as f64 / headings as f64);
-            let (sine, cosine) = (sine as f32 * scale, cosine as f32 * scale);
-            let cell = |value: f32| libm::floorf(value + 0.5) as i32;
-            offsets.extend(
-                ordered.iter().map(|p| {
-                    [cell(cosine * p[0] - sine * p[1]), cell(sine * p[0] + cosine * p[1])]
-                }),
-            );
-        }
-        let region = near.map_or_else(
-            || Region {
-                low: [0, 0],
-                high: [self.width - 1, self.height - 1],
-                fans: [0, fans],
-                level: TOP,
-                is_free: true,
-            },
-            |(pose, half_m, half_rad)| {
-                let middle = [pose.x_m - self.corner_m[0], pose.y_m - self.corner_m[1]];
-                let most = [self.width - 1, self.height - 1];
-                let cell = |axis: usize, more_m: f64| {
-                    (((middle[axis] + more_m) / self.cell_m).max(0.0) as usize).min(most[axis])
-                };
-                let fan_rad = 2.0 * PI / fans as f64;
-                let first = libm::floor((pose.yaw_rad - half_rad) / fan_rad);
-                let last = libm::floor((pose.yaw_rad + half_rad) / fan_rad);
-                let first_fan = first.rem_euclid(fans as f64) as usize % fans;
-                Region {
-                    low: [cell(0, -half_m), cell(1, -half_m)],
-                    high: [cell(0, half_m), cell(1, half_m)],
-                    fans: [first_fan, ((last - first) as usize + 1).min(fans)],
-                    level: TOP - FANNED,
-                    is_free: false,
-                }
-            },
-        );
-        let count = ordered.len();
-        let threshold = (least.clamp(0.0, 1.0) * 255.0 * count as f64) as u32;
-        Hunt {
-            offsets,
-            count,
-            headings,
-            region,
-            share,
-            threshold,
-            nodes: BinaryHeap::new(),
-            roots: 0,
-            work: 0,
-            best: 0,
-            peaks: Vec::new(),
-            is_done: count == 0,
-            completeness: Completeness::Whole,
-        }
-    }
-
-    /// Goes on for about so many lookups.
-    pub(crate) fn go_on(&self, hunt: &mut Hunt, most: u64, wanted: &Wanted) {
-        let end = hunt.work.saturating_add(most);
-        let Region { low, high, fans: [first, count], level, .. } = hunt.region;
-        let stride = 1 << level;
-        let across = |axis: usize| (high[axis] - low[axis]) / stride + 1;
-        let (wide, fans) = (across(0), hunt.headings / (2 * ASIDE + 1));
-        let roots = wide * across(1) * count;
-        while hunt.work < end && hunt.roots < roots {
-            let (place, fan) = (hunt.roots / count, (first + hunt.roots % count) % fans);
-            hunt.roots += 1;
-            let (x, y) = (low[0] + place % wide * stride, low[1] + place / wide * stride);
-            let heading = (fan * (2 * ASIDE + 1) + ASIDE) as u16;
-            let (level, x, y) = (level as u8, x as u16, y as u16);
-            self.push(hunt, Node { bound: 0, level, is_fan: true, heading, x, y });
-        }
-        if hunt.roots < roots {
-            return;
-        }
-        while hunt.work < end {
-            let Some(node) = hunt.nodes.pop() else {
-                hunt.is_done = true;
-                return;
-            };
-            let node = Node::unpacked(node);
-            hunt.work += POPPED;
-            if node.bound <= hunt.threshold {
-                hunt.nodes.clear();
-                continue;
-            }
-            if node.level == 0 {
-                self.take(hunt, node, wanted);
-                continue;
-            }
-            if node.level <= 2 && self.is_shadowed(hunt, node, wanted) {
-                continue;
-            }
-            if node.is_fan && usize::from(node.level) == TOP - FANNED {
-                for heading in node.heading - ASIDE as u16..=node.heading + ASIDE as u16 {
-                    self.push(hunt, Node { heading, is_fan: false, ..node });
-                }
-                continue;
-            }
-            let half = 1 << (node.level - 1);
-            for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
-                let (x, y) = (node.x + dx, node.y + dy);
-                self.push(hunt, Node { x, y, level: node.level - 1, ..node });
-            }
-        }
-    }
-
-    /// Keeps a node, if anything in it may be worth a look.
-    fn push(&self, hunt: &mut Hunt, node: Node) {
-        let (x, y) = (usize::from(node.x), usize::from(node.y));
-        let Region { high, is_free, .. } = hunt.region;
-        if x > high[0] || y > high[1] {
-            return;
-        }
-        if is_free && self.free[usize::from(node.level)][y * self.width + x] == 0 {
-            return;
-        }
-        let bound = self.bound(hunt, node);
-        if bound > hunt.threshold {
-            hunt.nodes.push(Node { bound, ..node }.packed());
-        }
-    }
-
-    /// Most that any place in a square can reach, summed over points.
-    fn bound(&self, hunt: &mut Hunt, node: Node) -> u32 {
-        let level = usize::from(node.level);
-        let (values, pad) = if node.is_fan {
-            (&self.fanned[level - (TOP - FANNED)], PAD as i32)
-        } else {
-            (&self.levels[level], 0)
-        };
-        let (x, y) = (i32::from(node.x) - pad, i32::from(node.y) - pad);
-        let (width, height) = (self.width as u32, self.height as u32);
-        let start = usize::from(node.heading) * hunt.count;
-        let (mut sum, mut rest) = (0, 255 * hunt.count as u32);
-        for points in hunt.offsets[start..start + hunt.count].chunks(AT_ONCE) {
-            for &[dx, dy] in points {
-                // Below zero is far above the size.
-                let (column, row) = ((x + dx) as u32, (y + dy) as u32);
-                if column < width && row < height {
-                    sum += u32::from(values[(row * width + column) as usize]);
-                }
-            }
-            hunt.work += points.len() as u64;
-            rest -= 255 * points.len() as u32;
-            if sum + rest <= hunt.threshold {
-                break;
-            }
-        }
-        sum
-    }
-
-    fn pose(&self, hunt: &Hunt, node: Node) -> Pose2 {
-        let at = |cell: u16, corner_m: f64| corner_m + (f64::from(cell) + 0.5) * self.cell_m;
-        let yaw_rad = 2.0 * PI * f64::from(node.heading) / hunt.headings as f64;
-        Pose2::new(
-            at(node.x, self.corner_m[0]),
-            at(node.y, self.corner_m[1]),
-            normalize_angle(yaw_rad),
-        )
-    }
-
-    /// Whether all of a square is near a better place.
-    fn is_shadowed(&self, hunt: &Hunt, node: Node, wanted: &Wanted) -> bool {
-        let low = self.pose(hunt, node);
-        let more_m = f64::from((1_u16 << node.level) - 1) * self.cell_m;
-        let (near_m, near_rad) = wanted.apart;
-        hunt.peaks.iter().any(|peak| {
-            let (dx, dy) = (low.x_m - peak.pose.x_m, low.y_m - peak.pose.y_m);
-            dx > -near_m
-                && dy > -near_m
-                && dx + more_m < near_m
-                && dy + more_m < near_m
-                && normalize_angle(low.yaw_rad - peak.pose.yaw_rad).abs() < near_rad
-        })
-    }
-
-    /// Takes a place; better ones came before.
-    fn take(&self, hunt: &mut Hunt, node: Node, wanted: &Wanted) {
-        if self.is_shadowed(hunt, node, wanted) {
-            return;
-        }
-        let score = f64::from(node.bound) / (255.0 * hunt.count as f64);
-        hunt.peaks.push(Peak { pose: self.pose(hunt, node), score });
-        hunt.best = hunt.best.max(node.bound);
-        let least = (f64::from(hunt.best) * hunt.share) as u32;
-        hunt.threshold = hunt.threshold.max(least);
-        if hunt.peaks.len() >= wanted.most {
-            hunt.nodes.clear();
-            hunt.completeness = Completeness::Part;
-        }
-    }
-
-    /// Which part of points fits at a pose.
-    pub(crate) fn score(&self, points: &[[f32; 2]], pose: Pose2) -> f64 {
-        let at = |point: &[f32; 2]| {
-            let (x, y) = pose.transform_point(point[0].into(), point[1].into());
-            let (u, v) =
-                ((x - self.corner_m[0]) / self.cell_m, (y - self.corner_m[1]) / self.cell_m);
-            let is_inside = u >= 0.0 && v >= 0.0 && u < self.width as f64 && v < self.height as f64;
-            let cell = if is_inside { v as usize * self.width + u as usize } else { 0 };
-            f64::from(self.levels[0][cell]) / 255.0
-        };
-        points.iter().map(at).sum::<f64>() / points.len().max(1) as f64
-    }
-}
-
-/// The largest of each value and that `step` further, along both axes.
-fn widen(cells: &mut [u8], width: usize, step: usize) {
-    for row in cells.chunks_exact_mut(width) {
-        for column in 0..width.saturating_sub(step) {
-            row[column] = row[column].max(row[column + step]);
-        }
-    }
-    for index in 0..cells.len().saturating_sub(step * width) {
-        cells[index] = cells[index].max(cells[index + step * width]);
-    }
-}
+/// So many points that follow each other in a search come from all sides.
+const SIDES: usize = 12;
 
 /// Which places are looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -376,69 +27,33 @@ pub(crate) struct Wanted {
     pub(crate) apart: (f64, f64),
 }
 
-/// A square of places at one heading, or a few of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Node {
-    /// Most that any of them reaches; 255 for each point.
-    bound: u32,
-    is_fan: bool,
-    level: u8,
-    heading: u16,
-    x: u16,
-    y: u16,
-}
-
-impl Node {
-    /// All in one number, in the order in which nodes are looked into.
-    fn packed(self) -> u64 {
-        u64::from(self.bound) << 47
-            | u64::from(self.is_fan) << 46
-            | u64::from(self.level) << 43
-            | u64::from(self.heading) << 32
-            | u64::from(self.x) << 16
-            | u64::from(self.y)
-    }
-
-    fn unpacked(number: u64) -> Self {
-        Self {
-            bound: (number >> 47) as u32,
-            is_fan: number >> 46 & 1 == 1,
-            level: (number >> 43 & 7) as u8,
-            heading: (number >> 32 & (MOST_HEADINGS as u64 - 1)) as u16,
-            x: (number >> 16) as u16,
-            y: number as u16,
-        }
-    }
-}
-
 /// Where it is looked.
 #[derive(Clone, Copy, Debug)]
-struct Region {
-    /// Cells of the robot's place.
-    low: [usize; 2],
-    high: [usize; 2],
-    /// The first of groups of headings, and how many they are.
-    fans: [usize; 2],
-    /// The size of squares with which it begins.
-    level: usize,
-    /// Whether only what is free counts.
-    is_free: bool,
+enum Region {
+    /// Where the robot can be.
+    Free,
+    /// In a box of cells, whether or not anything is known to be free there.
+    Box { low: [u16; 2], high: [u16; 2] },
 }
 
 /// A search that is under way.
 #[derive(Clone, Debug)]
 pub(crate) struct Hunt {
-    /// For each heading, the points in cells.
+    /// For each heading, the points in cells, relative to the robot.
     offsets: Vec<[i32; 2]>,
+    /// For each heading, the box around them.
+    reaches: Vec<Reach>,
     /// How many points.
     count: usize,
-    headings: usize,
     region: Region,
+    /// The first of headings, how many are wanted, and how many were begun.
+    first: usize,
+    wanted: usize,
+    begun: usize,
     share: f64,
     threshold: u32,
-    nodes: BinaryHeap<u64>,
-    /// How many squares were looked at of those that make up the map.
-    roots: usize,
+    nodes: Queue,
+    sums: Vec<u16>,
     /// Lookups so far.
     work: u64,
     best: u32,
@@ -460,6 +75,184 @@ pub(crate) enum Completeness {
 }
 
 impl Hunt {
+    /// Begins to look for where points fit, in the frame of the base \[m\]. Of places that fit less than
+    /// `least` (0 to 1) nothing is wanted, nor of those below `share` of the best.
+    ///
+    /// Near a pose, not farther along each axis and in heading, the robot may also be where nothing is
+    /// known to be free: \[m\], \[rad\].
+    pub(crate) fn new(
+        pyramid: &Pyramid,
+        points: &[[f32; 2]],
+        step_rad: f64,
+        (least, share): (f64, f64),
+        near: Option<(Pose2, f64, f64)>,
+    ) -> Self {
+        let headings = (libm::ceil(2.0 * PI / step_rad) as usize).clamp(1, MOST_HEADINGS);
+        // In an order in which the first ones come from all sides, so that a few tell enough.
+        let points = &points[..points.len().min(MOST_POINTS)];
+        let stride = (points.len() / SIDES).max(1);
+        let ordered: Vec<[f32; 2]> = (0..stride)
+            .flat_map(|first| points.iter().skip(first).step_by(stride))
+            .copied()
+            .collect();
+        let count = ordered.len();
+        let (region, first, wanted) = near.map_or((Region::Free, 0, headings), |near| {
+            let (pose, half_m, half_rad) = near;
+            let (low, high) = (pose.x_m - half_m, pose.x_m + half_m);
+            let low = pyramid.cell_near((low, pose.y_m - half_m));
+            let high = pyramid.cell_near((high, pose.y_m + half_m));
+            let each_rad = 2.0 * PI / headings as f64;
+            let first = libm::floor((pose.yaw_rad - half_rad) / each_rad);
+            let last = libm::ceil((pose.yaw_rad + half_rad) / each_rad);
+            let wanted = ((last - first) as usize + 1).min(headings);
+            let first = first.rem_euclid(headings as f64) as usize % headings;
+            (Region::Box { low, high }, first, wanted)
+        });
+        let mut offsets = vec![[0; 2]; headings * count];
+        let mut reaches = vec![Reach::of(&[]); headings];
+        let scale = (1.0 / pyramid.cell_m) as f32;
+        for number in 0..wanted {
+            let heading = (first + number) % headings;
+            let (sine, cosine) = libm::sincos(2.0 * PI * heading as f64 / headings as f64);
+            let (sine, cosine) = (sine as f32 * scale, cosine as f32 * scale);
+            let cell = |value: f32| libm::floorf(value + 0.5) as i32;
+            let offsets = &mut offsets[heading * count..(heading + 1) * count];
+            for (offset, p) in offsets.iter_mut().zip(&ordered) {
+                *offset = [cell(cosine * p[0] - sine * p[1]), cell(sine * p[0] + cosine * p[1])];
+            }
+            reaches[heading] = Reach::of(offsets);
+        }
+        Self {
+            offsets,
+            reaches,
+            count,
+            region,
+            first,
+            wanted,
+            begun: 0,
+            share,
+            threshold: (least.clamp(0.0, 1.0) * f64::from(FULL) * count as f64) as u32,
+            nodes: Queue::new(FULL as usize * count),
+            sums: Vec::new(),
+            work: 0,
+            best: 0,
+            peaks: Vec::new(),
+            is_done: count == 0,
+            completeness: Completeness::Whole,
+        }
+    }
+
+    /// Goes on for about so many lookups.
+    pub(crate) fn go_on(&mut self, pyramid: &Pyramid, most: u64, wanted: &Wanted) {
+        let end = self.work.saturating_add(most);
+        while self.work < end && self.begun < self.wanted {
+            self.begin(pyramid, (self.first + self.begun) % self.reaches.len());
+            self.begun += 1;
+        }
+        if self.begun < self.wanted {
+            return;
+        }
+        while self.work < end {
+            let Some(node) = self.nodes.pop() else {
+                self.is_done = true;
+                return;
+            };
+            self.work += POPPED;
+            if node.bound <= self.threshold {
+                self.nodes.clear();
+            } else if node.square.level == 0 {
+                self.take(pyramid, node, wanted);
+            } else if node.square.level > 2 || !self.is_shadowed(pyramid, node, wanted) {
+                self.split(pyramid, node);
+            }
+        }
+    }
+
+    /// Points at a heading.
+    fn turned(&self, heading: usize) -> Turned<'_> {
+        let offsets = &self.offsets[heading * self.count..(heading + 1) * self.count];
+        Turned { offsets, reach: self.reaches[heading] }
+    }
+
+    /// Begins with the largest squares at a heading.
+    fn begin(&mut self, pyramid: &Pyramid, heading: usize) {
+        let number = heading as u16;
+        match self.region {
+            Region::Free => {
+                let mut sums = std::mem::take(&mut self.sums);
+                let mut nodes = std::mem::take(&mut self.nodes);
+                let points = self.turned(heading);
+                let work = pyramid.sweep(&points, self.threshold, &mut sums, |square, bound| {
+                    nodes.push(Node { bound, heading: number, square });
+                });
+                (self.sums, self.nodes) = (sums, nodes);
+                self.work += work;
+            }
+            Region::Box { low, high } => {
+                let bound = FULL * self.count as u32;
+                for y in (low[1]..=high[1]).step_by(1 << TOP) {
+                    for x in (low[0]..=high[0]).step_by(1 << TOP) {
+                        let square = Square { x, y, level: TOP as u8 };
+                        self.nodes.push(Node { bound, heading: number, square });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Keeps the quarters of a square in which anything may be worth a look.
+    fn split(&mut self, pyramid: &Pyramid, node: Node) {
+        let quarters = node.square.quarters();
+        let is_possible = quarters.map(|it| match self.region {
+            Region::Free => pyramid.is_free(it),
+            Region::Box { high, .. } => it.x <= high[0] && it.y <= high[1],
+        });
+        let points = self.turned(node.heading.into());
+        let (bounds, work) = pyramid.bounds(quarters[0], &points, self.threshold);
+        self.work += work;
+        for ((square, bound), is_possible) in quarters.into_iter().zip(bounds).zip(is_possible) {
+            if is_possible && bound > self.threshold {
+                self.nodes.push(Node { bound, square, ..node });
+            }
+        }
+    }
+
+    fn pose(&self, pyramid: &Pyramid, node: Node) -> Pose2 {
+        let yaw_rad = 2.0 * PI * f64::from(node.heading) / self.reaches.len() as f64;
+        pyramid.pose(node.square, yaw_rad)
+    }
+
+    /// Whether all of a square is near a better place.
+    fn is_shadowed(&self, pyramid: &Pyramid, node: Node, wanted: &Wanted) -> bool {
+        let low = self.pose(pyramid, node);
+        let more_m = f64::from((1_u16 << node.square.level) - 1) * pyramid.cell_m;
+        let (near_m, near_rad) = wanted.apart;
+        self.peaks.iter().any(|peak| {
+            let (dx, dy) = (low.x_m - peak.pose.x_m, low.y_m - peak.pose.y_m);
+            dx > -near_m
+                && dy > -near_m
+                && dx + more_m < near_m
+                && dy + more_m < near_m
+                && normalize_angle(low.yaw_rad - peak.pose.yaw_rad).abs() < near_rad
+        })
+    }
+
+    /// Takes a place; better ones came before.
+    fn take(&mut self, pyramid: &Pyramid, node: Node, wanted: &Wanted) {
+        if self.is_shadowed(pyramid, node, wanted) {
+            return;
+        }
+        let score = f64::from(node.bound) / (f64::from(FULL) * self.count as f64);
+        self.peaks.push(Peak { pose: self.pose(pyramid, node), score });
+        self.best = self.best.max(node.bound);
+        let least = (f64::from(self.best) * self.share) as u32;
+        self.threshold = self.threshold.max(least);
+        if self.peaks.len() >= wanted.most {
+            self.nodes.clear();
+            self.completeness = Completeness::Part;
+        }
+    }
+
     pub(crate) fn is_done(&self) -> bool {
         self.is_done
     }
@@ -472,7 +265,7 @@ impl Hunt {
     /// From now on only what reaches such a share of the best, and fits as well as `least`.
     pub(crate) fn narrow(&mut self, share: f64, least: f64) {
         self.share = self.share.max(share);
-        let least = (least * 255.0 * self.count as f64) as u32;
+        let least = (least * f64::from(FULL) * self.count as f64) as u32;
         let share = (f64::from(self.best) * self.share) as u32;
         self.threshold = self.threshold.max(share).max(least);
         self.completeness = self.completeness.min(Completeness::Best);
@@ -490,5 +283,119 @@ impl Hunt {
     /// What was found, the best first, and how much of all that is.
     pub(crate) fn into_peaks(self) -> (Vec<Peak>, Completeness) {
         (self.peaks, self.completeness)
+    }
+}
+
+/// A square of positions at one heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Node {
+    /// Most that any of them reaches; [`FULL`] for each point.
+    bound: u32,
+    heading: u16,
+    square: Square,
+}
+
+/// Nodes, the largest bound first. No node is worth more than one that was taken before, so that a list
+/// for each bound suffices.
+#[derive(Clone, Debug, Default)]
+struct Queue {
+    /// Of each bound the node that came last, or [`NONE`].
+    lists: Vec<u32>,
+    /// Each with the one before of the same bound, or of those that are free.
+    nodes: Vec<(Node, u32)>,
+    free: u32,
+    /// No list above this has any.
+    top: usize,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Queue {
+    /// For bounds up to this.
+    fn new(most: usize) -> Self {
+        Self { lists: vec![NONE; most + 1], nodes: Vec::new(), free: NONE, top: 0 }
+    }
+
+    fn push(&mut self, node: Node) {
+        let bound = node.bound as usize;
+        let entry = (node, self.lists[bound]);
+        let index = if self.free == NONE {
+            self.nodes.push(entry);
+            self.nodes.len() - 1
+        } else {
+            let index = self.free as usize;
+            self.free = self.nodes[index].1;
+            self.nodes[index] = entry;
+            index
+        };
+        self.lists[bound] = index as u32;
+        self.top = self.top.max(bound);
+    }
+
+    fn pop(&mut self) -> Option<Node> {
+        while *self.lists.get(self.top)? == NONE {
+            self.top = self.top.checked_sub(1)?;
+        }
+        let index = self.lists[self.top];
+        let (node, before) = self.nodes[index as usize];
+        self.lists[self.top] = before;
+        self.nodes[index as usize].1 = self.free;
+        self.free = index;
+        Some(node)
+    }
+
+    fn clear(&mut self) {
+        self.lists.fill(NONE);
+        self.nodes.clear();
+        (self.free, self.top) = (NONE, 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_base::Stream;
+
+    use super::*;
+
+    #[test]
+    fn the_best_of_all_places_is_found_in_parts() {
+        for seed in 0..6 {
+            let mut stream = Stream::keyed(seed, "hunt", 0);
+            let (wide_m, high_m) = (7.0, 4.6);
+            let walls: Vec<(f64, f64)> =
+                (0..400).map(|_| (wide_m * stream.unit(), high_m * stream.unit())).collect();
+            let free: Vec<(f64, f64)> =
+                (0..3000).map(|_| (wide_m * stream.unit(), high_m * stream.unit())).collect();
+            let corners = [[0.0, 0.0], [wide_m, high_m]];
+            let pyramid = Pyramid::new(walls.iter().copied(), free.iter().copied(), corners, 0.1);
+            // Far enough that many are off the map.
+            let point = |stream: &mut Stream| (6.0 * (stream.unit() - 0.5)) as f32;
+            let points: Vec<[f32; 2]> =
+                (0..30).map(|_| [point(&mut stream), point(&mut stream)]).collect();
+            let mut hunt = Hunt::new(&pyramid, &points, 0.1, (0.0, 1.0), None);
+            let wanted = Wanted { most: 1, apart: (0.01, 0.01) };
+            let mut parts = 0;
+            while !hunt.is_done() {
+                hunt.go_on(&pyramid, 20_000, &wanted);
+                parts += 1;
+            }
+            assert!(parts > 1);
+            let best = hunt.best;
+            let mut most = 0;
+            for heading in 0..hunt.reaches.len() {
+                let points = hunt.turned(heading);
+                for cell in 0..100 * 80_u16 {
+                    let square = Square { x: cell % 100, y: cell / 100, level: 0 };
+                    let is_inside = pyramid.cell_near((wide_m, high_m));
+                    if square.x <= is_inside[0] + 2
+                        && square.y <= is_inside[1] + 2
+                        && pyramid.is_free(square)
+                    {
+                        most = most.max(pyramid.bounds(square, &points, 0).0[0]);
+                    }
+                }
+            }
+            assert_eq!(best, most, "seed {seed}");
+        }
     }
 }

@@ -57,6 +57,7 @@ mod motion;
 mod particles;
 mod polish;
 mod pose_file;
+mod pyramid;
 mod ranges;
 mod recovery;
 mod rivals;
