@@ -39,6 +39,8 @@ pub(crate) struct Agreement {
     /// it knew. What ends where the map knows nothing, with no wall in between, says nothing then, so
     /// that the edge of a map is no contradiction.
     pub(crate) judged: f64,
+    /// Of all beams, those that end where the map knows that nothing is, or go through a wall.
+    pub(crate) contradicted: f64,
 }
 
 /// None when nothing was hit.
@@ -47,7 +49,7 @@ pub(crate) fn agreement(map: &KnownMap, beams: &Beams, map_from_base: Pose2) -> 
     let map_from_laser = map_from_base * beams.base_from_laser;
     let start = (map_from_laser.x_m, map_from_laser.y_m);
     let every = beams.beams.len().div_ceil(BEAMS).max(1);
-    let (mut sum, mut count, mut silent) = (0.0, 0.0_f64, 0.0);
+    let (mut sum, mut count, mut silent, mut contradicted) = (0.0, 0.0_f64, 0.0, 0.0);
     let hits = beams.beams.iter().filter(|beam| beam.range_m < beams.range_max_m);
     for beam in hits.step_by(every) {
         count += 1.0;
@@ -56,21 +58,24 @@ pub(crate) fn agreement(map: &KnownMap, beams: &Beams, map_from_base: Pose2) -> 
         let off = map.distance_m(x_m, y_m) / SIGMA_M;
         let is_off = off > 3.0;
         if is_off && map.is_known(x_m, y_m) {
+            contradicted += 1.0;
             continue;
         }
         let bearing_rad = map_from_base.yaw_rad + beam.bearing_rad;
         let wall_m = map.wall_m(&finder, start, bearing_rad, NEAR_M, beam.range_m);
-        if is_off {
-            silent += f64::from(u8::from(wall_m >= beam.range_m));
-        } else if wall_m >= beam.range_m - THROUGH_M {
+        if is_off && wall_m >= beam.range_m {
+            silent += 1.0;
+        } else if !is_off && wall_m >= beam.range_m - THROUGH_M {
             sum += libm::exp(-0.5 * off * off);
+        } else {
+            contradicted += 1.0;
         }
     }
     if count == 0.0 {
         return None;
     }
     let judged = sum / (count - silent).max(LEAST_JUDGED * count);
-    Some(Agreement { all: sum / count, judged })
+    Some(Agreement { all: sum / count, judged, contradicted: contradicted / count })
 }
 
 /// The natural logarithm of how likely a scan is at a place; only differences between places mean

@@ -197,7 +197,7 @@ impl KnownMap {
         let (column, row) = self.cell_at(x_m, y_m);
         let is_free = |cell| self.state(cell) == Some(CellState::Free);
         // No more than so many cells are asked.
-        let reach = (near_m / self.lattice.resolution_m).min(20.0) as i64;
+        let reach = (near_m / self.lattice.resolution_m).min(60.0) as i64;
         is_free((column, row))
             || (-reach..=reach)
                 .any(|up| (-reach..=reach).any(|right| is_free((column + right, row + up))))

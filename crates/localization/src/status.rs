@@ -58,6 +58,8 @@ const LEAST_FIT: f64 = 0.35;
 const SUSPECT: f64 = 0.85;
 /// So much less than it used to be is a sudden misfit.
 const SUDDEN: f64 = 0.6;
+/// So much less than it used to be is not usual: at least, as a share, and in mean deviations.
+const UNUSUAL: (f64, f64) = (0.12, 4.0);
 /// Memories of how well scans fit, long and short.
 const MEMORY: [f64; 2] = [0.02, 0.4];
 
@@ -65,6 +67,8 @@ const MEMORY: [f64; 2] = [0.02, 0.4];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Watch {
     fits: Recovery,
+    /// How far scans fit better or worse than usual, in the mean.
+    deviation: f64,
     /// Whether the robot was not sure after the last scan: then nothing is learned of what is usual.
     is_unsure: bool,
     /// Whether it ever was.
@@ -87,7 +91,9 @@ impl Watch {
     ) -> Status {
         if let Some(fit) = fit {
             let [slow, fast] = MEMORY;
-            self.fits.take(fit, [if self.is_unsure { 0.0 } else { slow }, fast]);
+            let slow = if self.is_unsure { 0.0 } else { slow };
+            self.fits.take(fit, [slow, fast]);
+            self.deviation += slow * ((fit - self.fits.slow).abs() - self.deviation);
         }
         let Recovery { slow, fast } = self.fits;
         let Some(best) = clusters.first() else { return Status::default() };
@@ -153,6 +159,12 @@ impl Watch {
         self.fits.slow
     }
 
+    /// With a smaller part of a scan on walls than this it is unlike scans before.
+    pub(crate) fn least_usual(&self) -> f64 {
+        let (share, deviations) = UNUSUAL;
+        self.fits.slow - (share * self.fits.slow).max(deviations * self.deviation)
+    }
+
     /// The robot is elsewhere; what was bad a moment ago counts no longer.
     pub(crate) fn forgive(&mut self) {
         self.fits.fast = self.fits.slow;
@@ -202,5 +214,20 @@ mod tests {
         let states: Vec<State> =
             (0..5).map(|_| watch.judge(&[at(0.0, 1.0)], Some(0.45), false).state).collect();
         assert_eq!(states.last(), Some(&State::Lost));
+    }
+
+    #[test]
+    fn a_scan_is_unlike_others_where_they_agree_with_each_other() {
+        let least_of = |fits: &[f64]| {
+            let mut watch = Watch::default();
+            for number in 0..100 {
+                watch.judge(&[at(0.0, 1.0)], Some(fits[number % fits.len()]), false);
+            }
+            watch.least_usual()
+        };
+        let steady = least_of(&[0.94, 0.96]);
+        assert!(steady > 0.8 && steady < 0.86, "{steady}");
+        let unsteady = least_of(&[0.95, 0.65]);
+        assert!(unsteady < 0.5, "{unsteady}");
     }
 }

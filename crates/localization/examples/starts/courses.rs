@@ -1,19 +1,16 @@
-//! Drives with a map and a reference: logs, whose maps and references come from SLAM, and worlds with
-//! known truth.
+//! Drives with a map and a reference, and how maps differ from the place: parts that are not known, and
+//! furniture that was moved.
 
-use std::path::Path;
-
-use periplus_bags::read_carmen;
 use periplus_base::{Pose2, Stream};
 use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
 use periplus_localization::Scan;
-use periplus_slam::Slam;
 
-use crate::carmen::scan_of;
 use crate::worlds::{Wanderer, World};
 
 /// Ends so near to a wall of the map are on it \[m\].
 const ON_WALL_M: f64 = 0.15;
+/// A robot not farther than this from a free cell is on the map \[m\].
+const FREE_M: f64 = 0.3;
 /// The map covers a scan of which such a part is on its walls.
 const COVERED: f64 = 0.5;
 /// Steps of a drive through a world.
@@ -35,40 +32,6 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// A log in the form of CARMEN: every `every`-th scan of its first scanner.
-    pub(crate) fn of_log(name: &str, path: &Path, every: usize) -> Result<Self, String> {
-        let bytes = std::fs::read(path).map_err(|why| format!("{}: {why}", path.display()))?;
-        let log = read_carmen(&bytes);
-        let kind = log.scans.first().map(|scan| scan.kind.clone());
-        let mut slam = Slam::new(periplus_slam::Settings::default());
-        let mut taken = Vec::new();
-        let scans = log.scans.into_iter().filter(|scan| Some(&scan.kind) == kind.as_ref());
-        for (number, scan) in scans.step_by(every).enumerate() {
-            let Some(odom_from_base) = scan.odom_from_base else { continue };
-            let time_ns = number as i64 * 100_000_000;
-            let as_seen = periplus_slam::Scan { time_ns, ..scan_of(&scan) };
-            let _ = slam.add_scan(&as_seen, Some(odom_from_base));
-            let scan = Scan {
-                base_from_laser: scan.base_from_laser,
-                is_flipped: false,
-                angle_min_rad: scan.angle_min_rad,
-                angle_increment_rad: scan.angle_increment_rad,
-                range_min_m: 0.05,
-                range_max_m: scan.range_max_m.into(),
-                ranges_m: scan.ranges_m,
-            };
-            taken.push((time_ns, odom_from_base, scan));
-        }
-        slam.finish();
-        let map = slam.map().ok_or_else(|| format!("{name}: no map"))?;
-        let way: std::collections::BTreeMap<i64, Pose2> = slam.trajectory().into_iter().collect();
-        let sights = taken.into_iter().filter_map(|(time_ns, odom_from_base, scan)| {
-            let map_from_base = *way.get(&time_ns)?;
-            Some(Sight { odom_from_base, map_from_base, scan })
-        });
-        Ok(Self { name: name.to_owned(), map: trinary(map), sights: sights.collect() })
-    }
-
     /// A drive through a world.
     pub(crate) fn of_world(world: &World, seed: u64) -> Self {
         let map = world.map();
@@ -114,19 +77,7 @@ impl Course {
     }
 }
 
-/// As a map server gives it.
-fn trinary(mut map: OccupancyGrid) -> OccupancyGrid {
-    for cell in &mut map.cells {
-        *cell = match *cell {
-            65.. => occupancy::OCCUPIED,
-            0..=25 => occupancy::FREE,
-            _ => occupancy::UNKNOWN,
-        };
-    }
-    map
-}
-
-/// Judges whether a map covers a sight: the robot stands on a free cell, and half of what the scan hits is
+/// Judges whether a map covers a sight: the robot stands near a free cell, and half of what the scan hits is
 /// on walls.
 pub(crate) struct Cover<'a> {
     map: &'a OccupancyGrid,
@@ -158,9 +109,14 @@ impl<'a> Cover<'a> {
             on += usize::from(cell.is_some_and(|it| f64::from(self.walls[it]) < reach * reach));
         }
         let place = sight.map_from_base;
-        let is_free = finder
-            .cell_of(place.x_m, place.y_m)
-            .is_some_and(|cell| self.map[cell] == occupancy::FREE);
+        let is_free_at = |x: f64, y: f64| {
+            finder.cell_of(x, y).is_some_and(|cell| self.map[cell] == occupancy::FREE)
+        };
+        let around = (0..16).map(|it| std::f64::consts::PI / 8.0 * f64::from(it));
+        let is_free = is_free_at(place.x_m, place.y_m)
+            || around
+                .map(|bearing| (FREE_M * bearing.cos(), FREE_M * bearing.sin()))
+                .any(|(dx, dy)| is_free_at(place.x_m + dx, place.y_m + dy));
         is_free && on as f64 >= COVERED * count as f64
     }
 }

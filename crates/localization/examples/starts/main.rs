@@ -15,6 +15,7 @@
 #[path = "../../../slam/tests/carmen/mod.rs"]
 mod carmen;
 mod courses;
+mod logs;
 mod trials;
 #[path = "../worlds/mod.rs"]
 #[allow(dead_code, reason = "each tool uses its part")]
@@ -28,6 +29,7 @@ use periplus_localization::Settings;
 use periplus_params::Given;
 
 use crate::courses::Course;
+use crate::logs::course_of_log;
 use crate::trials::{Tally, Tests};
 use crate::worlds::World;
 
@@ -63,7 +65,7 @@ fn main() -> ExitCode {
         if !wants(&name) || !path.exists() {
             continue;
         }
-        match Course::of_log(&name, &path, if every > 0 { every } else { usual }) {
+        match course_of_log(&name, &path, if every > 0 { every } else { usual }) {
             Ok(course) => courses.push(course),
             Err(why) => {
                 println!("{why}");

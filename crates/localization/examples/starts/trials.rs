@@ -47,10 +47,13 @@ pub(crate) struct Tally {
     squares: f64,
     spent_s: f64,
     worst_s: f64,
+    lookups: u64,
+    /// Scans from where it was put to where it was sure and right, summed over runs.
+    scans_to_right: usize,
 }
 
 impl Tally {
-    pub(crate) const HEAD: &str = "| map | test | runs | right | **wrong and sure** | not sure | scans | sure % | wrong while sure | most in a run | off map | sure there | most in a run | m to right | worst | RMS m | ms a scan | worst |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+    pub(crate) const HEAD: &str = "| map | test | runs | right | **wrong and sure** | not sure | scans | sure % | wrong while sure | most in a run | off map | sure there | most in a run | m to right | worst | RMS m | ms a scan | worst | lookups a scan | scans to right |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
     fn new(course: &str, test: &str) -> Self {
         Self { course: course.to_owned(), test: test.to_owned(), ..Self::default() }
@@ -72,6 +75,8 @@ impl Tally {
         self.ways_m.extend(&other.ways_m);
         self.squares += other.squares;
         self.spent_s += other.spent_s;
+        self.lookups += other.lookups;
+        self.scans_to_right += other.scans_to_right;
         self.worst_s = self.worst_s.max(other.worst_s);
     }
 
@@ -81,7 +86,7 @@ impl Tally {
         let mean = self.ways_m.iter().sum::<f64>() / self.ways_m.len().max(1) as f64;
         let most = self.ways_m.iter().copied().fold(0.0, f64::max);
         format!(
-            "| {} | {} | {} | {} | {} | {} | {} | {:.1} | {} | {} | {} | {} | {} | {mean:.2} | {most:.1} | {:.3} | {:.2} | {:.1} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {:.1} | {} | {} | {} | {} | {} | {mean:.2} | {most:.1} | {:.3} | {:.2} | {:.1} | {} | {} |",
             self.course,
             self.test,
             self.runs,
@@ -98,6 +103,8 @@ impl Tally {
             (self.squares / right).sqrt(),
             1e3 * self.spent_s / count,
             1e3 * self.worst_s,
+            self.lookups / self.scans.max(1) as u64,
+            self.scans_to_right / self.ways_m.len().max(1),
         )
     }
 }
@@ -109,6 +116,8 @@ struct Robot {
     way_m: f64,
     last: Option<Pose2>,
     is_found: bool,
+    /// Scans since it was put somewhere.
+    scans: usize,
     wrong: usize,
     off_map: usize,
     state: (bool, bool),
@@ -117,7 +126,7 @@ struct Robot {
 impl Robot {
     fn new(amcl: Amcl) -> Self {
         let (last, state) = (None, (false, false));
-        Self { amcl, way_m: 0.0, last, is_found: false, wrong: 0, off_map: 0, state }
+        Self { amcl, way_m: 0.0, last, is_found: false, scans: 0, wrong: 0, off_map: 0, state }
     }
 
     /// Takes a sight; `odom_from_base` is what it is told, and `truth` none where it is on no map.
@@ -133,11 +142,13 @@ impl Robot {
             self.way_m += apart(last, sight.map_from_base).0;
         }
         self.last = Some(sight.map_from_base);
+        self.scans += 1;
         let begin = cpu_s();
         let _ = self.amcl.update(odom_from_base, &sight.scan);
         let spent_s = cpu_s() - begin;
         tally.scans += 1;
         tally.spent_s += spent_s;
+        tally.lookups += self.amcl.searched();
         tally.worst_s = tally.worst_s.max(spent_s);
         let found = self.amcl.map_from_odom().map(|it| it * odom_from_base);
         let is_sure = self.amcl.status().state == State::Tracking;
@@ -158,6 +169,7 @@ impl Robot {
             if !self.is_found {
                 self.is_found = true;
                 tally.ways_m.push(self.way_m);
+                tally.scans_to_right += self.scans;
             }
         } else {
             tally.sure_wrong += 1;
@@ -292,7 +304,7 @@ impl Tests {
                 robot.see(sight, sight.odom_from_base, truth, true, &mut before);
             }
             (robot.way_m, robot.last, robot.is_found) = (0.0, None, false);
-            (robot.wrong, robot.off_map) = (0, 0);
+            (robot.wrong, robot.off_map, robot.scans) = (0, 0, 0);
             let end = course.after_m(back, WAY_M).unwrap_or(count - 1);
             let there = course.sights[gone].odom_from_base;
             let jump = if knows {

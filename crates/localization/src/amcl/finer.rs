@@ -5,7 +5,7 @@ use periplus_diagnostics::Diagnostic;
 use periplus_matching::{Peak, Symmetric3};
 
 use super::astray::{ENOUGH, Followed, TRUSTED_M, Way};
-use super::trust::RIVALLING;
+use super::trust::{ByOdometry, RIVALLING};
 use super::{Amcl, Estimate, has_moved};
 use crate::anywhere::Everywhere;
 use crate::bins::Cluster;
@@ -43,7 +43,7 @@ const EVEN: f64 = 0.005;
 const AGAIN: (f64, f64) = (0.5, 0.5);
 /// Of all of the map so much is searched with a scan, in lookups of points: some milliseconds; more
 /// with the very first one, when nothing is known yet.
-const SLICE: u64 = 1_500_000;
+const SLICE: u64 = 3_000_000;
 const FIRST_SLICE: u64 = 11_000_000;
 /// A scan of which such a part of the beams is longer or shorter than this is another one \[m\].
 const CHANGED: (f64, f64) = (0.3, 0.3);
@@ -177,6 +177,7 @@ impl Amcl {
             let Followed { known, fit: at_home } =
                 self.followed(seen, moved(&known, step), length_m(step), Way::Gone);
             let is_home = at_home.is_some_and(|it| it >= self.convincing().max(fit - BETTER));
+            let is_home = is_home && !self.trust.is_carried();
             if is_home || fit < STRAY * self.watch.usual() {
                 // None of them was it.
                 self.stay(estimate, known, odom_from_base);
@@ -203,6 +204,14 @@ impl Amcl {
         self.fine = None;
         // With nothing known before there is nothing to lose.
         let is_decided = rivals.is_decided() || self.home.is_none() && rivals.is_only();
+        if is_decided
+            && let Some((known, odom_from_base)) = self.home
+            && self.by_odometry(best.pose) == ByOdometry::Elsewhere
+        {
+            self.trust.open(0);
+            self.stay(estimate, known, odom_from_base);
+            return;
+        }
         if is_decided && fit >= self.convincing() {
             let is_home = self.home.is_some_and(|(known, _)| is_same(known.pose, best.pose));
             if !is_home || self.trust.is_open() {
@@ -495,7 +504,7 @@ impl Amcl {
         // Who never knew cannot have gone off the map from there.
         let knew = self.watch.was_sure();
         if let Some(stays) = stays.filter(|_| knew) {
-            rivals.add(stays.best(), STAYS);
+            rivals.add(stays.best(), if self.trust.is_carried() { 0.0 } else { STAYS });
         }
         let best = rivals.best().known.pose;
         let fit = all_at(best).unwrap_or(0.0);
@@ -504,6 +513,7 @@ impl Amcl {
         }
         let is_here = libm::hypot(best.x_m - estimate.pose.x_m, best.y_m - estimate.pose.y_m) < 0.5;
         if is_here && (rivals.is_decided() || rivals.is_alone()) {
+            self.open_account(&rivals);
             return false;
         }
         let here = Known { pose: estimate.pose, information: loosely(0.2, 0.1) };
