@@ -210,6 +210,10 @@ impl Trust {
         }
         self.scans += 1;
         let is_unlikely = self.scans == 1 && on_walls.is_some_and(|part| part < TOLD);
+        if is_unlikely && self.agreed.is_none() {
+            // At the edge of the map, rather than anywhere.
+            self.anchor = Some(((map_from_base * odom_from_base.inverse()).normalized(), 0.0));
+        }
         if (self.lapse_m > LAPSE_M || is_unlikely || is_drawn) && self.agreed.is_none() {
             self.open(0);
         }
@@ -425,7 +429,8 @@ impl Amcl {
     /// Whether the right place was among all places that a search has found. Who was not carried away may
     /// have been off the map; then another search has to agree.
     fn is_among(&self) -> bool {
-        !self.watch.was_sure() || self.trust.is_carried && self.watch.usual() >= CHANGED
+        let knew = self.watch.was_sure() || self.trust.anchor.is_some();
+        !knew || self.trust.is_carried && self.watch.usual() >= CHANGED
     }
 
     /// From now on scans on the way are proof as well.
