@@ -119,17 +119,22 @@ fn other_stretch(held: &[Held], keys: &[Key]) -> (usize, usize) {
 
 /// Each scan against the nearest ones of earlier passes.
 fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
+    let all = all_other_passes(keys, graph).into_iter().enumerate();
+    all.flat_map(|(key, others)| others.into_iter().map(move |other| hold(keys, graph, key, other)))
+        .collect()
+}
+
+/// Of each kept scan the nearest ones of earlier passes, one of each.
+pub(crate) fn all_other_passes(keys: &[Key], graph: &Graph) -> Vec<Vec<usize>> {
     let cell =
         |pose: Pose2| ((pose.x_m / NEAR_M).floor() as i32, (pose.y_m / NEAR_M).floor() as i32);
     let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
-    let mut all = Vec::new();
+    let mut all = Vec::with_capacity(keys.len());
     for key in 0..keys.len() {
         let (column, row) = cell(graph.poses[key]);
         let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y)));
         let near = around.filter_map(|there| cells.get(&there)).flatten().copied();
-        for other in other_passes(keys, graph, key, near) {
-            all.push(hold(keys, graph, key, other));
-        }
+        all.push(other_passes(keys, graph, key, near));
         cells.entry((column, row)).or_default().push(key);
     }
     all
@@ -172,19 +177,21 @@ pub(crate) fn hold(keys: &[Key], graph: &Graph, key: usize, other: usize) -> Hel
     Held { key, other, other_from_key, sum }
 }
 
-/// Scans around one kept scan held against those around another, both ways.
+/// Scans around one kept scan held against those around another, both ways; and how many points
+/// that are.
 pub(crate) fn overlap(
     keys: &[Key],
     graph: &Graph,
     new: usize,
     old: usize,
     around_m: f64,
-) -> Agreement {
+) -> (Agreement, u32) {
     let beside = |of: usize| {
         let is_near = move |key: &usize| (keys[*key].travel_m - keys[of].travel_m).abs() < around_m;
         (0..keys.len()).filter(is_near)
     };
     let mut sum = Agreement::default();
+    let mut all = 0;
     for key in beside(new) {
         let here = graph.poses[key];
         let distance = |other: &usize| apart(here, graph.poses[*other]).0;
@@ -192,9 +199,10 @@ pub(crate) fn overlap(
         let Some(other) = nearest.filter(|it| distance(it) < 2.0 * NEAR_M) else { continue };
         let other_from_key = graph.between(other, key);
         let (a, b) = (keys[key].cloud(), keys[other].cloud());
+        all += (a.points().len() + b.points().len()) as u32;
         sum += both_ways(&a, &b, other_from_key, TOLERANCE_M);
     }
-    sum
+    (sum, all)
 }
 
 #[cfg(test)]

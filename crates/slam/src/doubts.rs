@@ -59,6 +59,10 @@ pub enum Doubt {
     /// Two passes contradict each other around this place of the map \[m\]: so large a share of what both
     /// see agrees.
     Contradiction(f64, f64, f64),
+    /// Two passes show the same walls side by side around this place of the map \[m\]: so far apart \[m\].
+    Offset(f64, f64, f64),
+    /// Nothing confirms so much of the way through places that were passed before, of so much \[m\].
+    Unconfirmed(f64, f64),
     /// The maps of all particles would take too much memory: only so many of them go on.
     FewerMaps(usize),
     /// The best particle's map violates so many closures and ties of the graph, which nothing contradicts:
@@ -89,7 +93,9 @@ impl Remark {
             | Doubt::OdometryStill(_)
             | Doubt::Unfitting(_)
             | Doubt::Unjoined(_)
-            | Doubt::Contradiction(..) => true,
+            | Doubt::Contradiction(..)
+            | Doubt::Offset(..)
+            | Doubt::Unconfirmed(..) => true,
         }
     }
 }
@@ -174,6 +180,18 @@ impl std::fmt::Display for Remark {
                 "two passes contradict each other around ({x_m:.1}, {y_m:.1}) in the map: of what both \
                  see only {:.0} % agree; something has moved there, or the map is wrong",
                 100.0 * share
+            ),
+            Doubt::Offset(x_m, y_m, shift_m) => write!(
+                f,
+                "two passes show the same walls {shift_m:.2} m apart around ({x_m:.1}, {y_m:.1}) in the \
+                 map, and nothing that is sure enough joins them: walls are doubled there, and the map is \
+                 off by as much"
+            ),
+            Doubt::Unconfirmed(open_m, whole_m) => write!(
+                f,
+                "of {whole_m:.0} m of way through places that were passed before, scans confirm nothing \
+                 for {open_m:.0} m: there the map may be off; more beams, a longer range, a slower drive or \
+                 driving there in the same direction tell more"
             ),
             Doubt::Corridor(metres) => write!(
                 f,

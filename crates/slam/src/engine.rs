@@ -21,6 +21,7 @@ use crate::local::{apart, floored};
 use crate::loops::{Closure, Loops};
 use crate::map::Sketch;
 use crate::odometry::Trust;
+use crate::offsets::compare;
 use crate::refine::refine;
 use crate::scan::{Ends, Scan};
 use crate::settings::Settings;
@@ -30,7 +31,7 @@ pub use live_audit::MapContradiction;
 
 use live_audit::LiveAudit;
 use look::{Look, per_second};
-use piece::Strange;
+use piece::{Carried, Strange};
 use work::Work;
 
 /// What was done with a scan.
@@ -151,6 +152,9 @@ const USUAL: f64 = 0.05;
 /// When more scans than these, and a larger share, fit nothing, a map is not to be relied on.
 const FEW_LOST: usize = 5;
 const MOST_LOST: f64 = 0.1;
+/// When nothing confirms more than so much way through places that were passed before \[m\], and so large a
+/// part of it, a map may be off there.
+const MOST_OPEN: [(f64, f64); 2] = [(25.0, 0.3), (5.0, 0.4)];
 /// A turn of a radian counts as so much way \[m\].
 const TURN_WAY_M: f64 = 0.3;
 
@@ -249,8 +253,10 @@ impl Slam {
             let metres = libm::hypot(step.x_m, step.y_m);
             self.doubts.remark(scan.time_ns, Doubt::OdometryJumped(metres));
         }
-        if self.is_carried(&look, seconds, jumped.is_some()) {
-            return self.begin_piece(scan, odom_from_base, &look);
+        match self.carried(&look, seconds, jumped.is_some()) {
+            Carried::Now => return self.begin_piece(scan, odom_from_base, &look),
+            Carried::Since(first) => self.split(first, scan.time_ns),
+            Carried::No => {}
         }
         let moved = moved_to(&look);
         let Look {
@@ -382,6 +388,7 @@ impl Slam {
         if self.settings.closes_loops && self.keys.len() > 1 {
             self.try_waiting();
             self.doubt_closures();
+            self.join_offsets();
         }
         if self.keys.len() > 1 {
             refine(&self.keys, &mut self.graph, &self.settings);
@@ -411,6 +418,19 @@ impl Slam {
             let doubt =
                 Doubt::Contradiction(it.map_from_base.x_m, it.map_from_base.y_m, it.agreeing);
             self.doubts.remark(time_ns, doubt);
+        }
+        if self.settings.closes_loops {
+            let passes = compare(&self.keys, &self.graph, &self.settings);
+            let open_m = passes.whole_m - passes.confirmed_m;
+            let is_open = |way_m: f64, part: f64| open_m > way_m && open_m > part * passes.whole_m;
+            if MOST_OPEN.iter().any(|&(way_m, part)| is_open(way_m, part)) {
+                self.doubts.remark(end_ns, Doubt::Unconfirmed(open_m, passes.whole_m));
+            }
+            for it in passes.offsets {
+                let time_ns = self.time_of(it.edge.to).unwrap_or(end_ns);
+                let doubt = Doubt::Offset(it.map_from_base.x_m, it.map_from_base.y_m, it.shift_m);
+                self.doubts.remark(time_ns, doubt);
+            }
         }
     }
 

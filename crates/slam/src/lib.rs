@@ -35,6 +35,7 @@ mod map;
 mod method;
 mod near;
 mod odometry;
+mod offsets;
 mod refine;
 mod relations;
 mod remedy;

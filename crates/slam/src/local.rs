@@ -12,6 +12,8 @@ use crate::settings::Settings;
 
 /// Points of a scan that are searched with.
 const SEARCH_POINTS: usize = 120;
+/// The same of a stretch.
+const MOST_SPREAD: usize = 350;
 /// A scan of which fewer points find partners is not where it was searched.
 const LEAST_MATCHED: f64 = 0.45;
 /// Scans and steps with which starts are told apart.
@@ -100,6 +102,23 @@ pub(crate) fn points_of(group: &[Placed<'_>]) -> Vec<[f32; 2]> {
 pub(crate) fn sampled(cloud: &Cloud, most: usize) -> Vec<[f32; 2]> {
     let every = cloud.points().len().div_ceil(most).max(1);
     cloud.points().iter().step_by(every).map(|p| [p.x, p.y]).collect()
+}
+
+/// Points that are not nearer than a spacing to each other, and not too far away; a lattice of cells
+/// keeps one each.
+pub(crate) fn spread(points: &[[f32; 2]], spacing_m: f32, most_m: f32) -> Vec<[f32; 2]> {
+    let mut cells: Vec<(i32, i32, u32)> = points
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p[0] * p[0] + p[1] * p[1] < most_m * most_m)
+        .map(|(index, p)| {
+            ((p[0] / spacing_m).floor() as i32, (p[1] / spacing_m).floor() as i32, index as u32)
+        })
+        .collect();
+    cells.sort_unstable();
+    cells.dedup_by_key(|it| (it.0, it.1));
+    let every = cells.len().div_ceil(MOST_SPREAD).max(1);
+    cells.iter().step_by(every).map(|it| points[it.2 as usize]).collect()
 }
 
 /// From one heading to the next, so that points move by about a cell \[rad\].
@@ -303,7 +322,7 @@ fn doubted(information: &Symmetric3, firmness: f64) -> Symmetric3 {
 }
 
 /// A scan held against the first few of a group, both ways.
-fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
+pub(crate) fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
     let mut sum = Agreement::default();
     for one in group.iter().take(3) {
         let one_from_cloud = one.group_from_cloud.inverse() * group_from_cloud;

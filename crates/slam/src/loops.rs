@@ -23,7 +23,9 @@ use periplus_matching::{
 use crate::drift::{Sighting, from_here, reversed};
 use crate::graph::{Edge, Graph, Kind};
 use crate::key::Key;
-use crate::local::{Group, apart, both_ways, close_by, floored, grouped, heading_step, points_of};
+use crate::local::{
+    Group, apart, both_ways, close_by, floored, grouped, heading_step, points_of, spread,
+};
 use crate::settings::Settings;
 
 use scale::scale;
@@ -71,6 +73,8 @@ const CONSISTENT: f64 = 11.3;
 const ONE_WITNESS_M: f64 = 2.0;
 const PARTLY_ONE_WITNESS_M: f64 = 1.0;
 const TWO_WITNESSES_M: f64 = 12.0;
+/// A closure that others speak against is tried at the end when its scans agree on more than this.
+const CLEAR: f64 = 0.93;
 /// Witnesses are at least this way apart \[m\], and are heard over so much way.
 const APART_M: f64 = 4.0;
 const HEARD_M: f64 = 60.0;
@@ -84,9 +88,10 @@ const MOST_WAITING: usize = 300;
 /// What is known of places in other pieces of map: nothing. As many of them are asked for at once, each
 /// as if it were so far out in its region.
 const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
-/// Whole buildings look alike in places: where nothing is known, the agreement and the witnesses must be
-/// better.
+/// Whole buildings look alike in places: where nothing is known, likelihood, agreement and witnesses must
+/// be better.
 const ANYWHERE_M: f64 = 250.0;
+const ANYWHERE_SCORE: f64 = 0.5;
 const ANYWHERE_AGREEING: f64 = 0.95;
 const ANYWHERE_WITNESSES: usize = 5;
 const MOST_ELSEWHERE: usize = 24;
@@ -98,8 +103,9 @@ const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
 /// Where scans see farther, cells are larger up to so many times.
 const COARSE: f64 = 2.0;
-/// Points of a stretch that are searched with.
-const SEARCH_POINTS: usize = 350;
+/// Scans of a stretch that are laid onto others, and more where they have few points.
+const FEW_SCANS: usize = 8;
+const FEW_POINTS: usize = 800;
 
 /// What became of a closure.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,7 +183,7 @@ struct Evidence {
 
 impl Evidence {
     fn is_enough(&self) -> bool {
-        self.witnesses >= self.wanted && self.witnesses > self.rivals
+        self.witnesses >= self.wanted + self.rivals
     }
 }
 
@@ -363,7 +369,10 @@ impl Loops {
         };
         let of = around.iter().map(|&key| (key, graph.between(middle, key)));
         let field = self.field(task.place, of, keys, settings, scale);
-        let (best, _) = field.search(&points, &window, LEAST_SCORE, None);
+        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
+        let is_anywhere = region_m > ANYWHERE_M;
+        let least_score = if is_anywhere { ANYWHERE_SCORE } else { LEAST_SCORE };
+        let (best, _) = field.search(&points, &window, least_score, None);
         let best = best?;
         // A peak at the rim is the slope of something beyond.
         let rim = [best.pose.x_m - x_m, best.pose.y_m - y_m];
@@ -372,10 +381,9 @@ impl Loops {
         if is_at_rim || is_far {
             return None;
         }
-        let least = (RIVAL * best.score).max(LEAST_SCORE);
+        let least = (RIVAL * best.score).max(least_score);
         let (second, _) =
             field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
-        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
         let verdict = verify(best.pose, &new, &old, settings);
         let mut told = Closure {
             keys: (middle, task.anchor),
@@ -390,7 +398,7 @@ impl Loops {
             self.told.push(told);
             return None;
         }
-        if region_m > ANYWHERE_M && verdict.share < ANYWHERE_AGREEING {
+        if is_anywhere && verdict.share < ANYWHERE_AGREEING {
             told.reason = format!(
                 "{:.0} % of the points are seen through, too many for a place that may be anywhere",
                 100.0 * (1.0 - verdict.share)
@@ -560,7 +568,8 @@ impl Loops {
             .filter_map(|index| {
                 let evidence = self.evidence(index, keys, graph);
                 let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
-                let is_near = lacks <= 1 && evidence.rivals == 0;
+                let is_clear = evidence.rivals == 0 || self.pending[index].share > CLEAR;
+                let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
                 is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
             })
             .collect();
@@ -576,6 +585,20 @@ impl Loops {
         if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
             (told.is_accepted, told.reason) = (true, reason);
         }
+    }
+
+    /// Two passes that the map had side by side are joined.
+    pub(crate) fn join(&mut self, edge: &Edge, shift_m: f64) {
+        self.told.push(Closure {
+            keys: (edge.from, edge.to),
+            old_from_new: edge.from_from_to,
+            is_accepted: true,
+            region_m: shift_m,
+            agreeing: 1.0,
+            reason: format!(
+                "joined when all scans were in: both passes showed the same walls {shift_m:.2} m apart"
+            ),
+        });
     }
 
     /// Closures are part of the map no more.
@@ -630,15 +653,20 @@ struct Verdict {
     fault: Option<String>,
 }
 
+/// Scans of a group, evenly, that have enough points together to be laid onto others.
+fn few<'a>(group: &[Placed<'a>]) -> Vec<Placed<'a>> {
+    let points: usize = group.iter().map(|it| it.cloud.points().len()).sum();
+    let least = FEW_POINTS * group.len() / points.max(1);
+    let every = group.len().div_ceil(least.max(FEW_SCANS)).max(1);
+    group.iter().step_by(every).copied().collect()
+}
+
 /// Registers two stretches from a start and holds them against each other both ways.
 fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Settings) -> Verdict {
     // Far from where it was searched it would be another place.
     let prior =
         Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
-    let new_few: Vec<Placed<'_>> =
-        new.iter().step_by(new.len().div_ceil(8).max(1)).copied().collect();
-    let old_few: Vec<Placed<'_>> =
-        old.iter().step_by(old.len().div_ceil(8).max(1)).copied().collect();
+    let (new_few, old_few) = (few(new), few(old));
     let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
     let mut sum = Agreement::default();
     for one in new {
@@ -665,23 +693,6 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         None
     };
     Verdict { fit, share, fault }
-}
-
-/// Points that are not nearer than a spacing to each other, and not too far away; a lattice of cells
-/// keeps one each.
-fn spread(points: &[[f32; 2]], spacing_m: f32, most_m: f32) -> Vec<[f32; 2]> {
-    let mut cells: Vec<(i32, i32, u32)> = points
-        .iter()
-        .enumerate()
-        .filter(|(_, p)| p[0] * p[0] + p[1] * p[1] < most_m * most_m)
-        .map(|(index, p)| {
-            ((p[0] / spacing_m).floor() as i32, (p[1] / spacing_m).floor() as i32, index as u32)
-        })
-        .collect();
-    cells.sort_unstable();
-    cells.dedup_by_key(|it| (it.0, it.1));
-    let every = cells.len().div_ceil(SEARCH_POINTS).max(1);
-    cells.iter().step_by(every).map(|it| points[it.2 as usize]).collect()
 }
 
 fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {

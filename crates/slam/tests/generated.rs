@@ -3,6 +3,7 @@
 
 mod worlds;
 
+use periplus_slam::Doubt;
 use worlds::kinds::{KINDS, Verdict, outcome};
 
 fn check(name: &str, seed: u64) {
@@ -60,4 +61,21 @@ fn doors_that_open_and_close() {
 #[test]
 fn a_scanner_that_cost_little() {
     check("low-cost", 1);
+}
+
+/// Nothing tells where along walls without anything on them the robot is: a map that closes its loop by
+/// odometry alone says so.
+#[test]
+fn walls_that_are_the_same_all_along_are_no_confirmation() {
+    let Some(kind) = KINDS.iter().find(|it| it.name == "bare-ring") else {
+        panic!("there is no such kind");
+    };
+    let outcome = outcome(kind, &(kind.drive)(1, true));
+    let is_told = |doubt: &Doubt| matches!(doubt, Doubt::Unconfirmed(..));
+    assert!(
+        outcome.slam.remarks().iter().any(|it| is_told(&it.doubt)),
+        "{:?} {:?}",
+        outcome.judgement,
+        outcome.slam.remarks()
+    );
 }

@@ -59,7 +59,9 @@ impl Part {
             Doubt::Carried | Doubt::Unjoined(_) | Doubt::FewerMaps(_) | Doubt::GraphFollowed(_) => {
                 Self::Pieces
             }
-            Doubt::Contradiction(..) => Self::Contradictions,
+            Doubt::Contradiction(..) | Doubt::Offset(..) | Doubt::Unconfirmed(..) => {
+                Self::Contradictions
+            }
         }
     }
 

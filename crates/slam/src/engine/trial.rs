@@ -5,14 +5,16 @@ use super::Slam;
 use crate::audit::{audit, overlap};
 use crate::graph::{Edge, Kind};
 use crate::local::apart;
+use crate::offsets::{Offset, compare};
 
 /// Closures that are tried, and that are left out, at most.
 const MOST_TRIED: usize = 8;
 const MOST_LEFT_OUT: usize = 8;
 /// Way around a closure over which its scans are held against each other \[m\], the points that must be
-/// judged, and the share of them that must agree.
+/// judged (or the part of all points, where scans have few), and the share of them that must agree.
 const AROUND_M: f64 = 6.0;
 const JUDGED: u32 = 600;
+const LEAST_PART: f64 = 0.15;
 const AGREEING: f64 = 0.9;
 /// A closure that the map agrees with to this is not tried \[m, rad\].
 const KNOWN_M: f64 = 0.3;
@@ -48,8 +50,8 @@ impl Slam {
         let index = self.graph.add_edge(edge);
         self.solve(None);
         self.work_slices(usize::MAX);
-        let sum = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
-        let is_kept = sum.judged() > JUDGED
+        let (sum, all) = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
+        let is_kept = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
             && sum.share() > AGREEING
             && audit(&self.keys, &self.graph).len() <= worse;
         if is_kept {
@@ -63,6 +65,35 @@ impl Slam {
             self.undo(&poses, &[index]);
         }
         is_kept
+    }
+
+    /// Joins passes whose walls lie side by side, those that are farthest apart first, where that leaves
+    /// fewer such places and no more contradictions.
+    pub(super) fn join_offsets(&mut self) {
+        let found = |slam: &Self| compare(&slam.keys, &slam.graph, &slam.settings).offsets;
+        let mut left = found(self);
+        let mut refused: Vec<(usize, usize)> = Vec::new();
+        for _ in 0..MOST_TRIED {
+            let is_new = |it: &&Offset| !refused.contains(&(it.edge.from, it.edge.to));
+            let next = left.iter().filter(is_new);
+            let next =
+                next.max_by(|a, b| a.shift_m.total_cmp(&b.shift_m).then(b.edge.to.cmp(&a.edge.to)));
+            let Some((edge, shift_m)) = next.map(|it| (it.edge, it.shift_m)) else { return };
+            let poses = self.graph.poses.clone();
+            let worse = audit(&self.keys, &self.graph).len();
+            let index = self.graph.add_edge(edge);
+            self.solve(None);
+            self.work_slices(usize::MAX);
+            let after = found(self);
+            let is_kept = after.len() < left.len() && audit(&self.keys, &self.graph).len() <= worse;
+            if is_kept {
+                left = after;
+                self.loops.join(&edge, shift_m);
+            } else {
+                self.undo(&poses, &[index]);
+                refused.push((edge.from, edge.to));
+            }
+        }
     }
 
     /// Leaves out closures in turn where passes contradict each other, and those that the others pull at.
