@@ -31,7 +31,7 @@ pub use live_audit::MapContradiction;
 
 use live_audit::LiveAudit;
 use look::{Look, per_second};
-use piece::{Carried, Strange};
+use piece::Strange;
 use work::Work;
 
 /// What was done with a scan.
@@ -253,10 +253,8 @@ impl Slam {
             let metres = libm::hypot(step.x_m, step.y_m);
             self.doubts.remark(scan.time_ns, Doubt::OdometryJumped(metres));
         }
-        match self.carried(&look, seconds, jumped.is_some()) {
-            Carried::Now => return self.begin_piece(scan, odom_from_base, &look),
-            Carried::Since(first) => self.split(first, scan.time_ns),
-            Carried::No => {}
+        if self.is_carried(&look, seconds, jumped.is_some()) {
+            return self.begin_piece(scan, odom_from_base, &look);
         }
         let moved = moved_to(&look);
         let Look {

@@ -322,7 +322,7 @@ fn doubted(information: &Symmetric3, firmness: f64) -> Symmetric3 {
 }
 
 /// A scan held against the first few of a group, both ways.
-pub(crate) fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
+fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
     let mut sum = Agreement::default();
     for one in group.iter().take(3) {
         let one_from_cloud = one.group_from_cloud.inverse() * group_from_cloud;

@@ -4,8 +4,8 @@ mod worlds;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use periplus_base::{Pose2, Stream};
-use periplus_slam::{Doubt, Remark, Settings, Slam};
+use periplus_base::Pose2;
+use periplus_slam::{Doubt, Settings, Slam};
 use worlds::{Moment, ROBOT, Robot, World};
 
 /// A scanner all around, and wheels that are good but for what a test breaks.
@@ -185,55 +185,6 @@ fn a_carried_robot_begins_a_piece_that_closures_join() {
     let found = moments[0].odometry.inverse() * slam.map_from_base();
     let off_m = (found.x_m - truth.x_m).hypot(found.y_m - truth.y_m);
     assert!(off_m < 0.15 && !is_unjoined, "{off_m} {doubts:?} {:?}", slam.closures());
-}
-
-/// From one scan to the next, with nothing that would tell: later scans fit each other, and nothing from
-/// before.
-#[test]
-fn a_robot_carried_between_two_scans_begins_a_piece() {
-    let mut store = World { walls: Vec::new() };
-    store.rectangle([-3.0, -2.0, 4.0, 2.5]);
-    store.rectangle([1.0, 1.0, 1.6, 1.4]);
-    let mut hall = World { walls: Vec::new() };
-    hall.rectangle([-7.0, -9.0, 12.0, 6.0]);
-    hall.rectangle([-1.0, 3.0, 1.0, 4.0]);
-    hall.rectangle([4.0, -5.0, 4.5, -3.0]);
-    let before = store.drive(&[(-2.0, 0.0), (3.0, 0.0)], 0.3, &GOOD, 1);
-    let after = hall.drive(&[(-2.0, 0.0), (8.0, 0.0), (8.0, 4.0)], 0.3, &GOOD, 2);
-    let last = &before[before.len() - 1];
-    let mut slam = Slam::new(Settings::default());
-    for moment in &before {
-        let _ = slam.add_scan(&moment.scan, Some(moment.odometry));
-    }
-    for moment in &after {
-        let mut scan = moment.scan.clone();
-        scan.time_ns += last.scan.time_ns + 300_000_000 - after[0].scan.time_ns;
-        let way = after[0].odometry.inverse() * moment.odometry;
-        let _ = slam.add_scan(&scan, Some((last.odometry * way).normalized()));
-    }
-    slam.finish();
-    let doubts: Vec<Doubt> = slam.remarks().iter().map(|it| it.doubt).collect();
-    assert!(doubts.contains(&Doubt::Carried), "{doubts:?}");
-    assert!(slam.remarks().iter().any(Remark::is_warning), "{doubts:?}");
-}
-
-/// Readings that come and go, as of bushes or of ground before the scanner, fit nothing, not even each other:
-/// the robot is where it was.
-#[test]
-fn scans_that_do_not_fit_each_other_begin_no_piece() {
-    let mut moments = drive();
-    let mut stream = Stream::keyed(7, "bushes", 0);
-    for moment in &mut moments[60..72] {
-        for range in &mut moment.scan.ranges_m {
-            *range = (0.4 + 9.0 * stream.unit()) as f32;
-        }
-    }
-    let mut slam = Slam::new(Settings::default());
-    for moment in &moments {
-        let _ = slam.add_scan(&moment.scan, Some(moment.odometry));
-    }
-    let doubts: Vec<Doubt> = slam.remarks().iter().map(|remark| remark.doubt).collect();
-    assert!(!doubts.contains(&Doubt::Carried), "{doubts:?}");
 }
 
 #[test]

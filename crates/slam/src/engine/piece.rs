@@ -8,7 +8,7 @@ use super::{Last, Look, Slam, TURN_WAY_M, Taken, drawn};
 use crate::doubts::Doubt;
 use crate::graph::{Edge, Kind};
 use crate::key::{Key, Track};
-use crate::local::{against, apart, grouped};
+use crate::local::apart;
 use crate::scan::{Ends, Scan};
 
 /// The robot was set elsewhere: as far away as this from what was before, by way \[m\]. Old scans are
@@ -20,100 +20,37 @@ const GAP_S: f64 = 10.0;
 /// other places; after such a time, or a jump of odometry, on less than the second.
 const STRANGE: f64 = 0.6;
 const SURE: f64 = 0.8;
-/// Points that must be seen from both.
-const JUDGED: u32 = 20;
-/// Scans that fit those since the first strange one, and not those before, for so much way \[m\], and at
-/// least so many.
+/// Scans that fit nothing for so much way \[m\], and at least so many.
 const STRANGE_M: f64 = 1.5;
 const STRANGE_SCANS: usize = 4;
-/// Scans before the first strange one that later ones are held against.
-const BEFORE: usize = 3;
 
-/// Scans in a row that do not fit to what was seen before the first of them, but to each other.
+/// Scans in a row that fit nothing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strange {
-    /// Kept scans from here on came since; 0 when there are none.
-    first: usize,
     scans: usize,
     way_m: f64,
 }
 
-crate::session::packed!(Strange { first, scans, way_m });
-
-/// Whether the robot is where the scans just before lead to.
-pub(super) enum Carried {
-    No,
-    /// It is elsewhere with this scan.
-    Now,
-    /// It has been elsewhere since this kept scan.
-    Since(usize),
-}
+crate::session::packed!(Strange { scans, way_m });
 
 impl Slam {
     /// Whether a scan is of another place than those before: where the robot is now is not known.
-    ///
-    /// Where ground rises before the scanner, or people stand around it, scans fit nothing either, not even
-    /// each other: that is no other place.
-    pub(super) fn carried(&mut self, look: &Look, seconds: f64, jumped: bool) -> Carried {
+    pub(super) fn is_carried(&mut self, look: &Look, seconds: f64, jumped: bool) -> bool {
         if look.is_blank || !self.settings.closes_loops {
-            return Carried::No;
+            return false;
         }
         let is_interrupted = jumped || seconds > GAP_S;
         if is_interrupted && look.agreeing < SURE {
-            return Carried::Now;
+            return true;
         }
-        if self.strange.first == 0 {
-            if look.agreeing <= STRANGE {
-                self.strange.first = self.keys.len();
-            }
-            return Carried::No;
-        }
-        let first = self.strange.first;
-        let last = self.last.as_ref().map_or(0, |last| last.key);
-        let held = |of: Vec<usize>| {
-            let group = grouped(&self.keys, &self.graph, &of, last);
-            against(&look.cloud, &group.placed(), look.key_from_base)
-        };
-        let since: Vec<usize> = (first..self.keys.len()).rev().take(BEFORE).collect();
-        if since.is_empty() {
-            if look.agreeing > STRANGE {
-                self.strange = Strange::default();
-            }
-            return Carried::No;
-        }
-        let before = held((self.piece..first).rev().take(BEFORE).collect());
-        let since = held(since);
-        let is_elsewhere = before.judged() > JUDGED && before.share() <= STRANGE;
-        if !is_elsewhere || since.judged() < JUDGED || since.share() < SURE {
+        if look.agreeing > STRANGE {
             self.strange = Strange::default();
-            return Carried::No;
+            return false;
         }
         let (metres, radians) = apart(look.motion, Pose2::IDENTITY);
         self.strange.scans += 1;
         self.strange.way_m += metres + TURN_WAY_M * radians;
-        if self.strange.scans < STRANGE_SCANS || self.strange.way_m < STRANGE_M {
-            return Carried::No;
-        }
-        self.strange = Strange::default();
-        Carried::Since(first)
-    }
-
-    /// Makes a piece of map of its own of all kept scans from one on.
-    pub(super) fn split(&mut self, first: usize, time_ns: i64) {
-        for edge in &mut self.graph.edges {
-            if edge.from.min(edge.to) < first && edge.from.max(edge.to) >= first {
-                match edge.kind {
-                    Kind::Chain => *edge = Edge::gap((edge.from, edge.to), edge.from_from_to),
-                    _ => edge.weight = 0.0,
-                }
-            }
-        }
-        for key in &mut self.keys[first..] {
-            key.travel_m += CARRIED_M;
-        }
-        self.piece = first;
-        self.loops.restart(first, self.keys[first].travel_m);
-        self.doubts.remark(time_ns, Doubt::Carried);
+        self.strange.scans >= STRANGE_SCANS && self.strange.way_m > STRANGE_M
     }
 
     /// Begins a piece of map with a scan, where odometry has it.
