@@ -119,9 +119,9 @@ struct Run {
     before: usize,
     /// CPU for each scan \[s\].
     spent_s: Vec<f64>,
-    /// Which scans have a line in the trajectory.
+    /// Scans that have a line in the trajectory, by their numbers in the log.
     used: Vec<usize>,
-    /// Whether the session that is asked for was written.
+    /// Outcome of writing the session that was asked for.
     saved: Result<(), String>,
     /// Reading the log, and the last refinement \[s\].
     loaded_s: f64,

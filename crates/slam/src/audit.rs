@@ -23,8 +23,6 @@ pub(crate) struct Contradiction {
     pub(crate) others: (usize, usize),
     /// The kept scan in its middle.
     pub(crate) middle: usize,
-    /// Its middle in the map \[m, rad\].
-    pub(crate) map_from_base: Pose2,
     /// Share of the points that both passes can judge and that agree.
     pub(crate) agreeing: f64,
 }
@@ -58,11 +56,11 @@ pub(crate) struct Held {
 
 /// All stretches that contradict another pass, in the order of the way.
 pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
-    contradictions(&passes(keys, graph), keys, graph)
+    contradictions(&passes(keys, graph), keys)
 }
 
 /// The same of scans that were held against each other before, in the order of the way.
-pub(crate) fn contradictions(held: &[Held], keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
+pub(crate) fn contradictions(held: &[Held], keys: &[Key]) -> Vec<Contradiction> {
     let mut found: Vec<Contradiction> = Vec::new();
     let mut start = 0;
     while start < held.len() {
@@ -78,12 +76,10 @@ pub(crate) fn contradictions(held: &[Held], keys: &[Key], graph: &Graph) -> Vec<
             end += 1;
         }
         if sum.judged() > JUDGED && sum.share() < AGREEING {
-            let middle = held[(start + end) / 2].key;
             let next = Contradiction {
                 keys: (held[start].key, held[end - 1].key),
                 others: other_stretch(&held[start..end], keys),
-                middle,
-                map_from_base: graph.poses[middle],
+                middle: held[(start + end) / 2].key,
                 agreeing: sum.share(),
             };
             match found.last_mut() {
@@ -225,7 +221,7 @@ mod tests {
             let other_from_key = Pose2::IDENTITY;
             let held = (30..60).map(|key| Held { key, other: key - 30, other_from_key, sum });
             let held: Vec<Held> = held.collect();
-            assert_eq!(contradictions(&held, &keys, &graph).len(), wanted);
+            assert_eq!(contradictions(&held, &keys).len(), wanted);
         };
         // A scan a metre: three metres judge 600 points, 150, and 15.
         check(100, 100, 1);

@@ -408,13 +408,10 @@ impl Slam {
             0 => {}
             pieces => self.doubts.remark(end_ns, Doubt::Unjoined(pieces)),
         }
-        let found = audit(&self.keys, &self.graph);
-        self.live_audit = LiveAudit::concluded(found.clone());
+        self.live_audit = LiveAudit::concluded(audit(&self.keys, &self.graph));
         self.is_finished = true;
-        for it in found {
-            let time_ns = self.time_of(it.keys.0).unwrap_or(end_ns);
-            let doubt =
-                Doubt::Contradiction(it.map_from_base.x_m, it.map_from_base.y_m, it.agreeing);
+        for Remark { time_ns, doubt } in self.contradictions().iter().map(MapContradiction::remark)
+        {
             self.doubts.remark(time_ns, doubt);
         }
         if self.settings.closes_loops {

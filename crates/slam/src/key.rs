@@ -1,5 +1,6 @@
 //! Scans that are kept.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use periplus_base::Pose2;
@@ -30,6 +31,12 @@ impl Key {
         let ends = self.ends.as_ref().map_or(0, |it| it.size());
         self.cloud.size() + ends + size_of::<Self>() + size_of::<(PackedCloud, PackedPlaces)>()
     }
+}
+
+/// Scans that were kept on a part of the way \[m\].
+pub(crate) fn between(keys: &[Key], from_m: f64, to_m: f64) -> Range<usize> {
+    let start = keys.partition_point(|key| key.travel_m < from_m);
+    start..keys.partition_point(|key| key.travel_m <= to_m)
 }
 
 /// Where a scan that came in was, relative to one that is kept.

@@ -331,6 +331,27 @@ fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agre
     sum
 }
 
+/// Each scan of one group held against the nearest few of another, both ways.
+pub(crate) fn against_nearest(
+    new: &[Placed<'_>],
+    old: &[Placed<'_>],
+    old_from_new: Pose2,
+    few: usize,
+) -> Agreement {
+    let mut sum = Agreement::default();
+    for one in new {
+        let old_from_one = old_from_new * one.group_from_cloud;
+        let mut near: Vec<(f64, &Placed<'_>)> =
+            old.iter().map(|it| (apart(it.group_from_cloud, old_from_one).0, it)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, other) in near.iter().take(few) {
+            let other_from_one = other.group_from_cloud.inverse() * old_from_one;
+            sum += both_ways(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
+        }
+    }
+    sum
+}
+
 /// Two scans held against each other: what each sees of the points of the other.
 pub(crate) fn both_ways(a: &Cloud, b: &Cloud, b_from_a: Pose2, tolerance_m: f32) -> Agreement {
     let mut sum = agreement(a, b, b_from_a, tolerance_m);

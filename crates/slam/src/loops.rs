@@ -16,15 +16,13 @@ use std::collections::VecDeque;
 use std::ops::Range;
 
 use periplus_base::{Pose2, normalize_angle};
-use periplus_matching::{
-    Agreement, Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register,
-};
+use periplus_matching::{Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register};
 
 use crate::drift::{Sighting, from_here, reversed};
 use crate::graph::{Edge, Graph, Kind};
-use crate::key::Key;
+use crate::key::{Key, between};
 use crate::local::{
-    Group, apart, both_ways, close_by, floored, grouped, heading_step, points_of, spread,
+    Group, against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
 };
 use crate::settings::Settings;
 
@@ -59,7 +57,8 @@ const OTHER_RAD: f64 = 0.5;
 const AGREEING: f64 = 0.88;
 const JUDGED: u32 = 400;
 const MATCHED: f64 = 0.6;
-const TOLERANCE_M: f32 = 0.2;
+/// Scans of the old stretch that each of the new one is held against.
+const COMPARED: usize = 3;
 /// The same where two stretches were driven in opposite directions, and each shows a part that is
 /// hidden from the other: fewer partners, but more points that both can judge and that agree.
 const PARTLY_MATCHED: f64 = 0.3;
@@ -431,9 +430,7 @@ impl Loops {
         let around_m = scale * AROUND_M + 0.5 * (scale - 1.0) * PLACE_M;
         let (from_m, to_m) =
             (keys[own.start].travel_m - around_m, keys[own.end - 1].travel_m + around_m);
-        let start = keys.partition_point(|key| key.travel_m < from_m);
-        let end = keys.partition_point(|key| key.travel_m <= to_m);
-        start..end
+        between(keys, from_m, to_m)
     }
 
     /// The field of a place: the one that is kept, or one of these keys.
@@ -668,17 +665,7 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
     let (new_few, old_few) = (few(new), few(old));
     let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
-    let mut sum = Agreement::default();
-    for one in new {
-        let old_from_one = fit.target_from_moving * one.group_from_cloud;
-        let mut near: Vec<(f64, &Placed<'_>)> =
-            old.iter().map(|it| (apart(it.group_from_cloud, old_from_one).0, it)).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, other) in near.iter().take(3) {
-            let other_from_one = other.group_from_cloud.inverse() * old_from_one;
-            sum += both_ways(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
-        }
-    }
+    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED);
     let share = sum.share();
     // Seen from the other end, most points of one are hidden from the other.
     let is_partial =

@@ -4,13 +4,17 @@
 //! laid onto each other. When they then fit clearly better than where the map has them, the map draws
 //! those walls twice, too near to each other for one pass to look through the walls of the other.
 
+use std::ops::Range;
+
 use periplus_base::{Pose2, normalize_angle};
-use periplus_matching::{Agreement, Field, Fit, Placed, Prior, Symmetric3, Window, register};
+use periplus_matching::{Field, Fit, Placed, Prior, Symmetric3, Window, register};
 
 use crate::audit::all_other_passes;
 use crate::graph::{Edge, Graph, Kind};
-use crate::key::Key;
-use crate::local::{apart, both_ways, close_by, floored, grouped, heading_step, points_of, spread};
+use crate::key::{Key, between};
+use crate::local::{
+    against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
+};
 use crate::settings::Settings;
 
 /// What two passes say of each other where nothing ties them.
@@ -42,6 +46,7 @@ const FAR_M: f32 = 14.0;
 const LEAST_M: f64 = 0.15;
 /// Squared Mahalanobis distance of an offset that scans are sure of.
 const SURE: f64 = 30.0;
+
 /// How much of a stretch must be seen from another pass, and agree.
 #[derive(Clone, Copy)]
 struct Least {
@@ -67,8 +72,6 @@ const LEAST_SCORE: f64 = 0.5;
 const RIVAL: f64 = 0.9;
 const OTHER_M: f64 = 0.5;
 const OTHER_RAD: f64 = 0.5;
-/// How near two points are the same when passes are held against each other \[m\].
-const TOLERANCE_M: f32 = 0.2;
 
 /// Passes through the same places, held against each other.
 #[derive(Default)]
@@ -137,9 +140,8 @@ fn is_firm(edge: &Edge) -> bool {
     covariance.is_some_and(|it| it.largest_shift() < FIRM_M * FIRM_M)
 }
 
-fn around(keys: &[Key], of: usize, way_m: f64) -> std::ops::Range<usize> {
-    let (low_m, high_m) = (keys[of].travel_m - way_m, keys[of].travel_m + way_m);
-    keys.partition_point(|it| it.travel_m < low_m)..keys.partition_point(|it| it.travel_m <= high_m)
+fn around(keys: &[Key], of: usize, way_m: f64) -> Range<usize> {
+    between(keys, keys[of].travel_m - way_m, keys[of].travel_m + way_m)
 }
 
 /// Lays a stretch of one pass onto another.
@@ -161,7 +163,7 @@ fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Sett
     let all: u32 = moving.iter().map(|it| it.cloud.points().len() as u32).sum();
     // Whether both passes see the same there, and enough of it.
     let fits = |fit: &Fit, least: Least| {
-        let sum = agreement_of(&moving, &target, fit.target_from_moving);
+        let sum = against_nearest(&moving, &target, fit.target_from_moving, 1);
         fit.matched > least.matched
             && f64::from(sum.judged()) > least.judged * f64::from(all)
             && sum.share() > least.agreeing
@@ -205,22 +207,6 @@ fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Sett
     let edge = Edge::new((old, new), there, information, Kind::Loop);
     let map_from_base = graph.poses[new];
     Word::Apart(Box::new(Offset { edge, shift_m, map_from_base }))
-}
-
-/// Each scan of one group against the nearest of the other, both ways.
-fn agreement_of(new: &[Placed<'_>], old: &[Placed<'_>], old_from_new: Pose2) -> Agreement {
-    let mut sum = Agreement::default();
-    for one in new {
-        let there = old_from_new * one.group_from_cloud;
-        let nearest = old.iter().min_by(|a, b| {
-            apart(a.group_from_cloud, there).0.total_cmp(&apart(b.group_from_cloud, there).0)
-        });
-        if let Some(other) = nearest {
-            let other_from_one = other.group_from_cloud.inverse() * there;
-            sum += both_ways(one.cloud, other.cloud, other_from_one, TOLERANCE_M);
-        }
-    }
-    sum
 }
 
 /// Part of the points of one group that lie on a wall of the other.

@@ -3,13 +3,17 @@
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 
 mod carmen;
+#[path = "../examples/logs/perturb.rs"]
+#[allow(dead_code, reason = "one perturbation of many")]
+mod perturb;
 
 use std::fs;
 use std::path::Path;
 
 use carmen::scan_of;
-use periplus_bags::read_carmen;
+use periplus_bags::{CarmenScan, read_carmen};
 use periplus_slam::{Remark, Settings, Slam, Stamped, read_relations, score};
+use perturb::perturbed;
 
 /// Maps a log with every fourth beam: its loops are right.
 fn check(name: &str) {
@@ -21,17 +25,14 @@ fn check(name: &str) {
     let relations = fs::read_to_string(folder.join("agreement.relations")).unwrap();
     let log = read_carmen(&text);
     let mut slam = Slam::new(Settings::default());
-    for scan in &log.scans {
-        let mut scan_of_few = scan.clone();
-        scan_of_few.ranges_m = scan.ranges_m.iter().copied().step_by(4).collect();
-        scan_of_few.angle_increment_rad *= 4.0;
-        let _ = slam.add_scan(&scan_of(&scan_of_few), scan.odom_from_base);
+    for scan in &perturbed(&log, "thin4").scans {
+        let _ = slam.add_scan(&scan_of(scan), scan.odom_from_base);
     }
     slam.finish();
     let stamps = log.scans.iter().map(|it| it.time_s);
     let found: Vec<Stamped> =
         stamps.zip(slam.trajectory()).map(|(time_s, (_, pose))| (time_s, pose)).collect();
-    let told = |it: &periplus_bags::CarmenScan| Some((it.time_s, it.odom_from_base?));
+    let told = |it: &CarmenScan| Some((it.time_s, it.odom_from_base?));
     let scans: Vec<Stamped> = log.scans.iter().filter_map(told).collect();
     let between: Vec<Stamped> =
         log.odometry.iter().map(|it| (it.time_s, it.odom_from_base)).collect();

@@ -337,7 +337,7 @@ pub(crate) fn off(truth: Pose2, found: Pose2) -> (f64, f64) {
     (libm::hypot(error.x_m, error.y_m), normalize_angle(error.yaw_rad).abs())
 }
 
-/// Seconds of this thread on a CPU: others who want it do not count. Where Linux does not tell, 0.
+/// CPU time of this thread \[s\]; 0 where the system does not provide it.
 #[allow(clippy::disallowed_methods, reason = "it measures")]
 pub(crate) fn cpu_s() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
@@ -345,7 +345,7 @@ pub(crate) fn cpu_s() -> f64 {
     1e-9 * ns.unwrap_or_default()
 }
 
-/// What somebody says who points at the robot on the map.
+/// An initial pose as a user gives it by hand.
 pub(crate) fn guess(pose: Pose2) -> Guess {
     let mut covariance = [0.0; 36];
     (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);

@@ -70,7 +70,7 @@ impl LiveAudit {
             if self.is_current {
                 return false;
             }
-            self.found = contradictions(&self.held, keys, graph);
+            self.found = contradictions(&self.held, keys);
             self.is_current = true;
             return true;
         }

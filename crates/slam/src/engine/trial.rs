@@ -47,9 +47,7 @@ impl Slam {
         let poses = self.graph.poses.clone();
         let worse = audit(&self.keys, &self.graph).len();
         self.lay_pieces(&[edge]);
-        let index = self.graph.add_edge(edge);
-        self.solve(None);
-        self.work_slices(usize::MAX);
+        let index = self.bend_by(edge);
         let (sum, all) = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
         let is_kept = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
             && sum.share() > AGREEING
@@ -67,11 +65,20 @@ impl Slam {
         is_kept
     }
 
+    /// Bends the map by one more edge; gives its number.
+    fn bend_by(&mut self, edge: Edge) -> usize {
+        let index = self.graph.add_edge(edge);
+        self.solve(None);
+        self.work_slices(usize::MAX);
+        index
+    }
+
     /// Joins passes whose walls lie side by side, those that are farthest apart first, where that leaves
     /// fewer such places and no more contradictions.
     pub(super) fn join_offsets(&mut self) {
         let found = |slam: &Self| compare(&slam.keys, &slam.graph, &slam.settings).offsets;
         let mut left = found(self);
+        let mut worse = audit(&self.keys, &self.graph).len();
         let mut refused: Vec<(usize, usize)> = Vec::new();
         for _ in 0..MOST_TRIED {
             let is_new = |it: &&Offset| !refused.contains(&(it.edge.from, it.edge.to));
@@ -80,14 +87,11 @@ impl Slam {
                 next.max_by(|a, b| a.shift_m.total_cmp(&b.shift_m).then(b.edge.to.cmp(&a.edge.to)));
             let Some((edge, shift_m)) = next.map(|it| (it.edge, it.shift_m)) else { return };
             let poses = self.graph.poses.clone();
-            let worse = audit(&self.keys, &self.graph).len();
-            let index = self.graph.add_edge(edge);
-            self.solve(None);
-            self.work_slices(usize::MAX);
+            let index = self.bend_by(edge);
             let after = found(self);
-            let is_kept = after.len() < left.len() && audit(&self.keys, &self.graph).len() <= worse;
-            if is_kept {
-                left = after;
+            let contradictions = audit(&self.keys, &self.graph).len();
+            if after.len() < left.len() && contradictions <= worse {
+                (left, worse) = (after, contradictions);
                 self.loops.join(&edge, shift_m);
             } else {
                 self.undo(&poses, &[index]);
