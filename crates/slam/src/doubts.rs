@@ -61,6 +61,9 @@ pub enum Doubt {
     Contradiction(f64, f64, f64),
     /// Two passes show the same walls side by side around this place of the map \[m\]: so far apart \[m\].
     Offset(f64, f64, f64),
+    /// Two places of an earlier pass fit the way around this place of the map \[m\] equally well: so far apart
+    /// \[m\].
+    Undecided(f64, f64, f64),
     /// Nothing confirms so much of the way through places that were passed before, of so much \[m\].
     Unconfirmed(f64, f64),
     /// The maps of all particles would take too much memory: only so many of them go on.
@@ -95,6 +98,7 @@ impl Remark {
             | Doubt::Unjoined(_)
             | Doubt::Contradiction(..)
             | Doubt::Offset(..)
+            | Doubt::Undecided(..)
             | Doubt::Unconfirmed(..) => true,
         }
     }
@@ -186,6 +190,12 @@ impl std::fmt::Display for Remark {
                 "two passes show the same walls {shift_m:.2} m apart around ({x_m:.1}, {y_m:.1}) in the \
                  map, and nothing that is sure enough joins them: walls are doubled there, and the map is \
                  off by as much"
+            ),
+            Doubt::Undecided(x_m, y_m, apart_m) => write!(
+                f,
+                "the way around ({x_m:.1}, {y_m:.1}) in the map fits two places that were passed before, \
+                 {apart_m:.1} m apart, equally well, and no closure is made there: the map may be off by as \
+                 much; drive past something that is there only once"
             ),
             Doubt::Unconfirmed(open_m, whole_m) => write!(
                 f,

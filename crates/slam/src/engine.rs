@@ -32,6 +32,7 @@ pub use live_audit::MapContradiction;
 use live_audit::LiveAudit;
 use look::{Look, per_second};
 use piece::Strange;
+use trial::Undecided;
 use work::Work;
 
 /// What was done with a scan.
@@ -383,19 +384,20 @@ impl Slam {
         let end_ns = self.tracks.last().map_or(0, |it| it.time_ns);
         self.doubts.leave_corridor(end_ns);
         self.settle();
+        let mut undecided = Vec::new();
         if self.settings.closes_loops && self.keys.len() > 1 {
-            self.try_waiting();
+            undecided = self.try_waiting();
             self.doubt_closures();
             self.join_offsets();
         }
         if self.keys.len() > 1 {
             refine(&self.keys, &mut self.graph, &self.settings);
         }
-        self.conclude(end_ns);
+        self.conclude(end_ns, &undecided);
     }
 
     /// Tells what a person should know of the map as a whole.
-    fn conclude(&mut self, end_ns: i64) {
+    fn conclude(&mut self, end_ns: i64, undecided: &[Undecided]) {
         if self.counts.scans > 1 && self.last.as_ref().is_some_and(|it| it.odom_from_base.is_none())
         {
             self.doubts.remark(end_ns, Doubt::NoOdometry);
@@ -413,6 +415,11 @@ impl Slam {
         for Remark { time_ns, doubt } in self.contradictions().iter().map(MapContradiction::remark)
         {
             self.doubts.remark(time_ns, doubt);
+        }
+        for it in undecided {
+            let (time_ns, here) =
+                (self.time_of(it.key).unwrap_or(end_ns), self.graph.poses[it.key]);
+            self.doubts.remark(time_ns, Doubt::Undecided(here.x_m, here.y_m, it.apart_m));
         }
         if self.settings.closes_loops {
             let passes = compare(&self.keys, &self.graph, &self.settings);

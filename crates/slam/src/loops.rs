@@ -574,6 +574,26 @@ impl Loops {
         waiting.into_iter().map(|it| self.pending[it.2].edge()).collect()
     }
 
+    /// Of the closures that contradict one, the best supported: the other answer to where the robot was.
+    pub(crate) fn rival_of(&self, edge: &Edge, keys: &[Key], graph: &Graph) -> Option<Edge> {
+        let keys_of = |it: &Candidate| (it.middle, it.anchor);
+        let it = self.pending.iter().find(|it| keys_of(it) == (edge.from, edge.to))?;
+        let from_anchor = sightings(graph, it.anchor);
+        let from_middle = sightings(graph, it.middle);
+        let here_m = keys[it.anchor].travel_m;
+        let opposes = |index: &usize| {
+            let other = &self.pending[*index];
+            let is_near = (here_m - keys[other.anchor].travel_m).abs() <= HEARD_M;
+            let word = || consistency(it, other, graph, &from_anchor, &from_middle);
+            other.is_unique && is_near && matches!(word(), Word::Opposes)
+        };
+        let witnesses = |index: &usize| self.evidence(*index, keys, graph).witnesses;
+        let rivals = (0..self.pending.len()).filter(opposes);
+        rivals
+            .max_by_key(|index| (witnesses(index), *index))
+            .map(|index| self.pending[index].edge())
+    }
+
     /// A closure that waited is part of the map.
     pub(crate) fn believe(&mut self, edge: &Edge, reason: String) {
         self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
@@ -581,6 +601,18 @@ impl Loops {
         let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
         if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
             (told.is_accepted, told.reason) = (true, reason);
+        }
+    }
+
+    /// Another closure passes the same tests: neither is part of the map.
+    pub(crate) fn leave_undecided(&mut self, edge: &Edge, apart_m: f64) {
+        let told = self.told.iter_mut().rev();
+        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+            told.reason = format!(
+                "{}; on trial when the log had ended, a closure {apart_m:.1} m from it passed as well",
+                told.reason
+            );
         }
     }
 

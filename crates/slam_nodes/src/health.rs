@@ -59,9 +59,10 @@ impl Part {
             Doubt::Carried | Doubt::Unjoined(_) | Doubt::FewerMaps(_) | Doubt::GraphFollowed(_) => {
                 Self::Pieces
             }
-            Doubt::Contradiction(..) | Doubt::Offset(..) | Doubt::Unconfirmed(..) => {
-                Self::Contradictions
-            }
+            Doubt::Contradiction(..)
+            | Doubt::Offset(..)
+            | Doubt::Undecided(..)
+            | Doubt::Unconfirmed(..) => Self::Contradictions,
         }
     }
 

@@ -16,6 +16,8 @@ const AROUND_M: f64 = 6.0;
 const JUDGED: u32 = 600;
 const LEAST_PART: f64 = 0.15;
 const AGREEING: f64 = 0.9;
+/// Undecided closures nearer to each other than this get one remark \[m\].
+const SAME_STRETCH_M: f64 = 60.0;
 /// A closure that the map agrees with to this is not tried \[m, rad\].
 const KNOWN_M: f64 = 0.3;
 const KNOWN_RAD: f64 = 0.1;
@@ -23,10 +25,25 @@ const KNOWN_RAD: f64 = 0.1;
 /// freedom).
 const PULLED: f64 = 21.1;
 
+/// A kept scan around which two closures that contradict each other passed the same trial.
+pub(super) struct Undecided {
+    pub(super) key: usize,
+    /// Distance between the places that they give it \[m\].
+    pub(super) apart_m: f64,
+}
+
+/// Result of the trial of a closure.
+enum Outcome {
+    Kept,
+    Refused,
+    Undecided { apart_m: f64 },
+}
+
 impl Slam {
-    /// Tries closures that wait, the best supported first.
-    pub(super) fn try_waiting(&mut self) {
+    /// Tries closures that wait, the best supported first; returns those that nothing decides.
+    pub(super) fn try_waiting(&mut self) -> Vec<Undecided> {
         let mut refused: Vec<(usize, usize)> = Vec::new();
+        let mut undecided: Vec<Undecided> = Vec::new();
         for _ in 0..MOST_TRIED {
             let waiting = self.loops.waiting(&self.keys, &self.graph);
             let next = waiting.into_iter().find(|edge| {
@@ -35,34 +52,70 @@ impl Slam {
                 let is_other = metres > KNOWN_M || radians > KNOWN_RAD;
                 is_other && !refused.contains(&(edge.from, edge.to))
             });
-            let Some(edge) = next else { return };
-            if !self.try_closure(edge) {
-                refused.push((edge.from, edge.to));
+            let Some(edge) = next else { break };
+            match self.try_closure(edge) {
+                Outcome::Kept => continue,
+                Outcome::Refused => {}
+                Outcome::Undecided { apart_m } => {
+                    let here_m = self.keys[edge.to].travel_m;
+                    let is_near = |it: &Undecided| {
+                        (self.keys[it.key].travel_m - here_m).abs() < SAME_STRETCH_M
+                    };
+                    if !undecided.iter().any(is_near) {
+                        undecided.push(Undecided { key: edge.to, apart_m });
+                    }
+                }
+            }
+            refused.push((edge.from, edge.to));
+        }
+        undecided
+    }
+
+    /// Bends the map by a closure, and keeps it when both passes agree along it and nowhere else worse.
+    ///
+    /// Where many places look alike, the best supported closure that contradicts it passes as well: then
+    /// nothing decides between the two, and neither is kept.
+    fn try_closure(&mut self, edge: Edge) -> Outcome {
+        let worse = audit(&self.keys, &self.graph).len();
+        let rival = self.loops.rival_of(&edge, &self.keys, &self.graph);
+        let rival = rival.filter(|rival| self.trial(*rival, worse, false).is_some());
+        match (self.trial(edge, worse, rival.is_none()), rival) {
+            (None, _) => Outcome::Refused,
+            (Some(how), None) => {
+                self.loops.believe(&edge, how);
+                Outcome::Kept
+            }
+            (Some(_), Some(rival)) => {
+                let graph = &self.graph;
+                let by_edge = graph.poses[edge.from] * edge.from_from_to;
+                let by_rival =
+                    graph.poses[rival.from] * rival.from_from_to * graph.between(rival.to, edge.to);
+                let (apart_m, _) = apart(by_edge, by_rival);
+                self.loops.leave_undecided(&edge, apart_m);
+                Outcome::Undecided { apart_m }
             }
         }
     }
 
-    /// Bends the map by a closure, and keeps it when both passes agree along it and nowhere else worse.
-    fn try_closure(&mut self, edge: Edge) -> bool {
+    /// Bends the map by a closure; where it passes, says why, and the map stays so if it is to be kept.
+    fn trial(&mut self, edge: Edge, worse: usize, is_kept: bool) -> Option<String> {
         let poses = self.graph.poses.clone();
-        let worse = audit(&self.keys, &self.graph).len();
         self.lay_pieces(&[edge]);
         let index = self.bend_by(edge);
         let (sum, all) = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
-        let is_kept = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
+        let has_passed = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
             && sum.share() > AGREEING
             && audit(&self.keys, &self.graph).len() <= worse;
-        if is_kept {
-            let how = format!(
+        if !has_passed || !is_kept {
+            self.undo(&poses, &[index]);
+        }
+        has_passed.then(|| {
+            format!(
                 "kept on trial when the log had ended: {} points overlap and {:.0} % agree",
                 sum.judged(),
                 100.0 * sum.share()
-            );
-            self.loops.believe(&edge, how);
-        } else {
-            self.undo(&poses, &[index]);
-        }
-        is_kept
+            )
+        })
     }
 
     /// Bends the map by one more edge; gives its number.
