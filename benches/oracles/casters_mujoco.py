@@ -2,7 +2,7 @@
 
 Usage: casters_mujoco.py < jobs. A job is a line `DROP FRICTION`: how much too low the casters are [m], and
 their friction. The answer is the way [m] in 5 s at 0.3 m/s, after a second of standing. The cart is that of
-crates/dynamics/tests/casters/cart.rs. The servos are soft enough to be stable with wheels of 60 g.
+crates/simulation/physics/tests/casters/cart.rs. The servos are soft enough to be stable with wheels of 60 g.
 """
 
 import sys

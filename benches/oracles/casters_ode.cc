@@ -4,7 +4,7 @@
 //
 // Usage: casters_ode KP KD < jobs. A job is a line `DROP FRICTION`: how much too low the casters are
 // [m], and their friction. The answer is the way [m] in 5 s at 0.3 m/s, after a second of standing.
-// The cart is that of crates/dynamics/tests/casters/cart.rs.
+// The cart is that of crates/simulation/physics/tests/casters/cart.rs.
 #include <ode/ode.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-"""Cyclone DDS of PyPI as a publisher and a subscriber that measure. See crates/wire_ros2/examples/race/peer.rs.
+"""Cyclone DDS of PyPI as a publisher and a subscriber that measure. See crates/transports/dds/examples/race/peer.rs.
 
 wire_cyclone.py DOMAIN pub TOPIC TYPE DEPTH TEMPLATE COUNT PERIOD_US
 wire_cyclone.py DOMAIN sub TOPIC TYPE DEPTH [announce]
@@ -22,7 +22,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "crates/wire_ros2/tests/peers"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "crates/transports/dds/tests/peers"))
 
 from ros_types import LaserScan, PointCloud2, PointStamped
 

@@ -1,4 +1,4 @@
-// Fast DDS as a publisher and a subscriber that measure. See crates/wire_ros2/examples/race/peer.rs for the words:
+// Fast DDS as a publisher and a subscriber that measure. See crates/transports/dds/examples/race/peer.rs for the words:
 //
 //   wire_fast DOMAIN pub TOPIC TYPE DEPTH TEMPLATE COUNT PERIOD_US
 //   wire_fast DOMAIN sub TOPIC TYPE DEPTH

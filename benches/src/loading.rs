@@ -6,8 +6,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_formats::{Setting, load};
-use periplus_host::Machine;
+use periplus_loader::{Setting, load};
+use periplus_os::Machine;
 use periplus_resources::{Host as _, Resolver};
 use serde_json::json;
 

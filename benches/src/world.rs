@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use periplus_formats::{Setting, load};
+use periplus_loader::{Setting, load};
 use periplus_resources::{MemoryHost, Resolver};
 
 pub(crate) struct Large {

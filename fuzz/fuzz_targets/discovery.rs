@@ -3,10 +3,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_cyclone::{Guid, Identity, Sample, Vendor};
-use periplus_wire_ros2::{entities, names, request, user_data};
-use periplus_wire_zenoh::Token;
-use periplus_wire_zenoh::attachment::Attachment;
+use periplus_cyclonedds_sys::{Guid, Identity, Sample, Vendor};
+use periplus_dds::{entities, names, request, user_data};
+use periplus_rmw_zenoh::Token;
+use periplus_rmw_zenoh::attachment::Attachment;
 
 fuzz_target!(|bytes: &[u8]| {
     if let Some((said, form)) = entities::decode(bytes) {

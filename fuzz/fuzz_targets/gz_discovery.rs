@@ -5,10 +5,10 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|packet: &[u8]| {
-    if periplus_wire_gz::fuzz_discovery(packet) {
+    if periplus_gz_transport::fuzz_discovery(packet) {
         return;
     }
     // With a length that fits, more of them are packets.
     let length = u16::try_from(packet.len()).unwrap_or(u16::MAX);
-    let _ = periplus_wire_gz::fuzz_discovery(&[&length.to_le_bytes()[..], packet].concat());
+    let _ = periplus_gz_transport::fuzz_discovery(&[&length.to_le_bytes()[..], packet].concat());
 });

@@ -4,5 +4,5 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    periplus_wire_gz::fuzz_frames(bytes);
+    periplus_gz_transport::fuzz_frames(bytes);
 });

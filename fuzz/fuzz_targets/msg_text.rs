@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
-use periplus_interfaces::{Dialect, Registry, TypeName, rust};
+use periplus_rosidl::{Dialect, Registry, TypeName, rust};
 use periplus_msgs::{DynamicMessage, Format, TypeRegistry, YamlStyle};
 
 /// What services, actions and ROS 1 need; all packages would only make it slow.

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_base::Pose2;
+use periplus_geometry::Pose2;
 use periplus_slam::{Scan, Settings, Slam};
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! Rust code for the messages, from the texts in `crates/msgs/interfaces`.
+//! Rust code for the messages, from the texts in `crates/messages/msgs/interfaces`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
-use periplus_interfaces::{Dialect, Kind, Registry, TypeName, parse, rust};
+use periplus_rosidl::{Dialect, Kind, Registry, TypeName, parse, rust};
 
 use crate::step::{Failed, root};
 
@@ -15,7 +15,7 @@ use crate::step::{Failed, root};
 /// # Errors
 /// When a text is wrong, a file cannot be read or written, or the check finds a difference.
 pub(crate) fn run(check: bool) -> Result<(), Failed> {
-    let source = root().join("crates/msgs/src");
+    let source = root().join("crates/messages/msgs/src");
     let wanted = generate()?;
     let mut stale = Vec::new();
     for (path, code) in &wanted {
@@ -107,7 +107,7 @@ fn index(registry: &Registry, modules: &BTreeSet<&str>, paths: &[String]) -> Str
 
 /// Adds the texts of a folder of the crate; their paths in it.
 fn read(folder: &str, registry: &mut Registry) -> Result<Vec<String>, Failed> {
-    let place = format!("crates/msgs/{folder}");
+    let place = format!("crates/messages/msgs/{folder}");
     let folder = &root().join(&place);
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();

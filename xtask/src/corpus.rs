@@ -26,7 +26,7 @@ pub(crate) fn run_all() -> Result<(), Failed> {
         ("periplus-urdf", "check_urdf"),
         ("periplus-urdf", "libsdformat"),
         ("periplus-urdf", "corpus"),
-        ("periplus-formats", "corpus"),
+        ("periplus-loader", "corpus"),
     ] {
         timed(&format!("{package}: {test}"), || work.compare(package, test))?;
     }

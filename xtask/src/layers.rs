@@ -1,8 +1,9 @@
-//! Which crate may use which.
+//! Dependency rules between the wings of the workspace.
 //!
-//! Every crate stands on a floor (`package.metadata.periplus.floor`) and uses only crates of lower
-//! floors. What estimates the world from measurements never sees the world itself, or its results
-//! would prove nothing.
+//! A crate belongs to the wing that its folder stands in: `crates/<wing>/<room>`. A crate uses
+//! crates of its own wing and of wings below it; wings in one row do not use each other. Estimators
+//! never reach the files of robots or the simulation, not even through other crates: an estimator
+//! that can read the truth proves nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -11,17 +12,33 @@ use serde_json::Value;
 
 use crate::step::{Failed, cargo};
 
-/// These know the world only through messages ...
-const ESTIMATORS: [&str; 5] = [
-    "periplus-slam",
-    "periplus-localization",
-    "periplus-costmap",
-    "periplus-explore",
-    "periplus-fusion",
+/// Wings in their rows, the lowest row first.
+const ROWS: [&[&str]; 6] = [
+    &["foundation"],
+    &["messages"],
+    &["robot-files", "estimation"],
+    &["middleware"],
+    &["simulation", "nav-nodes", "transports"],
+    &["apps"],
 ];
-/// ... and never through these, not even by way of others.
-const TRUTH: [&str; 4] =
-    ["periplus-scene", "periplus-raycast", "periplus-dynamics", "periplus-sensors"];
+
+/// Wings that must not reach other wings through any chain of crates, and the reason.
+const NEVERS: [(&[&str], &[&str], &str); 3] = [
+    (
+        &["estimation", "nav-nodes"],
+        &["robot-files", "simulation"],
+        "an estimator gets messages only, never the truth",
+    ),
+    (&["middleware", "transports"], &["simulation"], "a network does not know the simulator"),
+    (&["foundation"], &["messages"], "the foundation serves programs without ROS"),
+];
+
+/// Single uses that break a rule of the rows, each with its reason. ARCHITECTURE.md lists them too.
+const EXCEPTIONS: [(&str, &str, &str); 3] = [
+    ("periplus-loader", "periplus-grid", "the walls of a map become a world"),
+    ("periplus-loader", "periplus-maps", "a map file is one of the files that are recognised"),
+    ("periplus-cli", "periplus-conformance", "`periplus conformance` runs the case files"),
+];
 
 pub(crate) fn run() -> Result<(), Failed> {
     let mut command = cargo();
@@ -35,18 +52,28 @@ pub(crate) fn run() -> Result<(), Failed> {
         .map_err(|error| Failed(format!("cargo metadata is not JSON: {error}")))?;
     let crates = crates(&metadata);
     print!("{}", table(&crates));
-    let faults = faults(&crates);
+    let mut faults = faults(&crates, &EXCEPTIONS);
+    faults.extend(stale(&crates, &EXCEPTIONS));
     if faults.is_empty() { Ok(()) } else { Err(Failed(faults.join("\n       "))) }
 }
 
 /// A crate of the workspace.
 #[derive(Debug)]
 struct Crate {
-    /// None for the tools beside the crates (`xtask`, `benches`), which may use everything.
-    floor: Option<u64>,
-    is_tool: bool,
+    /// None for crates beside the product (`conformance`, `xtask`, `benches`), which may use
+    /// everything.
+    wing: Option<String>,
+    /// The last part of its folder.
+    room: String,
     /// Crates of the workspace that it is built with.
     uses: BTreeSet<String>,
+}
+
+impl Crate {
+    fn row(&self) -> Option<usize> {
+        let wing = self.wing.as_deref()?;
+        ROWS.iter().position(|row| row.contains(&wing))
+    }
 }
 
 fn crates(metadata: &Value) -> BTreeMap<String, Crate> {
@@ -55,7 +82,7 @@ fn crates(metadata: &Value) -> BTreeMap<String, Crate> {
     let names: BTreeSet<String> = packages.iter().map(name).collect();
     let read = |package: &Value| {
         let dependencies = package["dependencies"].as_array();
-        // What only the tests use does not make a crate depend on it.
+        // A dependency of the tests alone does not make a crate depend on it.
         let uses = dependencies
             .into_iter()
             .flatten()
@@ -63,79 +90,117 @@ fn crates(metadata: &Value) -> BTreeMap<String, Crate> {
             .map(name)
             .filter(|dependency| names.contains(dependency))
             .collect();
-        let manifest = package["manifest_path"].as_str().unwrap_or_default();
-        Crate {
-            floor: package["metadata"]["periplus"]["floor"].as_u64(),
-            is_tool: !manifest.contains("/crates/") && !manifest.contains("\\crates\\"),
-            uses,
-        }
+        let (wing, room) = folder(package["manifest_path"].as_str().unwrap_or_default());
+        Crate { wing, room, uses }
     };
     packages.iter().map(|package| (name(package), read(package))).collect()
 }
 
-fn faults(crates: &BTreeMap<String, Crate>) -> Vec<String> {
+/// The wing and the room of a manifest; below `crates` the folder above the room is the wing.
+fn folder(manifest: &str) -> (Option<String>, String) {
+    let mut parts = manifest.rsplit(['/', '\\']).skip(1);
+    let room = parts.next().unwrap_or_default().to_owned();
+    let wing = parts.next().unwrap_or_default();
+    let is_product = wing == "crates" || parts.next() == Some("crates");
+    (is_product.then(|| wing.to_owned()), room)
+}
+
+fn faults(crates: &BTreeMap<String, Crate>, exceptions: &[(&str, &str, &str)]) -> Vec<String> {
     let mut faults = Vec::new();
     for (name, this) in crates {
-        if this.floor.is_none() && !this.is_tool {
-            faults.push(format!(
-                "{name} has no floor: write `floor = N` under [package.metadata.periplus]"
-            ));
-        }
-        for used in &this.uses {
-            let other = &crates[used];
-            if other.is_tool {
-                faults.push(format!("{name} uses {used}, a tool that no one may use"));
-            }
-            if let (Some(own), Some(floor)) = (this.floor, other.floor)
-                && floor >= own
-            {
+        if let Some(wing) = &this.wing {
+            if this.row().is_none() {
+                let wings = ROWS.concat().join(", ");
                 faults.push(format!(
-                    "{name} (floor {own}) uses {used} (floor {floor}): only lower floors may be used"
+                    "{name}: `{wing}` is not a wing: move it to crates/<wing>/{}, one of {wings}",
+                    this.room
                 ));
             }
-        }
-        if ESTIMATORS.contains(&name.as_str()) {
-            for truth in TRUTH {
-                if let Some(way) = way(crates, name, truth) {
-                    faults.push(format!(
-                        "{name} sees the true world: {}; estimators get messages only",
-                        way.join(" uses ")
-                    ));
-                }
+            if *name != format!("periplus-{}", this.room) {
+                faults.push(format!("{name}: rename it to periplus-{}, as its folder", this.room));
             }
+        }
+        for used in &this.uses {
+            let is_excepted = exceptions.iter().any(|(from, to, _)| from == name && to == used);
+            if !is_excepted {
+                faults.extend(fault_of_use((name, this), (used, &crates[used])));
+            }
+        }
+        faults.extend(nevers(crates, name, this));
+    }
+    faults
+}
+
+/// Returns the broken rule of rows, if one crate may not use the other.
+fn fault_of_use((name, this): (&str, &Crate), (used, other): (&str, &Crate)) -> Option<String> {
+    let own = this.wing.as_ref()?;
+    let Some(wing) = &other.wing else {
+        return Some(format!("{name} uses {used}, which stands beside the product"));
+    };
+    if own == wing || this.row()? > other.row()? {
+        return None;
+    }
+    Some(format!("{name} ({own}) uses {used} ({wing}): only wings of lower rows may be used"))
+}
+
+/// Chains of uses from a crate into wings that it must never reach.
+fn nevers(crates: &BTreeMap<String, Crate>, name: &str, this: &Crate) -> Vec<String> {
+    let wing = this.wing.as_deref().unwrap_or_default();
+    let mut faults = Vec::new();
+    for (_, never, why) in NEVERS.iter().filter(|(from, _, _)| from.contains(&wing)) {
+        let is_never = |one: &Crate| one.wing.as_deref().is_some_and(|wing| never.contains(&wing));
+        if let Some(chain) = chain(crates, name, is_never) {
+            let last = chain.last().and_then(|last| crates[last].wing.clone()).unwrap_or_default();
+            let chain = chain.join(" uses ");
+            faults.push(format!("{wing} reaches {last}: {chain}; {why}"));
         }
     }
     faults
 }
 
-/// A chain of uses from one crate to another.
-fn way(crates: &BTreeMap<String, Crate>, from: &str, to: &str) -> Option<Vec<String>> {
+/// A chain of uses from one crate to the first that matches.
+fn chain(
+    crates: &BTreeMap<String, Crate>,
+    from: &str,
+    is_wanted: impl Fn(&Crate) -> bool,
+) -> Option<Vec<String>> {
     let mut reached = BTreeSet::from([from.to_owned()]);
-    let mut ways = vec![vec![from.to_owned()]];
-    while let Some(way) = ways.pop() {
-        let last = way.last()?;
-        if last == to {
-            return Some(way);
+    let mut chains = vec![vec![from.to_owned()]];
+    while let Some(chain) = chains.pop() {
+        let last = chain.last()?;
+        if is_wanted(&crates[last]) {
+            return Some(chain);
         }
         for next in &crates[last].uses {
             if reached.insert(next.clone()) {
-                ways.push(way.iter().chain([next]).cloned().collect());
+                chains.push(chain.iter().chain([next]).cloned().collect());
             }
         }
     }
     None
 }
 
-/// The crates by floor, the lowest last as in a house.
+/// Exceptions that no crate needs.
+fn stale(crates: &BTreeMap<String, Crate>, exceptions: &[(&str, &str, &str)]) -> Vec<String> {
+    let is_used = |from: &str, to: &str| crates.get(from).is_some_and(|one| one.uses.contains(to));
+    let stale = exceptions.iter().filter(|(from, to, _)| !is_used(from, to));
+    let fault = |(from, to, _): &(&str, &str, &str)| {
+        format!("{from} no longer uses {to}: remove this exception")
+    };
+    stale.map(fault).collect()
+}
+
+/// The crates by wing, the highest row first.
 fn table(crates: &BTreeMap<String, Crate>) -> String {
-    let mut rows: Vec<_> = crates.iter().collect();
-    rows.sort_by_key(|(name, this)| (std::cmp::Reverse(this.floor.unwrap_or(u64::MAX)), *name));
     let mut table = String::new();
-    for (name, this) in rows {
-        let floor = this.floor.map_or("-".into(), |floor| floor.to_string());
-        let uses: Vec<&str> = this.uses.iter().map(|used| short(used)).collect();
-        let line = format!("{floor:>2}  {:<12} {}", short(name), uses.join(" "));
-        let _ = writeln!(table, "{}", line.trim_end());
+    let wings = ROWS.iter().rev().flat_map(|row| row.iter()).map(|wing| Some(*wing));
+    for wing in [None].into_iter().chain(wings) {
+        let _ = writeln!(table, "{}", wing.unwrap_or("beside the product"));
+        for (name, this) in crates.iter().filter(|(_, this)| this.wing.as_deref() == wing) {
+            let uses: Vec<&str> = this.uses.iter().map(|used| short(used)).collect();
+            let line = format!("  {:<14} {}", short(name), uses.join(" "));
+            let _ = writeln!(table, "{}", line.trim_end());
+        }
     }
     table
 }
@@ -150,22 +215,24 @@ mod tests {
 
     use super::*;
 
-    /// A crate's name, its floor, and what it uses with the kind of use.
-    type MadeUp<'a> = (&'a str, Option<u64>, &'a [(&'a str, Option<&'a str>)]);
+    /// A crate's folder below the root, and the crates that it uses with the kind of use.
+    type MadeUp<'a> = (&'a str, &'a [(&'a str, Option<&'a str>)]);
 
-    /// What cargo would say of such crates.
+    fn name_of(folder: &str) -> String {
+        let room = folder.rsplit('/').next().unwrap_or(folder);
+        if folder.starts_with("crates/") { format!("periplus-{room}") } else { room.to_owned() }
+    }
+
+    /// The answer of `cargo metadata` for such crates.
     fn workspace(made_up: &[MadeUp]) -> Value {
         let packages: Vec<Value> = made_up
             .iter()
-            .map(|(name, floor, uses)| {
-                let folder = if name.starts_with("periplus") { "crates/" } else { "" };
+            .map(|(folder, uses)| {
                 let uses: Vec<Value> =
                     uses.iter().map(|(name, kind)| json!({"name": name, "kind": kind})).collect();
-                let metadata = floor.map(|floor| json!({"periplus": {"floor": floor}}));
                 json!({
-                    "name": name,
-                    "manifest_path": format!("/x/{folder}{name}/Cargo.toml"),
-                    "metadata": metadata,
+                    "name": name_of(folder),
+                    "manifest_path": format!("/x/{folder}/Cargo.toml"),
                     "dependencies": uses,
                 })
             })
@@ -175,65 +242,106 @@ mod tests {
 
     #[track_caller]
     fn check(made_up: &[MadeUp], expected: &[&str]) {
-        assert_eq!(faults(&crates(&workspace(made_up))), expected);
+        assert_eq!(faults(&crates(&workspace(made_up)), &[]), expected);
     }
 
     #[test]
-    fn a_house_in_order() {
+    fn a_workspace_in_order() {
         let house: &[MadeUp] = &[
-            ("periplus-base", Some(0), &[("serde", None), ("periplus-cli", Some("dev"))]),
-            ("periplus-cli", Some(9), &[("periplus-base", None)]),
-            ("xtask", None, &[("periplus-cli", None)]),
+            ("crates/foundation/geometry", &[("serde", None), ("periplus-cli", Some("dev"))]),
+            ("crates/apps/launch", &[("periplus-geometry", None)]),
+            ("crates/apps/cli", &[("periplus-geometry", None), ("periplus-launch", None)]),
+            ("xtask", &[("periplus-cli", None)]),
         ];
         check(house, &[]);
-        assert_eq!(
-            table(&crates(&workspace(house))),
-            " -  xtask        cli\n 9  cli          base\n 0  base\n"
-        );
+        let expected = "beside the product\n  xtask          cli\napps\n  \
+            cli            geometry launch\n  launch         geometry\nsimulation\nnav-nodes\n\
+            transports\nmiddleware\nrobot-files\nestimation\nmessages\nfoundation\n  geometry\n";
+        assert_eq!(table(&crates(&workspace(house))), expected);
     }
 
     #[test]
-    fn only_lower_floors_are_used() {
-        let fault = |floor| {
-            format!(
-                "periplus-a (floor 1) uses periplus-b (floor {floor}): only lower floors may be used"
-            )
-        };
-        for (floor, kind) in [(1, None), (2, None), (1, Some("build"))] {
-            let uses = [("periplus-b", kind)];
-            check(
-                &[("periplus-a", Some(1), &uses), ("periplus-b", Some(floor), &[])],
-                &[&fault(floor)],
-            );
+    fn only_lower_rows_are_used() {
+        let rules = [
+            ("messages", "foundation", true),
+            ("foundation", "middleware", false),
+            ("middleware", "estimation", true),
+            ("robot-files", "estimation", false),
+            ("transports", "nav-nodes", false),
+            ("simulation", "simulation", true),
+        ];
+        for (own, wing, is_fine) in rules {
+            for kind in [None, Some("build")] {
+                let uses = [("periplus-b", kind)];
+                let (a, b) = (format!("crates/{own}/a"), format!("crates/{wing}/b"));
+                let fault = format!(
+                    "periplus-a ({own}) uses periplus-b ({wing}): \
+                     only wings of lower rows may be used"
+                );
+                let expected: &[&str] = if is_fine { &[] } else { &[fault.as_str()] };
+                check(&[(&a, &uses), (&b, &[])], expected);
+            }
         }
+    }
+
+    #[test]
+    fn every_crate_has_a_wing_and_its_folders_name() {
+        let wings = ROWS.concat().join(", ");
         check(
-            &[("periplus-a", Some(1), &[("periplus-b", None)]), ("periplus-b", Some(0), &[])],
-            &[],
+            &[("crates/a", &[]), ("crates/attic/b", &[("xtask", None)]), ("xtask", &[])],
+            &[
+                &format!(
+                    "periplus-a: `crates` is not a wing: move it to crates/<wing>/a, one of {wings}"
+                ),
+                &format!(
+                    "periplus-b: `attic` is not a wing: move it to crates/<wing>/b, one of {wings}"
+                ),
+                "periplus-b uses xtask, which stands beside the product",
+            ],
+        );
+        let mut workspace = workspace(&[("crates/estimation/slam", &[])]);
+        workspace["packages"][0]["name"] = json!("periplus-mapper");
+        assert_eq!(
+            faults(&crates(&workspace), &[]),
+            ["periplus-mapper: rename it to periplus-slam, as its folder"]
+        );
+        let windows = folder(r"C:\x\crates\apps\cli\Cargo.toml");
+        assert_eq!(windows, (Some("apps".to_owned()), "cli".to_owned()));
+    }
+
+    #[test]
+    fn estimators_never_reach_the_truth() {
+        // The use in the middle is excepted, so that only the chain is a fault.
+        let exceptions = [("periplus-maps", "periplus-scene", "a reason")];
+        let house: &[MadeUp] = &[
+            ("crates/nav-nodes/nav-nodes", &[("periplus-maps", None)]),
+            ("crates/estimation/maps", &[("periplus-scene", None)]),
+            ("crates/robot-files/scene", &[]),
+            ("crates/simulation/sensors", &[("periplus-scene", None)]),
+        ];
+        assert_eq!(
+            faults(&crates(&workspace(house)), &exceptions),
+            [
+                "estimation reaches robot-files: periplus-maps uses periplus-scene; \
+                 an estimator gets messages only, never the truth",
+                "nav-nodes reaches robot-files: periplus-nav-nodes uses periplus-maps uses \
+                 periplus-scene; an estimator gets messages only, never the truth",
+            ]
         );
     }
 
     #[test]
-    fn every_crate_has_a_floor_and_no_one_uses_a_tool() {
-        check(
-            &[("periplus-a", None, &[("xtask", None)]), ("xtask", None, &[])],
-            &[
-                "periplus-a has no floor: write `floor = N` under [package.metadata.periplus]",
-                "periplus-a uses xtask, a tool that no one may use",
-            ],
-        );
-    }
-
-    #[test]
-    fn estimators_never_see_the_world() {
-        check(
-            &[
-                ("periplus-slam", Some(5), &[("periplus-maps", None)]),
-                ("periplus-maps", Some(4), &[("periplus-scene", None)]),
-                ("periplus-scene", Some(2), &[]),
-                ("periplus-sensors", Some(5), &[("periplus-scene", None)]),
-            ],
-            &["periplus-slam sees the true world: periplus-slam uses periplus-maps uses \
-               periplus-scene; estimators get messages only"],
+    fn exceptions_are_needed() {
+        let exceptions = [("periplus-loader", "periplus-maps", "a reason")];
+        let loader = |uses| crates(&workspace(&[("crates/robot-files/loader", uses), MAPS]));
+        const MAPS: MadeUp = ("crates/estimation/maps", &[]);
+        let used = loader(&[("periplus-maps", None)]);
+        assert_eq!(faults(&used, &exceptions), Vec::<String>::new());
+        assert_eq!(faults(&used, &[]).len(), 1);
+        assert_eq!(stale(&used, &exceptions), Vec::<String>::new());
+        assert_eq!(
+            stale(&loader(&[]), &exceptions),
+            ["periplus-loader no longer uses periplus-maps: remove this exception"]
         );
     }
 }

@@ -101,7 +101,7 @@ enum Task {
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
-    /// Rust code for the messages, from the texts in `crates/msgs/interfaces`
+    /// Rust code for the messages, from the texts in `crates/messages/msgs/interfaces`
     Codegen {
         /// Only say whether the code is what the texts say
         #[arg(long)]
@@ -162,7 +162,7 @@ enum Task {
 /// What is done with the page.
 #[derive(Clone, Copy, Subcommand)]
 enum Page {
-    /// Build it into `crates/server/page`, where it is committed
+    /// Build it into `crates/transports/server/page`, where it is committed
     Build,
     /// Formatting, types, tests; whether it is committed as it is built
     Check,

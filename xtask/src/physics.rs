@@ -38,7 +38,7 @@ pub(crate) fn casters() -> Result<(), Failed> {
     build_ode(&oracles.join("casters_ode.cc"), &ode);
     let python = std::env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let mut race = cargo();
-    race.args(["run", "--quiet", "--profile", "test", "--package", "periplus-dynamics"]);
+    race.args(["run", "--quiet", "--profile", "test", "--package", "periplus-physics"]);
     race.args(["--example", "casters", "--"]);
     race.arg(ode).arg(python).arg(oracles.join("casters_mujoco.py"));
     race.arg(root().join("benches/RESULTS.md"));

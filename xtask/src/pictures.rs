@@ -25,7 +25,7 @@ pub(crate) fn draw() -> Result<(), Failed> {
             .arg(root().join("Cargo.toml"))
             .args(["--package", "periplus-cli", "--", "--color", "always"])
             .args(*words)
-            .current_dir(root().join("crates/formats/tests/broken"))
+            .current_dir(root().join("crates/robot-files/loader/tests/broken"))
             .output()
             .map_err(|error| Failed(format!("cannot run periplus: {error}")))?;
         let printed = String::from_utf8_lossy(&output.stdout);

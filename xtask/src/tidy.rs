@@ -46,12 +46,18 @@ fn none(faults: &[String]) {
     assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
 }
 
-/// The folders of the workspace's crates and tools.
+/// The folders in a folder of the tree, as paths from its root.
+fn folders(of: &str) -> Vec<String> {
+    let entries = fs::read_dir(root().join(of)).unwrap_or_else(|error| panic!("{of}: {error}"));
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    names.map(|name| format!("{of}/{name}")).filter(|path| root().join(path).is_dir()).collect()
+}
+
+/// The folders of the workspace's crates, by wing, and of those beside the product.
 fn members() -> Vec<String> {
-    let crates = fs::read_dir(root().join("crates")).expect("the crates");
-    let names = crates.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut members: Vec<String> = names.map(|name| format!("crates/{name}")).collect();
-    members.extend(["xtask", "benches"].map(String::from));
+    let mut members: Vec<String> =
+        folders("crates").iter().flat_map(|wing| folders(wing)).collect();
+    members.extend(["conformance", "xtask", "benches"].map(String::from));
     members.retain(|member| root().join(member).join("Cargo.toml").is_file());
     members.sort();
     members
@@ -96,7 +102,7 @@ fn no_forbidden_words() {
 
 /// Crates with vector instructions or C: they repeat the common lints, and deny unsafe code where the
 /// others forbid it, so that modules can be let off. (Cargo has no way to inherit and differ.)
-const WITH_UNSAFE: [&str; 2] = ["crates/cyclone", "crates/raycast"];
+const WITH_UNSAFE: [&str; 2] = ["crates/transports/cyclonedds-sys", "crates/simulation/raycast"];
 
 #[test]
 fn every_crate_takes_the_common_lints() {
@@ -142,8 +148,12 @@ fn the_map_names_every_crate() {
 #[test]
 fn the_map_names_only_what_is_there() {
     let map = architecture();
-    let there =
-        |path: &String| root().join(path).exists() || root().join("crates").join(path).exists();
+    let wings = folders("crates");
+    let there = |path: &String| {
+        root().join(path).exists()
+            || root().join("crates").join(path).exists()
+            || wings.iter().any(|wing| root().join(wing).join(path).exists())
+    };
     let named = named_paths(&map);
     assert!(named.len() > 3, "no paths were recognised in ARCHITECTURE.md: {named:?}");
     let gone = named.into_iter().filter(|path| !there(path));
@@ -190,10 +200,10 @@ fn is_path(span: &str) -> bool {
 #[test]
 fn paths_are_told_from_other_words() {
     let map = "Run `cargo xtask ci`, see `docs/a.md`, `/scan`, `std_msgs/String`, `m/s`, `a://b`.\n\
-        ```\nnot/this\n```\n## Code map\n- `base`: `Pose`\n| `crates/xml/` | `Node` |\n\n## Else\n\
+        ```\nnot/this\n```\n## Code map\n- `base`: `Pose`\n| `crates/foundation/xml/` | `Node` |\n\n## Else\n\
         - `word`\n";
     let named: Vec<String> = named_paths(map).into_iter().collect();
-    assert_eq!(named, ["base", "crates/xml/", "docs/a.md"]);
+    assert_eq!(named, ["base", "crates/foundation/xml/", "docs/a.md"]);
 }
 
 #[test]

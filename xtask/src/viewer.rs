@@ -1,4 +1,4 @@
-//! The page: checked, tested, built, and held against what is committed in `crates/server/page`.
+//! The page: checked, tested, built, and held against what is committed in `crates/transports/server/page`.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -24,7 +24,10 @@ pub(crate) fn check() -> Result<(), Failed> {
     timed("page: tests", || npm(&["test"], "see above"))?;
     timed("page: build", || npm(&["run", "build"], "the page does not build"))?;
     timed("page: as committed", || {
-        npm(&["run", "committed"], "`cargo xtask viewer build`, then commit crates/server/page")
+        npm(
+            &["run", "committed"],
+            "`cargo xtask viewer build`, then commit crates/transports/server/page",
+        )
     })
 }
 

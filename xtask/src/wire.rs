@@ -28,7 +28,7 @@ pub(crate) fn bench(only: Option<&str>) -> Result<(), Failed> {
     }
     let python = std::env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let mut race = cargo();
-    race.args(["run", "--quiet", "--release", "--package", "periplus-wire_ros2", "--example"]);
+    race.args(["run", "--quiet", "--release", "--package", "periplus-dds", "--example"]);
     race.args(["race", "--"]).arg(fast).arg(python).arg(oracles.join("wire_cyclone.py"));
     race.arg(&folder).args(only);
     let output = race

@@ -11,13 +11,13 @@ const PEER: [&str; 2] = ["eclipse-zenoh==1.10.2", "xxhash"];
 pub(crate) fn check() -> Result<(), Failed> {
     timed("peer", install)?;
     timed("clippy", || {
-        let packages = ["-p", "periplus-wire_zenoh", "-p", "periplus-cli"];
+        let packages = ["-p", "periplus-rmw-zenoh", "-p", "periplus-cli"];
         let mut command = cargo();
         command.arg("clippy").args(packages).args(["--features", "zenoh", "--all-targets"]);
         run(command.args(["--", "-D", "warnings"]), "see the findings above")
     })?;
     timed("test", || {
-        let arguments = ["test", "-p", "periplus-wire_zenoh", "--features", "zenoh"];
+        let arguments = ["test", "-p", "periplus-rmw-zenoh", "--features", "zenoh"];
         run(cargo().args(arguments), "see the failures above")
     })?;
     timed("test of the command", || {

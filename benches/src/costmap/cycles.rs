@@ -1,9 +1,9 @@
 //! Updates while a robot drives.
 
-use periplus_base::{DVec3, Pose, Pose2, Stream};
 use periplus_costmap::layers::StaticLayer;
 use periplus_costmap::{Beams, Config, NoFrames, Projector};
 use periplus_diagnostics::Diagnostics;
+use periplus_geometry::{DVec3, Pose, Pose2, Stream};
 use periplus_grid::{Lattice, OccupancyGrid};
 use periplus_params::Given;
 

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
-use periplus_base::{Pose2, Stream};
 use periplus_costmap::inflation::{CostTable, Inflation, Scratch, inflate};
 use periplus_costmap::{Compat, Costmap, Window};
+use periplus_geometry::{Pose2, Stream};
 use periplus_grid::Lattice;
 
 use super::{Row, fastest, number, seconds, wavefront};

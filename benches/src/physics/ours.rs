@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Instant;
 
-use periplus_dynamics::{Command, JointId, LinkId, Mode, ModelId, NoMeshes, Twist, World};
-use periplus_formats::{Setting, load};
-use periplus_host::Machine;
+use periplus_loader::{Setting, load};
+use periplus_os::Machine;
+use periplus_physics::{Command, JointId, LinkId, Mode, ModelId, NoMeshes, Twist, World};
 use periplus_resources::Resolver;
 use periplus_scene::{Collision, DVec3, Link, Model, Pose, Shape};
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use periplus_base::{DQuat, DVec3, Pose};
+use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_raycast::{Filter, Ray, Shape, Tags, TriangleMesh, World, WorldBuilder};
 use rustix::time::{ClockId, clock_gettime};
 use serde_json::{Value, json};

@@ -65,15 +65,16 @@ fn launch_files() -> Vec<Input> {
 
 const ROBOTS: &[&str] = &[
     "fuzz/seeds/urdf/*",
-    "crates/cli/templates/robot.urdf.xacro",
+    "crates/apps/cli/templates/robot.urdf.xacro",
     "robots/kbot/urdf/kbot.urdf.xacro",
 ];
-const WORLDS: &[&str] = &["fuzz/seeds/sdf/*", "crates/cli/templates/world.sdf", "worlds/pong.sdf"];
+const WORLDS: &[&str] =
+    &["fuzz/seeds/sdf/*", "crates/apps/cli/templates/world.sdf", "worlds/pong.sdf"];
 const PARAMETERS: &[&str] = &[
     "robots/sam_bot/config/nav2_params.yaml",
-    "crates/cli/templates/package/nav2_params.yaml",
-    "crates/cli/templates/package/slam.yaml",
-    "crates/cli/templates/package/ekf.yaml",
+    "crates/apps/cli/templates/package/nav2_params.yaml",
+    "crates/apps/cli/templates/package/slam.yaml",
+    "crates/apps/cli/templates/package/ekf.yaml",
 ];
 const MAPS: &[(&str, &str)] = &[("room.pgm", "xtask/src/attack/seeds/room.pgm")];
 
@@ -83,7 +84,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind { name: "urdf-to-sdf", seeds: ROBOTS, changed: 60, words: CONVERT, batch: 1, ..KIND },
     Kind {
         name: "xacro",
-        seeds: &["fuzz/seeds/xacro/*", "crates/cli/templates/robot.urdf.xacro"],
+        seeds: &["fuzz/seeds/xacro/*", "crates/apps/cli/templates/robot.urdf.xacro"],
         changed: 260,
         crafted: xacro,
         ..KIND
@@ -100,7 +101,7 @@ pub(super) const KINDS: &[Kind] = &[
     },
     Kind {
         name: "robot-run",
-        seeds: &["crates/cli/templates/robot.urdf.xacro"],
+        seeds: &["crates/apps/cli/templates/robot.urdf.xacro"],
         changed: 40,
         words: SIMULATE,
         batch: 1,
@@ -120,7 +121,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind {
         name: "launch",
         seeds: &[
-            "crates/cli/tests/launch/tutorials/launch/kbot_maps.launch",
+            "crates/apps/cli/tests/launch/tutorials/launch/kbot_maps.launch",
             "robots/kbot/launch/kbot.launch",
         ],
         changed: 120,
@@ -130,7 +131,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind {
         name: "launch-plan",
         seeds: &[
-            "crates/cli/tests/launch/tutorials/launch/kbot_maps.launch",
+            "crates/apps/cli/tests/launch/tutorials/launch/kbot_maps.launch",
             "robots/kbot/launch/kbot.launch",
         ],
         changed: 40,
@@ -143,7 +144,7 @@ pub(super) const KINDS: &[Kind] = &[
         name: "launch-python",
         seeds: &[
             "robots/sam_bot/launch/display.launch.py",
-            "crates/cli/templates/package/simulation.launch.py",
+            "crates/apps/cli/templates/package/simulation.launch.py",
         ],
         changed: 40,
         crafted: crafted::launch_python,
@@ -266,7 +267,7 @@ pub(super) const KINDS: &[Kind] = &[
     },
     Kind {
         name: "slam-parameters",
-        seeds: &["crates/cli/templates/package/slam.yaml"],
+        seeds: &["crates/apps/cli/templates/package/slam.yaml"],
         changed: 60,
         crafted: crafted::yaml,
         beside: &[DRIVE],
@@ -306,7 +307,10 @@ pub(super) const KINDS: &[Kind] = &[
     },
     Kind {
         name: "rviz",
-        seeds: &["robots/sam_bot/rviz/sam_bot.rviz", "crates/cli/templates/package/robot.rviz"],
+        seeds: &[
+            "robots/sam_bot/rviz/sam_bot.rviz",
+            "crates/apps/cli/templates/package/robot.rviz",
+        ],
         changed: 40,
         ..KIND
     },

@@ -84,7 +84,7 @@ fn run(part: &str, paths: [PathBuf; 5], is_quick: bool) -> Result<(), String> {
         own: std::env::current_exe().map_err(|error| error.to_string())?,
         python,
         script: root.join("benches/oracles/wire_rclpy.py"),
-        peer: root.join("crates/cli/tests/peers/rclpy_peer.py"),
+        peer: root.join("crates/apps/cli/tests/peers/rclpy_peer.py"),
         cyclone_python,
         cyclone_script: root.join("benches/oracles/wire_cyclone.py"),
         folder,

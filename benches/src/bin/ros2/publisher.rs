@@ -3,13 +3,13 @@
 use std::f32::consts::{PI, TAU};
 use std::time::{Duration, Instant};
 
+use periplus_dds::{Settings, Wire};
 use periplus_graph::{Graph, NodeSettings, Qos};
-use periplus_host::unix_ns;
 use periplus_msgs::Message;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::sensor_msgs::{CameraInfo, Image, LaserScan, PointCloud2, PointField};
 use periplus_msgs::std_msgs::Header;
-use periplus_wire_ros2::{Settings, Wire};
+use periplus_os::unix_ns;
 
 use crate::process::await_end;
 

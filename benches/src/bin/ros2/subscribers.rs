@@ -6,9 +6,9 @@ use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use periplus_dds::{Settings, Wire};
 use periplus_graph::{Graph, Mailbox, NodeSettings, Qos};
 use periplus_msgs::rosgraph_msgs::Clock;
-use periplus_wire_ros2::{Settings, Wire};
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use periplus_base::Pose2;
+use periplus_geometry::Pose2;
 use periplus_graph::{NodeSettings, Qos};
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use periplus_base::{Pose2, Stream};
+use periplus_geometry::{Pose2, Stream};
 use periplus_grid::{Cell, Grid, Lattice, Line, squared_distances};
 
 use crate::stage::Stage;

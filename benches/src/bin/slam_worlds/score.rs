@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use periplus_base::{Pose2, normalize_angle};
+use periplus_geometry::{Pose2, normalize_angle};
 use periplus_grid::{Grid, Lattice, OccupancyGrid, squared_distances};
-use periplus_host::Machine;
 use periplus_maps::{Distro, load};
+use periplus_os::Machine;
 use serde_json::Value;
 
 use crate::drive::Drive;

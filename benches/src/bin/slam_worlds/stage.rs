@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use periplus_base::{DVec3, Pose2, Stream};
-use periplus_formats::Setting;
-use periplus_host::Machine;
-use periplus_optics::{Geometry, Surroundings};
+use periplus_geometry::{DVec3, Pose2, Stream};
+use periplus_loader::Setting;
+use periplus_os::Machine;
 use periplus_raycast::{Filter, Ray};
+use periplus_rendering::{Geometry, Surroundings};
 use periplus_resources::Resolver;
 use periplus_sim::{Composition, Placement, ShapeFiles, Standing, compose};
 

@@ -1,0 +1,30 @@
+//! The cases of this tree and those that are shared.
+
+#![allow(clippy::print_stdout, reason = "a test that prints its table")]
+
+use std::path::Path;
+
+use periplus_conformance::{Report, Verdict, run};
+use periplus_os::Machine;
+
+fn check(folder: &Path) -> Option<Report> {
+    let report = run(folder, &Machine).ok()?;
+    let wrong = report.results.iter().filter(|result| result.verdict != Verdict::Passed);
+    assert_eq!(wrong.count(), 0, "\n{}", report.to_text());
+    println!("{}", report.to_text());
+    Some(report)
+}
+
+#[test]
+fn every_case_of_this_tree_passes() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/cases"));
+    assert!(check(folder).is_some(), "there are no cases in {}", folder.display());
+}
+
+#[test]
+fn every_shared_case_passes() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/cases"));
+    if check(folder).is_none() {
+        println!("SKIPPED: there are no cases in {}", folder.display());
+    }
+}

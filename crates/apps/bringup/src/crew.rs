@@ -1,0 +1,576 @@
+//! A plan that runs.
+
+use std::any::Any;
+use std::path::PathBuf;
+
+use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
+use periplus_launch::{Dialect, Plan, Trigger};
+use periplus_msgs::lifecycle_msgs::TransitionEvent;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
+use periplus_sim::{Search, Simulation};
+
+use crate::environment;
+use crate::guard::Guard;
+use crate::hands::{Changer, Child, Done, Hand, Stage};
+use crate::make::{Made, make};
+use crate::parts::{self, Ask, Part, Program, Work, own_folder};
+use crate::preparation::{self, LONGEST_WAIT_NS};
+use crate::told::{Became, Kind, Line, Said};
+use crate::world::WorldWish;
+use crate::xacro::xacro;
+
+/// How a plan is run.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Where packages, models and files are looked for.
+    pub search: Search,
+    /// Of which ROS the launch file is.
+    pub dialect: Dialect,
+    /// Whether programs of ROS can reach the graph.
+    pub is_wired: bool,
+    /// Whether the run keeps pace with the wall.
+    pub is_paced: bool,
+    /// The program that ends what is left when this one is killed: its own file, which runs
+    /// [`crate::guard`] when it is given [`crate::GUARD_VERB`].
+    pub guarding_program: Option<PathBuf>,
+    /// A folder of programs that its processes find behind all others on the PATH.
+    pub tools: Option<PathBuf>,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Event {
+    Started(usize),
+    Ended(usize),
+    Printed(usize),
+    Reached { step: usize, from: String, to: String },
+    Shutdown,
+}
+
+/// A part that waits, runs, or is done.
+struct Waiting {
+    part: Part,
+    /// Triggers that have come.
+    come: usize,
+    /// From which event on the next is looked for.
+    cursor: usize,
+    /// When the last one came \[ns\].
+    since_ns: i64,
+    is_begun: bool,
+}
+
+/// A plan that runs on a graph. Whoever runs it calls [`Bringup::work`] from time to time.
+pub struct Bringup {
+    waiting: Vec<Waiting>,
+    events: Vec<Event>,
+    hands: Vec<(usize, Box<dyn Hand>)>,
+    kept: Vec<Box<dyn Any + Send>>,
+    watched: Vec<(usize, Mailbox<TransitionEvent>)>,
+    lines: Vec<Line>,
+    said: Vec<Said>,
+    settings: Settings,
+    /// Names of nodes that nothing here stands for.
+    lacking: Vec<String>,
+    /// Where things are looked for that the world and what is spawned into it mention.
+    world_search: Search,
+    guard: Guard,
+    is_over: bool,
+    /// The time of the last call \[ns\].
+    last_ns: i64,
+}
+
+impl Bringup {
+    /// Reads a plan.
+    #[must_use]
+    pub fn new(plan: &Plan, settings: Settings) -> Self {
+        let waiting = parts::of_plan(plan).into_iter().map(|part| Waiting {
+            part,
+            come: 0,
+            cursor: 0,
+            since_ns: 0,
+            is_begun: false,
+        });
+        let mut bringup = Self {
+            waiting: waiting.collect(),
+            events: Vec::new(),
+            hands: Vec::new(),
+            kept: Vec::new(),
+            watched: Vec::new(),
+            lines: Vec::new(),
+            said: Vec::new(),
+            settings,
+            lacking: Vec::new(),
+            world_search: Search::default(),
+            guard: Guard::default(),
+            is_over: false,
+            last_ns: 0,
+        };
+        bringup.world_search = bringup.search_of_world(plan);
+        bringup.lacking = bringup
+            .asks()
+            .filter(|(_, ask)| ask.entry.role == crate::catalogue::Role::Lacking)
+            .map(|(_, ask)| ask.full_name())
+            .collect();
+        bringup
+    }
+
+    /// Says whether programs of ROS can reach the graph, once that is known.
+    pub fn set_wired(&mut self, is_wired: bool) {
+        self.settings.is_wired = is_wired;
+    }
+
+    /// The world that is to be simulated, if any. All plans of the tutorials have one at most; of
+    /// several the first that names a file counts.
+    #[must_use]
+    pub fn world(&self) -> Option<&WorldWish> {
+        match &self.waiting[self.world_part()?].part.work {
+            Work::World(wish) => Some(wish),
+            _ => None,
+        }
+    }
+
+    /// The part that starts the world.
+    fn world_part(&self) -> Option<usize> {
+        let worlds = || {
+            self.waiting.iter().enumerate().filter_map(|(index, waiting)| {
+                match &waiting.part.work {
+                    Work::World(wish) => Some((index, wish)),
+                    _ => None,
+                }
+            })
+        };
+        let named = worlds().find(|(_, wish)| wish.file.is_some());
+        named.or_else(|| worlds().next()).map(|(index, _)| index)
+    }
+
+    /// Where things are looked for that the world and what is spawned into it mention: the
+    /// environment and the folder in which the launch files start it.
+    #[must_use]
+    pub fn search(&self) -> &Search {
+        &self.world_search
+    }
+
+    fn search_of_world(&self, plan: &Plan) -> Search {
+        let mut search = self.settings.search.clone();
+        let Some(wish) = self.world() else { return search };
+        search.variables.extend(wish.environment.clone());
+        if let Some(folder) = &wish.folder {
+            search.working_folder = search.working_folder.join(folder);
+        }
+        search.advice = Some(environment::advice(&environment::settings(&plan.steps), wish));
+        search
+    }
+
+    /// Runs the processes that must have ended before the world can be loaded: those that it waits
+    /// for, and those that write its file. Call it again until it returns true; time is that of the
+    /// wall \[ns\].
+    pub fn prepare(&mut self, graph: &Graph, wall_ns: i64) -> bool {
+        let Some(world) = self.world_part() else { return true };
+        let wanted = preparation::of_world(&self.waiting_parts(), world);
+        if wanted.is_empty() {
+            return true;
+        }
+        let is_wanted = |index: usize| wanted.contains(&index);
+        while self.begin_some(graph, wall_ns, &is_wanted) {}
+        self.work_hands(graph, wall_ns, None);
+        while self.begin_some(graph, wall_ns, &is_wanted) {}
+        let runs = self.hands.iter().any(|(part, _)| is_wanted(*part));
+        let may_come = wanted.iter().any(|index| {
+            let waiting = &self.waiting[*index];
+            let next = waiting.part.after.get(waiting.come);
+            !waiting.is_begun && matches!(next, Some(Trigger::Seconds(_)))
+        });
+        let has_file = self.world_file().is_some_and(|file| Machine.kind(&file).is_some());
+        let is_ready = !(runs || may_come) || (has_file && wall_ns > LONGEST_WAIT_NS);
+        if is_ready {
+            // From here on time is that of the world.
+            self.waiting.iter_mut().for_each(|waiting| waiting.since_ns = 0);
+        }
+        is_ready
+    }
+
+    fn waiting_parts(&self) -> Vec<&Part> {
+        self.waiting.iter().map(|waiting| &waiting.part).collect()
+    }
+
+    /// The file of the world as a path.
+    fn world_file(&self) -> Option<PathBuf> {
+        let file = self.world()?.file.as_deref()?;
+        Some(self.world_search.working_folder.join(file))
+    }
+
+    /// Whether a node of the plan tells where joints are, so that nobody else has to.
+    #[must_use]
+    pub fn tells_joints(&self) -> bool {
+        self.has(crate::catalogue::Role::JointStatePublisher)
+    }
+
+    /// Whether the plan wants to be looked at: RViz, or a window of Gazebo.
+    #[must_use]
+    pub fn wants_page(&self) -> bool {
+        self.has(crate::catalogue::Role::Viewer) || self.world().is_some_and(|wish| wish.has_window)
+    }
+
+    /// Files of RViz that the plan opens.
+    #[must_use]
+    pub fn views(&self) -> Vec<PathBuf> {
+        let path = |ask: &Ask| {
+            let file = option_of_viewer(ask, "d", "display-config")?;
+            let folder = &self.settings.search.working_folder;
+            Some(folder.join(ask.path(folder, file)))
+        };
+        self.asks().filter_map(|(_, ask)| path(ask)).collect()
+    }
+
+    /// Fixed frame that the first RViz of the plan is started with (`-f`).
+    #[must_use]
+    pub fn fixed_frame(&self) -> Option<String> {
+        let mut viewers = self.asks();
+        let frame = viewers.find_map(|(_, ask)| option_of_viewer(ask, "f", "fixed-frame"));
+        frame.map(str::to_owned)
+    }
+
+    /// Whether a node of the plan lives by `/clock`.
+    #[must_use]
+    pub fn follows_clock(&self) -> bool {
+        let mut notes = Vec::new();
+        let wants = |ask: &Ask, notes: &mut Vec<String>| {
+            let named = crate::make::parameters(ask, notes);
+            crate::parameters::truth_of(&named, "use_sim_time") == Some(true)
+        };
+        self.asks().any(|(_, ask)| wants(ask, &mut notes))
+    }
+
+    fn has(&self, role: crate::catalogue::Role) -> bool {
+        self.asks().any(|(_, ask)| ask.entry.role == role)
+    }
+
+    fn asks(&self) -> impl Iterator<Item = (usize, &Ask)> {
+        self.waiting.iter().filter_map(|waiting| match &waiting.part.work {
+            Work::Ours(ask) => Some((waiting.part.step, &**ask)),
+            _ => None,
+        })
+    }
+
+    /// What became of the parts that have begun, in their order.
+    #[must_use]
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    /// What was said since the last time.
+    pub fn take_said(&mut self) -> Vec<Said> {
+        std::mem::take(&mut self.said)
+    }
+
+    /// Whether the plan says that everything ends.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.is_over
+    }
+
+    /// Whether nothing of it runs, or ever will.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        let waits = |waiting: &Waiting| {
+            let timed = |trigger: &Trigger| matches!(trigger, Trigger::Seconds(_));
+            !waiting.is_begun && waiting.part.after.get(waiting.come).is_none_or(timed)
+        };
+        self.hands.is_empty() && self.kept.is_empty() && !self.waiting.iter().any(waits)
+    }
+
+    /// Does what is due at this time \[ns\].
+    pub fn work(&mut self, graph: &Graph, now_ns: i64, simulation: Option<&mut Simulation>) {
+        if now_ns < self.last_ns {
+            // A reset of the world: timers of the launch go on from where they are.
+            let back_ns = self.last_ns - now_ns;
+            self.waiting.iter_mut().for_each(|waiting| waiting.since_ns -= back_ns);
+            self.hands.iter_mut().for_each(|(_, hand)| hand.time_went_back(back_ns));
+        }
+        self.last_ns = now_ns;
+        self.hear();
+        // What begins may let others begin; a plan has an end, so this has one.
+        while self.begin(graph, now_ns) {}
+        self.work_hands(graph, now_ns, simulation);
+        while self.begin(graph, now_ns) {}
+    }
+
+    fn work_hands(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
+        let mut ended = Vec::new();
+        for (part, hand) in &mut self.hands {
+            let mut stage = Stage {
+                graph,
+                now_ns,
+                simulation: simulation.as_deref_mut(),
+                search: &self.world_search,
+                said: &mut self.said,
+                has_printed: false,
+            };
+            let done = hand.work(&mut stage);
+            let step = self.waiting[*part].part.step;
+            if stage.has_printed {
+                self.events.push(Event::Printed(step));
+            }
+            if done == Done::Yes {
+                ended.push(*part);
+            }
+        }
+        self.hands.retain(|(part, _)| !ended.contains(part));
+        for part in ended {
+            self.end(part);
+        }
+    }
+
+    /// Ends all programs; what the plan wants to be said at the end is said.
+    pub fn end_all(&mut self, graph: &Graph, now_ns: i64) {
+        self.events.push(Event::Shutdown);
+        while self.begin(graph, now_ns) {}
+        // All at once, so that they end side by side.
+        self.hands.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
+        self.hands.iter_mut().for_each(|(_, hand)| hand.stop());
+        self.hands.clear();
+    }
+
+    fn end(&mut self, part: usize) {
+        let part = &self.waiting[part].part;
+        self.events.push(Event::Ended(part.step));
+        if part.is_required {
+            let text = format!("`{}` has ended, and the launch needs it: all ends", part.asked);
+            self.said.push(Said::warning(text));
+            self.is_over = true;
+        }
+    }
+
+    /// Takes what managed nodes tell of themselves.
+    fn hear(&mut self) {
+        for (step, mailbox) in &self.watched {
+            for event in mailbox.drain() {
+                let (from, to) = (event.start_state.label.clone(), event.goal_state.label.clone());
+                self.events.push(Event::Reached { step: *step, from, to });
+            }
+        }
+    }
+
+    /// Begins all parts whose time has come; whether there was one.
+    fn begin(&mut self, graph: &Graph, now_ns: i64) -> bool {
+        if self.watched.is_empty() {
+            self.watch(graph);
+        }
+        self.begin_some(graph, now_ns, &|_| true)
+    }
+
+    fn begin_some(&mut self, graph: &Graph, now_ns: i64, wanted: &dyn Fn(usize) -> bool) -> bool {
+        let mut has_begun = false;
+        for index in (0..self.waiting.len()).filter(|index| wanted(*index)) {
+            let waiting = &mut self.waiting[index];
+            if waiting.is_begun || !waiting.is_due(&self.events, now_ns) {
+                continue;
+            }
+            waiting.is_begun = true;
+            has_begun = true;
+            self.start(index, graph, now_ns);
+        }
+        has_begun
+    }
+
+    /// Listens to the managed nodes that somebody waits for.
+    fn watch(&mut self, graph: &Graph) {
+        let waits_for = |step: usize| {
+            self.waiting.iter().flat_map(|waiting| &waiting.part.after).any(|trigger| {
+                matches!(trigger, Trigger::Reached { step: of, .. } if of.is_none_or(|of| of == step))
+            })
+        };
+        let wanted: Vec<(usize, String)> = self
+            .asks()
+            .filter(|(step, _)| waits_for(*step))
+            .map(|(step, ask)| (step, ask.full_name()))
+            .collect();
+        if wanted.is_empty() {
+            return;
+        }
+        let Ok(node) = listener(graph) else { return };
+        for (step, name) in wanted {
+            let topic = format!("{name}/transition_event");
+            if let Ok(mailbox) = node.mailbox(&topic, Qos::reliable(100)) {
+                self.watched.push((step, mailbox));
+            }
+        }
+        self.kept.push(Box::new(node));
+    }
+
+    fn start(&mut self, index: usize, graph: &Graph, now_ns: i64) {
+        let part = self.waiting[index].part.clone();
+        self.events.push(Event::Started(part.step));
+        match &part.work {
+            Work::World(wish) => {
+                let file = wish.file.as_deref().unwrap_or("a plane in the sun");
+                self.became(&part, Kind::World, None, format!("the simulation of {file}"));
+                self.kept.push(Box::new(()));
+            }
+            Work::Ours(ask) => {
+                let made = make(ask, graph, now_ns, &self.settings, &self.lacking);
+                self.take(index, &part, ask, made);
+            }
+            Work::Xacro(program) => self.xacro(index, &part, program),
+            Work::Program(program) => match Child::start(program, &self.settings, &self.guard) {
+                Ok(child) => {
+                    self.became(&part, Kind::Program, None, child.told());
+                    self.hands.push((index, Box::new(child)));
+                }
+                Err(why) => {
+                    self.said.push(Said::error(format!("`{}` does not run: {why}", part.asked)));
+                    self.became(&part, Kind::Missing, None, why);
+                    self.end(index);
+                }
+            },
+            Work::Transition { step, transition } => {
+                let targets: Vec<String> = self
+                    .asks()
+                    .filter(|(of, ask)| step.map_or(ask.is_managed, |step| step == *of))
+                    .map(|(_, ask)| ask.full_name())
+                    .collect();
+                for name in targets {
+                    match Changer::new(graph, &name, transition) {
+                        Ok(changer) => self.hands.push((index, Box::new(changer))),
+                        Err(why) => self.said.push(Said::error(why)),
+                    }
+                }
+            }
+            Work::Log { level, text } => {
+                let level = periplus_graph::Level::named(level);
+                let level = level.unwrap_or(periplus_graph::Level::Info);
+                self.said.push(Said { level, text: text.clone() });
+            }
+            Work::Shutdown { reason } => {
+                let reason = if reason.is_empty() { "the launch file says so" } else { reason };
+                self.said.push(Said::info(format!("all ends: {reason}")));
+                self.is_over = true;
+            }
+            Work::Nothing(why) => {
+                self.said.push(Said::warning(why.clone()));
+                self.became(&part, Kind::Missing, None, why.clone());
+            }
+        }
+    }
+
+    /// Runs the built-in `xacro`; it ends at once.
+    fn xacro(&mut self, index: usize, part: &Part, program: &Program) {
+        let mut search = self.settings.search.clone();
+        search.variables.extend(environment::of_running(&program.running));
+        if let Some(folder) = own_folder(&program.running) {
+            search.working_folder = search.working_folder.join(folder);
+        }
+        let host = search.host();
+        let resolver = search.resolver(&host);
+        let setting = search.setting(&host, &resolver, false);
+        let (kind, told) = match xacro(&program.words[1..], &setting) {
+            Ok(ran) if ran.is_success => {
+                if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
+                    self.said.push(Said::info(text));
+                    self.events.push(Event::Printed(part.step));
+                }
+                let file = ran.file.map(|file| format!(" writes {}", file.display()));
+                (Kind::BuiltIn, format!("the built-in xacro{}", file.unwrap_or_default()))
+            }
+            Ok(ran) => {
+                let why = ran.errors.trim_end();
+                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                (Kind::Missing, "xacro could not expand its file".to_owned())
+            }
+            Err(why) => {
+                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                (Kind::Missing, why)
+            }
+        };
+        self.became(part, kind, None, told);
+        self.end(index);
+    }
+
+    fn take(&mut self, index: usize, part: &Part, ask: &Ask, made: Result<Made, String>) {
+        match made {
+            Ok(made) => {
+                for note in made.notes {
+                    self.said.push(Said::warning(format!("`{}`: {note}", part.asked)));
+                }
+                self.became(part, made.kind, made.node, made.told);
+                self.kept.extend(made.kept);
+                for hand in made.hands {
+                    self.hands.push((index, hand));
+                }
+            }
+            Err(why) => {
+                let told = format!("`{}` cannot run: {why}", part.asked);
+                self.said.push(Said::error(told));
+                self.became(part, Kind::Missing, Some(ask.full_name()), why);
+                self.end(index);
+            }
+        }
+    }
+
+    fn became(&mut self, part: &Part, kind: Kind, node: Option<String>, told: String) {
+        let became = Became { kind, node, told };
+        self.lines.push(Line { step: part.step, asked: part.asked.clone(), became });
+    }
+}
+
+/// A node that hears for the plan.
+fn listener(graph: &Graph) -> Result<Node, periplus_graph::GraphError> {
+    graph.node(NodeSettings::new("launch_ros").bare().keep_names())
+}
+
+impl Waiting {
+    /// Whether all that it waits for has come.
+    fn is_due(&mut self, events: &[Event], now_ns: i64) -> bool {
+        while let Some(trigger) = self.part.after.get(self.come) {
+            let has_come = match trigger {
+                Trigger::Seconds(seconds) => now_ns - self.since_ns >= nanoseconds(*seconds),
+                trigger => match events[self.cursor..].iter().position(|one| one.is(trigger)) {
+                    Some(place) => {
+                        self.cursor += place + 1;
+                        true
+                    }
+                    None => false,
+                },
+            };
+            if !has_come {
+                return false;
+            }
+            self.come += 1;
+            self.since_ns = now_ns;
+        }
+        true
+    }
+}
+
+impl Event {
+    fn is(&self, trigger: &Trigger) -> bool {
+        let same = |wanted: &Option<usize>, step: &usize| wanted.is_none_or(|it| it == *step);
+        let same_state = |wanted: &Option<String>, state: &str| {
+            wanted.as_deref().is_none_or(|wanted| wanted == state)
+        };
+        match (self, trigger) {
+            (Self::Started(step), Trigger::Started(of))
+            | (Self::Ended(step), Trigger::Ended(of))
+            | (Self::Printed(step), Trigger::Printed(of)) => same(of, step),
+            (
+                Self::Reached { step, from, to },
+                Trigger::Reached { step: of, from: wanted_from, to: wanted_to },
+            ) => same(of, step) && same_state(wanted_from, from) && same_state(wanted_to, to),
+            (Self::Shutdown, Trigger::Shutdown) => true,
+            _ => false,
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+fn nanoseconds(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}
+
+/// Value of an option of RViz, by its short or its long name.
+fn option_of_viewer<'a>(ask: &'a Ask, short: &str, long: &str) -> Option<&'a str> {
+    let words = &ask.told.own;
+    let value = || crate::words::option(words, short).or_else(|| crate::words::option(words, long));
+    if ask.entry.role == crate::catalogue::Role::Viewer { value() } else { None }
+}

@@ -1,0 +1,158 @@
+//! A process that outlives a launch, to end what it has started.
+//!
+//! A launch that is killed (`kill -9`, out of memory) can end nothing itself. So it keeps a second
+//! process that only waits for the end of a pipe: it comes with the launch, however that ends. What
+//! was reported to it until then, and not withdrawn, is ended.
+
+use std::collections::BTreeSet;
+use std::io::{BufRead, Write as _};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use periplus_os::{Stopwatch, sleep};
+
+/// How long processes may take to end after each signal.
+const GRACE: Duration = Duration::from_secs(3);
+
+/// How often it is checked whether they have.
+const CHECK: Duration = Duration::from_millis(20);
+
+/// The guard of the processes of a launch; clones share it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Guard(Arc<Mutex<State>>);
+
+#[derive(Debug, Default)]
+struct State {
+    process: Option<(Child, ChildStdin)>,
+    has_failed: bool,
+}
+
+impl Guard {
+    /// Reports a process group. The guarding process, `program __guard`, starts with the first one.
+    pub(crate) fn watch(&self, program: Option<&Path>, group: u32) {
+        let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.process.is_none() && !state.has_failed {
+            state.process = program.and_then(start);
+            state.has_failed = state.process.is_none();
+        }
+        state.send('+', group);
+    }
+
+    /// Withdraws a process group: it has ended.
+    pub(crate) fn forget(&self, group: u32) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).send('-', group);
+    }
+}
+
+impl State {
+    fn send(&mut self, sign: char, group: u32) {
+        let Some((_, pipe)) = &mut self.process else { return };
+        if writeln!(pipe, "{sign}{group}").and_then(|()| pipe.flush()).is_err() {
+            self.process = None;
+        }
+    }
+}
+
+impl Drop for State {
+    fn drop(&mut self) {
+        if let Some((mut process, pipe)) = self.process.take() {
+            drop(pipe);
+            let _ = process.wait();
+        }
+    }
+}
+
+fn start(program: &Path) -> Option<(Child, ChildStdin)> {
+    let mut command = Command::new(program);
+    command.arg(GUARD_VERB).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+    own_group(&mut command);
+    let mut process = command.spawn().ok()?;
+    let pipe = process.stdin.take()?;
+    Some((process, pipe))
+}
+
+/// The word behind the program that makes it a guard. It is no command for people.
+pub const GUARD_VERB: &str = "__guard";
+
+/// The work of the guarding process: reads what is reported until the launch ends, then ends what is
+/// left.
+pub fn guard(reports: impl BufRead) {
+    let mut groups = BTreeSet::new();
+    for line in reports.lines().map_while(Result::ok) {
+        let Some((sign, Ok(group))) = line.split_at_checked(1).map(|(s, n)| (s, n.parse::<u32>()))
+        else {
+            continue;
+        };
+        match sign {
+            "+" => groups.insert(group),
+            _ => groups.remove(&group),
+        };
+    }
+    for signal in [Ending::Interrupt, Ending::Terminate, Ending::Kill] {
+        groups.retain(|group| has_members(*group));
+        groups.iter().for_each(|group| send(*group, signal));
+        let since = Stopwatch::start();
+        while groups.iter().any(|group| has_members(*group)) && since.elapsed() < GRACE {
+            sleep(CHECK);
+        }
+    }
+}
+
+/// The signals by which processes are ended, in the order in which `launch` sends them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// As Ctrl-C does.
+    Interrupt,
+    /// As `kill` does.
+    Terminate,
+    /// At once.
+    Kill,
+}
+
+/// Makes a program the first of a process group of its own: what it starts belongs to it, and a
+/// Ctrl-C in the terminal reaches it through the launch alone.
+pub(crate) fn own_group(command: &mut Command) {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    #[cfg(not(unix))]
+    let _ = command;
+}
+
+/// Sends a signal to all processes of a group.
+#[cfg(unix)]
+pub(crate) fn send(group: u32, ending: Ending) {
+    use rustix::process::{Signal, kill_process_group};
+    let signal = match ending {
+        Ending::Interrupt => Signal::INT,
+        Ending::Terminate => Signal::TERM,
+        Ending::Kill => Signal::KILL,
+    };
+    if let Some(group) = group_id(group) {
+        let _ = kill_process_group(group, signal);
+    }
+}
+
+/// Whether any process of a group is left.
+#[cfg(unix)]
+pub(crate) fn has_members(group: u32) -> bool {
+    group_id(group).is_some_and(|group| rustix::process::test_kill_process_group(group).is_ok())
+}
+
+#[cfg(unix)]
+fn group_id(group: u32) -> Option<rustix::process::Pid> {
+    // 0 and 1 would be this process's own group, and everybody's.
+    i32::try_from(group).ok().filter(|group| *group > 1).and_then(rustix::process::Pid::from_raw)
+}
+
+/// Sends a signal to all processes of a group: elsewhere the first alone is known, and ends with its
+/// handle.
+#[cfg(not(unix))]
+pub(crate) fn send(_group: u32, _ending: Ending) {}
+
+/// Whether any process of a group is left.
+#[cfg(not(unix))]
+pub(crate) fn has_members(_group: u32) -> bool {
+    false
+}

@@ -1,0 +1,350 @@
+//! Programs of the machine's.
+
+use std::io::{BufRead as _, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child as Running_, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use periplus_launch::{Dialect, Parameters, Running};
+use periplus_os::{Machine, Overlay, Stopwatch, sleep};
+use periplus_resources::{Host as _, Kind, Resolver};
+
+use super::{Done, Hand, Stage};
+use crate::crew::Settings;
+use crate::environment;
+use crate::guard::{self, Ending, Guard, own_group};
+use crate::parameters::parameter;
+use crate::parts::{Program, own_folder};
+use crate::told::Said;
+
+/// How long a program may take to end when it is asked to.
+const LAST_WORDS: Duration = Duration::from_secs(5);
+
+/// Folders of a package's sources in which programs lie.
+const FOLDERS: [&str; 5] = ["scripts", "nodes", "bin", "src", ""];
+
+/// A program that runs.
+pub(crate) struct Child {
+    name: String,
+    words: Vec<String>,
+    running: Running,
+    process: Option<Running_>,
+    printed: Option<Receiver<String>>,
+    respawn_ns: Option<i64>,
+    /// The folder from which relative ones are meant.
+    launch_folder: PathBuf,
+    guard: Guard,
+    guarding_program: Option<PathBuf>,
+    tools: Option<PathBuf>,
+}
+
+impl Child {
+    /// Starts a program.
+    ///
+    /// # Errors
+    /// Why it cannot be, and what to do.
+    pub(crate) fn start(
+        program: &Program,
+        settings: &Settings,
+        guard: &Guard,
+    ) -> Result<Self, String> {
+        let running = &program.running;
+        let is_node = program.package.is_some();
+        let mut words = if program.is_shell {
+            vec!["sh".to_owned(), "-c".into(), program.words.join(" ")]
+        } else {
+            program.words.clone()
+        };
+        if is_node {
+            if settings.dialect == Dialect::Ros1 {
+                return Err(
+                    "it is a program of ROS 1, which speaks to a master that is not here; \
+                            nothing built in stands for it"
+                        .into(),
+                );
+            }
+            if !settings.is_wired {
+                return Err("it is a program of ROS 2, and this run is on no network; \
+                            `--ros2 loopback` puts it on one"
+                    .into());
+            }
+            let package = program.package.as_deref().unwrap_or_default();
+            let (first, rest) = words.split_first().ok_or("it has no name")?;
+            let path = find(package, first, settings, running)?;
+            let mut found = by_path(&path);
+            found.extend(rest.iter().cloned());
+            found.extend(ros_words(program));
+            words = found;
+        }
+        if let Some(prefix) = running.prefix.as_deref() {
+            let mut before: Vec<String> = prefix.split_whitespace().map(str::to_owned).collect();
+            before.append(&mut words);
+            words = before;
+        }
+        let name = program.identity.name.clone().unwrap_or_else(|| program.words[0].clone());
+        let mut child = Self {
+            name,
+            words,
+            running: running.clone(),
+            process: None,
+            printed: None,
+            respawn_ns: None,
+            launch_folder: settings.search.working_folder.clone(),
+            guard: guard.clone(),
+            guarding_program: settings.guarding_program.clone(),
+            tools: settings.tools.clone(),
+        };
+        child.spawn()?;
+        Ok(child)
+    }
+
+    /// In words.
+    pub(crate) fn told(&self) -> String {
+        format!("the program {}", self.words[0])
+    }
+
+    /// The PATH of the program, with the built-in tools at its end.
+    fn path(&self) -> Option<String> {
+        let tools = self.tools.as_ref()?.display().to_string();
+        let set = match self.running.environment.get("PATH") {
+            Some(set) => set.clone(),
+            None if self.running.replaces_environment => return None,
+            None => Machine.variable("PATH"),
+        };
+        let set = set.unwrap_or_default();
+        if set.split(':').any(|folder| folder == tools) {
+            return None;
+        }
+        Some(if set.is_empty() { tools } else { format!("{set}:{tools}") })
+    }
+
+    fn spawn(&mut self) -> Result<(), String> {
+        let mut command = Command::new(&self.words[0]);
+        command.args(&self.words[1..]).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        own_group(&mut command);
+        if let Some(folder) = own_folder(&self.running) {
+            let folder = self.launch_folder.join(folder);
+            if Machine.kind(&folder) != Some(Kind::Folder) {
+                let program = &self.words[0];
+                return Err(format!(
+                    "the folder in which `{program}` is to run (`cwd`) is not there: {}",
+                    folder.display()
+                ));
+            }
+            command.current_dir(folder);
+        }
+        if self.running.replaces_environment {
+            command.env_clear();
+        }
+        for (name, value) in &self.running.environment {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+        if let Some(path) = self.path() {
+            command.env("PATH", path);
+        }
+        let mut process = command.spawn().map_err(|error| {
+            let missing = error.kind() == std::io::ErrorKind::NotFound;
+            let program = &self.words[0];
+            if missing {
+                format!("there is no program `{program}` on the PATH, and nothing built in stands for it")
+            } else {
+                format!(
+                    "`{program}` cannot be started: {}",
+                    periplus_diagnostics::plain_words(&error)
+                )
+            }
+        })?;
+        self.guard.watch(self.guarding_program.as_deref(), process.id());
+        let (send, printed) = channel();
+        let pipes: [Option<Box<dyn Read + Send>>; 2] = [
+            process.stdout.take().map(|pipe| Box::new(pipe) as _),
+            process.stderr.take().map(|pipe| Box::new(pipe) as _),
+        ];
+        for pipe in pipes.into_iter().flatten() {
+            let send = send.clone();
+            // Ends with the pipe.
+            std::thread::spawn(move || {
+                for line in BufReader::new(pipe).lines().map_while(Result::ok) {
+                    if send.send(line).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        self.process = Some(process);
+        self.printed = Some(printed);
+        Ok(())
+    }
+
+    /// What it has written since the last time.
+    fn pass_on(&self, stage: &mut Stage<'_>) {
+        let Some(printed) = &self.printed else { return };
+        for line in printed.try_iter() {
+            stage.has_printed = true;
+            stage.said.push(Said::info(format!("[{}] {line}", self.name)));
+        }
+    }
+}
+
+impl Hand for Child {
+    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+        self.pass_on(stage);
+        let Some(process) = &mut self.process else {
+            if self.respawn_ns.is_some_and(|at_ns| stage.now_ns >= at_ns) {
+                self.respawn_ns = None;
+                if let Err(why) = self.spawn() {
+                    stage.said.push(Said::error(why));
+                    return Done::Yes;
+                }
+            }
+            return Done::No;
+        };
+        let status = match process.try_wait() {
+            Ok(None) => return Done::No,
+            Ok(Some(status)) => status,
+            Err(error) => {
+                stage.said.push(Said::error(format!("[{}] {error}", self.name)));
+                return Done::Yes;
+            }
+        };
+        // Its last words are in the pipe still.
+        self.guard.forget(process.id());
+        sleep(Duration::from_millis(5));
+        self.pass_on(stage);
+        let text = format!("[{}] has ended: {status}", self.name);
+        stage.said.push(if status.success() { Said::info(text) } else { Said::error(text) });
+        self.process = None;
+        match self.running.respawn_after_s {
+            Some(delay_s) => {
+                #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
+                let delay_ns = (delay_s * 1e9) as i64;
+                self.respawn_ns = Some(stage.now_ns.saturating_add(delay_ns));
+                Done::No
+            }
+            None => Done::Yes,
+        }
+    }
+
+    fn time_went_back(&mut self, by_ns: i64) {
+        self.respawn_ns = self.respawn_ns.map(|at_ns| at_ns.saturating_sub(by_ns));
+    }
+
+    fn ask_to_stop(&mut self) {
+        if let Some(process) = &self.process {
+            guard::send(process.id(), Ending::Interrupt);
+        }
+    }
+
+    fn stop(&mut self) {
+        let Some(process) = &mut self.process else { return };
+        let group = process.id();
+        // It was interrupted already; then harder, together with what it has started itself.
+        for ending in [None, Some(Ending::Terminate), Some(Ending::Kill)] {
+            if let Some(ending) = ending {
+                guard::send(group, ending);
+            }
+            let since = Stopwatch::start();
+            while since.elapsed() < LAST_WORDS {
+                let has_ended = !matches!(process.try_wait(), Ok(None));
+                if has_ended && ending.is_none() && guard::has_members(group) {
+                    // A shell goes with Ctrl-C, what it runs in the background does not.
+                    break;
+                }
+                if has_ended && !guard::has_members(group) {
+                    self.guard.forget(group);
+                    self.process = None;
+                    return;
+                }
+                sleep(Duration::from_millis(10));
+            }
+        }
+        let _ = process.kill();
+        let _ = process.wait();
+        self.process = None;
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        if let Some(process) = &mut self.process {
+            guard::send(process.id(), Ending::Kill);
+            let _ = process.kill();
+            let _ = process.wait();
+            self.guard.forget(process.id());
+        }
+    }
+}
+
+/// What is to be typed for a program: Python needs its interpreter where nobody made it executable.
+fn by_path(path: &Path) -> Vec<String> {
+    let is_python = path.extension().is_some_and(|extension| extension == "py");
+    let word = path.display().to_string();
+    if is_python { vec!["python3".into(), word] } else { vec![word] }
+}
+
+/// A program of a package: installed, or in its sources.
+fn find(
+    package: &str,
+    name: &str,
+    settings: &Settings,
+    running: &Running,
+) -> Result<PathBuf, String> {
+    let host = Overlay { variables: environment::of_running(running) };
+    let resolver = Resolver::new(&host, &settings.search.folders);
+    let from = settings.search.working_folder.join("launch");
+    let mut tried = Vec::new();
+    if let Ok(folder) = resolver.find_package(package, &from) {
+        let prefix = folder.parent().filter(|above| above.ends_with("share"));
+        if let Some(prefix) = prefix.and_then(Path::parent) {
+            tried.push(prefix.join("lib").join(package).join(name));
+        }
+        let inner = [package];
+        for inside in FOLDERS.iter().chain(&inner) {
+            tried.push(folder.join(inside).join(name));
+            tried.push(folder.join(inside).join(format!("{name}.py")));
+        }
+    }
+    for prefix in host.variable("AMENT_PREFIX_PATH").unwrap_or_default().split(':') {
+        tried.push(Path::new(prefix).join("lib").join(package).join(name));
+    }
+    let found = tried.into_iter().find(|path| Machine.kind(path) == Some(Kind::File));
+    found.ok_or_else(|| {
+        format!(
+            "nothing built in stands for `{name}` of the package `{package}`, and the package has no \
+             such program on this machine"
+        )
+    })
+}
+
+/// What a node of ROS 2 is given, as words.
+fn ros_words(program: &Program) -> Vec<String> {
+    let identity = &program.identity;
+    let mut words = vec!["--ros-args".to_owned()];
+    let mut add = |flag: &str, word: String| words.extend([flag.to_owned(), word]);
+    if let Some(name) = &identity.name {
+        add("-r", format!("__node:={name}"));
+    }
+    if let Some(namespace) = &identity.namespace {
+        add("-r", format!("__ns:={namespace}"));
+    }
+    for (from, to) in &identity.remaps {
+        add("-r", format!("{from}:={to}"));
+    }
+    for parameters in &identity.parameters {
+        match parameters {
+            Parameters::File(file) => add("--params-file", file.clone()),
+            Parameters::Values(values) => {
+                for (name, value) in values.iter().filter(|(_, value)| parameter(value).is_some()) {
+                    // JSON is YAML.
+                    add("-p", format!("{name}:={value}"));
+                }
+            }
+        }
+    }
+    words
+}

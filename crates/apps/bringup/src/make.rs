@@ -1,0 +1,515 @@
+//! From what a program is asked for to what does it here.
+
+use std::any::Any;
+use std::path::Path;
+use std::sync::Arc;
+
+use periplus_costmap_nodes::{VoxelCloud, VoxelMarkers};
+use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
+use periplus_fusion_nodes::EkfNode;
+use periplus_graph::{Graph, GraphError, Node, NodeSettings, parameters_to_yaml};
+use periplus_localization_nodes::AmclNode;
+use periplus_map_nodes::{MapSaver, MapServer, MapServerSettings};
+use periplus_maps::Distro;
+use periplus_os::Machine;
+use periplus_params::Given;
+use periplus_resources::Host as _;
+use periplus_sim_nodes::gz_topic;
+use periplus_sim_nodes::states::{
+    JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource, RobotStateOptions,
+    RobotStatePublisher,
+};
+use periplus_slam_nodes::{Pace, Program, SlamNode};
+use serde_json::Value;
+
+use crate::bridge::{self, Direction};
+use crate::catalogue::Role;
+use crate::costmaps::{self, Host};
+use crate::crew::Settings;
+use crate::hands::{
+    Described, Hand, Manager, ManagerSettings, Relay, Saver, Spawner, Unstamp, robot,
+};
+use crate::parameters::{self, Named, text_of, texts_of, truth_of};
+use crate::parts::{Ask, searched};
+use crate::told::Kind;
+use crate::transform::FixedFrame;
+
+/// What was made.
+#[derive(Default)]
+pub(crate) struct Made {
+    pub(crate) kept: Vec<Box<dyn Any + Send>>,
+    pub(crate) hands: Vec<Box<dyn Hand>>,
+    pub(crate) kind: Kind,
+    pub(crate) node: Option<String>,
+    pub(crate) told: String,
+    /// What is to be said of it.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Made {
+    fn keep(&mut self, what: impl Any + Send) {
+        self.kept.push(Box::new(what));
+    }
+
+    fn hand(&mut self, hand: impl Hand + 'static) {
+        self.hands.push(Box::new(hand));
+    }
+}
+
+/// Makes what stands for a program.
+///
+/// # Errors
+/// Why it cannot be, in words.
+pub(crate) fn make(
+    ask: &Ask,
+    graph: &Graph,
+    now_ns: i64,
+    settings: &Settings,
+    lacking: &[String],
+) -> Result<Made, String> {
+    let mut made = Made { told: ask.entry.becomes.to_owned(), ..Made::default() };
+    match ask.entry.role {
+        Role::Viewer | Role::Needless | Role::Container | Role::Gazebo => {
+            made.kind = Kind::Needless;
+            return Ok(made);
+        }
+        Role::Lacking => {
+            made.kind = Kind::Missing;
+            return Ok(made);
+        }
+        _ => {}
+    }
+    let mut named = parameters(ask, &mut made.notes);
+    // As for programs that are run by themselves, what this command was given goes before.
+    named.extend(graph.parameters_given_to(&ask.full_name()));
+    let node = node(ask, graph, &named, &mut made.notes)?;
+    made.node = Some(node.full_name().to_owned());
+    let failed = |error: GraphError| error.to_string();
+    let words = &ask.told.own;
+    match ask.entry.role {
+        Role::RobotStatePublisher => {
+            let text =
+                description(ask, &named, &settings.search.working_folder)?.ok_or_else(|| {
+                    "the parameter `robot_description` is missing: it is to hold a URDF".to_owned()
+                })?;
+            let options = RobotStateOptions::default();
+            if is_urdf(&text) {
+                made.keep(RobotStatePublisher::of_urdf(node, text, options)?);
+            } else {
+                let model = robot(&text, &settings.search)?;
+                made.keep(RobotStatePublisher::new(node, text, &model, options).map_err(failed)?);
+            }
+        }
+        Role::JointStatePublisher => {
+            let mut values = JOINT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
+            let declared = node.parameters(values.clone()).map_err(failed)?;
+            values.clone_from(&declared.values());
+            let mut options = JointStateOptions::read(&values);
+            for name in named.keys() {
+                let zero = name.strip_prefix("zeros.");
+                if let Some((joint, zero)) = zero.zip(parameters::number_of(&named, name)) {
+                    options.zeros.insert(joint.to_owned(), zero);
+                }
+            }
+            match description(ask, &named, &settings.search.working_folder)? {
+                Some(text) => {
+                    let model = robot(&text, &settings.search)?;
+                    made.keep(JointStateSource::new(node, &model, options).map_err(failed)?);
+                }
+                None => made.hand(Described::new(node, options)?),
+            }
+        }
+        Role::StaticTransform => {
+            let frame = FixedFrame::read(words, &named)?;
+            made.told = format!("`{}` in `{}`", frame.child, frame.parent);
+            made.keep(frame.tell(&node)?);
+        }
+        Role::Spawn => {
+            let namespace = node.names().namespace().to_owned();
+            let parameter = |name: &str| {
+                let value = searched(&ask.server, &namespace, name)?;
+                value.as_str().map(str::to_owned)
+            };
+            let folder = &settings.search.working_folder;
+            let path = |file: &str| ask.path(folder, file);
+            let given = (words.as_slice(), &named);
+            let spawner = Spawner::new(&node, given, &parameter, &path, now_ns)?
+                .written_at(ask.written.as_deref());
+            made.told = spawner.told();
+            // It hears as long as it waits.
+            made.hand(spawner);
+            drop(node);
+        }
+        Role::Bridge => bridged(ask, graph, node, &named, &mut made)?,
+        Role::Slam(program) => slam(ask, node, program, &named, settings, &mut made)?,
+        Role::MapServer { .. } | Role::MapSaver(_) => {
+            maps(ask, node, &named, settings, &mut made)?;
+        }
+        Role::MapSaverServer => {
+            let saver = MapSaver::new(node, Distro::Jazzy, Arc::new(Machine)).map_err(failed)?;
+            made.keep(saver);
+        }
+        Role::Amcl { .. } => {
+            let full_name = node.full_name().to_owned();
+            let name = node.names().name().to_owned();
+            let written = Written::new(&named, &full_name)?;
+            let values = written.read(&mut made.notes, |tree, found| {
+                periplus_localization_nodes::read(tree, &name, &[], found)
+            });
+            let amcl = AmclNode::at(node, values, Arc::new(Machine)).map_err(failed)?;
+            if !ask.is_managed {
+                amcl.start();
+            }
+            made.keep(amcl);
+        }
+        Role::CostmapHost { costmap, lacks } => {
+            let host = Host::new(ask, &node, graph, (costmap, lacks), &mut made.notes)?;
+            if !ask.is_managed {
+                host.life().start();
+            }
+            made.keep(host);
+        }
+        Role::Costmap => {
+            let costmap = costmaps::alone(ask, node, &mut made.notes)?;
+            if !ask.is_managed {
+                costmap.start();
+            }
+            made.keep(costmap);
+        }
+        Role::Ekf => {
+            let texts: Vec<(&str, String)> = named
+                .iter()
+                .map(|(name, value)| (name.as_str(), parameters::words(value)))
+                .collect();
+            let given = texts.iter().map(|(name, text)| Given::new(name, text.as_str()));
+            let mut found = Diagnostics::new();
+            let (settings, values) = periplus_ekf::Settings::read(given, &mut found);
+            made.notes.extend(grave(&found, &SourceMap::new()));
+            made.keep(EkfNode::at(node, settings, values).map_err(failed)?);
+        }
+        Role::VoxelMarkers => made.keep(VoxelMarkers::at(node).map_err(failed)?),
+        Role::VoxelCloud => made.keep(VoxelCloud::at(node).map_err(failed)?),
+        Role::LifecycleManager => {
+            let names = texts_of(&named, "node_names");
+            let namespace = node.names().namespace().trim_end_matches('/').to_owned();
+            let is_lacking = |name: &String| lacking.contains(&format!("{namespace}/{name}"));
+            let (out, names): (Vec<_>, Vec<_>) = names.into_iter().partition(is_lacking);
+            if !out.is_empty() {
+                made.notes.push(format!("leaves out what is not there: {}", out.join(", ")));
+            }
+            let is_autostart = truth_of(&named, "autostart").unwrap_or(false);
+            made.told = format!("brings up {}", names.join(", "));
+            // Defaults are Nav2's.
+            let number = |name, default| parameters::number_of(&named, name).unwrap_or(default);
+            let settings = ManagerSettings {
+                node_names: names,
+                autostart: is_autostart,
+                bond_timeout_s: number("bond_timeout", 4.0),
+                attempt_respawn_reconnection: truth_of(&named, "attempt_respawn_reconnection")
+                    .unwrap_or(true),
+                bond_respawn_max_duration_s: number("bond_respawn_max_duration", 10.0),
+            };
+            made.hand(Manager::new(node, settings, now_ns)?);
+        }
+        Role::Relay => {
+            let topic = |index: usize, name: &str| {
+                words.get(index).cloned().or_else(|| text_of(&named, name))
+            };
+            let from = topic(0, "input_topic").ok_or("it is not told from which topic")?;
+            let to = topic(1, "output_topic").unwrap_or_else(|| format!("{from}_relay"));
+            let resolve = |name: &str| node.names().topic(name).map_err(failed);
+            let ways = vec![(resolve(&from)?, resolve(&to)?)];
+            made.told = format!("{from} goes out on {to}");
+            made.hand(Relay::new(graph, node, ways)?);
+        }
+        Role::Gazebo | Role::Viewer | Role::Container | Role::Needless | Role::Lacking => {}
+    }
+    Ok(made)
+}
+
+/// The parameters of the node of a program.
+pub(crate) fn parameters(ask: &Ask, notes: &mut Vec<String>) -> Named {
+    parameters_as(ask, &ask.full_name(), notes)
+}
+
+/// The parameters that a node by this name gets from what a program is given.
+pub(crate) fn parameters_as(ask: &Ask, full_name: &str, notes: &mut Vec<String>) -> Named {
+    let mut named = Named::new();
+    // ROS 1: private ones of the server first.
+    let prefix = format!("{full_name}/");
+    for (name, value) in &ask.server {
+        let value = parameters::parameter(value);
+        if let Some((name, value)) = name.strip_prefix(&prefix).zip(value) {
+            named.insert(name.replace('/', "."), value);
+        }
+    }
+    if let Some(value) = ask.server.get("/use_sim_time").and_then(parameters::parameter) {
+        named.insert("use_sim_time".to_owned(), value);
+    }
+    named.extend(parameters::of_node(full_name, &ask.identity.parameters, &ask.told.ros, notes));
+    named
+}
+
+/// Settings with the remappings of a program.
+pub(crate) fn remapped(mut settings: NodeSettings, ask: &Ask) -> NodeSettings {
+    for (from, to) in &ask.identity.remaps {
+        settings = settings.remap(from, to);
+    }
+    let mut words = ask.told.ros.iter();
+    while let Some(word) = words.next() {
+        if matches!(word.as_str(), "-r" | "--remap")
+            && let Some(rule) = words.next()
+            && !rule.starts_with("__")
+        {
+            settings = settings.rule(rule);
+        }
+    }
+    settings
+}
+
+/// True if the root of a description is `<robot>`: other formats become models first.
+fn is_urdf(text: &str) -> bool {
+    let mut sources = SourceMap::new();
+    let file = sources.add("robot_description", text);
+    let document = periplus_xml::parse(file, &sources, &mut Diagnostics::new());
+    document.is_some_and(|document| document.root.local_name() == "robot")
+}
+
+/// The node of a program; with a number behind its name when that is taken, as programs that are
+/// started twice.
+fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Result<Node, String> {
+    let full_name = ask.full_name();
+    let (namespace, name) = full_name.rsplit_once('/').unwrap_or(("", &full_name));
+    let has_name = ask.identity.name.is_some() || ask.told.name.is_some();
+    let mut number = 1;
+    loop {
+        let numbered = if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
+        let mut settings = NodeSettings::new(numbered).namespace(namespace);
+        settings = remapped(settings, ask);
+        for (name, value) in named {
+            settings = settings.parameter(name, value.clone());
+        }
+        match graph.node(settings) {
+            Err(GraphError::NodeExists { node }) if number < 1000 => {
+                if number == 1 && has_name {
+                    notes.push(format!("there is a node {node} already; this one gets a number"));
+                }
+                number += 1;
+            }
+            made => return made.map_err(|error| error.to_string()),
+        }
+    }
+}
+
+/// The description of a robot: a parameter, one of ROS 1's server, or a file that the words name.
+fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<String>, String> {
+    const NAME: &str = "robot_description";
+    if let Some(text) = text_of(named, NAME) {
+        return Ok(Some(text));
+    }
+    let full_name = ask.full_name();
+    let namespace = full_name.rsplit_once('/').map_or("", |(namespace, _)| namespace);
+    // A remapping means parameters too, in ROS 1.
+    let bare = |name: &str| name.trim_start_matches('/') == NAME;
+    let remap = ask.identity.remaps.iter().find(|(from, _)| bare(from));
+    let name = remap.map_or(NAME, |(_, to)| to.as_str());
+    if let Some(text) = searched(&ask.server, namespace, name).and_then(Value::as_str) {
+        return Ok(Some(text.to_owned()));
+    }
+    let Some(file) = ask.told.own.iter().find(|word| !word.starts_with('-')) else {
+        return Ok(None);
+    };
+    let file = &ask.path(launch_folder, file);
+    let bytes = Machine.read(Path::new(file));
+    let bytes = bytes.map_err(|error| format!("{file} cannot be read: {error}"))?;
+    String::from_utf8(bytes).map(Some).map_err(|_| format!("{file} is no text"))
+}
+
+fn slam(
+    ask: &Ask,
+    node: Node,
+    program: Program,
+    named: &Named,
+    settings: &Settings,
+    made: &mut Made,
+) -> Result<(), String> {
+    let written = Written::new(named, node.full_name())?;
+    let values = written.read(&mut made.notes, |tree, found| match tree {
+        Some(tree) => periplus_slam_nodes::read(tree, Some(program), found).1,
+        None => program.table().check([], None, found),
+    });
+    let pace = if settings.is_paced { Pace::Sliced } else { Pace::Whole };
+    let slam = SlamNode::at(node, program, values, Arc::new(Machine), pace);
+    let slam = slam.map_err(|error| error.to_string())?;
+    // A lifecycle manager of the launch finds it by the parameter of this name.
+    let is_managed = ask.is_managed || truth_of(named, "use_lifecycle_manager") == Some(true);
+    if !is_managed {
+        slam.start();
+    }
+    made.keep(slam);
+    Ok(())
+}
+
+fn maps(
+    ask: &Ask,
+    node: Node,
+    named: &Named,
+    settings: &Settings,
+    made: &mut Made,
+) -> Result<(), String> {
+    let folder = &settings.search.working_folder;
+    let words = &with_paths(ask, folder);
+    let is_managed = ask.entry.role == Role::MapServer { is_managed: true };
+    if let Role::MapSaver(distro) = ask.entry.role {
+        made.hand(Saver::new(&node, words, distro)?);
+        return Ok(());
+    }
+    if !is_managed && words.iter().any(|word| word == "-f") {
+        made.notes.push("`-f` is for saving a map: this runs `map_saver`".into());
+        made.told = "saves the map of its topic, and ends".into();
+        made.hand(Saver::new(&node, words, Distro::Noetic)?);
+        return Ok(());
+    }
+    let usual = MapServerSettings::default();
+    let distro = if is_managed { Distro::Jazzy } else { Distro::Noetic };
+    let file = words.iter().find(|word| !word.starts_with('-'));
+    let parameter = || {
+        text_of(named, "yaml_filename").map(|file| match file.as_str() {
+            "" => file,
+            _ => ask.path(folder, &file),
+        })
+    };
+    let file_of_map = file.cloned().or_else(parameter).unwrap_or_default();
+    let settings = MapServerSettings { yaml_filename: file_of_map.clone(), distro, ..usual };
+    let server = MapServer::new(node, settings, Arc::new(Machine));
+    let server = server.map_err(|error| error.to_string())?;
+    if !ask.is_managed {
+        // The server logs what is wrong with its map; a launch needs it in words of its own.
+        if let Some(why) = unusable_map(&file_of_map, distro) {
+            return Err(why);
+        }
+        server.start();
+    }
+    made.keep(server);
+    Ok(())
+}
+
+/// The reason for which a file is no map that can be served.
+fn unusable_map(file: &str, distro: Distro) -> Option<String> {
+    if file.is_empty() {
+        return Some("it is given no map: name its YAML, `args=\"MAP.yaml\"`".into());
+    }
+    if let Err(why) = Machine.read(Path::new(file)) {
+        return Some(format!("the map {file} cannot be read: {why}"));
+    }
+    let is_map = periplus_maps::load(file, distro, &Machine).map.is_some();
+    let words =
+        || format!("{file} is no map that can be used; `periplus map info {file}` says why");
+    (!is_map).then(words)
+}
+
+/// The words of a program that reads or writes a map, with paths as the program means them.
+fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
+    let words = &ask.told.own;
+    let is_saved = |index: usize| index > 0 && words[index - 1] == "-f";
+    let is_served =
+        |index: usize| ask.entry.role == Role::MapServer { is_managed: false } && index == 0;
+    let path = |(index, word): (usize, &String)| {
+        let is_path = !word.starts_with('-') && (is_saved(index) || is_served(index));
+        if is_path { ask.path(launch_folder, word) } else { word.clone() }
+    };
+    words.iter().enumerate().map(path).collect()
+}
+
+/// Topics of Gazebo have their names in the simulation already; those that get another one are passed
+/// on.
+fn bridged(
+    ask: &Ask,
+    graph: &Graph,
+    node: Node,
+    named: &Named,
+    made: &mut Made,
+) -> Result<(), String> {
+    let is_image = ask.entry.executables == ["image_bridge"];
+    let mut pairs = if is_image {
+        let topics = ask.told.own.iter().filter(|word| !word.starts_with('-'));
+        let pair = |topic: &String| bridge::Pair {
+            gz: topic.clone(),
+            ros: topic.clone(),
+            direction: Direction::GzToRos,
+            is_stamped_velocity: false,
+        };
+        topics.map(pair).collect()
+    } else {
+        bridge::of_words(&ask.told.own)?
+    };
+    if let Some(file) = text_of(named, "config_file").filter(|file| !file.is_empty()) {
+        pairs.extend(bridge::of_file(Path::new(&file))?);
+    }
+    let mut passed_on = Vec::new();
+    for pair in &pairs {
+        let gz = gz_topic(&pair.gz);
+        let ros = node.names().topic(&pair.ros).map_err(|error| error.to_string())?;
+        // The simulation tells the time itself.
+        if gz == ros || ros == "/clock" {
+            continue;
+        }
+        if pair.is_stamped_velocity && pair.direction != Direction::GzToRos {
+            passed_on.push(format!("{ros} is {gz} without its time and frame"));
+            made.hand(Unstamp::new(&node, &pair.ros, graph, &gz)?);
+            continue;
+        }
+        let (there, back) = ((gz.clone(), ros.clone()), (ros.clone(), gz.clone()));
+        let ways = match pair.direction {
+            Direction::GzToRos => vec![there],
+            Direction::RosToGz => vec![back],
+            Direction::Both => vec![there, back],
+        };
+        passed_on.push(format!("{gz} is {ros}"));
+        made.hand(Relay::new(graph, node.clone(), ways)?);
+    }
+    if !passed_on.is_empty() {
+        made.told = passed_on.join(", ");
+    }
+    made.keep(node);
+    Ok(())
+}
+
+/// Parameters as a file, for those who read files.
+pub(crate) struct Written {
+    pub(crate) sources: SourceMap,
+    tree: Option<periplus_yaml::Node>,
+}
+
+impl Written {
+    /// Of a node by its full name.
+    ///
+    /// # Errors
+    /// In words; it was written here, so there is none.
+    pub(crate) fn new(named: &Named, full_name: &str) -> Result<Self, String> {
+        let all: Vec<_> = named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
+        let text = if all.is_empty() { String::new() } else { parameters_to_yaml("/**", &all) };
+        let mut sources = SourceMap::new();
+        let file = sources.add(format!("parameters of {full_name}"), text);
+        let tree = periplus_yaml::parse(file, &sources).map_err(|error| error.message)?;
+        Ok(Self { sources, tree })
+    }
+
+    /// Reads it; warnings and errors are told.
+    pub(crate) fn read<T>(
+        &self,
+        notes: &mut Vec<String>,
+        read: impl FnOnce(Option<&periplus_yaml::Node>, &mut Diagnostics) -> T,
+    ) -> T {
+        let mut found = Diagnostics::new();
+        let value = read(self.tree.as_ref(), &mut found);
+        notes.extend(grave(&found, &self.sources));
+        value
+    }
+}
+
+/// Warnings and errors, to be told.
+fn grave(found: &Diagnostics, sources: &SourceMap) -> Vec<String> {
+    let grave = found.iter().filter(|one| one.severity != Severity::Hint);
+    grave.map(|one| render(one, sources, Style::Plain).trim_end().to_owned()).collect()
+}

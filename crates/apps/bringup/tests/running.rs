@@ -1,0 +1,223 @@
+//! Launch files that run: what their nodes publish, also after the world was set back.
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use periplus_bringup::{Bringup, Settings, xacro};
+use periplus_diagnostics::SourceMap;
+use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
+use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
+use periplus_loader::Setting;
+use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
+use periplus_msgs::std_srvs::{Empty, EmptyRequest};
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_os::Machine;
+use periplus_resources::Resolver;
+use periplus_sim::{Options, Search, Services, ShapeFiles, Simulation, compose};
+
+/// Simulated time of a part of the test \[ns\].
+const PART_NS: i64 = 6_000_000_000;
+
+/// Programs of the machine: `xacro` alone, which is built in.
+struct Programs(Search);
+
+impl Outside for Programs {
+    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+        let host = self.0.host();
+        let resolver = self.0.resolver(&host);
+        Ok(xacro(&words[1..], &self.0.setting(&host, &resolver, false))?.into())
+    }
+
+    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
+        Err(format!("no file {name} is needed"))
+    }
+
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
+        Err("no Python is needed".into())
+    }
+}
+
+fn top() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..")
+}
+
+/// A launch file of these tests.
+fn bringup(file: &str, folder: &Path) -> Bringup {
+    let search = Search { working_folder: folder.to_owned(), ..Search::default() };
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/running").join(file);
+    let resolver = Resolver::new(&Machine, &[]);
+    let request = Request {
+        file: own,
+        arguments: vec![("top".into(), folder.display().to_string())],
+        host: &Machine,
+        resolver: &resolver,
+        outside: &mut Programs(search.clone()),
+    };
+    let (plan, found) = plan(request, &mut SourceMap::new());
+    assert!(!found.has_errors(), "{found:?}");
+    let settings = Settings {
+        search,
+        dialect: Dialect::Ros2,
+        is_wired: false,
+        is_paced: false,
+        guarding_program: None,
+        tools: None,
+    };
+    Bringup::new(&plan, settings)
+}
+
+struct Stack {
+    simulation: Simulation,
+    services: Services,
+    bringup: Bringup,
+    filtered: Mailbox<Odometry>,
+    tf: Mailbox<TFMessage>,
+    costs: Mailbox<OccupancyGrid>,
+    command: Publisher<Twist>,
+}
+
+impl Stack {
+    /// `sam_bot` with a filter, mapping and a costmap, as launch files start them.
+    fn launched() -> Self {
+        let folder = top().canonicalize().unwrap();
+        let resolver = Resolver::new(&Machine, &[folder.join("robots"), folder.join("worlds")]);
+        let bringup = bringup("stack.launch.xml", &folder);
+        let setting = Setting {
+            host: &Machine,
+            resolver: &resolver,
+            working_folder: folder,
+            arguments: Vec::new(),
+            open_meshes: false,
+        };
+        let world = bringup.world().and_then(|wish| wish.file.clone()).unwrap();
+        let mut composition = compose(Path::new(&world), &[], &setting);
+        let options = Options::default();
+        let simulation =
+            Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), options);
+        let services = Services::new(&simulation, bringup.search().clone()).unwrap();
+        let node = simulation.graph().node(NodeSettings::new("watch").bare()).unwrap();
+        Self {
+            filtered: node.mailbox("/odometry/filtered", Qos::reliable(1000)).unwrap(),
+            tf: node.mailbox("/tf", Qos::reliable(10_000)).unwrap(),
+            costs: node.mailbox("/costmap/costmap", Qos::reliable(100)).unwrap(),
+            command: node.publisher("/cmd_vel", Qos::reliable(10)).unwrap(),
+            simulation,
+            services,
+            bringup,
+        }
+    }
+
+    fn run(&mut self, speed_m_s: f64) {
+        let end_ns = self.simulation.time_ns() + PART_NS;
+        while self.simulation.time_ns() < end_ns {
+            self.services.serve(&mut self.simulation);
+            let graph = self.simulation.graph().clone();
+            let now_ns = self.simulation.time_ns();
+            self.bringup.work(&graph, now_ns, Some(&mut self.simulation));
+            if now_ns % 100_000_000 == 0 {
+                let mut twist = Twist::default();
+                twist.linear.x = speed_m_s;
+                self.command.publish(twist);
+            }
+            self.simulation.step().unwrap();
+        }
+        let said: Vec<String> =
+            self.bringup.take_said().into_iter().map(|said| said.text).collect();
+        assert!(said.iter().all(|text| !text.contains("not spawned")), "{said:?}");
+    }
+
+    /// Checks what all programs have published since the last time, in simulated time from zero.
+    fn has_run_from_zero(&self, what: &str) {
+        let near_start_ns = PART_NS / 2;
+        let filtered = self.filtered.drain();
+        let times: Vec<i64> = filtered.iter().map(|one| one.header.stamp.ns()).collect();
+        assert!(times.len() > 100, "{what}: {} estimates", times.len());
+        assert!(times[0] < near_start_ns && times.is_sorted(), "{what}: estimates at {times:?}");
+        let x_m = filtered.last().unwrap().pose.pose.position.x;
+        assert!((0.8..1.6).contains(&x_m), "{what}: the filter has the robot at {x_m} m");
+        let mut edges: Vec<(String, i64)> = Vec::new();
+        let mut map_from_odom = None;
+        for message in self.tf.drain() {
+            for one in &message.transforms {
+                edges.push((one.child_frame_id.clone(), one.header.stamp.ns()));
+                if one.child_frame_id == "odom" {
+                    map_from_odom = Some(one.transform.translation.x);
+                }
+            }
+        }
+        for child in ["base_link", "odom", "drivewhl_l_link"] {
+            let times: Vec<i64> =
+                edges.iter().filter(|(it, _)| it == child).map(|(_, time_ns)| *time_ns).collect();
+            let first = times.first().copied().unwrap_or(i64::MAX);
+            assert!(first < near_start_ns, "{what}: `{child}` on /tf first at {first} ns");
+            assert!(*times.last().unwrap() > near_start_ns, "{what}: `{child}` has stopped");
+        }
+        let map_from_odom = map_from_odom.unwrap();
+        assert!(map_from_odom.abs() < 0.2, "{what}: odom is at {map_from_odom} m in the map");
+        let costs: Vec<i64> =
+            self.costs.drain().iter().map(|grid| grid.header.stamp.ns()).collect();
+        assert!(costs.len() >= 4, "{what}: costmaps at {costs:?}");
+        assert!(costs.iter().any(|time_ns| *time_ns < near_start_ns), "{what}: {costs:?}");
+    }
+}
+
+/// `ros_gz_bridge` takes time and frame from a velocity for Gazebo, which has none.
+#[test]
+fn a_stamped_velocity_drives_a_robot_of_gazebo() {
+    let folder = top().canonicalize().unwrap();
+    let mut bringup = bringup("bridge.launch.xml", &folder);
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("robot").bare()).unwrap();
+    let robot = node.mailbox::<Twist>("/model/robot/cmd_vel", Qos::reliable(10)).unwrap();
+    let driver = node.publisher::<TwistStamped>("/drive", Qos::reliable(10)).unwrap();
+    bringup.work(&graph, 0, None);
+    let mut velocity = TwistStamped::default();
+    velocity.twist.linear.x = 0.5;
+    driver.publish(velocity);
+    graph.settle();
+    bringup.work(&graph, 0, None);
+    graph.settle();
+    let speeds: Vec<f64> = robot.drain().iter().map(|twist| twist.linear.x).collect();
+    assert_eq!(speeds, [0.5], "{:?}", bringup.lines());
+}
+
+/// RViz is started with a file and a fixed frame: the page opens both.
+#[test]
+fn rviz_names_its_file_and_fixed_frame() {
+    let folder = top().canonicalize().unwrap();
+    let bringup = bringup("rviz.launch.xml", &folder);
+    assert_eq!(bringup.views(), [folder.join("robots/sam_bot/rviz/sam_bot.rviz")]);
+    assert_eq!(bringup.fixed_frame().as_deref(), Some("base_link"));
+    assert!(bringup.wants_page());
+}
+
+/// ROS 1's server ends when its map cannot be read.
+#[test]
+fn a_map_that_is_not_there_is_an_error() {
+    let folder = top().canonicalize().unwrap();
+    let mut bringup = bringup("map.launch.xml", &folder);
+    let graph = Graph::new();
+    bringup.work(&graph, 0, None);
+    graph.settle();
+    let said = bringup.take_said();
+    let is_told = |text: &str| text.contains("nowhere.yaml") && text.contains("cannot be read");
+    assert!(said.iter().any(|one| is_told(&one.text)), "{:?}", bringup.lines());
+}
+
+#[test]
+fn a_filter_mapping_and_costmaps_go_on_after_a_reset() {
+    let mut stack = Stack::launched();
+    stack.run(0.25);
+    stack.has_run_from_zero("before");
+    let node = stack.simulation.graph().node(NodeSettings::new("caller").bare()).unwrap();
+    let reset = node.client::<Empty>("/reset_simulation").unwrap();
+    let _answer = reset.call(EmptyRequest::default());
+    stack.simulation.graph().settle();
+    stack.services.serve(&mut stack.simulation);
+    assert_eq!(stack.simulation.time_ns(), 0);
+    let _ = (stack.filtered.drain(), stack.tf.drain(), stack.costs.drain());
+    stack.run(0.25);
+    stack.has_run_from_zero("after");
+}

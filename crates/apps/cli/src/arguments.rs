@@ -1,0 +1,27 @@
+//! What a command line says to nodes.
+
+use std::io;
+use std::path::Path;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::Arguments;
+use periplus_os::Machine;
+use periplus_resources::{Host as _, ReadError};
+
+use crate::terminal;
+
+/// Reads the words of `--ros-args`; none when they have errors, which are told.
+pub(crate) fn read(words: Vec<String>) -> io::Result<Option<Arguments>> {
+    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+    let arguments = Arguments::read(&words, &mut sources, &mut diagnostics, &mut text);
+    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    Ok((!diagnostics.has_errors()).then_some(arguments))
+}
+
+fn text(path: &Path) -> Result<String, String> {
+    let bytes = Machine.read(path).map_err(|error| match error {
+        ReadError::Missing => "is not there".to_owned(),
+        error => format!("cannot be read: {error}"),
+    })?;
+    String::from_utf8(bytes).map_err(|_| "is no text".into())
+}

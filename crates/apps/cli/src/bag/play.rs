@@ -1,0 +1,127 @@
+//! `periplus bag play`.
+
+use std::io;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use periplus_bagfiles::{Bag, BagError, PlaySettings, Player};
+use periplus_graph::Arguments;
+use periplus_os::{Stopwatch, sleep};
+
+use super::options::{PlayOptions, SelectOptions};
+use crate::live::Live;
+use crate::stop;
+use crate::terminal;
+
+/// How long the loop sleeps at most: Ctrl-C and ENTER are seen by then.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// Until this long after all was said others may still be fetching it.
+const LAST_WORDS: Duration = Duration::from_secs(2);
+
+/// Others need this long to find a new publisher; what is said before, nobody hears.
+const GREETING: Duration = Duration::from_millis(500);
+
+pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
+    let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
+    let select = options.select();
+    if let Some(name) = select.unknown(std::slice::from_ref(&bag)).next() {
+        terminal::complain(&format!("the recording has no topic `{name}`"));
+        return Ok(ExitCode::from(2));
+    }
+    let live = match Live::open(Arguments::default()) {
+        Ok(live) => live,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let settings = options.settings(&select, &bag);
+    let stop = stop::on_signal();
+    let player = Player::new(bag, &live.graph, settings);
+    let played = player.and_then(|mut player| play(&mut player, &live, options.delay, &stop));
+    if !live.end(LAST_WORDS) {
+        terminal::complain("somebody did not take all that was said");
+    }
+    match played {
+        Ok(()) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(terminal::INTERRUPTED)),
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}
+
+fn play(
+    player: &mut Player,
+    live: &Live,
+    delay_ns: i64,
+    stop: &Arc<AtomicBool>,
+) -> Result<(), BagError> {
+    let keys = enter_keys();
+    let delay = Duration::from_nanos(delay_ns.unsigned_abs()).max(GREETING);
+    let watch = Stopwatch::start();
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        if keys.swap(false, Ordering::Relaxed) {
+            player.set_paused(!player.is_paused());
+            terminal::say(if player.is_paused() { "stands still" } else { "goes on" });
+        }
+        let wall = watch.elapsed();
+        let Some(wall) = wall.checked_sub(delay) else {
+            sleep(LOOK.min(delay - wall));
+            continue;
+        };
+        let wall_ns = i64::try_from(wall.as_nanos()).unwrap_or(i64::MAX);
+        let Some(next_ns) = player.advance_to(wall_ns)? else { break };
+        let left = Duration::from_nanos(next_ns.saturating_sub(wall_ns).max(0).unsigned_abs());
+        sleep(left.min(LOOK));
+        super::tell(&player.take_findings()).ok();
+        live.tell();
+    }
+    super::tell(&player.take_findings()).ok();
+    terminal::say(&format!("{} messages", player.published()));
+    Ok(())
+}
+
+/// Becomes true with each ENTER.
+fn enter_keys() -> Arc<AtomicBool> {
+    let pressed = Arc::new(AtomicBool::new(false));
+    let flag = pressed.clone();
+    std::thread::spawn(move || {
+        for line in io::stdin().lines() {
+            if line.is_err() {
+                break;
+            }
+            flag.store(true, Ordering::Relaxed);
+        }
+    });
+    pressed
+}
+
+impl PlayOptions {
+    fn select(&self) -> SelectOptions {
+        SelectOptions {
+            names: self.names.clone(),
+            start_offset: self.start_offset,
+            duration: self.playback_duration,
+            start: None,
+            end: self.playback_until_sec,
+        }
+    }
+
+    fn settings(&self, select: &SelectOptions, bag: &Bag) -> PlaySettings {
+        PlaySettings {
+            rate: self.rate,
+            is_looped: self.is_looped,
+            selection: select.of(std::slice::from_ref(bag)),
+            remaps: self.remap.clone(),
+            clock_hz: self.clock,
+            is_paused: self.start_paused,
+            read_ahead: self.read_ahead_queue_size,
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! `periplus bag record`.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
+use periplus_dds::{Remote, RemoteTopic};
+use periplus_graph::{
+    Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
+};
+use periplus_os::{Machine, sleep, unix_ns};
+use periplus_resources::Host as _;
+
+use super::options::RecordOptions;
+use crate::live::Live;
+use crate::stop;
+use crate::terminal;
+
+/// How often it looks for new topics, and puts old messages on the disk.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// How often it looks at the clock.
+const TICK: Duration = Duration::from_millis(2);
+
+pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
+    if !options.all && options.topics.is_empty() && options.regex.is_none() {
+        terminal::complain(
+            "name topics, or record all with --all; see `periplus bag record --help`",
+        );
+        return Ok(ExitCode::from(2));
+    }
+    let mut live = match Live::open(Arguments::default()) {
+        Ok(live) => live,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    match record(options, &mut live) {
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}
+
+fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
+    let output = options.output.clone().unwrap_or_else(named_by_time);
+    let offers = Offers::default();
+    let known = offers.clone();
+    let settings = RecordSettings {
+        // Nobody here says anything: all that is heard was asked for.
+        wanted: Box::new(|_| true),
+        clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bagfiles::Now),
+        offered: Some(Box::new(move |topic| known.of(topic))),
+        ..RecordSettings::all(WriteSettings {
+            // As rosbag2 notes it.
+            ros_distro: Machine.variable("ROS_DISTRO").unwrap_or_default(),
+            ..options.write.settings(&output, Storage::Mcap)
+        })
+    };
+    let node = live.graph.node(NodeSettings::new("rosbag2_recorder"))?;
+    if options.use_sim_time {
+        live.follow_clock(&node)?;
+    }
+    let stop = stop::on_signal();
+    let recorder = Recorder::start(&live.graph, &output, settings)?;
+    let mut heard = Heard { node, offers, mailboxes: BTreeMap::new() };
+    terminal::say(&format!("{}: records until Ctrl-C", output.display()));
+    let mut ticks = 0;
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        if ticks % (LOOK.as_millis() / TICK.as_millis()) == 0 {
+            heard.follow(options, &live.wire.remote())?;
+            recorder.keep()?;
+            live.tell();
+        }
+        ticks += 1;
+        heard.drop_read();
+        sleep(TICK);
+    }
+    let recording = recorder.finish()?;
+    live.tell();
+    let (messages, topics) = (recording.info.messages(), recording.info.topics.len());
+    terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
+    if recording.dropped > 0 {
+        terminal::complain(&format!(
+            "{} messages came faster than the disk takes them",
+            recording.dropped
+        ));
+    }
+    Ok(())
+}
+
+/// QoS of the publishers of each topic, as discovery has it.
+#[derive(Clone, Default)]
+struct Offers(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
+
+impl Offers {
+    fn of(&self, topic: &str) -> Vec<Qos> {
+        let offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        offers.get(topic).cloned().unwrap_or_default()
+    }
+
+    fn note(&self, topic: &RemoteTopic) {
+        let offered = topic.publishers.iter().map(|one| one.qos).collect();
+        let mut offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        offers.insert(topic.name.clone(), offered);
+    }
+}
+
+/// What is subscribed to.
+struct Heard {
+    node: Node,
+    offers: Offers,
+    /// By topic: what is asked for, and the subscription.
+    mailboxes: BTreeMap<String, (Qos, RawMailbox)>,
+}
+
+impl Heard {
+    /// Subscribes to wanted topics that are new, and again where a publisher has come that offers less
+    /// than is asked for.
+    fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {
+        for topic in &remote.topics {
+            let Some(type_name) = topic.type_names.first() else { continue };
+            if topic.publishers.is_empty() || !options.wants(&topic.name) {
+                continue;
+            }
+            // Before the subscription, whose first message takes it.
+            self.offers.note(topic);
+            let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
+            let is_heard =
+                |asked: Qos| topic.publishers.iter().all(|one| one.qos.lacks(&asked).is_empty());
+            if before.is_some_and(is_heard) {
+                continue;
+            }
+            let hash = topic.publishers.iter().find_map(|one| one.type_hash.as_deref());
+            let qos = request(topic);
+            if before == Some(qos) {
+                // Whatever is lacking is nothing that can be asked for less.
+                continue;
+            }
+            let mailbox = self.node.raw_mailbox(&topic.name, type_name, hash, qos)?;
+            let (reliability, durability) =
+                (qos.spelled(Policy::Reliability), qos.spelled(Policy::Durability));
+            terminal::say(&if before.is_none() {
+                format!("records {} ({type_name})", topic.name)
+            } else {
+                format!(
+                    "records {} again, {reliability} and {durability}: not all who publish it \
+                     offer more",
+                    topic.name
+                )
+            });
+            // The one before goes when this one is there, so that little is missed.
+            self.mailboxes.insert(topic.name.clone(), (qos, mailbox));
+        }
+        Ok(())
+    }
+
+    /// The recorder has its own way to the messages; these only keep the topics alive.
+    fn drop_read(&self) {
+        for (_, mailbox) in self.mailboxes.values() {
+            drop(mailbox.drain());
+        }
+    }
+}
+
+/// What all publishers of a topic can offer.
+fn request(topic: &RemoteTopic) -> Qos {
+    let offers = || topic.publishers.iter().map(|one| one.qos);
+    let mut qos = Qos::reliable(100);
+    if offers().any(|offer| offer.reliability == Reliability::BestEffort) {
+        qos = qos.with_reliability(Reliability::BestEffort);
+    }
+    if offers().all(|offer| offer.durability == Durability::TransientLocal) {
+        qos = qos.with_durability(Durability::TransientLocal);
+    }
+    qos
+}
+
+impl RecordOptions {
+    fn wants(&self, name: &str) -> bool {
+        let same = |typed: &String| typed.trim_start_matches('/') == name.trim_start_matches('/');
+        let is_hidden = name.split('/').any(|part| part.starts_with('_'));
+        let is_named = self.topics.iter().any(same);
+        let is_chosen =
+            self.all || is_named || self.regex.as_ref().is_some_and(|regex| regex.is_match(name));
+        let is_excluded = self.exclude.as_ref().is_some_and(|regex| regex.is_match(name))
+            || self.exclude_topics.iter().any(same);
+        is_chosen && !is_excluded && (!is_hidden || is_named || self.include_hidden_topics)
+    }
+}
+
+/// `rosbag2_` and the time, as `ros2 bag record` names its folders (in UTC).
+fn named_by_time() -> PathBuf {
+    PathBuf::from(format!("rosbag2_{}", periplus_bagfiles::stamp_name(unix_ns())))
+}

@@ -1,0 +1,184 @@
+//! `periplus bridge`.
+
+mod config;
+mod services;
+mod spec;
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Arguments, Node, NodeSettings};
+use periplus_gz_transport::{Direction, Link, Pair, Settings, Transport};
+use periplus_msgs::rcl_interfaces::ParameterValue;
+use periplus_os::{Machine, sleep};
+
+use crate::arguments;
+use crate::live::Live;
+use crate::stop;
+use crate::terminal;
+use services::Services;
+use spec::Spec;
+
+/// How often it is looked whether something is due.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+/// What `parameter_bridge` answers to words that it does not understand.
+const NOT_UNDERSTOOD: u8 = 255;
+
+/// Topics and services in ROS 2 and in Gazebo, as `ros_gz_bridge`'s `parameter_bridge` has them
+///
+/// A topic is `/topic@ROS_TYPE@GZ_TYPE` both ways, with `[` before the type of Gazebo from Gazebo to ROS,
+/// with `]` from ROS to Gazebo. A service is `/service@ROS_TYPE`, with `@GZ_REQUEST@GZ_RESPONSE` if need
+/// be: ROS calls what Gazebo answers. `-r /lidar:=/laser_scan` renames in ROS alone. All of `--ros-args`
+/// is understood; of parameters `config_file`, `lazy` and `expand_gz_topic_names`.
+#[derive(Debug, Args)]
+pub(crate) struct BridgeOptions {
+    /// Topics and services
+    #[arg(value_name = "/TOPIC@ROS_TYPE(@|[|])GZ_TYPE")]
+    words: Vec<String>,
+    /// Topics as YAML, as the parameter `config_file` names it
+    #[arg(long, value_name = "FILE.yaml")]
+    config: Option<PathBuf>,
+    /// Rename a topic, service or node in ROS: `from:=to`
+    #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
+    remaps: Vec<String>,
+    /// A parameter: `name:=value`
+    #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE")]
+    parameters: Vec<String>,
+}
+
+/// What parameters say.
+struct Told {
+    config: Option<PathBuf>,
+    is_lazy: bool,
+    expands: bool,
+}
+
+impl Told {
+    fn of(options: &BridgeOptions, arguments: &Arguments, node: &Node) -> Self {
+        let told = arguments.parameters_of(node.full_name());
+        let truth = |name: &str| told.get(name).is_some_and(|value| value.bool_value);
+        let file = told.get("config_file").map(|value: &ParameterValue| &value.string_value);
+        let file = file.filter(|file| !file.is_empty()).map(PathBuf::from);
+        Self {
+            config: options.config.clone().or(file),
+            is_lazy: truth("lazy"),
+            expands: truth("expand_gz_topic_names"),
+        }
+    }
+}
+
+pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let words = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+    let parameters = options.parameters.iter().flat_map(|one| ["-p".to_owned(), one.clone()]);
+    let Some(arguments) = arguments::read(words.chain(parameters).chain(ros).collect())? else {
+        return Ok(ExitCode::from(NOT_UNDERSTOOD));
+    };
+    let mut specs = Vec::new();
+    for word in &options.words {
+        match Spec::read(word) {
+            Ok(spec) => specs.push(spec),
+            Err(why) => {
+                terminal::complain(&format!("`{word}`: {why}"));
+                terminal::say("see `periplus bridge --help`");
+                return Ok(ExitCode::from(NOT_UNDERSTOOD));
+            }
+        }
+    }
+    let stop = stop::on_signal();
+    let (settings, findings) = Settings::from_environment(&Machine);
+    tell(&findings)?;
+    let opened = Live::open(arguments.clone()).and_then(|live| {
+        let made = live.graph.node(NodeSettings::new("ros_gz_bridge").any_parameters());
+        let node = made.map_err(|error| error.to_string())?;
+        let transport = Transport::open(&settings).map_err(|error| error.to_string())?;
+        Ok((live, node, Arc::new(transport)))
+    });
+    let (live, node, transport) = match opened {
+        Ok(opened) => opened,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let told = Told::of(options, &arguments, &node);
+    let mut pairs = Vec::new();
+    let mut services = Services::new(&node, &transport);
+    for spec in specs {
+        match spec {
+            Spec::Topic(pair) => pairs.push(Pair { is_lazy: told.is_lazy, ..pair }),
+            Spec::Service(service) => {
+                if let Err(why) = services.offer(&service) {
+                    terminal::complain(&why);
+                    return Ok(ExitCode::from(NOT_UNDERSTOOD));
+                }
+            }
+        }
+    }
+    if let Some(path) = &told.config {
+        match config::read(path, told.is_lazy) {
+            Ok((read, findings, sources)) => {
+                terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
+                pairs.extend(read);
+            }
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        }
+    }
+    if pairs.is_empty() && services.is_empty() {
+        terminal::complain(
+            "nothing to bridge; name a topic such as \
+             /lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan, or a file with --config",
+        );
+        return Ok(ExitCode::from(NOT_UNDERSTOOD));
+    }
+    let link = Link::new(&live.graph, &transport);
+    for mut pair in pairs {
+        if told.expands && !pair.gz_topic.starts_with('/') {
+            let space = node.names().namespace().trim_end_matches('/');
+            pair.gz_topic = format!("{space}/{}", pair.gz_topic);
+        }
+        // As in `parameter_bridge`, the others go on.
+        match link.bridge(&node, &pair) {
+            Ok(()) => terminal::say(&described(&pair)),
+            Err(error) => terminal::complain(&format!("`{}`: {error}", pair.gz_topic)),
+        }
+    }
+    terminal::say(&format!("Gazebo: partition {}", settings.partition));
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        live.tell();
+        tell(&link.take_findings())?;
+        services.serve();
+        sleep(LOOK);
+    }
+    drop(link);
+    live.end(LAST_WORD);
+    Ok(ExitCode::SUCCESS)
+}
+
+fn tell(findings: &Diagnostics) -> io::Result<()> {
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+}
+
+/// What goes where.
+fn described(pair: &Pair) -> String {
+    let Pair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
+    let arrow = match direction {
+        Direction::Both => "<->",
+        Direction::ToRos => "->",
+        Direction::ToGazebo => "<-",
+    };
+    format!("Gazebo {gz_topic} ({gz_type}) {arrow} ROS {ros_topic} ({ros_type})")
+}

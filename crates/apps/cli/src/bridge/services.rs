@@ -1,0 +1,150 @@
+//! Services of Gazebo for those in ROS, as `ros_gz_bridge` has them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use periplus_graph::{Call, Calls, Node};
+use periplus_gz_msgs::{AsRos, Boolean, Entity, EntityFactory, Message, Pose, WorldControl};
+use periplus_gz_transport::Transport;
+use periplus_msgs::Service;
+use periplus_msgs::ros_gz_interfaces::{
+    ControlWorld, ControlWorldResponse, DeleteEntity, DeleteEntityResponse, SetEntityPose,
+    SetEntityPoseResponse, SpawnEntity, SpawnEntityResponse,
+};
+
+use super::spec::Asked;
+use crate::terminal;
+
+/// So long Gazebo may take to answer, as in `ros_gz_bridge`.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// The services that are bridged.
+pub(super) struct Services {
+    node: Node,
+    transport: Arc<Transport>,
+    offers: Vec<Box<dyn Offer>>,
+}
+
+trait Offer {
+    /// Passes on what was asked.
+    fn serve(&self, transport: &Arc<Transport>);
+}
+
+/// A service that is in both worlds. In Gazebo each of them answers yes or no.
+trait Both: Service {
+    type Gazebo: Message;
+
+    fn question(request: &Self::Request) -> Option<Self::Gazebo>;
+    fn answer(success: bool) -> Self::Response;
+}
+
+macro_rules! both {
+    ($($service:ident, $gazebo:ident, $response:ident, |$asked:ident| $question:expr;)*) => {$(
+        impl Both for $service {
+            type Gazebo = $gazebo;
+
+            fn question($asked: &Self::Request) -> Option<$gazebo> {
+                $question
+            }
+
+            fn answer(success: bool) -> $response {
+                $response { success }
+            }
+        }
+    )*};
+}
+
+both! {
+    ControlWorld, WorldControl, ControlWorldResponse, |asked| AsRos::from_ros(&asked.world_control);
+    SpawnEntity, EntityFactory, SpawnEntityResponse, |asked| AsRos::from_ros(&asked.entity_factory);
+    DeleteEntity, Entity, DeleteEntityResponse, |asked| AsRos::from_ros(&asked.entity);
+    SetEntityPose, Pose, SetEntityPoseResponse, |asked| {
+        let pose = <Pose as AsRos<periplus_msgs::geometry_msgs::Pose>>::from_ros(&asked.pose)?;
+        let id = u32::try_from(asked.entity.id).unwrap_or_default();
+        Some(Pose { name: asked.entity.name.clone(), id, ..pose })
+    };
+}
+
+struct Offered<S> {
+    calls: Calls<S>,
+    types: [String; 2],
+    /// The name in Gazebo.
+    name: String,
+}
+
+impl<S: Both> Offer for Offered<S> {
+    fn serve(&self, transport: &Arc<Transport>) {
+        while let Some(call) = self.calls.take() {
+            let (name, types) = (self.name.clone(), self.types.clone());
+            let transport = transport.clone();
+            // Others may ask while Gazebo thinks.
+            std::thread::spawn(move || pass_on(call, &transport, &name, &types));
+        }
+    }
+}
+
+fn pass_on<S: Both>(call: Call<S>, transport: &Transport, name: &str, types: &[String; 2]) {
+    let question = S::question(&call.request).unwrap_or_default().encode();
+    let answer = transport.call(name, &types[0], &types[1], &question, PATIENCE);
+    let success = match answer {
+        Ok(bytes) => Boolean::decode(&bytes).is_ok_and(|answer| answer.data),
+        Err(error) => {
+            terminal::complain(&format!("the service `{name}` of Gazebo: {error}"));
+            false
+        }
+    };
+    call.answer(S::answer(success));
+}
+
+impl Services {
+    pub(super) fn new(node: &Node, transport: &Arc<Transport>) -> Self {
+        Self { node: node.clone(), transport: transport.clone(), offers: Vec::new() }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.offers.is_empty()
+    }
+
+    /// # Errors
+    /// Why it cannot be.
+    pub(super) fn offer(&mut self, asked: &Asked) -> Result<(), String> {
+        let known = self.one::<ControlWorld>(asked)?
+            || self.one::<SpawnEntity>(asked)?
+            || self.one::<DeleteEntity>(asked)?
+            || self.one::<SetEntityPose>(asked)?;
+        if known {
+            return Ok(());
+        }
+        let all = [
+            ControlWorld::TYPE_NAME,
+            SpawnEntity::TYPE_NAME,
+            DeleteEntity::TYPE_NAME,
+            SetEntityPose::TYPE_NAME,
+        ];
+        Err(format!(
+            "`{}`: {} is no service of both worlds; there are {}",
+            asked.name,
+            asked.ros_type,
+            all.join(", ")
+        ))
+    }
+
+    /// Whether it is this one.
+    fn one<S: Both>(&mut self, asked: &Asked) -> Result<bool, String> {
+        if asked.ros_type != S::TYPE_NAME {
+            return Ok(false);
+        }
+        let usual = [format!("gz.msgs.{}", S::Gazebo::NAME), "gz.msgs.Boolean".to_owned()];
+        let calls = self.node.server::<S>(&asked.name).map_err(|error| error.to_string())?;
+        let types = asked.gz_types.clone().unwrap_or(usual);
+        self.offers.push(Box::new(Offered { calls, types, name: asked.name.clone() }));
+        Ok(true)
+    }
+
+    /// Passes on what was asked.
+    pub(super) fn serve(&self) {
+        for offer in &self.offers {
+            offer.serve(&self.transport);
+        }
+    }
+}

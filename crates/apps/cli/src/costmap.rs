@@ -1,0 +1,224 @@
+//! Costmaps in runs and beside others: `periplus sim --costmap`, `periplus costmap` and
+//! `periplus doctor costmap`.
+
+pub(crate) mod doctor;
+mod file;
+pub(crate) mod serve;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use periplus_costmap::{Compat, cost};
+use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
+use periplus_graph::Graph;
+use periplus_images::{Layout, write_png};
+use periplus_maps::palette::{Scheme, paint};
+
+use crate::terminal;
+use file::{File, read, read_text};
+
+/// What `periplus sim` takes for costmaps.
+#[derive(Debug, Args)]
+pub(crate) struct CostmapOptions {
+    /// Run the costmaps of a file with Nav2's parameters beside the robot: `local_costmap` and
+    /// `global_costmap`, as far as they are in it
+    #[arg(long, value_name = "nav2_params.yaml")]
+    costmap: Option<PathBuf>,
+    /// At the end tell why the cell at this place is marked, or is not; of each costmap, in its own
+    /// frame [m]
+    #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true, requires = "costmap")]
+    costmap_cell: Vec<Place>,
+    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
+    #[arg(long, value_name = "FOLDER", requires = "costmap")]
+    costmap_picture: Option<PathBuf>,
+    /// Whose habits the costmaps have where distributions differ
+    #[arg(long, value_name = "humble|jazzy|main", requires = "costmap")]
+    costmap_compat: Option<Compat>,
+}
+
+/// A place on the ground [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place {
+    x_m: f64,
+    y_m: f64,
+}
+
+fn place(word: &str) -> Result<Place, String> {
+    let (x, y) = word.split_once(',').ok_or("it has to be two numbers, such as `1.5,-0.2`")?;
+    let number = |word: &str| {
+        let number: Option<f64> = word.trim().parse().ok().filter(|it: &f64| it.is_finite());
+        number.ok_or_else(|| format!("`{word}` is no number"))
+    };
+    Ok(Place { x_m: number(x)?, y_m: number(y)? })
+}
+
+/// Costmaps of a run.
+#[derive(Default)]
+pub(crate) struct Costmaps {
+    nodes: Vec<CostmapNode>,
+    _markers: Vec<VoxelMarkers>,
+    cells: Vec<Place>,
+    pictures: Option<PathBuf>,
+}
+
+impl Costmaps {
+    /// As nodes of a graph, if they are wanted; none when they cannot be, which has been told.
+    /// `usual` are the parameters of those that run where no file is named.
+    pub(crate) fn join(
+        graph: &Graph,
+        options: &CostmapOptions,
+        usual: Option<&str>,
+    ) -> io::Result<Option<Self>> {
+        let Some(path) = &options.costmap else {
+            return match usual {
+                Some(text) => Self::of_text(graph, "the usual costmaps", text, None),
+                None => Ok(Some(Self::default())),
+            };
+        };
+        let Some(costmaps) = Self::of_file(graph, path, options.costmap_compat)? else {
+            return Ok(None);
+        };
+        costmaps.start();
+        let (cells, pictures) = (options.costmap_cell.clone(), options.costmap_picture.clone());
+        Ok(Some(Self { cells, pictures, ..costmaps }))
+    }
+
+    /// Those of a file, not yet configured.
+    fn of_file(graph: &Graph, path: &Path, compat: Option<Compat>) -> io::Result<Option<Self>> {
+        Self::of_read(graph, read(path, compat))
+    }
+
+    /// Those of a text that has a name, which run then; their pictures go to a folder.
+    pub(crate) fn of_text(
+        graph: &Graph,
+        name: &str,
+        text: &str,
+        pictures: Option<PathBuf>,
+    ) -> io::Result<Option<Self>> {
+        let costmaps = Self::of_read(graph, read_text(name, text.to_owned(), None))?;
+        if let Some(costmaps) = &costmaps {
+            costmaps.start();
+        }
+        Ok(costmaps.map(|costmaps| Self { pictures, ..costmaps }))
+    }
+
+    fn of_read(graph: &Graph, read: Result<File, String>) -> io::Result<Option<Self>> {
+        let file = match read {
+            Ok(file) => file,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(None);
+            }
+        };
+        terminal::diagnostics(&mut anstream::stderr().lock(), &file.diagnostics, &file.sources)?;
+        let mut costmaps = Self::default();
+        for (name, config) in file.configs {
+            let made = CostmapNode::new(graph, name, config)
+                .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
+            match made {
+                Ok((node, markers)) => {
+                    node.name_lines_of(file.sources.clone());
+                    costmaps.nodes.push(node);
+                    costmaps._markers.push(markers);
+                }
+                Err(error) => {
+                    terminal::complain(&format!("{name} cannot run: {error}"));
+                    return Ok(None);
+                }
+            }
+        }
+        Ok(Some(costmaps))
+    }
+
+    /// Whether one of them lives by `/clock`.
+    fn wants_simulated_time(&self) -> bool {
+        self.nodes.iter().any(CostmapNode::uses_simulated_time)
+    }
+
+    /// Configures and activates them.
+    fn start(&self) {
+        self.nodes.iter().for_each(CostmapNode::start);
+    }
+
+    /// What there is to say at the end of a run.
+    pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+        for node in &self.nodes {
+            status(node, out)?;
+            for Place { x_m, y_m } in &self.cells {
+                match node.inspect(*x_m, *y_m) {
+                    Some(report) => write!(out, "{report}")?,
+                    None => writeln!(out, "({x_m}, {y_m}) is outside of the costmap")?,
+                }
+            }
+            if let Some(folder) = &self.pictures {
+                for (scheme, suffix) in
+                    [(Scheme::Costmap, ""), (Scheme::Map, "_map"), (Scheme::Raw, "_raw")]
+                {
+                    let name = format!("{}{suffix}.png", node.node().names().name());
+                    match draw(node, scheme, &folder.join(&name)) {
+                        Ok(()) => writeln!(out, "drawn: {}", folder.join(name).display())?,
+                        Err(why) => terminal::complain(&why),
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws each to the folder in the colours of costmaps, as far as one was named.
+    ///
+    /// # Errors
+    /// Why one cannot be.
+    pub(crate) fn write(&self) -> Result<(), String> {
+        let Some(folder) = &self.pictures else { return Ok(()) };
+        self.nodes.iter().try_for_each(|node| {
+            let name = format!("{}.png", node.node().names().name());
+            draw(node, Scheme::Costmap, &folder.join(name))
+        })
+    }
+}
+
+/// A picture in colours of RViz, four pixels for a cell.
+fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
+    const PIXELS: usize = 4;
+    let drawn = node.look(|costmap| {
+        let grid = costmap.costmap();
+        let (width, height) = (grid.lattice().width, grid.lattice().height);
+        let values: Vec<i8> = grid.costs().iter().map(|cost| cost::occupancy_of(*cost)).collect();
+        let samples = paint(&scheme.palette(), width, &values, PIXELS);
+        let size = |cells: usize| (cells * PIXELS) as u32;
+        write_png(size(width), size(height), Layout::Rgb, &samples)
+    });
+    let Some(bytes) = drawn else { return Err("there is no costmap to draw".into()) };
+    if let Some(folder) = path.parent() {
+        crate::paths::make_folder(folder)?;
+    }
+    crate::paths::write(path, &bytes)
+}
+
+/// What a costmap lives on, and what it lacks.
+fn status(node: &CostmapNode, out: &mut dyn Write) -> io::Result<()> {
+    let status = node.status();
+    let (width, height) = status.size;
+    writeln!(out, "{}: {width} x {height} cells, {} updates", status.node, status.updates)?;
+    if let Some(trouble) = &status.trouble {
+        writeln!(out, "  no update: {trouble}")?;
+    }
+    for (source, topic, messages, age_s) in &status.sources {
+        match age_s {
+            Some(age_s) => {
+                writeln!(
+                    out,
+                    "  {source} ({topic}): {messages} messages, the last {age_s:.2} s ago"
+                )?;
+            }
+            None if *messages == 0 => writeln!(out, "  {source} ({topic}): no message came")?,
+            None => writeln!(out, "  {source} ({topic}): {messages} messages, none of use")?,
+        }
+    }
+    for advice in &status.advice {
+        writeln!(out, "  {advice}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,111 @@
+//! `periplus costmap`.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_costmap::Compat;
+use periplus_diagnostics::SourceMap;
+use periplus_os::sleep;
+
+use super::{Costmaps, Place, place};
+use crate::arguments;
+use crate::live::{Live, Watched};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
+
+/// How often it is looked whether something is due.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+/// Run the costmaps of a file with Nav2's parameters for a robot on ROS 2: `local_costmap` and
+/// `global_costmap`, as far as they are in it
+///
+/// Managed nodes that configure and activate themselves, unless `--managed` leaves that to a lifecycle
+/// manager. They hear and tell what Nav2's do. Ctrl-C ends them, and tells what they lived on: which
+/// topics were silent, where points got lost, and the parameter to change. All of `--ros-args` is
+/// understood.
+#[derive(Debug, Args)]
+pub(crate) struct CostmapServeOptions {
+    /// The file
+    #[arg(value_name = "nav2_params.yaml")]
+    file: PathBuf,
+    /// Whose habits the costmaps have where distributions differ
+    #[arg(long, value_name = "humble|jazzy|main")]
+    compat: Option<Compat>,
+    /// Wait until others configure and activate them
+    #[arg(long)]
+    managed: bool,
+    /// At the end tell why the cell at this place is marked, or is not; of each costmap, in its own
+    /// frame [m]
+    #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
+    cell: Vec<Place>,
+    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
+    #[arg(long, value_name = "FOLDER")]
+    picture: Option<PathBuf>,
+    /// Time is that of /clock, also if the file does not say so
+    #[arg(long)]
+    use_sim_time: bool,
+    /// Rename a topic or a node: `from:=to`
+    #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
+    remaps: Vec<String>,
+}
+
+pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
+        return Ok(ExitCode::from(2));
+    };
+    let stop = stop::on_signal();
+    let mut live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let made = Costmaps::of_file(&live.graph, &options.file, options.compat)?;
+    let Some(costmaps) = made else { return Ok(ExitCode::FAILURE) };
+    let (cells, pictures) = (options.cell.clone(), options.picture.clone());
+    let costmaps = Costmaps { cells, pictures, ..costmaps };
+    for findings in [live.graph.take_findings(), live.graph.unused_arguments()] {
+        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    }
+    let watched: Result<Vec<_>, _> =
+        costmaps.nodes.iter().map(|node| Watched::new(node.node())).collect();
+    let follows_clock = options.use_sim_time || costmaps.wants_simulated_time();
+    let ready = watched.and_then(|watched| {
+        if let Some(node) = costmaps.nodes.first().filter(|_| follows_clock) {
+            live.follow_clock(node.node())?;
+        }
+        Ok(watched)
+    });
+    let watched = match ready {
+        Ok(watched) => watched,
+        Err(error) => {
+            complain(&error.to_string());
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    if follows_clock {
+        say("time is that of /clock");
+    }
+    if !options.managed {
+        costmaps.start();
+    }
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        sleep(LOOK);
+        for one in &watched {
+            one.tell();
+        }
+    }
+    live.end(LAST_WORD);
+    costmaps.tell(&mut anstream::stdout().lock())?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,51 @@
+//! What the demo came to, for a program.
+
+use periplus_geometry::Pose2;
+use periplus_maps::BesideTruth;
+use serde_json::{Value, json};
+
+use super::explorer::Explorer;
+use crate::mapping::Mapping;
+use crate::sim::Report;
+
+/// The report of the run, with what became of map and robot. The robot began at the origin of the world,
+/// where the map has its own, so that estimate and truth can be compared.
+pub(super) fn of(
+    run: &Report<'_>,
+    mapping: &Mapping,
+    truth: Option<&BesideTruth>,
+    explorer: Option<&Explorer>,
+) -> Value {
+    let mut report = run.to_json();
+    let status = mapping.node.status();
+    if let Some(map) = mapping.node.map() {
+        let cell_m2 = map.lattice.resolution_m * map.lattice.resolution_m;
+        let area_m2 = |wanted: fn(&i8) -> bool| {
+            map.cells.iter().filter(|value| wanted(value)).count() as f64 * cell_m2
+        };
+        report["map"] = json!({
+            "cells": [map.lattice.width, map.lattice.height],
+            "resolution_m": map.lattice.resolution_m,
+            "free_m2": area_m2(|value| (0..=25).contains(value)),
+            "occupied_m2": area_m2(|value| *value >= 65),
+            "scans": status.counts.scans,
+            "kept": status.counts.kept,
+        });
+    }
+    if let Some(truth) = truth {
+        let numbers = truth.numbers().into_iter();
+        let numbers = numbers.map(|(name, value)| (name.to_owned(), json!(value)));
+        report["truth"] = Value::Object(numbers.collect());
+    }
+    let truth = run.simulation.robot_pose().map(Pose2::from);
+    if let (Some(explorer), Some(truth)) = (explorer, truth) {
+        let error_m =
+            explorer.map_from_base.map(|pose| (pose.x_m - truth.x_m).hypot(pose.y_m - truth.y_m));
+        report["exploration"] = json!({
+            "state": format!("{:?}", explorer.mood()).to_lowercase(),
+            "driven_m": explorer.driven_m,
+            "pose_error_m": error_m,
+        });
+    }
+    report
+}

@@ -1,0 +1,114 @@
+//! `periplus doctor`.
+
+mod files;
+mod parameters;
+mod surroundings;
+
+pub(crate) use parameters::examine as examine_parameters;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::{Args, Subcommand};
+use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, to_json};
+use periplus_ros2cli::doctor::{examine, listen};
+use serde_json::json;
+
+use crate::costmap::doctor::DoctorCostmapOptions;
+use crate::options::SearchOptions;
+use crate::sim::Robots;
+use crate::terminal;
+use crate::verbs::{Common, seconds, with_session};
+
+/// Tell what is wrong with what somebody set up, and which parameter to change
+///
+/// Without a file it listens to what is running: ends of topics that do not fit, frames that nobody
+/// places, time that nobody tells, sensors that say nothing, who is in which domain. A world or robot
+/// (SDF, URDF, xacro) is simulated for two seconds and listened to likewise, before anything runs; of a
+/// YAML with parameters costmaps and times are looked at; a launch file is planned, and nothing is started. Exit code 1 when something is found.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub(crate) struct DoctorOptions {
+    #[command(subcommand)]
+    command: Option<DoctorCommand>,
+    /// A world, a robot, a launch file, or a YAML with parameters; in place of what is running
+    #[arg(value_name = "FILE|NAME:=VALUE")]
+    words: Vec<String>,
+    #[command(flatten)]
+    robots: Robots,
+    /// Listen so long
+    #[arg(long, short = 't', value_name = "SECONDS", default_value_t = 3.0, value_parser = seconds)]
+    time: f64,
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    search: SearchOptions,
+}
+
+#[derive(Debug, Subcommand)]
+enum DoctorCommand {
+    Costmap(DoctorCostmapOptions),
+}
+
+pub(crate) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
+    if let Some(DoctorCommand::Costmap(options)) = &options.command {
+        return crate::costmap::doctor::run(options);
+    }
+    if !options.words.is_empty() || !options.robots.others.is_empty() {
+        return files::run(options);
+    }
+    let mut found = None;
+    let code = with_session(&options.common, |session| {
+        let mut picture = listen(session, Duration::from_secs_f64(options.time))?;
+        picture.surroundings = Some(surroundings::look());
+        let counts = (picture.seen.nodes.len(), picture.seen.topics.len());
+        found = Some((examine(&picture), counts));
+        Ok(())
+    })?;
+    let Some((found, (nodes, topics))) = found else { return Ok(code) };
+    let what = format!("{nodes} nodes, {topics} topics");
+    tell(&[(found, SourceMap::new())], &what, options.common.json)
+}
+
+/// `2 errors, 1 warning`, or `nothing is wrong`.
+fn counted(severities: &[Severity]) -> String {
+    let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
+    let parts: Vec<String> = kinds
+        .into_iter()
+        .map(|kind| (severities.iter().filter(|one| **one == kind).count(), kind.name()))
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
+        .collect();
+    if parts.is_empty() { "nothing is wrong".to_owned() } else { parts.join(", ") }
+}
+
+#[test]
+fn every_finding_is_counted_by_its_kind() {
+    let of = counted;
+    assert_eq!(of(&[]), "nothing is wrong");
+    assert_eq!(of(&[Severity::Hint]), "1 hint");
+    let mixed = [Severity::Warning, Severity::Error, Severity::Hint, Severity::Warning];
+    assert_eq!(of(&mixed), "1 error, 2 warnings, 1 hint");
+}
+
+/// Writes what was found; the exit code is 1 when there is more than hints.
+fn tell(found: &[(Diagnostics, SourceMap)], what: &str, is_json: bool) -> io::Result<ExitCode> {
+    let all =
+        || found.iter().flat_map(|(found, sources)| found.iter().map(move |it| (it, sources)));
+    let is_serious = |(finding, _): (&Diagnostic, &SourceMap)| finding.severity != Severity::Hint;
+    let has_serious = all().any(is_serious);
+    if is_json {
+        let findings: Vec<_> = all().map(|(finding, sources)| to_json(finding, sources)).collect();
+        let report = json!({ "examined": what, "findings": findings });
+        writeln!(io::stdout().lock(), "{report:#}")?;
+    } else {
+        let mut out = anstream::stdout().lock();
+        for (findings, sources) in found {
+            terminal::diagnostics(&mut out, findings, sources)?;
+        }
+        let severities: Vec<Severity> = all().map(|(finding, _)| finding.severity).collect();
+        writeln!(out, "{what}: {}", counted(&severities))?;
+    }
+    Ok(if has_serious { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}

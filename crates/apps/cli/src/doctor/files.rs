@@ -1,0 +1,119 @@
+//! Files, examined before anything runs.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::NodeSettings;
+use periplus_loader::Language;
+use periplus_ros2cli::doctor::{Ears, examine};
+use periplus_ros2cli::{Failure, Seen};
+use periplus_sim::{Options, ShapeFiles, Simulation, compose};
+
+use super::{DoctorOptions, parameters, tell};
+use crate::options::split;
+use crate::terminal;
+
+/// So long a world is listened to, in its own time \[s\].
+const SPAN_S: u64 = 2;
+
+/// How often what came is taken in \[ns\].
+const LOOK_NS: i64 = 50_000_000;
+
+/// The doctor's own node.
+const OWN: &str = "_periplus_doctor";
+
+pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
+    let (mut files, arguments) = split(&options.words);
+    files.extend(options.robots.others.iter().map(std::path::PathBuf::from));
+    let is_launch = |path: &Path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        [".launch", ".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml"]
+            .iter()
+            .any(|end| name.ends_with(end))
+            || name.ends_with("_launch.py")
+    };
+    let is_yaml = |path: &Path| {
+        let end = path.extension().unwrap_or_default();
+        !is_launch(path) && (end == "yaml" || end == "yml")
+    };
+    let is_world = |path: &Path| !is_yaml(path) && !is_launch(path);
+    let mut found = Vec::new();
+    let mut what: Vec<String> = Vec::new();
+    for path in files.iter().filter(|path| is_yaml(path)) {
+        match parameters::examine(path) {
+            Ok(findings) => found.extend(findings),
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        }
+        what.push(path.display().to_string());
+    }
+    for path in files.iter().filter(|path| is_launch(path)) {
+        let search = &options.search.resource_path;
+        found.push(crate::launch::examine(path, arguments.clone(), search));
+        what.push(path.display().to_string());
+    }
+    let worlds: Vec<_> = files.iter().filter(|path| is_world(path)).collect();
+    match worlds.as_slice() {
+        [] => {}
+        [world] => {
+            match simulated(world, arguments, options) {
+                Ok(findings) => found.extend(findings),
+                Err(why) => {
+                    terminal::complain(&why);
+                    return Ok(ExitCode::FAILURE);
+                }
+            }
+            what.push(world.display().to_string());
+        }
+        _ => {
+            terminal::complain("the doctor takes one world; robots come with --robot");
+            return Ok(ExitCode::from(2));
+        }
+    }
+    tell(&found, &what.join(", "), options.common.json)
+}
+
+/// Runs a world in its own time and listens to it.
+fn simulated(
+    world: &Path,
+    arguments: Vec<(String, String)>,
+    options: &DoctorOptions,
+) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
+    let search = &options.search.resource_path;
+    let mut composition = terminal::with_setting(search, arguments, |setting| {
+        compose(world, &options.robots.placements, setting)
+    });
+    let threads = terminal::processors();
+    let settings = Options { threads, ..Options::default() };
+    let mut simulation =
+        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), settings);
+    if let Some(missing) = composition.missing() {
+        return Err(format!("{} holds nothing to simulate", missing.display()));
+    }
+    let graph = simulation.graph().clone();
+    let node = graph.node(NodeSettings::new(OWN).bare()).map_err(|error| error.to_string())?;
+    let look = || Seen::of_graph(&graph, |name| name.ends_with(OWN));
+    let told = |failure: Failure| failure.to_string();
+    let mut ears = Ears::open(&node, &look()).map_err(told)?;
+    let span_ns = i64::try_from(SPAN_S).unwrap_or(0) * 1_000_000_000;
+    while simulation.time_ns() < span_ns {
+        let until_ns = simulation.time_ns() + LOOK_NS;
+        simulation.step_until(until_ns).map_err(|diverged| diverged.to_string())?;
+        ears.hear();
+    }
+    let mut picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
+    let is_robot = |language: Language| matches!(language, Language::Urdf | Language::Xacro);
+    picture.is_alone = composition.files.first().is_some_and(|file| is_robot(file.language));
+    let mut found: Vec<_> =
+        composition.files.into_iter().map(|file| (file.diagnostics, file.sources)).collect();
+    found.push((simulation.take_findings(), SourceMap::new()));
+    found.push((examine(&picture), SourceMap::new()));
+    Ok(found)
+}

@@ -1,0 +1,235 @@
+//! `periplus launch`.
+
+mod named;
+mod outside;
+mod play;
+mod python;
+mod show;
+mod tools;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
+use periplus_launch::{Ending, MissingInput, Plan, Request, Step, What, dialect, plan_with_ending};
+use periplus_os::{Machine, Stopwatch};
+use periplus_resources::Resolver;
+
+use self::named::Found;
+use self::tools::Tools;
+pub(crate) use self::tools::{XACRO_VERB, run_xacro};
+use crate::arguments;
+use crate::options::{SearchOptions, split};
+use crate::sim::positive;
+use crate::terminal::{self, working_folder};
+
+/// Run a launch file of ROS 1 or ROS 2
+///
+/// Takes XML of roslaunch, and XML, YAML and Python of ROS 2, with no ROS on the machine; files in Python
+/// are evaluated by the python3 that is found on the PATH. Gazebo becomes the simulation, and nodes that
+/// are known become built-in ones; other programs run if the machine has them, and what is missing is
+/// told. With `--duration` it runs as fast as the machine can, and the same files, options and seed give
+/// the same bag, byte for byte; without it at the world's own pace until Ctrl-C, with ROS 2 on this
+/// machine.
+#[derive(Debug, Args)]
+pub(crate) struct LaunchOptions {
+    /// A launch file, or a package and the name of one in it; then `name:=value`
+    #[arg(required = true, value_name = "PACKAGE FILE|FILE|NAME:=VALUE")]
+    words: Vec<String>,
+    /// List the arguments that the file takes, and start nothing
+    #[arg(short, long, visible_alias = "show-arguments")]
+    show_args: bool,
+    /// Print the plan as JSON, and start nothing
+    #[arg(short, long, conflicts_with = "show_args")]
+    print: bool,
+    /// Run no code of the launch file: no Python, and no program that it names; xacro is built in
+    #[arg(long)]
+    no_code: bool,
+    /// Seconds that Python and each program may take while the launch file is evaluated
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value = "60")]
+    evaluation_limit: f64,
+    #[command(flatten)]
+    play: play::PlayOptions,
+    #[command(flatten)]
+    search: SearchOptions,
+}
+
+pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let start = Stopwatch::start();
+    let Some(to_nodes) = arguments::read(ros)? else {
+        return Ok(ExitCode::from(2));
+    };
+    let (words, arguments) = split(&options.words);
+    let host = Machine;
+    let here = working_folder();
+    let folders: Vec<PathBuf> =
+        options.search.resource_path.iter().map(|folder| here.join(folder)).collect();
+    let resolver = Resolver::new(&host, &folders);
+    let mut sources = SourceMap::new();
+    // Files that it makes last as long as it runs.
+    let limits = outside::Limits {
+        is_kept: options.print,
+        runs_code: !options.no_code,
+        longest: Duration::from_secs_f64(options.evaluation_limit.min(LONGEST_EVALUATION_S)),
+    };
+    let tools = limits.runs_code.then(|| Tools::make(&options.search.resource_path)).flatten();
+    let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
+    let (plan, found, ending, file) = match named::file(&words, &resolver, &here) {
+        Ok(Found::File(file)) => {
+            let request = Request {
+                file: file.clone(),
+                arguments,
+                host: &host,
+                resolver: &resolver,
+                outside: &mut outside,
+            };
+            let (plan, found, ending) = plan_with_ending(request, &mut sources);
+            (plan, found, ending, file)
+        }
+        Ok(Found::StandIn(file)) => {
+            let plan = only(&file, arguments);
+            (plan, Diagnostics::new(), Ending::default(), PathBuf::from(file))
+        }
+        Err(wrong) => {
+            let mut found = Diagnostics::new();
+            found.push(*wrong);
+            terminal::diagnostics(&mut anstream::stderr().lock(), &found, &sources)?;
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    // That packages are not here matters to who reads a plan; who runs it is told what became of it.
+    let mut told = Diagnostics::new();
+    let is_read = options.print || options.show_args;
+    for finding in found.iter().filter(|one| is_read || one.severity != Severity::Hint) {
+        let mut finding = finding.clone();
+        if !is_read && MissingInput::of(finding.code).is_some() {
+            finding.severity = Severity::Error;
+        }
+        told.push(finding);
+    }
+    let missing = if is_read { 0 } else { missing_inputs(&found) };
+    if !options.play.quiet || told.has_errors() {
+        terminal::diagnostics(&mut anstream::stderr().lock(), &told, &sources)?;
+    }
+    let mut out = anstream::AutoStream::auto(io::stdout().lock());
+    if options.show_args {
+        // A file whose arguments are not all given has told of them up to there.
+        show::arguments(&mut out, &plan)?;
+        let is_told = found.iter().all(|finding| {
+            finding.code == "launch-argument"
+                || finding.severity != periplus_diagnostics::Severity::Error
+        });
+        return Ok(if is_told { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+    }
+    if found.has_errors() {
+        return Ok(ExitCode::FAILURE);
+    }
+    if options.print {
+        print(&mut out, &plan)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    drop(out);
+    if missing > 0 {
+        // As with ROS: a robot without its description, or nodes without their parameters, run otherwise
+        // than they are meant to.
+        terminal::complain(&format!(
+            "the launch is not started: {missing} of its inputs {} not on this machine; `--print` \
+             shows the plan without {}",
+            if missing == 1 { "is" } else { "are" },
+            if missing == 1 { "it" } else { "them" },
+        ));
+        return Ok(ExitCode::FAILURE);
+    }
+    let launched = play::Launched {
+        plan,
+        dialect: dialect(&host, &file),
+        arguments: to_nodes,
+        tools: tools.as_ref().map(|tools| tools.folder().to_owned()),
+        start,
+    };
+    let outcome = play::play(launched, &options.play, &options.search);
+    for complaint in ending.run() {
+        let line = complaint.line.map(|line| format!("{line}: ")).unwrap_or_default();
+        terminal::complain(&format!("at the end of the launch: {line}{}", complaint.message));
+    }
+    outcome
+}
+
+/// The number of inputs that a plan lacks.
+fn missing_inputs(found: &Diagnostics) -> usize {
+    found.iter().filter(|finding| MissingInput::of(finding.code).is_some()).count()
+}
+
+/// What is wrong with a launch file, as far as planning it shows; nothing is started.
+pub(crate) fn examine(
+    file: &Path,
+    arguments: Vec<(String, String)>,
+    resource_path: &[PathBuf],
+) -> (Diagnostics, SourceMap) {
+    let (host, here) = (Machine, working_folder());
+    let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
+    let resolver = Resolver::new(&host, &folders);
+    let mut sources = SourceMap::new();
+    let tools = Tools::make(resource_path);
+    let limits = outside::Limits::EXAMINED;
+    let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
+    let found = match named::file(&[file.to_owned()], &resolver, &here) {
+        Ok(Found::File(file)) => {
+            let request = Request {
+                file,
+                arguments,
+                host: &host,
+                resolver: &resolver,
+                outside: &mut outside,
+            };
+            strict(periplus_launch::plan(request, &mut sources).1)
+        }
+        Ok(Found::StandIn(_)) => Diagnostics::new(),
+        Err(wrong) => {
+            let mut found = Diagnostics::new();
+            found.push(*wrong);
+            found
+        }
+    };
+    (found, sources)
+}
+
+/// Findings in which a file that is not there is an error: its package is, so that the path is wrong or
+/// something has to make it.
+fn strict(found: Diagnostics) -> Diagnostics {
+    let mut strict = Diagnostics::new();
+    for finding in found.iter() {
+        let mut finding = finding.clone();
+        if MissingInput::of(finding.code) == Some(MissingInput::File) {
+            finding.severity = Severity::Error;
+        }
+        strict.push(finding);
+    }
+    strict
+}
+
+/// The most seconds that `--evaluation-limit` grants: a day.
+const LONGEST_EVALUATION_S: f64 = 86_400.0;
+
+/// A plan of one launch file that is not here.
+fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
+    let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
+    Plan {
+        steps: vec![Step {
+            id: 0,
+            after: Vec::new(),
+            what,
+            written: None,
+            environment: std::collections::BTreeMap::new(),
+        }],
+        ..Plan::default()
+    }
+}
+
+fn print(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
+    let text = serde_json::to_string_pretty(plan).map_err(io::Error::other)?;
+    writeln!(out, "{text}")
+}

@@ -1,0 +1,45 @@
+//! The world that a launch file names.
+
+use std::path::{Path, PathBuf};
+
+use periplus_bringup::WorldWish;
+use periplus_diagnostics::{Origin, SourceMap, Style, render};
+use periplus_loader::Setting;
+use periplus_resources::Kind;
+use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};
+
+/// Worlds that Gazebo brings along and that are a plane in the sun.
+const PLAIN: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
+
+/// Reads it, with the environment and the folder in which it is started.
+///
+/// # Errors
+/// In words, when there is no such file.
+pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, String> {
+    let host = search.host();
+    let resolver = search.resolver(&host);
+    let setting = search.setting(&host, &resolver, true);
+    let Some(file) = wish.file.as_deref() else { return Ok(compose_plain(&setting)) };
+    match find(file, &setting) {
+        Ok(path) => Ok(compose_file(&path, &[], &setting)),
+        Err(_) if PLAIN.contains(&file.rsplit('/').next().unwrap_or(file)) => {
+            Ok(compose_plain(&setting))
+        }
+        Err(why) => Err(match &wish.written {
+            Some(written) => format!("{why}  = it is started at {written}"),
+            None => why,
+        }),
+    }
+}
+
+fn find(file: &str, setting: &Setting<'_>) -> Result<PathBuf, String> {
+    let from = setting.working_folder.join("launch");
+    let plain = setting.working_folder.join(Path::new(file));
+    if !file.contains("://") && setting.host.kind(&plain) == Some(Kind::File) {
+        return Ok(plain);
+    }
+    setting.resolver.resolve(file, &from).map_err(|miss| {
+        let finding = miss.into_diagnostic(Origin::default());
+        format!("there is no world {file}\n{}", render(&finding, &SourceMap::new(), Style::Plain))
+    })
+}

@@ -1,0 +1,123 @@
+//! Programs that launch files expect on the PATH and that are built in: `xacro`.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use periplus_bringup::xacro;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
+
+use crate::terminal;
+
+/// The word behind the program that makes it `xacro`. It is no command for people.
+pub(crate) const XACRO_VERB: &str = "__xacro";
+
+/// Folders that are tried until one is free.
+const MOST_FOLDERS: u32 = 1000;
+
+/// A private folder with these programs. It goes at the end of the PATH, behind those that are
+/// installed, and is removed with this value.
+pub(super) struct Tools {
+    folder: PathBuf,
+}
+
+impl Tools {
+    /// Makes the folder; none where it cannot be made, or where scripts are no programs.
+    pub(super) fn make(resource_path: &[PathBuf]) -> Option<Self> {
+        let own = std::env::current_exe().ok()?;
+        let here = terminal::working_folder();
+        let folders = resource_path.iter().map(|folder| here.join(folder));
+        let mut words = vec![own.display().to_string(), XACRO_VERB.to_owned()];
+        words.push(resource_path.len().to_string());
+        words.extend(folders.map(|folder| folder.display().to_string()));
+        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+        let script = format!("#!/bin/sh\nexec {} \"$@\"\n", words.join(" "));
+        let tools = Self { folder: private_folder()? };
+        for name in ["xacro", "xacro.py"] {
+            program(&tools.folder.join(name), &script)?;
+        }
+        Some(tools)
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The PATH of this process, with the folder at its end.
+    pub(super) fn path(&self) -> OsString {
+        let mut path = OsString::from(Machine.variable("PATH").unwrap_or_default());
+        if !path.is_empty() {
+            path.push(":");
+        }
+        path.push(&self.folder);
+        path
+    }
+}
+
+impl Drop for Tools {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// A new folder that nobody else can write into.
+#[cfg(unix)]
+fn private_folder() -> Option<PathBuf> {
+    use std::os::unix::fs::DirBuilderExt as _;
+    let own = std::process::id();
+    let mut builder = std::fs::DirBuilder::new();
+    builder.mode(0o700);
+    (0..MOST_FOLDERS)
+        .map(|number| std::env::temp_dir().join(format!("periplus_tools_{own}_{number}")))
+        .find(|folder| builder.create(folder).is_ok())
+}
+
+#[cfg(not(unix))]
+fn private_folder() -> Option<PathBuf> {
+    None
+}
+
+#[cfg(unix)]
+fn program(path: &Path, text: &str) -> Option<()> {
+    use std::io::Write as _;
+    use std::os::unix::fs::OpenOptionsExt as _;
+    let mut options = std::fs::OpenOptions::new();
+    let mut file = options.write(true).create_new(true).mode(0o700).open(path).ok()?;
+    file.write_all(text.as_bytes()).ok()
+}
+
+#[cfg(not(unix))]
+fn program(_path: &Path, _text: &str) -> Option<()> {
+    None
+}
+
+/// The work of the program as `xacro`: `N FOLDER...`, where packages are looked for, and then the words
+/// of the command.
+pub(crate) fn run_xacro(words: &[String]) -> std::io::Result<ExitCode> {
+    let (count, words) = match words.split_first() {
+        Some((count, words)) => (count.parse().unwrap_or(0).min(words.len()), words),
+        None => (0, words),
+    };
+    let (folders, words) = words.split_at(count);
+    let folders: Vec<PathBuf> = folders.iter().map(PathBuf::from).collect();
+    let search = terminal::search(&folders);
+    let host = search.host();
+    let resolver = search.resolver(&host);
+    match xacro(words, &search.setting(&host, &resolver, false)) {
+        Ok(done) => {
+            std::io::Write::write_all(&mut std::io::stdout().lock(), done.output.as_bytes())?;
+            std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;
+            Ok(if done.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        }
+        Err(why) => {
+            terminal::complain(&why);
+            Ok(ExitCode::from(2))
+        }
+    }
+}

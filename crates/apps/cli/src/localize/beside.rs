@@ -1,0 +1,130 @@
+//! Localization beside other nodes: the map server and `amcl`.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use periplus_graph::{Graph, NodeSettings};
+use periplus_localization_nodes::AmclNode;
+use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_os::Machine;
+use periplus_params::Values;
+use periplus_yaml::Node;
+
+use super::options::{self, Yaml};
+use crate::sim::stack::RobotProfile;
+
+/// What `periplus sim` takes for localization.
+#[derive(Debug, Args)]
+pub(crate) struct BesideOptions {
+    /// Find the robot on a map beside it, as `map_server` and `amcl` of Nav2 do: the YAML of a map, a
+    /// file with their parameters, or both, one after the other
+    #[arg(long, value_name = "MAP.yaml|FILE")]
+    localize: Vec<PathBuf>,
+}
+
+/// Nodes that find the robot.
+pub(crate) struct Localization {
+    amcl: AmclNode,
+    _server: Option<MapServer>,
+}
+
+impl BesideOptions {
+    /// Whether the robot is to be found on a map.
+    pub(crate) fn is_wanted(&self) -> bool {
+        !self.localize.is_empty()
+    }
+}
+
+impl Localization {
+    /// As nodes of a graph, if they are wanted: `Ok(Ok(None))` when not; in words why they cannot be.
+    pub(crate) fn join(
+        graph: &Graph,
+        options: &BesideOptions,
+        profile: Option<&RobotProfile>,
+    ) -> io::Result<Result<Option<Self>, String>> {
+        if options.localize.is_empty() {
+            return Ok(Ok(None));
+        }
+        let (mut map, mut file) = (None, None);
+        for path in &options.localize {
+            match options::yaml(path) {
+                Err(why) => return Ok(Err(why)),
+                Ok(yaml) if is_map(&yaml) => map = Some(path.clone()),
+                Ok(yaml) => {
+                    map = map.or_else(|| map_of(&yaml, path));
+                    file = Some(yaml);
+                }
+            }
+        }
+        let Some(mut values) = options::tell(file, &[])? else {
+            return Ok(Err("the parameters of `amcl` have errors".into()));
+        };
+        if let Some(profile) = profile {
+            profile.fill(&mut values, ["odom_frame_id", "base_frame_id", "scan_topic"]);
+        }
+        Ok(Self::new(graph, map.as_deref(), values).map(Some))
+    }
+
+    /// Starts both, the server only where there is a map; in words why not.
+    pub(crate) fn new(graph: &Graph, map: Option<&Path>, values: Values) -> Result<Self, String> {
+        let server = map.map(|path| {
+            let settings = MapServerSettings {
+                yaml_filename: path.display().to_string(),
+                topic_name: values.text("map_topic").unwrap_or_else(|| "map".into()),
+                frame_id: values.text("global_frame_id").unwrap_or_else(|| "map".into()),
+                ..MapServerSettings::default()
+            };
+            let node = graph.node(NodeSettings::new("map_server"))?;
+            MapServer::new(node, settings, Arc::new(Machine))
+        });
+        let server = server.transpose().map_err(|error| error.to_string())?;
+        let amcl = AmclNode::new(graph, values, Arc::new(Machine));
+        let amcl = amcl.map_err(|error| error.to_string())?;
+        if let Some(server) = &server {
+            server.start();
+        }
+        amcl.start();
+        Ok(Self { amcl, _server: server })
+    }
+
+    /// The node `amcl`.
+    pub(super) fn amcl(&self) -> &AmclNode {
+        &self.amcl
+    }
+
+    /// What there is to say at the end of a run.
+    pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+        let told = self.amcl.look(|amcl| {
+            let status = amcl.status();
+            let place = amcl.estimate().zip(amcl.map_from_odom()).map(|(estimate, _)| {
+                let (pose, spread_m) = (estimate.pose, estimate.covariance.radius_m());
+                let degrees = pose.yaw_rad.to_degrees();
+                format!(
+                    "({:.3}, {:.3}), {degrees:.1} degrees, to {spread_m:.2} m",
+                    pose.x_m, pose.y_m
+                )
+            });
+            let place = place.unwrap_or_else(|| "nowhere yet".into());
+            format!("localization: at {place}: {:?}, {}", status.state, status.reason)
+        });
+        writeln!(out, "{}", told.unwrap_or_else(|| "localization: not configured".into()))?;
+        if let Some(trouble) = self.amcl.trouble() {
+            writeln!(out, "  {trouble}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file is that of a map.
+fn is_map(yaml: &Yaml) -> bool {
+    yaml.tree.as_ref().is_some_and(|tree| tree.get("image").is_some())
+}
+
+/// The map that a file with parameters names for `map_server`, beside the file.
+fn map_of(yaml: &Yaml, path: &Path) -> Option<PathBuf> {
+    let parameters = yaml.tree.as_ref()?.get("map_server")?.get("ros__parameters")?;
+    let name = parameters.get("yaml_filename").and_then(Node::text).filter(|it| !it.is_empty())?;
+    Some(path.parent().unwrap_or(Path::new("")).join(name))
+}

@@ -1,0 +1,189 @@
+//! A log, localized scan by scan.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use periplus_geometry::Pose2;
+use periplus_grid::OccupancyGrid;
+use periplus_localization::{Amcl, Scan, Settings, State, Status};
+use periplus_os::Stopwatch;
+
+use super::options::{self, LocalizeOptions};
+use super::report::Report;
+use crate::log::{Log, LogOptions, Logged};
+use crate::{picture, terminal};
+
+/// So many faults of a log are told one by one.
+const MOST_TOLD: usize = 20;
+/// More changes of the state are counted, not listed.
+const MOST_CHANGES: usize = 1000;
+
+/// What came of a log.
+#[derive(Default)]
+pub(super) struct Outcome {
+    /// Stamp and `map_from_base` of each scan after the robot knew where it was.
+    pub(super) trajectory: Vec<(String, Pose2)>,
+    /// Of each scan that was used \[s\].
+    pub(super) spent_s: Vec<f64>,
+    /// Scans that could not be used, by why.
+    pub(super) refused: BTreeMap<&'static str, (String, usize)>,
+    pub(super) without_odometry: usize,
+    /// Scans in each state.
+    pub(super) states: BTreeMap<&'static str, usize>,
+    /// When the state changed, to what, why.
+    pub(super) changes: Vec<(String, &'static str, String)>,
+    /// How long \[s\] and how far \[m\] it took until the robot knew where it was.
+    pub(super) settled: Option<(f64, f64)>,
+    /// Which part of scans was on walls, summed and counted.
+    pub(super) fits: (f64, usize),
+}
+
+pub(super) fn run(
+    options: &LocalizeOptions,
+    log_path: &Path,
+    map_path: &Path,
+    out: &Path,
+) -> io::Result<ExitCode> {
+    let watch = Stopwatch::start();
+    let Some(values) = options.values()? else { return Ok(ExitCode::from(2)) };
+    let Some(map) = options::map(map_path)? else { return Ok(ExitCode::FAILURE) };
+    let frame = |name: &str| values.is_given(name).then(|| values.text(name)).flatten();
+    let input = LogOptions {
+        odom_frame: frame("odom_frame_id").unwrap_or_else(|| options.input.odom_frame.clone()),
+        base_frame: options.input.base_frame.clone().or_else(|| frame("base_frame_id")),
+        ..options.input.clone()
+    };
+    let mut log = match Log::open(log_path, &input)? {
+        Ok(log) => log,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    if let Some(begin_ns) = log.scans.first().map(|it| it.scan.time_ns) {
+        let skip_ns = (options.skip * 1e9) as i64;
+        log.scans.retain(|it| it.scan.time_ns - begin_ns >= skip_ns);
+    }
+    if log.scans.is_empty() {
+        terminal::complain(&format!("{} holds no scans", log_path.display()));
+        return Ok(ExitCode::FAILURE);
+    }
+    let loaded_s = watch.elapsed().as_secs_f64();
+    let mut amcl = Amcl::new(Settings::of(&values));
+    let frame = amcl.settings().global_frame.clone();
+    if let Err(why) = amcl.set_map(&frame, &map) {
+        terminal::complain(&why.message);
+        why.notes.iter().for_each(|note| terminal::say(&format!("note: {note}")));
+        why.help.iter().for_each(|help| terminal::say(&format!("help: {help}")));
+        return Ok(ExitCode::FAILURE);
+    }
+    let outcome = localize(&mut amcl, &log);
+    let wall_s = watch.elapsed().as_secs_f64();
+    let report = Report {
+        log_path,
+        map_path,
+        out,
+        amcl: &amcl,
+        log: &log,
+        outcome: &outcome,
+        loaded_s,
+        wall_s,
+    };
+    let written = write(out, &map, &report);
+    if !options.quiet {
+        report.tell(&mut anstream::stdout().lock())?;
+    }
+    if let Err(why) = &written {
+        terminal::complain(why);
+    }
+    for fault in log.faults.iter().take(MOST_TOLD) {
+        terminal::complain(fault);
+    }
+    let is_good = written.is_ok() && log.faults.is_empty() && outcome.settled.is_some();
+    Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// One scan after the other.
+fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
+    let mut outcome = Outcome::default();
+    let mut way_m = 0.0;
+    let mut before: Option<Pose2> = None;
+    let begin_ns = log.scans.first().map_or(0, |it| it.scan.time_ns);
+    let mut state = State::Unset;
+    for logged in &log.scans {
+        let Some(odom_from_base) = logged.odom_from_base else {
+            outcome.without_odometry += 1;
+            continue;
+        };
+        if let Some(before) = before.replace(odom_from_base) {
+            let moved = before.inverse() * odom_from_base;
+            way_m += moved.x_m.hypot(moved.y_m);
+        }
+        let one = Stopwatch::start();
+        match amcl.update(odom_from_base, &scan(logged)) {
+            Ok(Some(update)) => {
+                outcome.spent_s.push(one.elapsed().as_secs_f64());
+                if let Some(fit) = update.status.fit {
+                    outcome.fits.0 += fit;
+                    outcome.fits.1 += 1;
+                }
+            }
+            Ok(None) => {}
+            Err(why) => {
+                let (_, count) = outcome.refused.entry(why.code).or_insert((why.message, 0));
+                *count += 1;
+            }
+        }
+        let Status { state: now, reason, .. } = amcl.status();
+        *outcome.states.entry(word(*now)).or_default() += 1;
+        if std::mem::replace(&mut state, *now) != *now && outcome.changes.len() < MOST_CHANGES {
+            outcome.changes.push((logged.stamp.clone(), word(*now), reason.clone()));
+        }
+        if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.is_settled()) {
+            let after_s = (logged.scan.time_ns - begin_ns) as f64 * 1e-9;
+            outcome.settled.get_or_insert((after_s, way_m));
+            let map_from_base = (map_from_odom * odom_from_base).normalized();
+            outcome.trajectory.push((logged.stamp.clone(), map_from_base));
+        }
+    }
+    outcome
+}
+
+fn scan(logged: &Logged) -> Scan {
+    let scan = &logged.scan;
+    Scan {
+        base_from_laser: scan.base_from_laser,
+        is_flipped: scan.is_flipped,
+        angle_min_rad: scan.angle_min_rad,
+        angle_increment_rad: scan.angle_increment_rad,
+        range_min_m: scan.range_min_m.into(),
+        range_max_m: scan.range_max_m.into(),
+        ranges_m: scan.ranges_m.clone(),
+    }
+}
+
+fn word(state: State) -> &'static str {
+    match state {
+        State::Unset => "unset",
+        State::Tracking => "tracking",
+        State::Ambiguous => "ambiguous",
+        State::Lost => "lost",
+    }
+}
+
+/// Writes all that comes of a run.
+fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), String> {
+    crate::paths::make_folder(out)?;
+    let put = |name: &str, bytes: &[u8]| crate::paths::write(&out.join(name), bytes);
+    let trajectory = &report.outcome.trajectory;
+    let line = |(stamp, pose): &(String, Pose2)| {
+        format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
+    };
+    put("trajectory.txt", trajectory.iter().map(line).collect::<String>().as_bytes())?;
+    let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
+    let drawn = put("trajectory.png", &picture::draw(map, &poses, &[]));
+    put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
+    drawn
+}

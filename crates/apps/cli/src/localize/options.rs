@@ -1,0 +1,142 @@
+//! What can be typed after `periplus localize`.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_geometry::Pose2;
+use periplus_grid::OccupancyGrid;
+use periplus_localization_nodes::read;
+use periplus_maps::{Distro, load};
+use periplus_params::Values;
+use periplus_yaml::Node;
+
+use crate::log::LogOptions;
+use crate::terminal;
+
+/// Find where a robot was on a known map from a log of laser scans, or where it is
+///
+/// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
+/// bag`). DIR receives trajectory.txt (a line for each scan: `stamp x y theta`), trajectory.png and
+/// report.json, which tells when the robot knew where it was, when it did not, and why. With `--live`
+/// it is the node `amcl` among the programs of ROS 2. The exit code is 1 when the robot never knew
+/// where it was.
+#[derive(Debug, Args)]
+pub(crate) struct LocalizeOptions {
+    /// The log
+    #[arg(value_name = "LOG", required_unless_present = "live", conflicts_with = "live")]
+    pub(crate) log: Option<PathBuf>,
+    /// Join ROS 2 as the node `amcl` and stay
+    #[arg(long)]
+    pub(crate) live: bool,
+    /// The YAML of the map; with `--live` it is served, too, and without it comes from the topic
+    #[arg(long, value_name = "MAP.yaml", required_unless_present = "live")]
+    pub(crate) map: Option<PathBuf>,
+    /// Where the results go
+    #[arg(long, short, value_name = "DIR", required_unless_present = "live")]
+    pub(crate) out: Option<PathBuf>,
+    /// A file with parameters of `amcl`, as Nav2 or ROS 1 have them
+    #[arg(long, value_name = "FILE")]
+    pub(crate) params_file: Option<PathBuf>,
+    /// A parameter of `amcl`; goes before those of the file
+    #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE", value_parser = word)]
+    pub(crate) parameters: Vec<(String, String)>,
+    /// Seed of all randomness
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) seed: Option<i64>,
+    /// Where the robot is at first [m, rad]; without it, it looks for itself
+    #[arg(long, value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true)]
+    pub(crate) initial_pose: Option<Pose2>,
+    /// Leave out so many seconds of the log at its beginning
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
+    pub(crate) skip: f64,
+    #[command(flatten)]
+    pub(crate) input: LogOptions,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+fn word(word: &str) -> Result<(String, String), String> {
+    let (name, value) = word.split_once(":=").ok_or("it has to be NAME:=VALUE")?;
+    // `amcl:name` is what `--ros-args` would have.
+    let name = name.strip_prefix("amcl:").unwrap_or(name);
+    Ok((name.to_owned(), value.to_owned()))
+}
+
+fn pose(word: &str) -> Result<Pose2, String> {
+    let number = |word: &str| word.trim().parse().ok().filter(|it: &f64| it.is_finite());
+    let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, yaw]) => Ok(Pose2::new(x, y, yaw)),
+        _ => Err(format!("`{word}` is no pose; write X,Y,YAW")),
+    }
+}
+
+impl LocalizeOptions {
+    /// All parameters of `amcl`; none when there are errors, which are told.
+    pub(crate) fn values(&self) -> io::Result<Option<Values>> {
+        let mut words = self.parameters.clone();
+        let mut word = |name: &str, value: String| words.push((name.to_owned(), value));
+        if let Some(Pose2 { x_m, y_m, yaw_rad }) = self.initial_pose {
+            word("set_initial_pose", "true".into());
+            for (name, value) in [("x", x_m), ("y", y_m), ("yaw", yaw_rad)] {
+                word(&format!("initial_pose.{name}"), value.to_string());
+            }
+        }
+        if let Some(seed) = self.seed {
+            word("random_seed", seed.to_string());
+        }
+        let file = match self.params_file.as_deref().map(yaml).transpose() {
+            Ok(file) => file,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(None);
+            }
+        };
+        tell(file, &words)
+    }
+}
+
+/// A file, and what is wrong with it.
+pub(super) struct Yaml {
+    pub(super) tree: Option<Node>,
+    pub(super) diagnostics: Diagnostics,
+    pub(super) sources: SourceMap,
+}
+
+/// Reads a file; in words why it cannot be.
+pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
+    let text = crate::paths::text(path)?;
+    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+    let file = sources.add(path.display().to_string(), text);
+    let tree = match periplus_yaml::parse(file, &sources) {
+        Ok(tree) => tree,
+        Err(error) => {
+            diagnostics.push(*error);
+            None
+        }
+    };
+    Ok(Yaml { tree, diagnostics, sources })
+}
+
+/// The parameters of `amcl` from a file and words, with what is wrong told; none when it is an error.
+pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> io::Result<Option<Values>> {
+    let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
+    let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
+    let values = read(tree.as_ref(), "amcl", words, &mut diagnostics);
+    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    Ok((!diagnostics.has_errors()).then_some(values))
+}
+
+/// The map of a file; none when it cannot be read, which is told.
+pub(super) fn map(path: &Path) -> io::Result<Option<OccupancyGrid>> {
+    let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &periplus_os::Machine);
+    let mut err = anstream::stderr().lock();
+    terminal::diagnostics(&mut err, &loaded.diagnostics, &loaded.sources)?;
+    if loaded.map.is_none() {
+        terminal::complain(&format!("{} is no map that can be used", path.display()));
+    }
+    Ok(loaded.map.map(|map| map.grid))
+}

@@ -1,0 +1,116 @@
+//! A log of either kind as scans with odometry.
+
+pub(crate) mod bag;
+
+use std::io::{self, BufRead as _};
+use std::path::Path;
+
+use clap::Args;
+use periplus_bags::{CarmenLog, CarmenScan, is_carmen, read_carmen_from};
+use periplus_diagnostics::plain_words;
+use periplus_geometry::Pose2;
+use periplus_slam::Scan;
+
+use crate::paths;
+
+/// What of a log is meant.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct LogOptions {
+    /// The topic with the scans; without it the one with the most
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) scan_topic: Option<String>,
+    /// The frame in which odometry tells where the robot is
+    #[arg(long, default_value = "odom", value_name = "FRAME")]
+    pub(crate) odom_frame: String,
+    /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
+    #[arg(long, value_name = "FRAME")]
+    pub(crate) base_frame: Option<String>,
+    /// Topic and frame that a file of parameters tells: they count where the log has them.
+    #[arg(skip)]
+    pub(crate) told_topic: Option<String>,
+    #[arg(skip)]
+    pub(crate) told_base: Option<String>,
+}
+
+/// A scan of a log.
+pub(crate) struct Logged {
+    /// As the log writes it, to the microsecond \[s\].
+    pub(crate) stamp: String,
+    pub(crate) scan: Scan,
+    pub(crate) odom_from_base: Option<Pose2>,
+}
+
+/// What a log holds.
+#[derive(Default)]
+pub(crate) struct Log {
+    /// What it is.
+    pub(crate) kind: String,
+    pub(crate) scans: Vec<Logged>,
+    /// What was damaged.
+    pub(crate) faults: Vec<String>,
+    /// What is missing, and what that means.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Log {
+    /// Reads a log; in words why it cannot be.
+    pub(crate) fn open(path: &Path, options: &LogOptions) -> io::Result<Result<Self, String>> {
+        let is_recording = path.is_dir()
+            || path.extension().is_some_and(|it| {
+                ["bag", "mcap", "db3", "zstd"].iter().any(|other| it.eq_ignore_ascii_case(other))
+            });
+        if is_recording {
+            return bag::read(path, options);
+        }
+        let mut text = match paths::reader(path) {
+            Ok(text) => text,
+            Err(why) => return Ok(Err(why)),
+        };
+        let log = match text.fill_buf() {
+            Ok(head) if !is_carmen(head) => return bag::read(path, options),
+            Ok(_) => read_carmen_from(&mut text),
+            Err(error) => Err(error),
+        };
+        Ok(log
+            .map(carmen)
+            .map_err(|error| format!("cannot read {}: {}", path.display(), plain_words(&error))))
+    }
+
+    /// From the first scan to the last \[s\].
+    pub(crate) fn span_s(&self) -> f64 {
+        let stamps = || self.scans.iter().map(|it| it.scan.time_ns);
+        let span_ns = stamps().max().unwrap_or(0).saturating_sub(stamps().min().unwrap_or(0));
+        span_ns as f64 * 1e-9
+    }
+}
+
+fn carmen(log: CarmenLog) -> Log {
+    let faults = log.faults.iter().map(|(line, what)| format!("line {line}: {what}"));
+    let faults = faults.collect();
+    let mut kinds: Vec<&str> = log.scans.iter().map(|scan| scan.kind.as_str()).collect();
+    kinds.dedup();
+    // A log may tell the same laser twice, in lines of two kinds; the first kind counts.
+    let kind = kinds.first().map_or(String::new(), |kind| (*kind).to_owned());
+    let scans = log.scans.into_iter().filter(|scan| scan.kind == kind).map(logged);
+    Log { kind: format!("CARMEN, {kind}"), scans: scans.collect(), faults, warnings: Vec::new() }
+}
+
+fn logged(scan: CarmenScan) -> Logged {
+    #[expect(clippy::cast_possible_truncation, reason = "a stamp fits for 292 years")]
+    let micros = (scan.time_s * 1e6).round() as i64;
+    Logged {
+        stamp: format!("{:.6}", scan.time_s),
+        odom_from_base: scan.odom_from_base,
+        scan: Scan {
+            time_ns: micros.saturating_mul(1000),
+            base_from_laser: scan.base_from_laser,
+            is_flipped: false,
+            angle_min_rad: scan.angle_min_rad,
+            angle_increment_rad: scan.angle_increment_rad,
+            time_increment_s: 0.0,
+            range_min_m: 0.02,
+            range_max_m: scan.range_max_m,
+            ranges_m: scan.ranges_m,
+        },
+    }
+}

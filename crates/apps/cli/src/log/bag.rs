@@ -1,0 +1,229 @@
+//! Scans of a recording, with odometry from its transforms.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::Path;
+
+use periplus_bagfiles::{Bag, BagError};
+use periplus_bags::{BagTopic, Selection, Target, Translation};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
+use periplus_msgs::Message;
+use periplus_msgs::nav_msgs::Odometry;
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_slam::Scan;
+use periplus_tf::{Buffer, Kind, Stamped};
+
+use super::{Log, LogOptions, Logged};
+use crate::terminal;
+
+/// Names of the robot's own frame, the most telling first.
+const BASES: [&str; 2] = ["base_footprint", "base_link"];
+
+/// Reads a recording; in words why it cannot be.
+pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
+    let bag = match crate::paths::bag(path) {
+        Ok(bag) => bag,
+        Err(why) => return Ok(Err(why)),
+    };
+    let findings = bag.findings();
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())?;
+    Ok(scans(&bag, path, options))
+}
+
+fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
+    let topic = scan_topic(bag, path, options)?;
+    let frames = Frames::read(bag).map_err(|why| why.to_string())?;
+    let mut log = Log { kind: format!("recording, {topic}"), ..Log::default() };
+    if !bag.is_whole() {
+        log.faults.push(format!("{} was not closed properly", path.display()));
+    }
+    log.faults.extend(frames.faults.iter().cloned());
+    let base = options
+        .base_frame
+        .clone()
+        .or_else(|| frames.base(&options.odom_frame, options.told_base.as_deref()));
+    if base.is_none() {
+        log.warnings.push(format!(
+            "no transform leads from `{}` to `base_footprint` or `base_link`: the scans have to do \
+             without odometry (see `--odom-frame` and `--base-frame`)",
+            options.odom_frame
+        ));
+    }
+    let mut missing: BTreeMap<String, usize> = BTreeMap::new();
+    let faults = each::<LaserScan>(bag, &[topic.as_str()], |_, message| {
+        let time_ns = message.header.stamp.ns();
+        let frame = message.header.frame_id.trim_start_matches('/').to_owned();
+        let base_from_laser = base.as_ref().and_then(|base| {
+            let found = frames.buffer.lookup(base, &frame, time_ns);
+            // What is fixed on the robot may be told after the first scan.
+            let found = found.or_else(|_| frames.buffer.lookup(base, &frame, 0));
+            if found.is_err() {
+                *missing.entry(format!("{base} <- {frame}")).or_default() += 1;
+            }
+            found.ok()
+        });
+        let base_from_laser = base_from_laser.map_or(Pose::IDENTITY, |it| it.target_from_source);
+        let odom_from_base = base.as_ref().and_then(|base| {
+            let found = frames.buffer.lookup(&options.odom_frame, base, time_ns);
+            if found.is_err() {
+                *missing.entry(format!("{} <- {base}", options.odom_frame)).or_default() += 1;
+            }
+            Some(Pose2::from(found.ok()?.target_from_source))
+        });
+        let stamp = &message.header.stamp;
+        log.scans.push(Logged {
+            stamp: format!("{}.{:06}", stamp.sec, stamp.nanosec / 1000),
+            scan: scan(message, time_ns, base_from_laser),
+            odom_from_base,
+        });
+    });
+    log.faults.extend(faults.map_err(|why| why.to_string())?);
+    for (edge, count) in missing {
+        log.warnings.push(format!("{count} scans have no transform {edge} at their time"));
+    }
+    Ok(log)
+}
+
+fn scan(message: LaserScan, time_ns: i64, base_from_laser: Pose) -> Scan {
+    let ahead = base_from_laser.rotation * DVec3::X;
+    let up = base_from_laser.rotation * DVec3::Z;
+    let place = base_from_laser.translation;
+    Scan {
+        time_ns,
+        base_from_laser: Pose2::new(place.x, place.y, ahead.y.atan2(ahead.x)),
+        is_flipped: up.z < 0.0,
+        angle_min_rad: message.angle_min.into(),
+        angle_increment_rad: message.angle_increment.into(),
+        time_increment_s: message.time_increment.into(),
+        range_min_m: message.range_min,
+        range_max_m: message.range_max,
+        ranges_m: message.ranges,
+    }
+}
+
+/// The topic with the most scans, or the one that is asked for.
+fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, String> {
+    let with_scans = || {
+        let topics = bag.topics().iter().zip(bag.counts());
+        topics.filter(|(topic, _)| has_type(topic, "LaserScan"))
+    };
+    let names: Vec<&str> = with_scans().map(|(topic, _)| topic.name.as_str()).collect();
+    let named = |wanted: &str| {
+        let same = |name: &&&str| name.trim_start_matches('/') == wanted.trim_start_matches('/');
+        names.iter().find(same).map(|name| (*name).to_owned())
+    };
+    let told = options.told_topic.as_deref().filter(|_| options.scan_topic.is_none());
+    if let Some(told) = told.and_then(named) {
+        return Ok(told);
+    }
+    match &options.scan_topic {
+        Some(wanted) => named(wanted).ok_or_else(|| {
+            format!("there are no scans on `{wanted}`; there are on: {}", names.join(", "))
+        }),
+        None => with_scans()
+            .max_by_key(|(_, count)| **count)
+            .map(|(topic, _)| topic.name.clone())
+            .ok_or_else(|| format!("{} holds no scans", path.display())),
+    }
+}
+
+/// The type by its last word: ROS 1 and ROS 2 spell the rest differently.
+pub(crate) fn has_type(topic: &BagTopic, name: &str) -> bool {
+    topic.type_name.rsplit('/').next() == Some(name)
+}
+
+/// Where frames were during the whole recording.
+struct Frames {
+    buffer: Buffer,
+    faults: Vec<String>,
+}
+
+impl Frames {
+    fn read(bag: &Bag) -> Result<Self, BagError> {
+        let mut buffer = Buffer::new(i64::MAX);
+        let named = |name: &str| -> Vec<&str> {
+            let topics = bag.topics().iter().filter(|topic| has_type(topic, name));
+            topics.map(|topic| topic.name.as_str()).collect()
+        };
+        let mut transforms = named("TFMessage");
+        transforms.extend(named("tfMessage"));
+        let mut faults = each::<TFMessage>(bag, &transforms, |topic, message| {
+            let kind = if topic.ends_with("tf_static") { Kind::Fixed } else { Kind::Moving };
+            for it in message.transforms {
+                let (t, q) = (it.transform.translation, it.transform.rotation);
+                let stamped = Stamped {
+                    parent: it.header.frame_id,
+                    child: it.child_frame_id,
+                    stamp_ns: it.header.stamp.ns(),
+                    translation: DVec3::new(t.x, t.y, t.z),
+                    rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
+                };
+                // Repeated and bad ones are refused, as tf2 does.
+                let _ = buffer.set(&stamped, topic, kind);
+            }
+        })?;
+        let has_parent = |frame: &&str| buffer.parent_of(frame).is_some();
+        let told: BTreeSet<String> =
+            buffer.frames().filter(has_parent).map(str::to_owned).collect();
+        faults.extend(each::<Odometry>(bag, &named("Odometry"), |topic, message| {
+            let child = message.child_frame_id.trim_start_matches('/');
+            // Transforms, where there are any, say the same and more.
+            if told.contains(child) {
+                return;
+            }
+            let (t, q) = (message.pose.pose.position, message.pose.pose.orientation);
+            let stamped = Stamped {
+                parent: message.header.frame_id.clone(),
+                child: child.to_owned(),
+                stamp_ns: message.header.stamp.ns(),
+                translation: DVec3::new(t.x, t.y, t.z),
+                rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
+            };
+            let _ = buffer.set(&stamped, topic, Kind::Moving);
+        })?);
+        Ok(Self { buffer, faults })
+    }
+
+    /// The robot's frame to which a chain leads: the one that is told, or one of the usual ones.
+    fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
+        let leads = |base: &&str| self.buffer.chain(odom, base).is_some();
+        told.into_iter().chain(BASES).find(leads).map(str::to_owned)
+    }
+}
+
+/// All messages of some topics, decoded; those that cannot be are faults.
+pub(crate) fn each<M: Message>(
+    bag: &Bag,
+    names: &[&str],
+    mut take: impl FnMut(&str, M),
+) -> Result<Vec<String>, BagError> {
+    if names.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut findings = Diagnostics::new();
+    let mut ways: Vec<Option<Translation>> = bag
+        .topics()
+        .iter()
+        .map(|topic| {
+            let is_wanted = names.contains(&topic.name.as_str());
+            is_wanted.then(|| Translation::new(topic, Target::Ros2, &mut findings)).flatten()
+        })
+        .collect();
+    let mut broken = 0;
+    let mut messages = bag.messages(Selection::topics(names.iter().copied()));
+    while let Some(message) = messages.next()? {
+        let Some(way) = &mut ways[message.topic] else { continue };
+        let decoded = way.translate(message.data).ok().and_then(|data| M::decode_cdr(data).ok());
+        match decoded {
+            Some(decoded) => take(&bag.topics()[message.topic].name, decoded),
+            None => broken += 1,
+        }
+    }
+    let mut faults = messages.faults().to_vec();
+    if broken > 0 {
+        faults.push(format!("{broken} messages on {} cannot be decoded", names.join(", ")));
+    }
+    Ok(faults)
+}

@@ -1,0 +1,82 @@
+//! `periplus map serve`.
+
+use std::io;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use periplus_diagnostics::SourceMap;
+use periplus_graph::NodeSettings;
+use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_os::{Machine, sleep};
+
+use super::options::{SaveOptions, ServeOptions};
+use crate::arguments;
+use crate::live::{Live, Watched};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
+
+/// How often it is looked whether it is over.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    if let Some(name) = &options.file {
+        say(&format!("`-f` is for saving a map; this is `periplus map save -f {name}`"));
+        let words = vec!["-f".to_owned(), name.clone()];
+        return super::save(&SaveOptions { distro: options.distro, timeout: None, words }, &ros);
+    }
+    let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
+        return Ok(ExitCode::from(2));
+    };
+    let stop = stop::on_signal();
+    let live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let graph = &live.graph;
+    let usual = MapServerSettings::default();
+    let settings = MapServerSettings {
+        yaml_filename: options.path.clone().unwrap_or_default(),
+        topic_name: options.topic_name.clone().unwrap_or(usual.topic_name),
+        frame_id: options.frame_id.clone().unwrap_or(usual.frame_id),
+        distro: options.distro,
+    };
+    let made = graph
+        .node(NodeSettings::new("map_server"))
+        .and_then(|node| MapServer::new(node, settings, Arc::new(Machine)));
+    let server = match made {
+        Ok(server) => server,
+        Err(error) => {
+            complain(&error.to_string());
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    for findings in [graph.take_findings(), graph.unused_arguments()] {
+        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    }
+    let watched = Watched::new(server.node()).map_err(|error| complain(&error.to_string()));
+    let Ok(watched) = watched else { return Ok(ExitCode::FAILURE) };
+    if !options.managed {
+        server.start();
+    }
+    let mut code = ExitCode::SUCCESS;
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        sleep(LOOK);
+        if watched.tell() && !options.managed {
+            // It has been logged why.
+            code = ExitCode::FAILURE;
+            break;
+        }
+    }
+    live.end(LAST_WORD);
+    Ok(code)
+}

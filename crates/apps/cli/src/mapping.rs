@@ -1,0 +1,284 @@
+//! Mapping in runs: `periplus sim --slam`, and what `periplus slam --live` shares with it.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Graph, GraphError, Node, NodeSettings, TopicInfo};
+use periplus_maps::{Distro, Saving, render};
+use periplus_msgs::Message as _;
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_os::Machine;
+use periplus_params::{Value, Values};
+use periplus_slam::{MapContradiction, Slam};
+use periplus_slam_nodes::{Pace, Program, SlamNode};
+
+use crate::sim::stack::RobotProfile;
+use crate::{picture, terminal};
+
+/// So many of the closures are told one by one.
+const MOST_TOLD: usize = 10;
+
+/// What `periplus sim` takes for mapping.
+#[derive(Debug, Args)]
+pub(crate) struct MappingOptions {
+    /// Map while the robot drives, with the parameters of a file as `slam_toolbox` or `slam_gmapping`
+    /// have it; without a file with the defaults. In a run at full speed every scan counts
+    #[arg(long, value_name = "FILE.yaml", num_args = 0..=1)]
+    slam: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    more: MoreMapping,
+}
+
+/// What goes with it.
+#[derive(Debug, Args)]
+pub(crate) struct MoreMapping {
+    /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
+    /// one that the file is for
+    #[arg(long, value_name = "PROGRAM")]
+    slam_node: Option<Program>,
+    /// At the end write map.yaml, map.pgm, map.png with the graph's poses and a red ring where passes
+    /// contradict each other, and map.session to a folder
+    #[arg(long, value_name = "DIR")]
+    slam_out: Option<PathBuf>,
+}
+
+impl MappingOptions {
+    /// Whether a map is to be made.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.slam.is_some()
+    }
+}
+
+impl MoreMapping {
+    pub(crate) fn out(&self) -> Option<&Path> {
+        self.slam_out.as_deref()
+    }
+}
+
+/// A mapper in a run.
+pub(crate) struct Mapping {
+    pub(crate) node: SlamNode,
+    out: Option<PathBuf>,
+}
+
+/// Reads the parameters of a file, and for which program it is; none when it cannot be read, which has
+/// been told.
+pub(crate) fn parameters(
+    path: Option<&Path>,
+    wanted: Option<Program>,
+) -> io::Result<Option<(Program, Values)>> {
+    let mut diagnostics = Diagnostics::new();
+    let Some(path) = path else {
+        let program = wanted.unwrap_or(Program::Async);
+        return Ok(Some((program, program.table().check([], None, &mut diagnostics))));
+    };
+    let text = match crate::paths::text(path) {
+        Ok(text) => text,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(None);
+        }
+    };
+    let mut sources = SourceMap::new();
+    let file = sources.add(path.display().to_string(), text);
+    let read = match periplus_yaml::parse(file, &sources) {
+        Ok(Some(tree)) if tree.entries().is_none() => {
+            terminal::complain(&format!(
+                "{} holds no parameters: `--slam` takes a file of slam_toolbox or slam_gmapping",
+                path.display()
+            ));
+            return Ok(None);
+        }
+        Ok(Some(tree)) => Some(periplus_slam_nodes::read(&tree, wanted, &mut diagnostics)),
+        Ok(None) => {
+            let program = wanted.unwrap_or(Program::Async);
+            Some((program, program.table().check([], None, &mut diagnostics)))
+        }
+        Err(error) => {
+            diagnostics.push(*error);
+            None
+        }
+    };
+    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    if diagnostics.iter().any(|finding| finding.code == "no-parameters") {
+        terminal::complain(&format!(
+            "{} has no parameters for slam_toolbox or slam_gmapping; leave the file out to map with the \
+             defaults",
+            path.display()
+        ));
+        return Ok(None);
+    }
+    Ok(read)
+}
+
+/// Where nobody says, and the usual topic has no scans: the only one that has.
+fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
+    const NAME: &str = "scan_topic";
+    if values.table().find(NAME).is_some() && values.is_given(NAME) {
+        return None;
+    }
+    let of_scans =
+        |it: &TopicInfo| it.type_name == LaserScan::TYPE_NAME && !it.publishers.is_empty();
+    let topics: Vec<TopicInfo> = graph.topics().into_iter().filter(of_scans).collect();
+    match topics.as_slice() {
+        [one] if one.name != "/scan" => Some(one.name.clone()),
+        _ => None,
+    }
+}
+
+impl Mapping {
+    /// As a node of a run's graph, if it is wanted. `Err` when it cannot be, which has been told.
+    pub(crate) fn join(
+        graph: &Graph,
+        options: &MappingOptions,
+        is_paced: bool,
+        (is_usual, profile): (bool, Option<&RobotProfile>),
+    ) -> io::Result<Result<Option<Self>, ()>> {
+        let asked = options.slam.clone().or(is_usual.then_some(None));
+        let Some(path) = &asked else {
+            if options.more.slam_node.is_some() || options.more.slam_out.is_some() {
+                terminal::complain("`--slam-node` and `--slam-out` go with `--slam`");
+                return Ok(Err(()));
+            }
+            return Ok(Ok(None));
+        };
+        let Some((program, mut values)) = parameters(path.as_deref(), options.more.slam_node)?
+        else {
+            return Ok(Err(()));
+        };
+        if let Some(profile) = profile {
+            // Scans have a rule of their own below.
+            profile.fill(&mut values, ["odom_frame", "base_frame", ""]);
+        }
+        let mut settings = NodeSettings::new(program.node_name());
+        if let Some(topic) = scan_topic(graph, &values) {
+            if program.is_toolbox() {
+                terminal::say(&format!(
+                    "mapping: scans come on {topic}; `scan_topic` tells another"
+                ));
+                values.set("scan_topic", Value::Text(topic));
+            } else {
+                terminal::say(&format!(
+                    "mapping: scans come on {topic}; `-r scan:=` tells another"
+                ));
+                settings = settings.remap("scan", &topic);
+            }
+        }
+        let pace = if is_paced { Pace::Sliced } else { Pace::Whole };
+        let node = graph.node(settings);
+        Ok(Self::new(node, program, values, pace, options.more.out()).map(Some))
+    }
+
+    /// As this node, which runs then. `Err` when it cannot be, which has been told.
+    pub(crate) fn new(
+        node: Result<Node, GraphError>,
+        program: Program,
+        values: Values,
+        pace: Pace,
+        out: Option<&Path>,
+    ) -> Result<Self, ()> {
+        let made =
+            node.and_then(|node| SlamNode::at(node, program, values, Arc::new(Machine), pace));
+        match made {
+            Ok(node) => {
+                node.start();
+                Ok(Self { node, out: out.map(Path::to_owned) })
+            }
+            Err(error) => {
+                terminal::complain(&format!("{} cannot run: {error}", program.executable()));
+                Err(())
+            }
+        }
+    }
+
+    /// What there is to say at the end of a run.
+    pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+        let status = self.node.status();
+        let counts = status.counts;
+        writeln!(
+            out,
+            "{}, as {}: {} scans, {} kept",
+            status.node,
+            status.program.executable(),
+            counts.scans,
+            counts.kept
+        )?;
+        let (scans, links) = status.graph;
+        if scans > 0 {
+            writeln!(
+                out,
+                "  a graph of {scans} scans and {links} links, {} of them ties",
+                counts.ties
+            )?;
+        }
+        if counts.kept <= 1 {
+            terminal::warn(&format!(
+                "the map is made of {}: the robot has not moved, or its scans did not fit; drive it \
+                 (`--cmd FILE`, `periplus teleop`)",
+                if counts.kept == 0 { "no scan" } else { "one scan" }
+            ));
+        }
+        let lost = [
+            (counts.lost, "did not fit"),
+            (counts.ignored, "said nothing"),
+            (status.left_out as usize, "were left out for newer ones"),
+            (status.dropped as usize, "had no transforms"),
+        ];
+        for (count, what) in lost.into_iter().filter(|it| it.0 > 0) {
+            writeln!(out, "  {count} scans {what}")?;
+        }
+        if let Some(trouble) = &status.trouble {
+            writeln!(out, "  {trouble}")?;
+        }
+        if let Some(remedy) = &status.correction {
+            terminal::warn(&format!("the map was begun again: {remedy}"));
+        }
+        for found in self.contradictions() {
+            terminal::warn(&found.remark().to_string());
+        }
+        let accepted = status.closures.iter().filter(|it| it.is_accepted).count();
+        if !status.closures.is_empty() {
+            let refused = status.closures.len() - accepted;
+            writeln!(out, "  {accepted} loops closed, {refused} refused")?;
+        }
+        for closure in status.closures.iter().rev().take(MOST_TOLD) {
+            let verdict = if closure.is_accepted { "closed" } else { "refused" };
+            writeln!(
+                out,
+                "    {} - {} {verdict}: {}",
+                closure.keys.0, closure.keys.1, closure.reason
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Places where passes contradict each other in the map as it is now.
+    fn contradictions(&self) -> Vec<MapContradiction> {
+        self.node.look(Slam::audit).unwrap_or_default()
+    }
+
+    /// Writes what was asked for; in words why it cannot be.
+    pub(crate) fn write(&self) -> Result<Option<PathBuf>, String> {
+        let Some(folder) = &self.out else { return Ok(None) };
+        crate::paths::make_folder(folder)?;
+        let put = |name: &str, bytes: &[u8]| crate::paths::write(&folder.join(name), bytes);
+        let is_empty = self.node.status().counts.kept == 0 && self.node.status().graph.0 == 0;
+        let Some(map) = self.node.map().filter(|_| !is_empty) else {
+            return Err("there is no map to write: no scan became part of one".into());
+        };
+        let files = render(&map, &Saving::new("map", Distro::Jazzy));
+        put(&files.image_path, &files.image)?;
+        put(&files.yaml_path, files.yaml.as_bytes())?;
+        let poses = self.node.look(|slam| slam.poses().to_vec()).unwrap_or_default();
+        let marked = self.contradictions().into_iter().map(|it| it.map_from_base);
+        let marked: Vec<(f64, f64)> = marked.map(|it| (it.x_m, it.y_m)).collect();
+        put("map.png", &picture::draw(&map, &poses, &marked))?;
+        if let Some(session) = self.node.look(Slam::save) {
+            put("map.session", &session)?;
+        }
+        Ok(Some(folder.clone()))
+    }
+}

@@ -1,0 +1,148 @@
+//! The table, against what can be typed, and against the three tutorials.
+#![allow(clippy::disallowed_methods, reason = "the tutorials are read where they are at hand")]
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use clap::Parser as _;
+use expect_test::expect_file;
+use periplus_graph::split_arguments;
+
+use super::{Reading, read, shown};
+use crate::options::Options;
+
+/// Words as a shell would hand them over.
+pub(crate) fn words(line: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut word: Option<String> = None;
+    let mut quote = None;
+    for letter in line.chars() {
+        match (quote, letter) {
+            (Some(open), _) if letter == open => quote = None,
+            (None, '\'' | '"') => {
+                quote = Some(letter);
+                word.get_or_insert_default();
+            }
+            (None, ' ') => words.extend(word.take()),
+            _ => word.get_or_insert_default().push(letter),
+        }
+    }
+    words.extend(word);
+    words
+}
+
+/// Whether words of ours can be typed.
+fn parse(line: &str, words: &[String], own: Vec<String>) {
+    let typed = ["periplus".to_owned()].into_iter().chain(own);
+    if let Err(error) = Options::try_parse_from(typed) {
+        // A page of help is what was asked for.
+        assert!(!error.use_stderr(), "`{line}` becomes `{}`: {error}", shown(words));
+    }
+}
+
+/// What a line becomes; when that are words of ours, they must be some.
+fn becomes(line: &str) -> String {
+    match read(&words(line)) {
+        Reading::Ours => panic!("nobody knows `{line}`"),
+        Reading::Words { words, notes } => {
+            let (own, ros) = split_arguments(words.iter().cloned());
+            parse(line, &words, own);
+            for pair in ros.chunks(2) {
+                assert!(pair[0].starts_with('-'), "`{line}`: {ros:?}");
+            }
+            let notes: String = notes.iter().map(|note| format!(" ({note})")).collect();
+            format!("`periplus {}`{notes}", shown(&words))
+        }
+        Reading::Answer(answer) => {
+            let packages = if answer.lists_packages { ": and the list" } else { "" };
+            format!("{}{packages}", answer.text)
+        }
+    }
+}
+
+#[test]
+fn every_old_word_is_understood() {
+    let mut page = String::from(
+        "# Words of ROS and Gazebo\n\nTyped behind `periplus`, these do what hands expect. Every \
+         translation says on the terminal which words it became. This page is made from the program by a \
+         test of `crates/apps/cli`.\n\n| behind `periplus` | is |\n|---|---|\n",
+    );
+    for line in include_str!("examples.txt").lines().filter(|line| !line.is_empty()) {
+        if let Some(title) = line.strip_prefix("# ") {
+            let _ = writeln!(page, "| **{title}** | |");
+            continue;
+        }
+        let _ = writeln!(page, "| `{line}` | {} |", becomes(line).replace('|', "\\|"));
+    }
+    expect_file!["../../../../../docs/old-words.md"].assert_eq(&page);
+}
+
+#[test]
+fn own_words_stay() {
+    for line in
+        ["sim world.sdf", "topic list", "bag info a.mcap", "--help", "tf tree", "doctor", ""]
+    {
+        assert_eq!(read(&words(line)), Reading::Ours, "{line}");
+    }
+}
+
+#[test]
+fn a_line_of_several_commands_is_its_last_one() {
+    let line = "source /opt/ros/jazzy/setup.bash && ros2 topic echo /laser_scan";
+    assert_eq!(becomes(line), "`periplus topic echo /laser_scan`");
+    assert!(becomes("mkdir x && ros2 topic list").contains("is the shell's"));
+}
+
+/// A printed command: tutorial, line, command.
+fn printed() -> Vec<(&'static str, usize, &'static str)> {
+    include_str!("../../tests/tutorials/commands.tsv")
+        .lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+        .map(|line| {
+            let mut parts = line.splitn(3, '\t');
+            let mut part = || parts.next().unwrap();
+            (part(), part().parse().unwrap(), part())
+        })
+        .collect()
+}
+
+#[test]
+fn every_command_of_the_tutorials_is_understood() {
+    assert_eq!(printed().len(), 18);
+    for (tutorial, line, command) in printed() {
+        for simple in command.split(" && ") {
+            let told = becomes(simple);
+            assert!(
+                told.starts_with('`') || told.starts_with("nothing need"),
+                "{tutorial}:{line}: {told}"
+            );
+        }
+        becomes(command);
+    }
+}
+
+#[test]
+fn no_command_of_the_tutorials_is_missing() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/tutorials");
+    if !folder.is_dir() {
+        eprintln!("SKIPPED: the tutorials are not in {}", folder.display());
+        return;
+    }
+    let starts = ["$ ", "ros2 ", "colcon ", ". install", "sudo ", "gz sim ", "source "];
+    for name in ["harmonic-jazzy-adding-lidar", "kbot-laser-slam-maps", "nav2-setting-up-sensors"] {
+        let text = std::fs::read_to_string(folder.join(name).with_extension("txt")).unwrap();
+        let known: Vec<_> = printed().into_iter().filter(|(of, ..)| *of == name).collect();
+        for (number, line) in (1..).zip(text.lines()) {
+            // Numbers of items, and the numbered lines of listings, stand before commands.
+            let bare =
+                line.trim_start_matches(|it: char| it.is_ascii_digit() || " |)".contains(it));
+            let is_command = starts.iter().any(|start| bare.starts_with(start));
+            let here: Vec<_> = known.iter().filter(|(_, of, _)| *of == number).collect();
+            assert_eq!(is_command, !here.is_empty(), "{name}:{number}: {line}");
+            for (_, _, command) in here {
+                assert!(line.contains(command), "{name}:{number}: {line}");
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What others have on the network of ROS 2, as the page takes it.
+
+use periplus_dds::{Remote, RemoteEndpoint};
+use periplus_wire_live::{Far, FarEnd, FarService, FarTopic};
+
+/// Of a topic on which ends do not agree the first type counts.
+pub(super) fn far(remote: &Remote) -> Far {
+    let topics = remote.topics.iter().filter_map(|topic| {
+        let type_name = topic.type_names.first()?.clone();
+        let same = topic.publishers.iter().filter(|end| end.type_name == type_name);
+        let publishers: Vec<_> = same.collect();
+        let end = |end: &RemoteEndpoint| FarEnd {
+            node: end.node.clone().unwrap_or_else(|| "(no node)".to_owned()),
+            qos: end.qos,
+        };
+        let subscriptions = topic.subscriptions.iter().filter(|end| end.type_name == type_name);
+        Some(FarTopic {
+            name: topic.name.clone(),
+            type_hash: publishers.iter().find_map(|end| end.type_hash.clone()),
+            publishers: publishers.iter().map(|it| end(it)).collect(),
+            subscriptions: subscriptions.map(end).collect(),
+            type_name,
+        })
+    });
+    let services = remote.services.iter().filter(|service| !service.servers.is_empty());
+    let services = services.filter_map(|service| {
+        Some(FarService {
+            name: service.name.clone(),
+            type_name: service.type_names.first()?.clone(),
+            servers: service.servers.iter().cloned().collect(),
+        })
+    });
+    Far { topics: topics.collect(), services: services.collect() }
+}

@@ -1,0 +1,216 @@
+//! The map with the way of the robot.
+
+use std::io::{self, Write};
+
+use periplus_geometry::Pose2;
+use periplus_grid::{Lattice, Line, OccupancyGrid, occupancy};
+use periplus_images::{Layout, pack_png};
+
+/// Longest side of the picture.
+const LONGEST: usize = 1600;
+/// From the first pose to the last.
+const BEGIN: [f64; 3] = [40.0, 90.0, 230.0];
+const END: [f64; 3] = [225.0, 50.0, 40.0];
+/// Rings around marked positions: colour, radius in the map \[m\], its minimum and half the width of the
+/// line \[px\].
+const RING: [u8; 3] = [255, 0, 0];
+const RING_M: f64 = 1.5;
+const MIN_RING_PX: f64 = 12.0;
+const HALF_LINE_PX: f64 = 1.5;
+/// Instead of a step of the path.
+const OF_RING: u32 = u32::MAX;
+
+/// A PNG of a map, the path from blue to red, and a red ring around each marked position \[m\].
+pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
+    let drawn = draw_by(map.lattice, way, marked, |picture| {
+        map.rows().rev().try_for_each(|row| picture.push(row))
+    });
+    debug_assert!(drawn.is_ok(), "{drawn:?}");
+    drawn.unwrap_or_default()
+}
+
+/// The same, of a map whose rows are given one by one: neither it nor the picture is held as a whole.
+pub(crate) fn draw_by(
+    lattice: Lattice,
+    way: &[Pose2],
+    marked: &[(f64, f64)],
+    rows: impl FnOnce(&mut Picture<'_>) -> io::Result<()>,
+) -> io::Result<Vec<u8>> {
+    let every = lattice.width.max(lattice.height).div_ceil(LONGEST).max(1);
+    let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));
+    pack_png(number(width), number(height), Layout::Rgb, |out| {
+        rows(&mut Picture {
+            out,
+            lattice,
+            every,
+            left: lattice.height,
+            darkest: vec![i8::MIN; width],
+            way: dots(&lattice, every, way, marked),
+            drawn: 0,
+            steps: way.len(),
+            samples: Vec::with_capacity(3 * width),
+        })
+    })
+}
+
+/// Such a picture, as far as it is drawn.
+pub(crate) struct Picture<'a> {
+    out: &'a mut dyn Write,
+    lattice: Lattice,
+    /// Rows and columns of the map that share a pixel.
+    every: usize,
+    /// Rows of the map still to come.
+    left: usize,
+    /// Of each pixel of a row the darkest of its cells: walls must not vanish.
+    darkest: Vec<i8>,
+    /// Pixels of the way, by row from the top; of those at the same place the last one counts.
+    way: Vec<Dot>,
+    /// How many of them are drawn.
+    drawn: usize,
+    /// Poses of the way.
+    steps: usize,
+    samples: Vec<u8>,
+}
+
+struct Dot {
+    row: u32,
+    column: u32,
+    /// Which step of the way it belongs to.
+    step: u32,
+}
+
+impl Picture<'_> {
+    /// The cells of the next row of the map; the highest comes first.
+    pub(crate) fn push(&mut self, cells: &[i8]) -> io::Result<()> {
+        let Some(row) = self.left.checked_sub(1) else { return Ok(()) };
+        self.left = row;
+        for (darkest, cells) in self.darkest.iter_mut().zip(cells.chunks(self.every)) {
+            *darkest = cells.iter().fold(*darkest, |darkest, &cell| darkest.max(cell));
+        }
+        // The lowest of the rows that share one.
+        if row % self.every == 0 { self.end_row(row / self.every) } else { Ok(()) }
+    }
+
+    fn end_row(&mut self, from_below: usize) -> io::Result<()> {
+        let Self { samples, darkest, .. } = self;
+        samples.clear();
+        samples.extend(darkest.iter().flat_map(|&value| match value {
+            ..0 => [205; 3],
+            value => [255 - (f64::from(value.min(100)) * 2.55) as u8; 3],
+        }));
+        darkest.fill(occupancy::UNKNOWN);
+        let row = number(self.lattice.height.div_ceil(self.every) - 1 - from_below);
+        while let Some(dot) = self.way.get(self.drawn).filter(|dot| dot.row <= row) {
+            let colour: [u8; 3] = if dot.step == OF_RING {
+                RING
+            } else {
+                let part = f64::from(dot.step) / self.steps as f64;
+                std::array::from_fn(|i| (BEGIN[i] + part * (END[i] - BEGIN[i])) as u8)
+            };
+            self.samples[3 * dot.column as usize..][..3].copy_from_slice(&colour);
+            self.drawn += 1;
+        }
+        self.out.write_all(&self.samples)
+    }
+}
+
+/// The pixels of a path and of rings over it, by row from the top.
+fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
+    let finder = lattice.finder();
+    let height = lattice.height.div_ceil(every);
+    let mut dots = Vec::new();
+    let mut before = None;
+    for (step, pose) in way.iter().enumerate() {
+        let Some((column, row)) = finder.cell_of(pose.x_m, pose.y_m) else { continue };
+        let here = (column / every, height - 1 - row / every);
+        for (column, row) in Line::between(before.replace(here).unwrap_or(here), here) {
+            dots.push(Dot { row: number(row), column: number(column), step: number(step) });
+        }
+    }
+    for &(x_m, y_m) in marked {
+        dots.extend(ring(lattice, every, x_m, y_m));
+    }
+    dots.sort_unstable_by_key(|dot| (dot.row, dot.column, std::cmp::Reverse(dot.step)));
+    dots.dedup_by_key(|dot| (dot.row, dot.column));
+    dots
+}
+
+/// The pixels of a ring around a position, as far as they are in the picture.
+fn ring(lattice: &Lattice, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
+    let (columns, rows) = lattice.finder().cells_to(x_m, y_m);
+    let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));
+    let (x, y) = (columns / every as f64, rows / every as f64);
+    let radius = (RING_M / (lattice.resolution_m * every as f64)).max(MIN_RING_PX);
+    let reach = radius + HALF_LINE_PX;
+    let around = |middle: f64, end: usize| {
+        let inside = |value: f64| value.clamp(0.0, end as f64) as usize;
+        inside(middle - reach)..inside(middle + reach + 1.0)
+    };
+    let mut dots = Vec::new();
+    for from_below in around(y, height) {
+        for column in around(x, width) {
+            let away = (column as f64 + 0.5 - x).hypot(from_below as f64 + 0.5 - y);
+            if (away - radius).abs() <= HALF_LINE_PX {
+                let row = number(height - 1 - from_below);
+                dots.push(Dot { row, column: number(column), step: OF_RING });
+            }
+        }
+    }
+    dots
+}
+
+fn number(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_grid::Grid;
+    use periplus_images::Raster;
+
+    use super::*;
+
+    #[test]
+    fn walls_and_the_way_are_there_at_any_scale() {
+        for side in [40, LONGEST, 2 * LONGEST + 7] {
+            let lattice = Lattice::new(0.05, side, 40, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
+            let mut map = Grid::new(lattice, occupancy::UNKNOWN);
+            map.cells[..20 * side].fill(occupancy::FREE);
+            map[(7, 3)] = occupancy::OCCUPIED;
+            let way = [(0.5, 0.5), (0.5, 1.5), (0.52, 1.5)].map(|(x, y)| Pose2::new(x, y, 0.0));
+            let picture = Raster::decode(&draw(&map, &way, &[])).unwrap();
+            let every = side.div_ceil(LONGEST);
+            let height = 40_usize.div_ceil(every);
+            assert_eq!(
+                (picture.width as usize, picture.height as usize),
+                (side.div_ceil(every), height)
+            );
+            let at = |column: usize, row: usize| {
+                let row = height - 1 - row / every;
+                picture.sample(row * picture.width as usize + column / every).to_vec()
+            };
+            assert_eq!(at(7, 3), [1; 3], "{side}");
+            assert_eq!(at(20, 3), [255; 3], "{side}");
+            assert_eq!(at(20, 39), [205; 3], "{side}");
+            // From blue to red.
+            let (begin, end) = (at(30, 10), at(30, 30));
+            assert!(begin[2] > begin[0] && end[0] > begin[0], "{side}: {begin:?} {end:?}");
+        }
+    }
+
+    /// Around a position in the middle, near a border and outside of the map.
+    #[test]
+    fn a_ring_is_around_each_marked_position() {
+        let lattice = Lattice::new(0.05, 100, 80, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
+        let map = Grid::new(lattice, occupancy::FREE);
+        let marked = [(1.5, 2.0), (-0.9, 0.1), (40.0, 40.0)];
+        let picture = Raster::decode(&draw(&map, &[], &marked)).unwrap();
+        let at = |column: usize, row: usize| picture.sample((79 - row) * 100 + column).to_vec();
+        // 1.5 m are 30 cells.
+        for (column, row) in [(80, 40), (20, 40), (50, 70), (50, 10), (32, 2), (2, 32)] {
+            assert_eq!(at(column, row), RING, "({column}, {row})");
+        }
+        assert_eq!(at(50, 40), [255; 3]);
+        assert_eq!(at(99, 79), [255; 3]);
+    }
+}

@@ -1,0 +1,561 @@
+//! `periplus sim`.
+
+mod gazebo;
+pub(crate) mod progress;
+mod recording;
+mod report;
+mod robots;
+pub(crate) mod ros2;
+pub(crate) mod stack;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use clap::{Args, ValueEnum};
+use periplus_diagnostics::SourceMap;
+use periplus_graph::Arguments;
+use periplus_os::Stopwatch;
+use periplus_sim::{
+    Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
+    Wanted, compose, hear,
+};
+
+use crate::arguments;
+use crate::costmap::{CostmapOptions, Costmaps};
+use crate::demo::browser;
+use crate::localize::{BesideOptions, Localization};
+use crate::mapping::{Mapping, MappingOptions};
+use crate::options::{SearchOptions, split};
+use crate::page::{About, Page, PageOptions};
+use crate::stop;
+use crate::terminal;
+
+use gazebo::{Gazebo, GzReach, GzTypes};
+use ros2::{Reach, Ros2};
+use stack::RobotProfile;
+
+pub(crate) use recording::RecordingWatch;
+pub(crate) use report::Report;
+pub(crate) use robots::Robots;
+
+/// Run a world with robots in it: physics, sensors, topics, and a bag of what was said
+///
+/// The world is an SDF or a saved world; a robot's own file stands on a plane in the sun. Runs as
+/// fast as the machine can when `--duration` is given, otherwise at the world's own pace until
+/// Ctrl-C. The same files, options and seed give the same bag, byte for byte.
+#[derive(Debug, Args)]
+pub(crate) struct SimOptions {
+    /// The world, and `name:=value` for its xacro
+    #[arg(value_name = "WORLD|NAME:=VALUE")]
+    words: Vec<String>,
+    #[command(flatten)]
+    robots: Robots,
+    /// Simulated seconds to run; without it until Ctrl-C
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    duration: Option<f64>,
+    /// Write what is published to a bag: FILE.mcap, or a folder as `ros2 bag` makes it
+    #[arg(long, value_name = "FILE.mcap|FOLDER")]
+    record: Option<std::path::PathBuf>,
+    /// Record only topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    topics: Option<regex::Regex>,
+    /// Do not record topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    exclude: Option<regex::Regex>,
+    /// Measure topics that match this regular expression though nobody hears them, to see what they
+    /// cost
+    #[arg(long, value_name = "REGEX")]
+    hear: Option<regex::Regex>,
+    /// Drive by a script (YAML) or by the commands of a bag
+    #[arg(long, value_name = "FILE")]
+    cmd: Option<std::path::PathBuf>,
+    /// Seed of all noise
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    seed: u64,
+    /// How things move: with forces and contacts, or exactly as told on flat ground
+    #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
+    dynamics: Dynamics,
+    /// Simulated seconds per second of the wall, or `max`
+    #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
+    rtf: Option<Factor>,
+    /// Step of the simulation in seconds, in place of the world's own
+    #[arg(long, value_name = "SECONDS", value_parser = step)]
+    step: Option<f64>,
+    /// Threads for rays; the answers do not depend on it
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<usize>,
+    /// Copy the oddities of Gazebo too, such as periods of whole milliseconds
+    #[arg(long)]
+    gz_quirks: bool,
+    /// Measure the beams of a lidar one after the other while the robot moves, as real ones do
+    #[arg(long)]
+    rolling_scans: bool,
+    /// Rename a topic, service or node: `from:=to`
+    #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
+    remaps: Vec<String>,
+    /// Who can see the run: its topics, services and nodes; without it `loopback` where the run
+    /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
+    #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
+    ros2: Option<Reach>,
+    /// Let programs of Gazebo see the run: its topics, and the services of the world; `--gz=network`
+    /// beyond this machine
+    #[arg(
+        long,
+        value_enum,
+        value_name = "loopback|network",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "loopback"
+    )]
+    gz: Option<GzReach>,
+    /// Which names types have for programs of Gazebo: those since Garden, or those of Fortress and of
+    /// Debian's `ign`
+    #[arg(long, value_enum, value_name = "gz|ignition", default_value_t = GzTypes::Gz)]
+    gz_types: GzTypes,
+    /// A parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
+    #[arg(long = "param", short = 'p', value_name = "[NODE:]NAME:=VALUE")]
+    parameters: Vec<String>,
+    /// Parameters for nodes, as ROS 2 writes them; later ones win. All of `--ros-args` is understood too
+    #[arg(long, value_name = "FILE")]
+    params_file: Vec<String>,
+    /// Run the usual stack beside the robot: a filter of odometry and IMU where the robot publishes no
+    /// transform of its odometry, mapping (or with `--localize MAP.yaml` localization), and both
+    /// costmaps. Topics and frames are those of the robot
+    #[arg(long)]
+    stack: bool,
+    #[command(flatten)]
+    costmaps: CostmapOptions,
+    #[command(flatten)]
+    localization: BesideOptions,
+    #[command(flatten)]
+    mapping: MappingOptions,
+    #[command(flatten)]
+    page: PageOptions,
+    /// Open no browser on the page
+    #[arg(long, requires = "page")]
+    no_browser: bool,
+    /// Print a report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Say nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    search: SearchOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Dynamics {
+    /// Bodies, joints, contacts and friction
+    Rigid,
+    /// Robots move exactly as commanded, through anything
+    Kinematic,
+}
+
+/// Simulated seconds per second of the wall.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Factor {
+    /// As many as the machine can.
+    Max,
+    /// So many.
+    Of(f64),
+}
+
+pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let start = Stopwatch::start();
+    let Some(to_nodes) = arguments::read(options.ros_words(ros))? else {
+        return Ok(ExitCode::from(2));
+    };
+    let (mut files, arguments) = split(&options.words);
+    // `--robot FILE WORLD`: what is no argument of the robot is the world.
+    files.extend(options.robots.others.iter().map(PathBuf::from));
+    let [world] = files.as_slice() else {
+        terminal::complain(&match files.as_slice() {
+            [] => {
+                "sim takes a world; robots come with --robot; see `periplus sim --help`".to_owned()
+            }
+            several => {
+                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
+                let several = names.join(", ");
+                format!(
+                    "sim takes one world, and these are {}: {several}; give each robot its own --robot",
+                    names.len()
+                )
+            }
+        });
+        return Ok(ExitCode::from(2));
+    };
+    if let Err(why) = options.can_run() {
+        terminal::complain(&why);
+        return Ok(ExitCode::from(2));
+    }
+    let (mut driver, findings) = match &options.cmd {
+        Some(path) => Driver::read(path),
+        None => Default::default(),
+    };
+    let mut err = anstream::stderr().lock();
+    terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
+    drop(err);
+    if findings.diagnostics.has_errors() {
+        terminal::complain("the script cannot be driven");
+        return Ok(ExitCode::FAILURE);
+    }
+    let search = &options.search.resource_path;
+    let mut composition = terminal::with_setting(search, arguments, |setting| {
+        compose(world, &options.robots.placements, setting)
+    });
+    let mut simulation = Simulation::new(
+        &mut composition,
+        Arc::new(ShapeFiles::default()),
+        options.simulation(to_nodes),
+    );
+    let whole = tell_findings(&composition, options.quiet)?;
+    if let Some(missing) = composition.missing() {
+        terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
+        return Ok(ExitCode::FAILURE);
+    }
+    let profile = match options.profile(&mut simulation) {
+        Ok(profile) => profile,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let profile = profile.as_ref();
+    let recorder = match options.record.as_deref() {
+        None => None,
+        Some(path) => match Recorder::start(&simulation, path, options.wanted()) {
+            Ok(recorder) => Some(recorder),
+            Err(error) => {
+                terminal::complain(&format!("cannot record to {}: {error}", path.display()));
+                return Ok(ExitCode::FAILURE);
+            }
+        },
+    };
+    if let Some(heard) = options.hear.clone() {
+        hear(&simulation, Box::new(move |name| heard.is_match(name)));
+    }
+    let mut services = match Services::new(&simulation, terminal::search(search)) {
+        Ok(services) => services,
+        Err(error) => {
+            terminal::complain(&format!("cannot offer the world's services: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    match driver.join(&simulation) {
+        Ok(warnings) => {
+            terminal::diagnostics(&mut anstream::stderr().lock(), &warnings, &SourceMap::new())?;
+        }
+        Err(error) => {
+            terminal::complain(&format!("the script cannot be driven: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    }
+    let filter = profile.filter(|profile| profile.needs_filter());
+    let filter = filter.map(|profile| profile.filter(simulation.graph())).transpose();
+    let _filter = match filter {
+        Ok(filter) => filter,
+        Err(error) => {
+            terminal::complain(&format!("the filter of odometry cannot run: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let own = profile.filter(|_| options.stack).map(RobotProfile::costmaps);
+    let joined = Costmaps::join(simulation.graph(), &options.costmaps, own.as_deref())?;
+    let Some(costmaps) = joined else { return Ok(ExitCode::FAILURE) };
+    let joined = Localization::join(simulation.graph(), &options.localization, profile)?;
+    let localization = match joined {
+        Ok(localization) => localization,
+        Err(why) => {
+            terminal::complain(&format!("localization cannot run: {why}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let factor = options.factor(&composition);
+    let is_mapping = options.stack && localization.is_none();
+    let usual = (is_mapping, profile);
+    let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
+    let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
+    // Only now all nodes are there.
+    if !options.quiet {
+        let unused = simulation.graph().unused_arguments();
+        terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
+    }
+    let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
+    let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
+    let joined =
+        Gazebo::join(&simulation, &mut services, options.gz, options.gz_types, options.quiet)?;
+    let Some(gazebo) = joined else { return Ok(ExitCode::FAILURE) };
+    if options.page.page.is_some() {
+        let around = composition.files.iter().filter_map(|file| file.path.parent());
+        if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
+            terminal::complain(&format!("the world cannot be shown: {error}"));
+            return Ok(ExitCode::FAILURE);
+        }
+    }
+    let about = options.about(&composition);
+    let page = match Page::join(simulation.graph(), &options.page, about) {
+        Ok(page) => page,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    if let Some(page) = &page {
+        let url = page.url();
+        if !options.quiet {
+            terminal::say(&format!("the page is at {url}"));
+        }
+        if !options.no_browser && !browser::open(&url) && !options.quiet {
+            terminal::say("no browser could be opened; open the page yourself");
+        }
+    }
+    let stop = stop::on_signal();
+    let run = Run {
+        end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
+        factor,
+        stop: &stop,
+        paused: false,
+    };
+    let start_up = start.elapsed();
+    let mut line = progress::Line::new(options.duration, options.quiet || options.json);
+    let mut watch = RecordingWatch::default();
+    let stopwatch = Stopwatch::start();
+    let outcome = run.go(&mut simulation, &mut services, &mut driver, &mut |progress| {
+        line.show(progress);
+        watch.look(recorder.as_ref(), progress, &|write| line.aside(write));
+        if ros2.is_due(progress.wall) {
+            line.aside(|| ros2.tell());
+            if let (Some(page), Some(remote)) = (&page, ros2.remote()) {
+                page.set_remote(&remote);
+            }
+        }
+    });
+    let wall = stopwatch.elapsed();
+    drop(page);
+    line.clear();
+    if let Some(gazebo) = gazebo {
+        gazebo.tell()?;
+    }
+    ros2.tell()?;
+    if !options.quiet {
+        let mut err = anstream::stderr().lock();
+        for findings in [simulation.take_findings(), services.take_findings()] {
+            terminal::diagnostics(&mut err, &findings, &SourceMap::new())?;
+        }
+    }
+    let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
+    let is_recorded = finished.is_ok();
+    // The map and the report do not go with the bag.
+    let recording = finished.unwrap_or_else(|error| {
+        terminal::complain(&format!("the bag is not whole: {error}"));
+        None
+    });
+    let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
+    if options.json {
+        writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
+    } else if !options.quiet {
+        report.tell(&mut anstream::stderr().lock())?;
+    }
+    if !options.quiet {
+        costmaps.tell(&mut anstream::stderr().lock())?;
+        if let Some(localization) = &localization {
+            localization.tell(&mut anstream::stderr().lock())?;
+        }
+        if let Some(mapping) = &mapping {
+            mapping.tell(&mut anstream::stderr().lock())?;
+        }
+    }
+    match mapping.as_ref().map_or(Ok(None), Mapping::write) {
+        Ok(Some(folder)) if !options.quiet => {
+            terminal::say(&format!("the map is in {}", folder.display()));
+        }
+        Ok(_) => {}
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    }
+    // Without an end of its own, being stopped is how a run ends.
+    let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
+    // Findings name each.
+    if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
+        terminal::complain(&format!("{diverged}; its model was removed"));
+        return Ok(ExitCode::FAILURE);
+    }
+    match outcome {
+        Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
+        Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
+        Ok(()) if whole => Ok(ExitCode::SUCCESS),
+        Ok(()) => {
+            terminal::complain("parts of the files have errors and took no part");
+            Ok(ExitCode::FAILURE)
+        }
+        Err(diverged) => {
+            terminal::complain(&diverged.to_string());
+            Ok(ExitCode::FAILURE)
+        }
+    }
+}
+
+impl SimOptions {
+    /// What is for nodes, as `--ros-args` would have it: flags of our own first.
+    fn ros_words(&self, ros: Vec<String>) -> Vec<String> {
+        let own = [
+            ("--params-file", &self.params_file),
+            ("--param", &self.parameters),
+            ("--remap", &self.remaps),
+        ];
+        let own = own.into_iter().flat_map(|(flag, values)| {
+            values.iter().flat_map(move |value| [flag.to_owned(), value.clone()])
+        });
+        own.chain(ros).collect()
+    }
+
+    /// Words that cannot be meant together.
+    fn can_run(&self) -> Result<(), String> {
+        if let Some(path) =
+            self.record.as_ref().filter(|path| path.extension() == Some("bag".as_ref()))
+        {
+            let mcap = path.with_extension("mcap");
+            return Err(format!(
+                "a run is recorded as MCAP, not as a bag of ROS 1: write `--record {0}`, then \
+                 `periplus bag convert {0} {1}`",
+                mcap.display(),
+                path.display()
+            ));
+        }
+        if self.stack && self.robots.placements.len() > 1 {
+            return Err(
+                "--stack is for one robot; start the nodes of several with a launch file".into()
+            );
+        }
+        Ok(())
+    }
+
+    /// What the robot publishes, where nodes beside it have to know.
+    fn profile(&self, simulation: &mut Simulation) -> Result<Option<RobotProfile>, String> {
+        let is_wanted = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
+        // Nodes beside several robots are told their topics by hand.
+        if !is_wanted || self.robots.placements.len() > 1 {
+            return Ok(None);
+        }
+        let profile = RobotProfile::of(simulation)?;
+        if profile.scan.is_none() && self.stack {
+            return Err(
+                "no sensor of this robot publishes laser scans, which mapping, localization and \
+                        costmaps need; give the robot a lidar"
+                    .into(),
+            );
+        }
+        if !self.quiet && profile.needs_filter() {
+            let (odom, base) = (profile.odom(), profile.base());
+            let inputs: Vec<&str> = [&profile.odometry, &profile.imu]
+                .into_iter()
+                .flatten()
+                .map(String::as_str)
+                .collect();
+            terminal::say(&format!(
+                "the robot publishes no transform from {base} to {odom}: the filter of \
+                 robot_localization does, from {}",
+                inputs.join(" and ")
+            ));
+        }
+        if !self.quiet && self.stack {
+            let named = |topic: &Option<String>| topic.clone().unwrap_or_else(|| "none".to_owned());
+            terminal::say(&format!(
+                "stack: scans on {}, odometry on {}, IMU on {}, frames {} and {}, radius {:.2} m",
+                named(&profile.scan),
+                named(&profile.odometry),
+                named(&profile.imu),
+                profile.odom(),
+                profile.base(),
+                profile.radius_m
+            ));
+        }
+        Ok(Some(profile))
+    }
+
+    fn simulation(&self, arguments: Arguments) -> Options {
+        Options {
+            seed: self.seed,
+            mode: match self.dynamics {
+                Dynamics::Rigid => Mode::Rigid,
+                Dynamics::Kinematic => Mode::Kinematic,
+            },
+            step_s: self.step,
+            threads: self.threads.unwrap_or_else(terminal::processors),
+            quirks: if self.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },
+            rolling_scans: self.rolling_scans,
+            arguments,
+            ..Options::default()
+        }
+    }
+
+    /// As fast as can be when there is an end, otherwise at the pace that the world asks for.
+    fn factor(&self, composition: &Composition) -> Option<f64> {
+        match (self.rtf, self.duration) {
+            (Some(Factor::Of(factor)), _) => Some(factor),
+            (Some(Factor::Max), _) | (None, Some(_)) => None,
+            (None, None) => composition.real_time_factor(),
+        }
+    }
+
+    /// What the page tells of the run.
+    fn about(&self, composition: &Composition) -> About {
+        About {
+            world: Some(composition.world.name.clone()),
+            files: composition.files.iter().map(|file| file.path.clone()).collect(),
+            resource_path: self.search.resource_path.clone(),
+            view: None,
+            fixed_frame: None,
+        }
+    }
+
+    fn wanted(&self) -> Wanted {
+        let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
+        Box::new(move |name| {
+            topics.as_ref().is_none_or(|topics| topics.is_match(name))
+                && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
+        })
+    }
+}
+
+/// Tells what is wrong with the files. False when something is missing that was asked for.
+pub(crate) fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
+    let mut err = anstream::stderr().lock();
+    let mut whole = true;
+    for loaded in &composition.files {
+        whole &= !loaded.diagnostics.has_errors();
+        if !quiet || loaded.diagnostics.has_errors() {
+            terminal::findings(&mut err, loaded)?;
+        }
+    }
+    Ok(whole)
+}
+
+pub(crate) fn positive(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("it has to be a number above 0".into()),
+    }
+}
+
+/// A step of physics [s].
+fn step(word: &str) -> Result<f64, String> {
+    let [shortest_s, longest_s] = periplus_sim::STEP_RANGE_S;
+    match word.parse::<f64>() {
+        Ok(step_s) if (shortest_s..=longest_s).contains(&step_s) => Ok(step_s),
+        _ => Err(format!("it has to be a number from {shortest_s} to {longest_s}")),
+    }
+}
+
+pub(crate) fn factor(word: &str) -> Result<Factor, String> {
+    if word == "max" {
+        return Ok(Factor::Max);
+    }
+    positive(word).map(Factor::Of).map_err(|_| "it has to be a number above 0, or `max`".into())
+}

@@ -1,0 +1,130 @@
+//! A running world among the programs of Gazebo.
+
+use std::io;
+use std::sync::Arc;
+
+use clap::ValueEnum;
+use periplus_diagnostics::SourceMap;
+use periplus_gz_msgs::Dialect;
+use periplus_gz_transport::{Link, Publisher, Reach, Server, Settings, Transport, WireError};
+use periplus_os::Machine;
+use periplus_sim::{GazeboOutlet, Services, Simulation, gazebo_topic};
+
+use crate::terminal;
+
+/// Topics that are for programs of ROS alone.
+const OF_ROS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"];
+
+/// Who can see a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GzReach {
+    /// Programs of Gazebo on this machine
+    Loopback,
+    /// Programs of Gazebo wherever multicast reaches
+    Network,
+}
+
+/// Which names types have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GzTypes {
+    /// `gz.msgs.LaserScan`: Garden, Harmonic and later
+    Gz,
+    /// `ignition.msgs.LaserScan`: Fortress and before, and what Debian has
+    Ignition,
+}
+
+/// A run that programs of Gazebo see, as long as it is there.
+pub(crate) struct Gazebo {
+    // First, so that the graph is left before the network is.
+    link: Link,
+    _servers: Vec<Server>,
+}
+
+/// Sends what the world says of itself.
+struct Outlet(Vec<Publisher>);
+
+impl GazeboOutlet for Outlet {
+    fn is_heard(&self, topic: usize) -> bool {
+        self.0.get(topic).is_some_and(Publisher::is_heard)
+    }
+
+    fn put(&self, topic: usize, message: Vec<u8>) {
+        if let Some(publisher) = self.0.get(topic) {
+            publisher.publish(message);
+        }
+    }
+}
+
+impl Gazebo {
+    /// Joins as asked; none inside when it was not, and none at all when it fails, which is told.
+    pub(crate) fn join(
+        simulation: &Simulation,
+        services: &mut Services,
+        asked: Option<GzReach>,
+        types: GzTypes,
+        quiet: bool,
+    ) -> io::Result<Option<Option<Self>>> {
+        let Some(reach) = asked else { return Ok(Some(None)) };
+        let (mut settings, findings) = Settings::from_environment(&Machine);
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+        settings.reach = match reach {
+            GzReach::Loopback => Reach::Machine,
+            GzReach::Network => Reach::Network,
+        };
+        settings.dialect = match types {
+            GzTypes::Gz => Dialect::Gz,
+            GzTypes::Ignition => Dialect::Ignition,
+        };
+        match Self::open(simulation, services, &settings) {
+            Ok(joined) => {
+                if !quiet {
+                    let on = match reach {
+                        GzReach::Loopback => "this machine only",
+                        GzReach::Network => "on the network",
+                    };
+                    terminal::say(&format!("Gazebo: partition {}, {on}", settings.partition));
+                }
+                Ok(Some(Some(joined)))
+            }
+            Err(error) => {
+                terminal::complain(&error.to_string());
+                Ok(None)
+            }
+        }
+    }
+
+    fn open(
+        simulation: &Simulation,
+        services: &mut Services,
+        settings: &Settings,
+    ) -> Result<Self, WireError> {
+        let transport = Arc::new(Transport::open(settings)?);
+        let desk = services.open_to_gazebo(simulation);
+        let full = |bare: &str| settings.dialect.full_name(bare);
+        let mut servers = Vec::new();
+        for (place, service) in desk.services().iter().enumerate() {
+            let types = [full(service.request), full(service.response)];
+            let desk = desk.clone();
+            let asking = move |call: periplus_gz_transport::Call| {
+                let answer = call.answer;
+                let answer = Box::new(move |bytes: Option<Vec<u8>>| answer.send(bytes.as_deref()));
+                desk.ask(place, call.request, answer);
+            };
+            servers.push(transport.serve(&service.name, &types[0], &types[1], asking)?);
+        }
+        let topics = desk.topics().iter();
+        let publishers: Result<_, _> =
+            topics.map(|topic| transport.advertise(&topic.name, &full(topic.of))).collect();
+        desk.set_outlet(Box::new(Outlet(publishers?)));
+        let link = Link::new(simulation.graph(), &transport);
+        let name = gazebo_topic(simulation);
+        link.offer_all(move |topic| if OF_ROS.contains(&topic) { None } else { name(topic) })?;
+        Ok(Self { link, _servers: servers })
+    }
+
+    /// Says what is wrong on the network.
+    pub(crate) fn tell(&self) -> io::Result<()> {
+        let findings = self.link.take_findings();
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
+    }
+}

@@ -1,0 +1,155 @@
+//! A running world among the programs of ROS 2.
+
+use std::io;
+use std::time::Duration;
+
+use clap::ValueEnum;
+use periplus_dds::{Range, Remote, Settings, Wire};
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_os::Machine;
+use periplus_sim::Simulation;
+
+use crate::terminal;
+
+#[cfg(feature = "zenoh")]
+mod zenoh;
+
+/// Between two looks at what is wrong on the network.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// Who can see a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Reach {
+    /// Nobody
+    Off,
+    /// Programs of ROS 2 on this machine
+    Loopback,
+    /// Programs of ROS 2 wherever multicast, or `ROS_STATIC_PEERS`, reaches
+    Network,
+    /// Programs of ROS 2 that use `rmw_zenoh`, by way of its router
+    Zenoh,
+}
+
+/// A run on the network, or one that is not.
+pub(crate) struct Ros2 {
+    wire: Option<Joined>,
+    looked: Duration,
+    quiet: bool,
+}
+
+/// The network that was joined.
+enum Joined {
+    Dds(Wire),
+    #[cfg(feature = "zenoh")]
+    Zenoh(periplus_rmw_zenoh::Wire),
+}
+
+impl Joined {
+    fn take_findings(&self) -> Diagnostics {
+        match self {
+            Self::Dds(wire) => wire.take_findings(),
+            #[cfg(feature = "zenoh")]
+            Self::Zenoh(wire) => wire.take_findings(),
+        }
+    }
+}
+
+impl Ros2 {
+    /// Joins as asked. Unasked, a run that keeps pace with the wall joins on this machine, or as the
+    /// environment says, and goes on without where that fails; none when it was asked and fails.
+    pub(crate) fn join(
+        simulation: &Simulation,
+        asked: Option<Reach>,
+        is_paced: bool,
+        quiet: bool,
+    ) -> io::Result<Option<Self>> {
+        if asked == Some(Reach::Zenoh) {
+            return join_zenoh(simulation, quiet);
+        }
+        let (mut settings, findings) = Settings::from_environment(&Machine);
+        match asked {
+            Some(Reach::Off) => settings.range = Range::Off,
+            None if !is_paced => settings.range = Range::Off,
+            None | Some(Reach::Zenoh) => {}
+            Some(Reach::Loopback) => settings.range = Range::Localhost,
+            Some(Reach::Network) if settings.range == Range::SystemDefault => {}
+            Some(Reach::Network) => settings.range = Range::Subnet,
+        }
+        let wire = None;
+        let mut joined = Self { wire, looked: Duration::ZERO, quiet };
+        if settings.range == Range::Off {
+            return Ok(Some(joined));
+        }
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+        let opened = Wire::open(&settings).and_then(|wire| {
+            wire.attach(simulation.graph())?;
+            Ok(wire)
+        });
+        match opened {
+            Ok(wire) => joined.wire = Some(Joined::Dds(wire)),
+            Err(error) if asked.is_some() => {
+                terminal::complain(&error.to_string());
+                return Ok(None);
+            }
+            Err(error) => terminal::say(&format!("warning: {error}; running without ROS 2")),
+        }
+        if joined.wire.is_some() && !quiet {
+            let domain = settings.domain_id;
+            terminal::say(&match settings.range {
+                Range::Localhost => format!(
+                    "ROS 2: domain {domain}, this machine only; --ros2 network opens it, \
+                     --ros2 off keeps it out"
+                ),
+                _ => format!("ROS 2: domain {domain}, on the network"),
+            });
+        }
+        Ok(Some(joined))
+    }
+
+    /// Whether others can see the run.
+    pub(crate) fn is_joined(&self) -> bool {
+        self.wire.is_some()
+    }
+
+    /// Whether it is time to say what is wrong on the network.
+    pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
+        let is_due = self.wire.is_some() && wall >= self.looked + LOOK;
+        if is_due {
+            self.looked = wall;
+        }
+        is_due
+    }
+
+    /// What others have on the network; none where none of ROS 2's own was joined.
+    pub(crate) fn remote(&self) -> Option<Remote> {
+        match self.wire.as_ref()? {
+            Joined::Dds(wire) => Some(wire.remote()),
+            #[cfg(feature = "zenoh")]
+            Joined::Zenoh(_) => None,
+        }
+    }
+
+    /// Says what is wrong on the network.
+    pub(crate) fn tell(&self) -> io::Result<()> {
+        let Some(wire) = &self.wire else { return Ok(()) };
+        let findings = wire.take_findings();
+        if self.quiet {
+            return Ok(());
+        }
+        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
+    }
+}
+
+#[cfg(feature = "zenoh")]
+use zenoh::join as join_zenoh;
+
+/// Without the feature nobody can.
+#[cfg(not(feature = "zenoh"))]
+#[expect(clippy::unnecessary_wraps, reason = "as the one with the feature")]
+fn join_zenoh(_: &Simulation, _: bool) -> io::Result<Option<Ros2>> {
+    terminal::complain(
+        "this periplus was built without Zenoh, which takes 200 crates more; build one with \
+         `cargo build --release --features zenoh`",
+    );
+    Ok(None)
+}

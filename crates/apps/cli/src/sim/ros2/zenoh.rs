@@ -1,0 +1,36 @@
+//! A running world among programs that use `rmw_zenoh`.
+
+use std::io;
+use std::time::Duration;
+
+use periplus_diagnostics::SourceMap;
+use periplus_os::Machine;
+use periplus_rmw_zenoh::{Settings, Wire};
+use periplus_sim::Simulation;
+
+use super::{Joined, Ros2};
+use crate::terminal;
+
+/// Joins as the environment says; none when that fails.
+pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ros2>> {
+    let (settings, findings) = Settings::from_environment(&Machine);
+    terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    let opened = Wire::open(&settings).and_then(|wire| {
+        wire.attach(simulation.graph())?;
+        Ok(wire)
+    });
+    match opened {
+        Ok(wire) => {
+            if !quiet {
+                let (domain, way) = (settings.domain_id, settings.way());
+                terminal::say(&format!("ROS 2 on Zenoh: domain {domain}, by way of {way}"));
+            }
+            let wire = Some(Joined::Zenoh(wire));
+            Ok(Some(Ros2 { wire, looked: Duration::ZERO, quiet }))
+        }
+        Err(error) => {
+            terminal::complain(&error.to_string());
+            Ok(None)
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! The usual stack beside any robot: what it publishes and listens to is found out, not asked for.
+//!
+//! The world runs for a moment before the run begins. From the messages of that moment come the topics
+//! of scans, odometry and IMU, the frames, and whether anybody publishes where the robot is in
+//! odometry. Then everything is set back to time zero.
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::Diagnostics;
+use periplus_ekf::Settings;
+use periplus_fusion_nodes::EkfNode;
+use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos, TopicInfo};
+use periplus_msgs::Message;
+use periplus_msgs::nav_msgs::Odometry;
+use periplus_msgs::sensor_msgs::{Imu, LaserScan};
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_params::{Given, Value, Values};
+use periplus_sim::{Diverged, Simulation};
+
+/// The longest time that the world runs to be looked at \[ns\]: odometry and scans come several times
+/// a second.
+const LONGEST_LOOK_NS: i64 = 2_000_000_000;
+
+/// The shortest, so that slow publishers of transforms are seen too \[ns\].
+const SHORTEST_LOOK_NS: i64 = 500_000_000;
+
+/// Radius of a robot whose collisions say nothing about its size \[m\], the default of Nav2 in tutorials.
+const USUAL_RADIUS_M: f64 = 0.22;
+
+/// A chain of frames is followed this far at most.
+const MAX_DEPTH: usize = 100;
+
+/// What a robot publishes, as far as the stack needs it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct RobotProfile {
+    /// The topic of laser scans.
+    pub(crate) scan: Option<String>,
+    /// The topic of odometry.
+    pub(crate) odometry: Option<String>,
+    /// The topic of an IMU.
+    pub(crate) imu: Option<String>,
+    /// The frame in which odometry has the robot.
+    pub(crate) odom_frame: Option<String>,
+    /// The frame of the robot from which all its others lead on.
+    pub(crate) base_frame: Option<String>,
+    /// Whether a transform leads from `base_frame` to `odom_frame`.
+    pub(crate) has_odom_transform: bool,
+    /// The radius of a circle around the robot \[m\].
+    pub(crate) radius_m: f64,
+}
+
+/// The subscriptions of a look.
+struct Look {
+    moving: Mailbox<TFMessage>,
+    fixed: Mailbox<TFMessage>,
+    odometry: Option<Mailbox<Odometry>>,
+    scan: Option<Mailbox<LaserScan>>,
+    profile: RobotProfile,
+    /// Parents by their children.
+    parents: BTreeMap<String, String>,
+}
+
+impl RobotProfile {
+    /// Runs the world for a moment, finds out, and sets it back.
+    ///
+    /// # Errors
+    /// When the world cannot run, or a name is not valid.
+    pub(crate) fn of(simulation: &mut Simulation) -> Result<Self, String> {
+        let mut look = Look::new(simulation.graph()).map_err(|error| error.to_string())?;
+        let words = |diverged: Diverged| diverged.to_string();
+        while simulation.time_ns() < LONGEST_LOOK_NS {
+            simulation.step().map_err(words)?;
+            look.take();
+            if simulation.time_ns() >= SHORTEST_LOOK_NS && look.has_all() {
+                break;
+            }
+        }
+        let mut profile = look.finish();
+        profile.radius_m = simulation.robot_radius_m().unwrap_or(USUAL_RADIUS_M);
+        simulation.reset();
+        Ok(profile)
+    }
+
+    /// Whether a filter has to publish where the robot is in odometry, and can.
+    pub(crate) fn needs_filter(&self) -> bool {
+        !self.has_odom_transform && self.odometry.is_some()
+    }
+
+    /// The filter of `robot_localization` on what the robot publishes: the speeds of its wheels, and
+    /// how fast its IMU turns.
+    ///
+    /// # Errors
+    /// When it cannot run.
+    pub(crate) fn filter(&self, graph: &Graph) -> Result<EkfNode, GraphError> {
+        const WHEELS: &str = "[false, false, false, false, false, false, true, true, false, \
+                              false, false, true, false, false, false]";
+        const TURNS: &str = "[false, false, false, false, false, false, false, false, false, \
+                             false, false, true, false, false, false]";
+        let mut given: Vec<(&str, &str)> = vec![
+            ("two_d_mode", "true"),
+            ("world_frame", self.odom()),
+            ("odom_frame", self.odom()),
+            ("base_link_frame", self.base()),
+        ];
+        if let Some(topic) = &self.odometry {
+            given.extend([("odom0", topic.as_str()), ("odom0_config", WHEELS)]);
+        }
+        if let Some(topic) = &self.imu {
+            given.extend([("imu0", topic.as_str()), ("imu0_config", TURNS)]);
+        }
+        let given = given.into_iter().map(|(name, text)| Given::new(name, text));
+        let (settings, values) = Settings::read(given, &mut Diagnostics::new());
+        EkfNode::at(graph.node(NodeSettings::new("ekf_filter_node"))?, settings, values)
+    }
+
+    /// Sets parameters of a node that nobody has given: the frames of odometry and of the robot, and the
+    /// topic of scans, by these names.
+    pub(crate) fn fill(&self, values: &mut Values, names: [&'static str; 3]) {
+        let known = [&self.odom_frame, &self.base_frame, &self.scan];
+        for (name, known) in names.into_iter().zip(known) {
+            if let Some(text) = known
+                && values.table().find(name).is_some()
+                && !values.is_given(name)
+            {
+                values.set(name, Value::Text(text.clone()));
+            }
+        }
+    }
+
+    /// The frame of odometry, or its usual name.
+    pub(crate) fn odom(&self) -> &str {
+        self.odom_frame.as_deref().unwrap_or("odom")
+    }
+
+    /// The frame of the robot, or its usual name.
+    pub(crate) fn base(&self) -> &str {
+        self.base_frame.as_deref().unwrap_or("base_link")
+    }
+
+    /// Both costmaps of Nav2 with the values of its own example, for this robot.
+    pub(crate) fn costmaps(&self) -> String {
+        let (odom, base, radius_m) = (self.odom(), self.base(), self.radius_m);
+        let scan = self.scan.as_deref().unwrap_or("/scan");
+        let common = |frame: &str| {
+            format!(
+                "      use_sim_time: true\n      global_frame: {frame}\n      robot_base_frame: {base}\n\
+                 \x20     robot_radius: {radius_m:.3}\n      resolution: 0.05\n"
+            )
+        };
+        let layers = format!(
+            "      obstacle_layer:\n        plugin: nav2_costmap_2d::ObstacleLayer\n\
+             \x20       observation_sources: scan\n\
+             \x20       scan: {{topic: {scan}, data_type: LaserScan, marking: true, clearing: true, \
+             obstacle_max_range: 2.5, raytrace_max_range: 3.0, max_obstacle_height: 2.0}}\n\
+             \x20     inflation_layer:\n        plugin: nav2_costmap_2d::InflationLayer\n\
+             \x20       cost_scaling_factor: 3.0\n        inflation_radius: {:.3}\n",
+            2.5 * radius_m
+        );
+        format!(
+            "local_costmap:\n  local_costmap:\n    ros__parameters:\n{}\
+             \x20     update_frequency: 5.0\n      publish_frequency: 2.0\n      rolling_window: true\n\
+             \x20     width: 3\n      height: 3\n      plugins: [obstacle_layer, inflation_layer]\n{layers}\
+             global_costmap:\n  global_costmap:\n    ros__parameters:\n{}\
+             \x20     update_frequency: 1.0\n      publish_frequency: 1.0\n      track_unknown_space: true\n\
+             \x20     plugins: [static_layer, obstacle_layer, inflation_layer]\n\
+             \x20     static_layer:\n        plugin: nav2_costmap_2d::StaticLayer\n\
+             \x20       map_subscribe_transient_local: true\n{layers}",
+            common(odom),
+            common("map"),
+        )
+    }
+}
+
+impl Look {
+    fn new(graph: &Graph) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new("stack").bare().keep_names())?;
+        let topics = graph.topics();
+        let profile = RobotProfile {
+            scan: of_type::<LaserScan>(&topics, "scan"),
+            odometry: of_type::<Odometry>(&topics, "odom"),
+            imu: of_type::<Imu>(&topics, "imu"),
+            ..RobotProfile::default()
+        };
+        Ok(Self {
+            moving: node.mailbox("/tf", Qos::reliable(1000))?,
+            fixed: node.mailbox("/tf_static", Qos::latched(100))?,
+            odometry: mailbox(&node, profile.odometry.as_deref())?,
+            scan: mailbox(&node, profile.scan.as_deref())?,
+            profile,
+            parents: BTreeMap::new(),
+        })
+    }
+
+    /// Takes in what has come.
+    fn take(&mut self) {
+        for message in self.moving.drain().into_iter().chain(self.fixed.drain()) {
+            for edge in &message.transforms {
+                let plain = |frame: &str| frame.trim_start_matches('/').to_owned();
+                self.parents.insert(plain(&edge.child_frame_id), plain(&edge.header.frame_id));
+            }
+        }
+        if let Some(odometry) = self.odometry.as_ref().and_then(Mailbox::latest) {
+            let plain = |frame: &str| Some(frame.trim_start_matches('/').to_owned());
+            self.profile.odom_frame = plain(&odometry.header.frame_id);
+            self.profile.base_frame = plain(&odometry.child_frame_id);
+            self.odometry = None;
+        }
+        if self.scan.as_ref().is_some_and(|scan| scan.latest().is_some()) {
+            self.scan = None;
+        }
+    }
+
+    /// Whether nothing that was waited for is left.
+    fn has_all(&self) -> bool {
+        self.odometry.is_none() && self.scan.is_none()
+    }
+
+    fn finish(mut self) -> RobotProfile {
+        let odom = self.profile.odom_frame.clone().filter(|frame| !frame.is_empty());
+        let odom = odom.unwrap_or_else(|| "odom".to_owned());
+        let mut base = self.profile.base_frame.clone().filter(|frame| !frame.is_empty());
+        if let Some((child, _)) = self.parents.iter().find(|(_, parent)| **parent == odom) {
+            self.profile.has_odom_transform = true;
+            base = Some(child.clone());
+        } else if let Some(start) = base.take() {
+            // All frames of the robot hang below its first one.
+            let mut top = start;
+            for _ in 0..MAX_DEPTH {
+                match self.parents.get(&top) {
+                    Some(parent) => top.clone_from(parent),
+                    None => break,
+                }
+            }
+            base = Some(top);
+        }
+        self.profile.odom_frame = Some(odom);
+        self.profile.base_frame = base;
+        self.profile
+    }
+}
+
+fn mailbox<M: Message>(node: &Node, topic: Option<&str>) -> Result<Option<Mailbox<M>>, GraphError> {
+    topic.map(|topic| node.mailbox(topic, Qos::best_effort(10))).transpose()
+}
+
+/// The topic of a type that somebody publishes: the one with this word at its end, else the first.
+fn of_type<M: Message>(topics: &[TopicInfo], word: &str) -> Option<String> {
+    let all = || {
+        let is_it = |it: &&TopicInfo| it.type_name == M::TYPE_NAME && !it.publishers.is_empty();
+        topics.iter().filter(is_it).map(|it| it.name.as_str())
+    };
+    all().find(|name| name.ends_with(word)).or_else(|| all().next()).map(str::to_owned)
+}

@@ -1,0 +1,257 @@
+//! `periplus slam`.
+
+mod live;
+mod options;
+mod parameters;
+mod report;
+mod session;
+
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use periplus_geometry::Pose2;
+use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
+use periplus_os::Stopwatch;
+use periplus_slam::{Cure, Mapper, Remedy};
+
+use crate::log::{Log, LogOptions};
+use crate::picture::draw_by;
+use crate::{paths, terminal};
+use parameters::Parameters;
+use report::Report;
+use session::Made;
+
+pub(crate) use options::SlamOptions;
+
+pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    if options.live.live {
+        return live::run(options, ros);
+    }
+    if !ros.is_empty() {
+        terminal::complain("`--ros-args` are for `periplus slam --live`");
+        return Ok(ExitCode::from(2));
+    }
+    from_log(options)
+}
+
+fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
+    let watch = Stopwatch::start();
+    let parameters = match Parameters::read(options) {
+        Ok(parameters) => parameters,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let findings = &parameters.diagnostics;
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &parameters.sources)?;
+    if findings.has_errors() {
+        return Ok(ExitCode::FAILURE);
+    }
+    let input = parameters.input(&options.input);
+    let mut run = match map(options, &parameters, &input, None)? {
+        Ok(run) => run,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
+    let remedy = Remedy::of(run.made.mapper().remarks())
+        .filter(|_| options.session.is_none() && is_corrected);
+    if remedy.is_some() {
+        // A fault of mounting or axes is certain: the map is made again without it.
+        drop(run);
+        run = match map(options, &parameters, &input, remedy)? {
+            Ok(run) => run,
+            Err(why) => {
+                terminal::complain(&why);
+                return Ok(ExitCode::FAILURE);
+            }
+        };
+    }
+    let Run { log, made, before, spent_s, used, saved, loaded_s, finish_s } = run;
+    let slam = made.mapper();
+    let stamps: Vec<&str> = used.iter().map(|&number| log.scans[number].stamp.as_str()).collect();
+    let report = Report {
+        options,
+        slam,
+        parameters: &parameters,
+        log: &log,
+        loaded_s,
+        finish_s,
+        wall_s: watch.elapsed().as_secs_f64(),
+        spent_s: &spent_s,
+        remedy,
+    };
+    // The report is last: it tells the peak of memory.
+    let written = saved
+        .and_then(|()| match (&options.g2o, made.graph()) {
+            (Some(path), Some(graph)) => put(path, graph.to_g2o().as_bytes()),
+            _ => Ok(()),
+        })
+        .and_then(|()| write(&options.out, slam, (&stamps, before), &report));
+    if !options.quiet {
+        report.tell(&mut anstream::stdout().lock(), written.is_ok())?;
+    }
+    if let Err(why) = written {
+        terminal::complain(&why);
+        return Ok(ExitCode::FAILURE);
+    }
+    for fault in log.faults.iter().take(MOST_TOLD) {
+        terminal::complain(fault);
+    }
+    if let Some(why) = report.failure() {
+        terminal::complain(&why);
+        return Ok(ExitCode::FAILURE);
+    }
+    Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// A log that was mapped.
+struct Run {
+    /// Without its readings: they are most of it, the map has what it needs of them, and memory is for one of
+    /// both.
+    log: Log,
+    made: Made,
+    /// Poses of the session, which have their places in the trajectory before those of the log.
+    before: usize,
+    /// CPU for each scan \[s\].
+    spent_s: Vec<f64>,
+    /// Scans that have a line in the trajectory, by their numbers in the log.
+    used: Vec<usize>,
+    /// Outcome of writing the session that was asked for.
+    saved: Result<(), String>,
+    /// Reading the log, and the last refinement \[s\].
+    loaded_s: f64,
+    finish_s: f64,
+}
+
+/// Maps the log, with its data corrected when a fault of it is known.
+fn map(
+    options: &SlamOptions,
+    parameters: &Parameters,
+    input: &LogOptions,
+    remedy: Option<Remedy>,
+) -> io::Result<Result<Run, String>> {
+    let watch = Stopwatch::start();
+    let mut log = match Log::open(&options.log, input)? {
+        Ok(log) => log,
+        Err(why) => return Ok(Err(why)),
+    };
+    if log.scans.is_empty() {
+        return Ok(Err(format!("{} holds no scans", options.log.display())));
+    }
+    let mut made = match Made::new(options, parameters) {
+        Ok(made) => made,
+        Err(why) => return Ok(Err(why)),
+    };
+    let before = made.mapper().trajectory().len();
+    let loaded_s = watch.elapsed().as_secs_f64();
+    let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
+    let mut cure = remedy.map(Cure::new);
+    let (mut spent_s, mut used) = (Vec::with_capacity(log.scans.len()), Vec::new());
+    let slam = made.mapper_mut();
+    for (number, logged) in log.scans.iter_mut().enumerate().step_by(parameters.every()) {
+        bar.set_position(number as u64);
+        let one = Stopwatch::start();
+        let ignored = slam.counts().ignored;
+        let _ = match &mut cure {
+            Some(cure) => {
+                let (scan, odom_from_base) = cure.apply(&logged.scan, logged.odom_from_base);
+                slam.add_scan(&scan, odom_from_base)
+            }
+            None => slam.add_scan(&logged.scan, logged.odom_from_base),
+        };
+        spent_s.push(one.elapsed().as_secs_f64());
+        if slam.counts().ignored == ignored {
+            used.push(number);
+        }
+        logged.scan.ranges_m = Vec::new();
+    }
+    bar.finish_and_clear();
+    let saved = save(options, &made);
+    let last = Stopwatch::start();
+    made.mapper_mut().finish();
+    let finish_s = last.elapsed().as_secs_f64();
+    Ok(Ok(Run { log, made, before, spent_s, used, saved, loaded_s, finish_s }))
+}
+
+/// Writes the session that is asked for.
+fn save(options: &SlamOptions, made: &Made) -> Result<(), String> {
+    match (&options.save_session, made.graph()) {
+        (Some(path), Some(graph)) => put(path, &graph.save()),
+        _ => Ok(()),
+    }
+}
+
+/// So many faults of a log are told one by one.
+const MOST_TOLD: usize = 20;
+
+fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    paths::write(path, bytes)
+}
+
+/// Writes all that comes of a run.
+///
+/// The trajectory has the scans of this log; `before` poses of a session come before theirs.
+fn write(
+    out: &Path,
+    slam: &dyn Mapper,
+    (stamps, before): (&[&str], usize),
+    report: &Report<'_>,
+) -> Result<(), String> {
+    paths::make_folder(out)?;
+    let put = |name: &str, bytes: &[u8]| put(&out.join(name), bytes);
+    let trajectory = slam.trajectory();
+    let lines: String = stamps
+        .iter()
+        .zip(trajectory.iter().skip(before))
+        .map(|(stamp, (_, pose))| {
+            format!("{stamp} {:.6} {:.6} {:.6}\n", pose.x_m, pose.y_m, pose.yaw_rad)
+        })
+        .collect();
+    put("trajectory.txt", lines.as_bytes())?;
+    let drawn = draw(out, slam, &trajectory);
+    put("report.json", format!("{:#}\n", report.to_json()).as_bytes())?;
+    drawn
+}
+
+/// Draws the map, the way, and a ring where passes contradict each other, some rows at a time: large maps are never held as a whole.
+fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<(), String> {
+    let Some(plan) = slam.plan() else {
+        return Err("the map is too large to draw; try `--max-range 30` or a coarser \
+                    `--resolution`. The trajectory is written"
+            .into());
+    };
+    let lattice = plan.lattice();
+    let saving = Saving::new("map", Distro::Jazzy);
+    let (image_path, yaml_path, yaml) = render_yaml(&lattice, &saving);
+    let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
+    let marked = slam.contradictions().into_iter().map(|it| it.map_from_base);
+    let marked: Vec<_> = marked.map(|it| (it.x_m, it.y_m)).collect();
+    let mut png = Vec::new();
+    paths::write_by(&out.join(image_path), |image| {
+        let mut rows = PgmRows::begin(image, &lattice, &saving)?;
+        png = draw_by(lattice, &poses, &marked, |picture| {
+            let at_once = (CELLS_AT_ONCE / lattice.width.max(1)).max(1);
+            let mut top = lattice.height;
+            while top > 0 {
+                let low = top.saturating_sub(at_once);
+                for row in plan.rows(low..top).rows().rev() {
+                    rows.push(row)?;
+                    picture.push(row)?;
+                }
+                top = low;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    put(&out.join(yaml_path), yaml.as_bytes())?;
+    put(&out.join("trajectory.png"), &png)
+}
+
+/// Of a map so many cells are drawn at once: some 12 MB.
+const CELLS_AT_ONCE: usize = 4 << 20;

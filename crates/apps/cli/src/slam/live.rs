@@ -1,0 +1,95 @@
+//! `periplus slam --live`: the map of what is heard on ROS 2.
+
+use std::io;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use periplus_diagnostics::SourceMap;
+use periplus_graph::NodeSettings;
+use periplus_os::sleep;
+use periplus_slam_nodes::Pace;
+
+use super::options::SlamOptions;
+use crate::arguments;
+use crate::live::{Live, Watched};
+use crate::mapping::{Mapping, parameters};
+use crate::stop;
+use crate::terminal::{complain, diagnostics, say};
+
+/// How often time is told: work beside the scans comes in slices of this.
+const LOOK: Duration = Duration::from_millis(4);
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let Some(arguments) = arguments::read(ros)? else {
+        return Ok(ExitCode::from(2));
+    };
+    let file = options.live.params_file.as_deref();
+    let Some((program, values)) = parameters(file, options.live.node)? else {
+        return Ok(ExitCode::FAILURE);
+    };
+    let told = arguments.parameters_of(&format!("/{}", program.node_name()));
+    let is_simulated = told
+        .get("use_sim_time")
+        .map_or(values.flag("use_sim_time"), |value| Some(value.bool_value))
+        .unwrap_or(false);
+    let stop = stop::on_signal();
+    let mut live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let graph = &live.graph;
+    let out = Some(options.out.as_path()).filter(|out| !out.as_os_str().is_empty());
+    let node = graph.node(NodeSettings::new(program.node_name()));
+    let Ok(mapping) = Mapping::new(node, program, values, Pace::Whole, out) else {
+        return Ok(ExitCode::FAILURE);
+    };
+    for findings in [graph.take_findings(), graph.unused_arguments()] {
+        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+    }
+    if !options.quiet {
+        say(&format!(
+            "mapping as {} on ROS 2 domain {}; Ctrl-C ends it{}",
+            program.executable(),
+            live.domain_id,
+            if out.is_some() { " and writes the map" } else { "" }
+        ));
+    }
+    let ready = Watched::new(mapping.node.node()).and_then(|watched| {
+        if is_simulated {
+            live.follow_clock(mapping.node.node())?;
+        }
+        Ok(watched)
+    });
+    let watched = match ready {
+        Ok(watched) => watched,
+        Err(error) => {
+            complain(&error.to_string());
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        sleep(LOOK);
+        watched.tell();
+    }
+    if !options.quiet {
+        mapping.tell(&mut anstream::stderr().lock())?;
+    }
+    let written = mapping.write();
+    live.end(LAST_WORD);
+    match written {
+        Ok(Some(folder)) if !options.quiet => say(&format!("written: {}", folder.display())),
+        Ok(_) => {}
+        Err(why) => {
+            complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,197 @@
+//! How a run went.
+
+use std::io::{self, Write};
+
+use periplus_os::peak_memory_bytes;
+use periplus_slam::{Doubt, Link, Mapper, Method, Remark, Remedy};
+use serde_json::{Value, json};
+
+use super::options::SlamOptions;
+use super::parameters::Parameters;
+use crate::log::Log;
+use crate::spent::{cpu_s, steps_ms};
+
+/// How a run went.
+pub(super) struct Report<'a> {
+    pub(super) options: &'a SlamOptions,
+    pub(super) slam: &'a dyn Mapper,
+    pub(super) parameters: &'a Parameters,
+    pub(super) log: &'a Log,
+    /// Reading the log.
+    pub(super) loaded_s: f64,
+    /// The last refinement.
+    pub(super) finish_s: f64,
+    /// All together.
+    pub(super) wall_s: f64,
+    /// For each scan.
+    pub(super) spent_s: &'a [f64],
+    /// The map was made again with this fault of the data undone.
+    pub(super) remedy: Option<Remedy>,
+}
+
+impl Report<'_> {
+    /// For a program. It is asked for last of all: the peak of memory has in it what came before.
+    pub(super) fn to_json(&self) -> Value {
+        let counts = self.slam.counts();
+        let closures: Vec<Value> = self
+            .slam
+            .closures()
+            .iter()
+            .map(|it| {
+                json!({
+                    "keys": [it.keys.0, it.keys.1],
+                    "old_from_new": [it.old_from_new.x_m, it.old_from_new.y_m, it.old_from_new.yaw_rad],
+                    "accepted": it.is_accepted,
+                    "region_m": it.region_m,
+                    "agreeing": it.agreeing,
+                    "reason": it.reason,
+                })
+            })
+            .collect();
+        json!({
+            "log": self.options.log,
+            "method": self.slam.method().word(),
+            "parameters": self.given(),
+            "kind": self.log.kind,
+            "wall_s": self.wall_s,
+            "cpu_s": cpu_s(),
+            "peak_memory_bytes": peak_memory_bytes(),
+            "load_s": self.loaded_s,
+            "finish_s": self.finish_s,
+            "scan_ms": steps_ms(self.spent_s),
+            "scans": counts.scans,
+            "kept_scans": counts.kept,
+            "lost_scans": counts.lost,
+            "ignored_scans": counts.ignored,
+            "path_m": self.path_m(),
+            "log_s": self.log.span_s(),
+            "ties": counts.ties,
+            "loop_closures": self.accepted(),
+            "loop_searches": counts.searches,
+            "resamplings": self.slam.resamplings(),
+            "map_memory_bytes": self.slam.size(),
+            "closures": closures,
+            "edges": self.edges(),
+            "contradictions": self.contradictions(),
+            "remedy": self.remedy.map(|it| it.to_string()),
+            "warnings": self.warnings(),
+            "faults": self.log.faults,
+        })
+    }
+
+    /// Every edge of the graph, as `--g2o` writes it: from which kept scan to which, by what, and how far the
+    /// map is off from it \[m, rad\].
+    fn edges(&self) -> Vec<Value> {
+        let edges = self.slam.edges().into_iter();
+        let told = edges.map(|edge| {
+            let link = match edge.link {
+                Link::Chain => "chain",
+                Link::Tie => "tie",
+                Link::Closure => "closure",
+            };
+            json!({
+                "keys": [edge.keys.0, edge.keys.1],
+                "link": link,
+                "residual": [edge.residual_m, edge.residual_rad],
+            })
+        });
+        told.collect()
+    }
+
+    /// Places where two passes contradict each other: where the map has them \[m\], the share of what both see
+    /// that agrees, and for both passes the kept scans and stamps of the stretch, as in the trajectory.
+    fn contradictions(&self) -> Vec<Value> {
+        let stamp = |time_ns: i64| {
+            let logged = self.log.scans.iter().find(|it| it.scan.time_ns == time_ns);
+            logged.map_or_else(|| format!("{:.6}", time_ns as f64 * 1e-9), |it| it.stamp.clone())
+        };
+        let pass = |keys: (usize, usize), times_ns: (i64, i64)| json!({ "keys": [keys.0, keys.1], "stamps": [stamp(times_ns.0), stamp(times_ns.1)] });
+        let found = self.slam.contradictions().into_iter();
+        let told = found.map(|it| {
+            json!({
+                "position": [it.map_from_base.x_m, it.map_from_base.y_m],
+                "agreeing": it.agreeing_ratio,
+                "pass": pass(it.keys, it.times_ns),
+                "earlier_pass": pass(it.earlier_keys, it.earlier_times_ns),
+            })
+        });
+        told.collect()
+    }
+
+    /// Why the map is not one that anybody should use.
+    pub(super) fn failure(&self) -> Option<String> {
+        let counts = self.slam.counts();
+        let is_unfitting = |remark: &Remark| matches!(remark.doubt, Doubt::Unfitting(_));
+        self.slam.remarks().iter().any(is_unfitting).then(|| {
+            format!(
+                "{} of {} scans fit nothing that was seen before: do not use the map; look at the \
+                 scanner's transform (`periplus doctor`), at the stamps, and at readings that come and go",
+                counts.lost, counts.scans
+            )
+        })
+    }
+
+    /// For a person.
+    pub(super) fn tell(&self, out: &mut dyn Write, is_written: bool) -> io::Result<()> {
+        let counts = self.slam.counts();
+        for warning in self.warnings() {
+            writeln!(out, "warning: {warning}")?;
+        }
+        let how = match self.slam.method() {
+            Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.ties),
+            Method::Gmapping => format!(
+                "{} particles, drawn anew {} times",
+                self.parameters.values.integer("particles").unwrap_or_default(),
+                self.slam.resamplings()
+            ),
+        };
+        writeln!(
+            out,
+            "{} scans over {:.0} m and {:.0} s in {:.2} s: {:.0} x real time; {how}",
+            counts.scans,
+            self.path_m(),
+            self.log.span_s(),
+            self.wall_s,
+            self.log.span_s() / self.wall_s.max(1e-9),
+        )?;
+        if counts.lost + counts.ignored > 0 {
+            writeln!(out, "  {} scans did not fit, {} said nothing", counts.lost, counts.ignored)?;
+        }
+        if is_written {
+            writeln!(out, "  map and trajectory are in {}", self.options.out.display())?;
+        }
+        Ok(())
+    }
+
+    /// What is odd about the log, and about what the drive in it shows.
+    fn warnings(&self) -> Vec<String> {
+        let begin_ns = self.log.scans.first().map_or(0, |it| it.scan.time_ns);
+        let remarks = self.slam.remarks().iter().map(|remark| {
+            let after_s = remark.time_ns.saturating_sub(begin_ns) as f64 * 1e-9;
+            format!("{remark} (noticed after {after_s:.0} s)")
+        });
+        let remedy = self.remedy.map(|it| format!("the map was made again: {it}"));
+        self.log.warnings.iter().cloned().chain(remedy).chain(remarks).collect()
+    }
+
+    /// Parameters that somebody set.
+    fn given(&self) -> serde_json::Map<String, Value> {
+        let values = &self.parameters.values;
+        let given = values.table().names().filter(|name| values.is_given(name));
+        given
+            .filter_map(|name| Some((name.to_owned(), json!(values.get(name)?.to_string()))))
+            .collect()
+    }
+
+    fn accepted(&self) -> usize {
+        self.slam.closures().iter().filter(|it| it.is_accepted).count()
+    }
+
+    fn path_m(&self) -> f64 {
+        let trajectory = self.slam.trajectory();
+        trajectory
+            .windows(2)
+            .map(|pair| (pair[1].1.x_m - pair[0].1.x_m).hypot(pair[1].1.y_m - pair[0].1.y_m))
+            .sum()
+    }
+}

@@ -1,0 +1,226 @@
+//! `periplus teleop`.
+
+mod terminal;
+
+use std::io::{self, IsTerminal as _};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+use periplus_msgs::rosgraph_msgs::Clock;
+use periplus_msgs::std_msgs::Header;
+use periplus_os::{Stopwatch, unix_ns};
+use periplus_params::Given;
+use periplus_teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
+
+use crate::arguments;
+use crate::live::Live;
+use crate::terminal::{complain, diagnostics};
+use terminal::RawTerminal;
+
+/// The screen is shown again after so many lines of speeds, as in `teleop_twist_keyboard`.
+const LINES_PER_SCREEN: u32 = 15;
+
+/// How long the last velocity may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(500);
+
+/// Longest time without looking whether anything is due.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Drive a robot by the keyboard, with the keys of `teleop_twist_keyboard`
+///
+/// Publishes on `cmd_vel`; `-r cmd_vel:=/demo/cmd_vel` names another topic. All of `--ros-args` is
+/// understood, and so are the parameters of `teleop_twist_keyboard`.
+#[derive(Debug, Args)]
+pub(crate) struct TeleopOptions {
+    /// Speed of straight motion at the start [m/s]
+    #[arg(long, value_name = "SPEED")]
+    speed: Option<String>,
+    /// Speed of turns at the start [rad/s]
+    #[arg(long, value_name = "SPEED")]
+    turn: Option<String>,
+    /// The speed goes no higher [m/s]
+    #[arg(long, value_name = "SPEED")]
+    speed_limit: Option<String>,
+    /// The turn goes no higher [rad/s]
+    #[arg(long, value_name = "SPEED")]
+    turn_limit: Option<String>,
+    /// Send velocities with a time and a frame (TwistStamped), as Nav2 and controllers want them
+    #[arg(long)]
+    stamped: bool,
+    /// The frame of velocities with a time
+    #[arg(long, value_name = "FRAME")]
+    frame_id: Option<String>,
+    /// How often a velocity is sent again [Hz]; without it only once for each key
+    #[arg(long, value_name = "RATE")]
+    repeat_rate: Option<String>,
+    /// Without a key for so long the robot stands still [s]
+    #[arg(long, value_name = "SECONDS")]
+    key_timeout: Option<String>,
+    /// Rename a topic or the node: `from:=to`
+    #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
+    remaps: Vec<String>,
+}
+
+pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
+        return Ok(ExitCode::from(2));
+    };
+    if !io::stdin().is_terminal() {
+        complain(
+            "teleop reads keys from a terminal, and its input is none; run it in a terminal of \
+             its own, not from a launch file or a pipe",
+        );
+        return Ok(ExitCode::from(2));
+    }
+    let live = match Live::open(arguments) {
+        Ok(live) => live,
+        Err(words) => {
+            complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let Some(mut driving) = Driving::new(&live.graph, options)? else {
+        return Ok(ExitCode::FAILURE);
+    };
+    let terminal = RawTerminal::open()?;
+    let outcome = driving.go(&live.graph, &terminal);
+    drop(terminal);
+    // Whatever happened, the robot stands still now.
+    driving.keyboard.stop();
+    driving.publish();
+    live.end(LAST_WORD);
+    outcome.map(|()| ExitCode::SUCCESS)
+}
+
+/// A node that is driven with.
+struct Driving {
+    keyboard: Keyboard,
+    settings: Settings,
+    outlet: Outlet,
+    clock: Mailbox<Clock>,
+    /// Simulated time, if somebody tells it.
+    simulated: Option<Time>,
+    _node: Node,
+}
+
+enum Outlet {
+    Plain(Publisher<Twist>),
+    Stamped(Publisher<TwistStamped>),
+}
+
+impl Driving {
+    /// None when something is wrong, which has been told.
+    fn new(graph: &Graph, options: &TeleopOptions) -> io::Result<Option<Self>> {
+        let mut found = Diagnostics::new();
+        let values = TELEOP.check(options.given(), None, &mut found);
+        let made = Self::on(graph, values);
+        for finding in graph.take_findings().iter().chain(graph.unused_arguments().iter()) {
+            found.push(finding.clone());
+        }
+        diagnostics(&mut anstream::stderr().lock(), &found, &SourceMap::new())?;
+        Ok(match made {
+            Ok(driving) => (!found.has_errors()).then_some(driving),
+            Err(error) => {
+                complain(&error.to_string());
+                None
+            }
+        })
+    }
+
+    fn on(graph: &Graph, values: periplus_params::Values) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new("teleop_twist_keyboard"))?;
+        let settings = Settings::read(&node.parameters(values)?.values());
+        let qos = Qos::reliable(10);
+        let outlet = if settings.is_stamped {
+            Outlet::Stamped(node.publisher("cmd_vel", qos)?)
+        } else {
+            Outlet::Plain(node.publisher("cmd_vel", qos)?)
+        };
+        let clock = node.mailbox("/clock", Qos::clock())?;
+        let keyboard = settings.keyboard.clone();
+        Ok(Self { keyboard, settings, outlet, clock, simulated: None, _node: node })
+    }
+
+    /// Until somebody has had enough.
+    fn go(&mut self, graph: &Graph, terminal: &RawTerminal) -> io::Result<()> {
+        terminal.write(SCREEN)?;
+        terminal.write(&format!("{}\n", status(&self.keyboard)))?;
+        let (mut since_key, mut since_sent) = (Stopwatch::start(), Stopwatch::start());
+        let mut lines = 0;
+        loop {
+            let key = terminal.key(LOOK.min(self.repeat_period().unwrap_or(LOOK)))?;
+            graph.advance_to(unix_ns());
+            self.simulated =
+                self.clock.latest().map(|clock| clock.clock.clone()).or(self.simulated.take());
+            match key.map(|key| self.keyboard.press(key)) {
+                Some(Pressed::Quit) => return Ok(()),
+                Some(pressed) => {
+                    since_key = Stopwatch::start();
+                    if let Pressed::Speed { at_limit } = pressed {
+                        lines += 1;
+                        if lines % LINES_PER_SCREEN == 0 {
+                            terminal.write(SCREEN)?;
+                        }
+                        let limit = if at_limit { "\t(as fast as allowed)" } else { "" };
+                        terminal.write(&format!("{}{limit}\n", status(&self.keyboard)))?;
+                    }
+                }
+                None if self.is_silent(since_key.elapsed()) && self.keyboard.stop() => {}
+                None if self.is_due(since_sent.elapsed()) => {}
+                None => continue,
+            }
+            self.publish();
+            since_sent = Stopwatch::start();
+        }
+    }
+
+    fn repeat_period(&self) -> Option<Duration> {
+        let rate_hz = self.settings.repeat_rate_hz;
+        (rate_hz > 0.0).then(|| Duration::from_secs_f64(1.0 / rate_hz))
+    }
+
+    fn is_due(&self, since_sent: Duration) -> bool {
+        self.repeat_period().is_some_and(|period| period <= since_sent)
+    }
+
+    fn is_silent(&self, since_key: Duration) -> bool {
+        let timeout_s = self.settings.key_timeout_s;
+        timeout_s > 0.0 && timeout_s < since_key.as_secs_f64()
+    }
+
+    fn publish(&self) {
+        let twist = Twist::from(self.keyboard.velocity());
+        match &self.outlet {
+            Outlet::Plain(publisher) => publisher.publish(twist),
+            Outlet::Stamped(publisher) => {
+                let stamp = self.simulated.clone().unwrap_or_else(|| Time::of_ns(unix_ns()));
+                let header = Header { stamp, frame_id: self.settings.frame_id.clone() };
+                publisher.publish(TwistStamped { header, twist });
+            }
+        }
+    }
+}
+
+impl TeleopOptions {
+    fn given(&self) -> Vec<Given<'_>> {
+        let texts = [
+            ("speed", &self.speed),
+            ("turn", &self.turn),
+            ("speed_limit", &self.speed_limit),
+            ("turn_limit", &self.turn_limit),
+            ("frame_id", &self.frame_id),
+            ("repeat_rate", &self.repeat_rate),
+            ("key_timeout", &self.key_timeout),
+        ];
+        let given = texts
+            .into_iter()
+            .filter_map(|(name, text)| text.as_ref().map(|text| Given::new(name, text.as_str())));
+        given.chain(self.stamped.then(|| Given::new("stamped", "true"))).collect()
+    }
+}

@@ -1,0 +1,128 @@
+//! `periplus topic`, `node`, `service` and the like: what is typed, and where it goes.
+
+mod action;
+mod common;
+mod gazebo;
+mod interface;
+mod lifecycle;
+mod node;
+mod param;
+mod service;
+mod tf;
+mod topic;
+mod wired;
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_graph::Graph;
+use periplus_loader::load_interfaces;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
+use periplus_ros2cli::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
+
+use crate::old_words;
+use crate::stop;
+use crate::terminal;
+
+pub(crate) use action::ActionOptions;
+pub(crate) use interface::InterfaceOptions;
+pub(crate) use lifecycle::LifecycleOptions;
+pub(crate) use node::NodeOptions;
+pub(crate) use param::ParamOptions;
+pub(crate) use service::ServiceOptions;
+pub(crate) use tf::TfOptions;
+pub(crate) use topic::TopicOptions;
+
+pub(crate) use common::{Common, seconds};
+use wired::Wired;
+
+/// Joins the network and does what is asked.
+pub(crate) fn with_session(
+    common: &Common,
+    verb: impl FnOnce(&mut Session<'_>) -> Outcome,
+) -> io::Result<ExitCode> {
+    let types = types(common)?;
+    let mut wired = match Wired::open() {
+        Ok(wired) => wired,
+        Err(words) => {
+            terminal::complain(&words);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let stop = stop::on_signal();
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let outcome = verb(&mut Session {
+        network: &wired,
+        types: &types,
+        out: &mut out,
+        talk: &mut anstream::stderr(),
+        stop: &stop,
+        json: common.json,
+        spin_time: common.spin_time.map(Duration::from_secs_f64),
+    });
+    tell(&wired.take_findings())?;
+    end(outcome)
+}
+
+/// The types that are built in and those of the user's packages; what is wrong with them is said.
+fn types(common: &Common) -> io::Result<Types> {
+    let has_prefix = Machine.variable("AMENT_PREFIX_PATH").is_some_and(|path| !path.is_empty());
+    if common.interfaces.is_empty() && !has_prefix {
+        return Ok(Types::Builtin);
+    }
+    let folder = terminal::working_folder();
+    let folders = common.interfaces.iter().map(|path| folder.join(path));
+    let loaded = load_interfaces(&Machine, &folders.collect::<Vec<_>>());
+    terminal::diagnostics(&mut anstream::stderr().lock(), &loaded.diagnostics, &loaded.sources)?;
+    Ok(Types::With(Box::new(loaded.types)))
+}
+
+/// Does what is asked where nobody else is needed.
+pub(crate) fn without_network(
+    common: &Common,
+    verb: impl FnOnce(&mut Session<'_>) -> Outcome,
+) -> io::Result<ExitCode> {
+    let types = types(common)?;
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let outcome = verb(&mut Session {
+        network: &InGraph(Graph::new()),
+        types: &types,
+        out: &mut out,
+        talk: &mut anstream::stderr(),
+        stop: &AtomicBool::new(false),
+        json: common.json,
+        spin_time: None,
+    });
+    end(outcome)
+}
+
+/// The exit code, with words where something went wrong.
+fn end(outcome: Outcome) -> io::Result<ExitCode> {
+    match outcome {
+        Ok(()) => Ok(ExitCode::SUCCESS),
+        Err(Failure::Output(error)) => Err(error),
+        // Scripts for ROS read the answer, not the exit code.
+        Err(Failure::Refused(refusal)) if old_words::is_ros2() => {
+            match refusal.ros2 {
+                Ros2Line::Nothing => {}
+                Ros2Line::Stdout(line) => writeln!(io::stdout().lock(), "{line}")?,
+                Ros2Line::Stderr(line) => terminal::say(&line),
+            }
+            Ok(ExitCode::SUCCESS)
+        }
+        Err(failure) => {
+            if !matches!(failure, Failure::Interrupted) {
+                terminal::complain(&failure.to_string());
+            }
+            Ok(ExitCode::from(failure.exit_code()))
+        }
+    }
+}
+
+fn tell(findings: &Diagnostics) -> io::Result<()> {
+    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+}

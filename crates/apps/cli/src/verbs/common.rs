@@ -1,0 +1,105 @@
+//! Options that many verbs have.
+
+use clap::Args;
+use periplus_ros2cli::QosWish;
+
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct Common {
+    /// Print JSON: one object, or one on each line of a stream
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Seconds that others have to be found; without it as long as they take
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) spin_time: Option<f64>,
+    /// A folder of packages with .msg, .srv and .action files, besides those on AMENT_PREFIX_PATH;
+    /// may be given several times
+    #[arg(long, value_name = "DIR")]
+    pub(crate) interfaces: Vec<std::path::PathBuf>,
+    /// Taken for the sake of scripts; there is no daemon
+    #[arg(long, hide = true)]
+    pub(crate) no_daemon: bool,
+    /// Taken for the sake of scripts; rates are by the wall's clock
+    #[arg(long, short = 's', hide = true)]
+    pub(crate) use_sim_time: bool,
+}
+
+/// Words of `--qos-profile`.
+const PROFILES: [&str; 6] = [
+    "default",
+    "sensor_data",
+    "system_default",
+    "services_default",
+    "parameters",
+    "parameter_events",
+];
+
+/// Words of each policy; the last two leave the choice to the profile, as in ROS 2.
+const HISTORIES: [&str; 4] = ["keep_last", "keep_all", "system_default", "best_available"];
+const RELIABILITIES: [&str; 4] = ["reliable", "best_effort", "system_default", "best_available"];
+const DURABILITIES: [&str; 4] = ["volatile", "transient_local", "system_default", "best_available"];
+const LIVELINESSES: [&str; 4] =
+    ["automatic", "manual_by_topic", "system_default", "best_available"];
+
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Quality of service")]
+pub(crate) struct QosOptions {
+    /// Profile that the other policies start from
+    #[arg(long, value_name = "NAME", value_parser = PROFILES)]
+    qos_profile: Option<String>,
+    /// Messages that wait at most
+    #[arg(long, value_name = "COUNT")]
+    qos_depth: Option<usize>,
+    /// Whether old messages are dropped or kept
+    #[arg(long, value_name = "POLICY", value_parser = HISTORIES)]
+    qos_history: Option<String>,
+    /// Whether lost messages are sent again
+    #[arg(long, value_name = "POLICY", value_parser = RELIABILITIES)]
+    qos_reliability: Option<String>,
+    /// Whether late subscribers receive earlier messages
+    #[arg(long, value_name = "POLICY", value_parser = DURABILITIES)]
+    qos_durability: Option<String>,
+    /// How publishers assert that they are alive
+    #[arg(long, value_name = "POLICY", value_parser = LIVELINESSES)]
+    qos_liveliness: Option<String>,
+    /// How long a publisher may be silent about being alive
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    qos_liveliness_lease_duration_seconds: Option<f64>,
+}
+
+impl QosOptions {
+    pub(crate) fn wish(&self) -> QosWish {
+        QosWish {
+            profile: self.qos_profile.clone(),
+            depth: self.qos_depth,
+            history: self.qos_history.clone(),
+            reliability: self.qos_reliability.clone(),
+            durability: self.qos_durability.clone(),
+            liveliness: self.qos_liveliness.clone(),
+            lease_s: self.qos_liveliness_lease_duration_seconds,
+        }
+    }
+}
+
+/// A time that a machine can wait for.
+pub(crate) fn seconds(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(number) if (0.0..=1e9).contains(&number) => Ok(number),
+        _ => Err("it has to be a number of seconds, 0 or more".into()),
+    }
+}
+
+/// A rate \[Hz\].
+pub(crate) fn rate(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(number) if (1e-6..=1e6).contains(&number) => Ok(number),
+        _ => Err("it has to be a number above 0".into()),
+    }
+}
+
+/// A count above zero.
+pub(crate) fn count(word: &str) -> Result<usize, String> {
+    match word.parse() {
+        Ok(0) | Err(_) => Err("it has to be a whole number above 0".into()),
+        Ok(number) => Ok(number),
+    }
+}

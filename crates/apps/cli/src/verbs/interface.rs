@@ -1,0 +1,139 @@
+//! `periplus interface`.
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use periplus_ros2cli::interface::{self, Comments};
+use periplus_rosidl::Kind;
+
+use super::common::Common;
+use super::without_network;
+
+/// See the types of messages, services and actions, as `ros2 interface` does
+#[derive(Debug, Args)]
+pub(crate) struct InterfaceOptions {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+/// Which kinds; all when none is named.
+#[derive(Clone, Debug, Args)]
+struct Kinds {
+    /// Messages
+    #[arg(long, short = 'm')]
+    only_msgs: bool,
+    /// Services
+    #[arg(long, short = 's')]
+    only_srvs: bool,
+    /// Actions
+    #[arg(long, short = 'a')]
+    only_actions: bool,
+}
+
+impl Kinds {
+    fn kinds(&self) -> Vec<Kind> {
+        let wanted = [
+            (self.only_msgs, Kind::Message),
+            (self.only_srvs, Kind::Service),
+            (self.only_actions, Kind::Action),
+        ];
+        wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, kind)| kind).collect()
+    }
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// All types
+    List {
+        #[command(flatten)]
+        kinds: Kinds,
+        #[command(flatten)]
+        common: InterfaceCommon,
+    },
+    /// The types of a package
+    Package {
+        package_name: String,
+        #[command(flatten)]
+        common: InterfaceCommon,
+    },
+    /// The packages that have types
+    Packages {
+        #[command(flatten)]
+        kinds: Kinds,
+        #[command(flatten)]
+        common: InterfaceCommon,
+    },
+    /// A message with its defaults, to be changed and sent
+    Proto {
+        r#type: String,
+        /// Without the quotes around it
+        #[arg(long)]
+        no_quotes: bool,
+        #[command(flatten)]
+        common: InterfaceCommon,
+    },
+    /// What a type says
+    Show {
+        r#type: String,
+        /// The comments of types in it as well
+        #[arg(long)]
+        all_comments: bool,
+        /// No comments
+        #[arg(long, conflicts_with = "all_comments")]
+        no_comments: bool,
+        #[command(flatten)]
+        common: InterfaceCommon,
+    },
+}
+
+/// What is left of [`Common`] without a network.
+#[derive(Clone, Debug, Args)]
+struct InterfaceCommon {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// A folder of packages with .msg, .srv and .action files, besides those on AMENT_PREFIX_PATH;
+    /// may be given several times
+    #[arg(long, value_name = "DIR")]
+    interfaces: Vec<std::path::PathBuf>,
+}
+
+impl InterfaceCommon {
+    fn common(&self) -> Common {
+        Common { json: self.json, interfaces: self.interfaces.clone(), ..Common::default() }
+    }
+}
+
+impl InterfaceOptions {
+    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+        match &self.verb {
+            Verb::List { kinds, common } => without_network(&common.common(), |session| {
+                interface::list(session, &kinds.kinds())
+            }),
+            Verb::Package { package_name, common } => {
+                without_network(&common.common(), |session| {
+                    interface::package(session, package_name)
+                })
+            }
+            Verb::Packages { kinds, common } => without_network(&common.common(), |session| {
+                interface::packages(session, &kinds.kinds())
+            }),
+            Verb::Proto { r#type, no_quotes, common } => {
+                without_network(&common.common(), |session| {
+                    interface::proto(session, r#type, !no_quotes)
+                })
+            }
+            Verb::Show { r#type, all_comments, no_comments, common } => {
+                let comments = match (all_comments, no_comments) {
+                    (true, _) => Comments::All,
+                    (_, true) => Comments::None,
+                    _ => Comments::Own,
+                };
+                without_network(&common.common(), |session| {
+                    interface::show(session, r#type, comments)
+                })
+            }
+        }
+    }
+}

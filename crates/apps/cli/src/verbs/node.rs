@@ -1,0 +1,54 @@
+//! `periplus node`.
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use periplus_ros2cli::node;
+
+use super::common::Common;
+use super::with_session;
+
+/// See nodes, as `ros2 node` does
+#[derive(Debug, Args)]
+pub(crate) struct NodeOptions {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// What a node publishes, hears, answers and calls
+    Info {
+        node_name: String,
+        /// Hidden topics, services and actions as well
+        #[arg(long)]
+        include_hidden: bool,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Which nodes there are
+    List {
+        /// Hidden ones as well
+        #[arg(long, short = 'a')]
+        all: bool,
+        /// Only say how many there are
+        #[arg(long, short = 'c', alias = "count")]
+        count_nodes: bool,
+        #[command(flatten)]
+        common: Common,
+    },
+}
+
+impl NodeOptions {
+    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+        match &self.verb {
+            Verb::Info { node_name, include_hidden, common } => {
+                with_session(common, |session| node::info(session, node_name, *include_hidden))
+            }
+            Verb::List { all, count_nodes, common } => {
+                with_session(common, |session| node::list(session, *all, *count_nodes))
+            }
+        }
+    }
+}

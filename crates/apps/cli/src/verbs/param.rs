@@ -1,0 +1,136 @@
+//! `periplus param`.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use periplus_ros2cli::param::{self, List};
+
+use super::common::Common;
+use super::with_session;
+use crate::{paths, terminal};
+
+/// See and set parameters, as `ros2 param` does
+#[derive(Debug, Args)]
+pub(crate) struct ParamOptions {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Take a parameter from a node
+    Delete {
+        node_name: String,
+        name: String,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// What parameters are for, and which values they may have
+    Describe {
+        node_name: String,
+        #[arg(required = true)]
+        parameter_names: Vec<String>,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// All parameters of a node, as a file for `--params-file`
+    Dump {
+        node_name: String,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// The value of a parameter
+    Get {
+        node_name: String,
+        parameter_name: String,
+        /// Only the value
+        #[arg(long)]
+        hide_type: bool,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// The parameters of a node, or of all
+    List {
+        node_name: Option<String>,
+        /// Hidden nodes as well
+        #[arg(long)]
+        include_hidden_nodes: bool,
+        /// Only those whose names begin so
+        #[arg(long, num_args = 1.., value_name = "PREFIX")]
+        param_prefixes: Vec<String>,
+        /// Show the types, too
+        #[arg(long)]
+        param_type: bool,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Set the parameters that a file has for a node
+    Load {
+        node_name: String,
+        parameter_file: PathBuf,
+        /// Not what the file has for nodes of any name
+        #[arg(long)]
+        no_use_wildcard: bool,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Set a parameter; the value is YAML
+    Set {
+        node_name: String,
+        parameter_name: String,
+        #[arg(allow_hyphen_values = true)]
+        value: String,
+        #[command(flatten)]
+        common: Common,
+    },
+}
+
+impl ParamOptions {
+    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+        match &self.verb {
+            Verb::Delete { node_name, name, common } => {
+                with_session(common, |session| param::delete(session, node_name, name))
+            }
+            Verb::Describe { node_name, parameter_names, common } => {
+                with_session(common, |session| param::describe(session, node_name, parameter_names))
+            }
+            Verb::Dump { node_name, common } => {
+                with_session(common, |session| param::dump(session, node_name))
+            }
+            Verb::Get { node_name, parameter_name, hide_type, common } => {
+                with_session(common, |session| {
+                    param::get(session, node_name, parameter_name, *hide_type)
+                })
+            }
+            Verb::List { node_name, include_hidden_nodes, param_prefixes, param_type, common } => {
+                let options = List {
+                    node: node_name.clone(),
+                    include_hidden: *include_hidden_nodes,
+                    prefixes: param_prefixes.clone(),
+                    show_types: *param_type,
+                };
+                with_session(common, |session| param::list(session, &options))
+            }
+            Verb::Load { node_name, parameter_file, no_use_wildcard, common } => {
+                let file = terminal::working_folder().join(parameter_file);
+                let text = match paths::text(&file) {
+                    Ok(text) => text,
+                    Err(why) => {
+                        terminal::complain(&why);
+                        return Ok(ExitCode::FAILURE);
+                    }
+                };
+                with_session(common, |session| {
+                    param::load(session, node_name, parameter_file, &text, !no_use_wildcard)
+                })
+            }
+            Verb::Set { node_name, parameter_name, value, common } => {
+                with_session(common, |session| {
+                    param::set(session, node_name, parameter_name, value)
+                })
+            }
+        }
+    }
+}

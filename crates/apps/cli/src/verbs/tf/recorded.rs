@@ -1,0 +1,65 @@
+//! The tree of frames of a recording.
+
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+use periplus_diagnostics::SourceMap;
+use periplus_frames::Forest;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_ros2cli::Failure;
+use periplus_ros2cli::tf::{Pictures, put_tree, stamped};
+use periplus_tf::{Kind, Survey};
+
+use crate::log::bag::{each, has_type};
+use crate::terminal;
+use crate::verbs::{Common, without_network};
+
+/// All frames of a recording, from its beginning to its end.
+pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Result<ExitCode> {
+    let bag = match crate::paths::bag(path) {
+        Ok(bag) => bag,
+        Err(why) => {
+            terminal::complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let mut err = anstream::stderr().lock();
+    terminal::diagnostics(&mut err, bag.findings(), &SourceMap::new())?;
+    drop(err);
+    let is_told = |topic: &&periplus_bags::BagTopic| {
+        has_type(topic, "TFMessage") || has_type(topic, "tfMessage")
+    };
+    let topics: Vec<&str> =
+        bag.topics().iter().filter(is_told).map(|topic| topic.name.as_str()).collect();
+    without_network(common, |session| {
+        if topics.is_empty() {
+            return Err(Failure::failed(format!(
+                "{} holds no transforms: no topic of the type tf2_msgs/msg/TFMessage",
+                path.display()
+            )));
+        }
+        let mut survey = Survey::keeping(i64::MAX);
+        let mut newest_ns = 0;
+        let read = each::<TFMessage>(&bag, &topics, |topic, message| {
+            let kind = if topic.ends_with("tf_static") { Kind::Fixed } else { Kind::Moving };
+            for transform in &message.transforms {
+                let it = stamped(transform);
+                newest_ns = newest_ns.max(it.stamp_ns);
+                // What is refused is counted, and told below.
+                let _ = survey.hear(&it, topic, kind);
+            }
+        });
+        for fault in read.map_err(|why| Failure::failed(why.to_string()))? {
+            session.say(&format!("WARNING: {fault}"));
+        }
+        let refused: Vec<String> = survey
+            .refused()
+            .map(|(child, why, count)| format!("WARNING: {why}: `{child}`, {count} times"))
+            .collect();
+        for words in refused {
+            session.say(&words);
+        }
+        put_tree(session, &Forest::new(&survey), &survey, newest_ns, pictures)
+    })
+}

@@ -1,0 +1,106 @@
+//! `periplus view`.
+
+use std::io;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use clap::Args;
+use periplus_dds::RemoteTopic;
+use periplus_graph::NodeSettings;
+use periplus_os::{Stopwatch, sleep};
+
+use crate::arguments;
+use crate::demo::browser;
+use crate::live::Live;
+use crate::page::{About, PORT, Page, PageOptions};
+use crate::stop;
+use crate::terminal::{complain, say};
+
+/// How often time is told.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// How often it is looked who came and went on the network.
+const LOOK_AROUND: Duration = Duration::from_millis(200);
+
+/// How long the last words may take to arrive.
+const LAST_WORD: Duration = Duration::from_millis(300);
+
+/// Show a running system in the browser: Periplus, or anything that speaks ROS 2
+///
+/// It joins the network as a node and brings only what the page asks for. Where somebody tells `/clock`,
+/// it lives by that.
+#[derive(Debug, Args)]
+pub(crate) struct ViewOptions {
+    #[command(flatten)]
+    page: PageOptions,
+    /// Open no browser
+    #[arg(long)]
+    no_browser: bool,
+    /// A file of RViz that the page opens
+    #[arg(long, short = 'd', value_name = "FILE.rviz")]
+    display_config: Option<PathBuf>,
+    /// Frame that everything is drawn in, in place of the one that the file of RViz names
+    #[arg(long, short = 'f', value_name = "FRAME")]
+    fixed_frame: Option<String>,
+    /// A folder to look in for packages with meshes, before those of the environment; may be given
+    /// several times
+    #[arg(long, value_name = "DIR")]
+    resource_path: Vec<PathBuf>,
+}
+
+pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+    let Some(arguments) = arguments::read(ros)? else {
+        return Ok(ExitCode::from(2));
+    };
+    let stop = stop::on_signal();
+    let opened = Live::open(arguments).and_then(|live| {
+        let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
+        let resource_path = options.resource_path.clone();
+        let view = options.display_config.clone();
+        let fixed_frame = options.fixed_frame.clone();
+        let about = About { resource_path, view, fixed_frame, ..About::default() };
+        let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
+        Ok((Page::open(&live.graph, address, token, about)?, live))
+    });
+    let (page, mut live) = match opened {
+        Ok(opened) => opened,
+        Err(why) => {
+            complain(&why);
+            return Ok(ExitCode::FAILURE);
+        }
+    };
+    let url = page.url();
+    say(&format!("ROS 2, domain {}: the page is at {url}; Ctrl-C ends it", live.domain_id));
+    if !options.no_browser && !browser::open(&url) {
+        say("no browser could be opened; open the page yourself");
+    }
+    let node = live.graph.node(NodeSettings::new("periplus_view").bare());
+    let mut looked: Option<Stopwatch> = None;
+    let mut follows = false;
+    while !stop.load(Ordering::Relaxed) {
+        live.go_on();
+        if looked.as_ref().is_none_or(|looked| looked.elapsed() >= LOOK_AROUND) {
+            looked = Some(Stopwatch::start());
+            let remote = live.wire.remote();
+            let tells = |topic: &RemoteTopic| !topic.publishers.is_empty();
+            if !follows
+                && remote.topic("/clock").is_some_and(tells)
+                && let Ok(node) = &node
+            {
+                follows = true;
+                if let Err(error) = live.follow_clock(node) {
+                    complain(&error.to_string());
+                }
+            }
+            page.set_remote(&remote);
+            live.tell();
+        }
+        sleep(LOOK);
+    }
+    drop(page);
+    live.end(LAST_WORD);
+    Ok(ExitCode::SUCCESS)
+}

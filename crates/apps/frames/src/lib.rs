@@ -1,0 +1,29 @@
+//! The tree of frames, as `view_frames` of `tf2_tools` shows it: text for Graphviz, and pictures
+//! (SVG, PDF) that need no Graphviz; and what is wrong with the tree.
+//!
+//! ```
+//! use periplus_geometry::Pose;
+//! use periplus_frames::Forest;
+//! use periplus_tf::{Kind, Stamped, Survey};
+//!
+//! let mut survey = Survey::default();
+//! let laser = Stamped::new("base_link", "laser", 0, Pose::from_xyz(0.2, 0.0, 0.1));
+//! survey.hear(&laser, "/robot_state_publisher", Kind::Fixed)?;
+//! let forest = Forest::new(&survey);
+//! assert_eq!(forest.roots().collect::<Vec<_>>(), ["base_link"]);
+//! assert!(forest.faults().is_empty());
+//! assert!(forest.dot("12.0").contains(r#""base_link" -> "laser""#));
+//! # Ok::<(), periplus_tf::Refused>(())
+//! ```
+
+mod dot;
+mod drawing;
+mod faults;
+mod forest;
+mod layout;
+mod pdf;
+mod svg;
+mod widths;
+
+pub use faults::Fault;
+pub use forest::{Edge, Forest, Frame};

@@ -1,0 +1,127 @@
+//! Calling services.
+
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Duration;
+
+use periplus_graph::{CallError, Node, RawClient, RawMessage};
+use periplus_msgs::{Message, Service};
+use periplus_os::{Stopwatch, sleep};
+
+use crate::session::BREATH;
+use crate::{Failure, Outcome, Session};
+
+/// How often it looks for the answer.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// How long who is there has to answer: a node that is busy starting may take its time.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
+
+/// A service that is called.
+pub(crate) struct Asker {
+    name: String,
+    client: RawClient,
+}
+
+/// A question that waits for its answer.
+pub(crate) struct Question {
+    name: String,
+    answer: Receiver<Result<RawMessage, CallError>>,
+}
+
+impl Asker {
+    /// Gets ready to call.
+    pub(crate) fn new(
+        node: &Node,
+        name: &str,
+        type_name: &str,
+        type_hash: Option<&str>,
+    ) -> Outcome<Self> {
+        let client = node.raw_client(name, type_name, type_hash)?;
+        Ok(Self { name: name.to_owned(), client })
+    }
+
+    /// Waits until somebody answers there, at most so long; whether somebody does.
+    pub(crate) fn wait(&self, session: &Session<'_>, timeout: Option<Duration>) -> Outcome<bool> {
+        let clock = Stopwatch::start();
+        while !self.client.is_ready() {
+            session.go_on()?;
+            if timeout.is_some_and(|timeout| clock.elapsed() >= timeout) {
+                return Ok(false);
+            }
+            let served = |seen: &crate::Seen| {
+                seen.service(&self.name).is_some_and(|service| !service.servers.is_empty())
+            };
+            session.network.wait(BREATH, &mut { served });
+            sleep(PAUSE);
+        }
+        Ok(true)
+    }
+
+    /// Asks.
+    pub(crate) fn ask(&self, cdr: Vec<u8>) -> Question {
+        let (send, answer) = channel();
+        self.client.call(cdr, move |result| {
+            let _ = send.send(result);
+        });
+        Question { name: self.name.clone(), answer }
+    }
+}
+
+impl Question {
+    /// The answer, when it is there.
+    pub(crate) fn take(&self) -> Outcome<Option<Vec<u8>>> {
+        match self.answer.try_recv() {
+            Err(TryRecvError::Empty) => Ok(None),
+            Err(TryRecvError::Disconnected) => {
+                Err(Failure::failed(format!("{} will not answer any more", self.name)))
+            }
+            Ok(Err(error)) => Err(Failure::failed(error.to_string())),
+            Ok(Ok(message)) => match message.cdr() {
+                Ok(cdr) => Ok(Some(cdr.to_vec())),
+                Err(error) => Err(Failure::failed(error.to_string())),
+            },
+        }
+    }
+
+    /// Waits for the answer, at most so long.
+    pub(crate) fn wait(
+        &self,
+        session: &Session<'_>,
+        timeout: Option<Duration>,
+    ) -> Outcome<Vec<u8>> {
+        let clock = Stopwatch::start();
+        loop {
+            if let Some(answer) = self.take()? {
+                return Ok(answer);
+            }
+            session.go_on()?;
+            if let Some(timeout) = timeout
+                && clock.elapsed() >= timeout
+            {
+                let seconds = timeout.as_secs();
+                let words = format!("{} did not answer within {seconds} s", self.name);
+                return Err(Failure::failed(words));
+            }
+            sleep(PAUSE);
+        }
+    }
+}
+
+/// Asks a service that nodes have of themselves, and waits for the answer.
+pub(crate) fn ask<S: Service>(
+    session: &Session<'_>,
+    node: &Node,
+    name: &str,
+    request: &S::Request,
+) -> Outcome<S::Response> {
+    let asker = Asker::new(node, name, S::TYPE_NAME, Some(S::TYPE_HASH))?;
+    let time = session.found_within();
+    if !asker.wait(session, Some(time))? {
+        return Err(Failure::failed(format!("nobody answers {name}")));
+    }
+    let cdr = request.to_cdr().map_err(|error| Failure::failed(error.to_string()))?;
+    let answer = asker.ask(cdr).wait(session, Some(PATIENCE))?;
+    S::Response::decode_cdr(&answer).map_err(|error| {
+        Failure::failed(format!("the answer of {name} is no {}: {error}", S::TYPE_NAME))
+    })
+}

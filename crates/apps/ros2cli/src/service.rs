@@ -1,0 +1,156 @@
+//! `service`.
+
+use std::time::Duration;
+
+use periplus_msgs::{DynamicMessage, Format};
+use periplus_os::{Stopwatch, sleep};
+use periplus_rosidl::Kind;
+use serde_json::json;
+
+use crate::ask::Asker;
+use crate::failure::endless;
+use crate::session::{BREATH, advice, full_name, titled};
+use crate::types::full_type;
+use crate::{Failure, Outcome, SeenService, Session, Values, clock, is_hidden, show};
+
+/// How long until it is said that nobody answers yet.
+const TELL: Duration = Duration::from_millis(1_000);
+
+/// Which services there are.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn list(
+    session: &mut Session<'_>,
+    show_types: bool,
+    count: bool,
+    include_hidden: bool,
+) -> Outcome {
+    let seen = session.look();
+    // Services that nobody answers are called by somebody, and count as well.
+    let services = seen.services.iter().filter(|one| include_hidden || !is_hidden(&one.name));
+    let services: Vec<&SeenService> = services.collect();
+    if session.json {
+        let all = services.iter().map(|one| one.to_json()).collect::<Vec<_>>();
+        return session.put(&json!({ "services": all }));
+    }
+    let titles = services.iter().map(|one| titled(&one.name, &one.types, show_types));
+    session.put_list("service", &titles.collect::<Vec<_>>(), count)
+}
+
+/// The service of this name, when it is there.
+fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
+    let name = full_name(name);
+    let (seen, is_there) = session.look_for(|seen| seen.service(&name).is_some());
+    session.go_on()?;
+    let seen = if is_there { session.look() } else { seen };
+    seen.service(&name).cloned().ok_or_else(|| {
+        let near = advice(&name, seen.services.iter().map(|one| one.name.as_str()));
+        Failure::failed(format!("Unknown service '{name}'{near}"))
+    })
+}
+
+/// The types of a service.
+///
+/// # Errors
+/// When there is no such service, or the output cannot be written.
+pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
+    let service = look_up(session, name)?;
+    session.put_types(&service.name, &service.types)
+}
+
+/// How many answer a service, and how many call it.
+///
+/// # Errors
+/// When there is no such service, or the output cannot be written.
+pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
+    let service = look_up(session, name)?;
+    if session.json {
+        return session.put(&service.to_json());
+    }
+    writeln!(session.out, "Type: {}", service.types.join(", "))?;
+    for (what, nodes) in [("Clients", &service.clients), ("Services", &service.servers)] {
+        writeln!(session.out, "{what} count: {}", nodes.len())?;
+        if verbose {
+            for node in nodes {
+                writeln!(session.out, "  {node}")?;
+            }
+        }
+    }
+    session.out.flush()?;
+    Ok(())
+}
+
+/// The services of a type.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn find(
+    session: &mut Session<'_>,
+    type_name: &str,
+    count: bool,
+    include_hidden: bool,
+) -> Outcome {
+    let type_name = full_type(type_name, Kind::Service)?;
+    let seen = session.look();
+    let services = seen.services.iter().filter(|one| one.types.contains(&type_name));
+    let names = services.map(|one| one.name.as_str());
+    let names: Vec<&str> = names.filter(|name| include_hidden || !is_hidden(name)).collect();
+    session.put_found(&type_name, "services", &names, count)
+}
+
+/// Calls a service, once or again and again. Without a type it is that of the service.
+///
+/// # Errors
+/// When the type or a value is not usable, nobody answers, or the output cannot be written.
+pub fn call(
+    session: &mut Session<'_>,
+    name: &str,
+    type_name: &str,
+    values: &str,
+    rate_hz: Option<f64>,
+) -> Outcome {
+    let (type_name, request, response) = session.types.service(type_name)?;
+    let (request, response) = (request.clone(), response.clone());
+    let values = Values::read(values)?;
+    values.message(&request, clock::unix_ns())?;
+    let name = full_name(name);
+    let node = session.node(None)?;
+    let hash = session.types.registry().hash(&type_name);
+    let asker = Asker::new(&node, &name, &type_name, hash.as_deref())?;
+    if !asker.wait(session, Some(TELL))? {
+        session.say("waiting for service to become available...");
+        asker.wait(session, None)?;
+    }
+    let repeat = |session: &mut Session<'_>| -> Outcome {
+        loop {
+            let clock = Stopwatch::start();
+            let question = values.message(&request, crate::clock::unix_ns())?;
+            if !session.json {
+                writeln!(session.out, "requester: making request: {}\n", show::repr(&question))?;
+                session.out.flush()?;
+            }
+            let mut cdr = Vec::new();
+            question
+                .encode(Format::CDR, &mut cdr)
+                .map_err(|error| Failure::failed(format!("the request cannot be sent: {error}")))?;
+            let answer = asker.ask(cdr).wait(session, None)?;
+            let answer = DynamicMessage::decode(&response, Format::CDR, &answer)
+                .map_err(|error| Failure::failed(format!("the answer cannot be read: {error}")))?;
+            if session.json {
+                session.put(&answer.to_json())?;
+            } else {
+                writeln!(session.out, "response:\n{}\n", show::repr(&answer))?;
+                session.out.flush()?;
+            }
+            let Some(rate_hz) = rate_hz else { return Ok(()) };
+            let period = Duration::from_secs_f64(1.0 / rate_hz);
+            while clock.elapsed() < period {
+                session.go_on()?;
+                sleep((period - clock.elapsed().min(period)).min(BREATH));
+            }
+        }
+    };
+    let outcome = repeat(session);
+    if rate_hz.is_some() { endless(outcome) } else { outcome }
+}

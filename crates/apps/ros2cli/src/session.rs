@@ -1,0 +1,264 @@
+//! One use of the command.
+
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use periplus_diagnostics::closest;
+use periplus_graph::{Node, NodeSettings};
+use periplus_os::{Stopwatch, sleep};
+use serde_json::json;
+
+use crate::network::{OWN_NODE, Progress};
+use crate::{Failure, Network, Outcome, Seen, Types};
+
+/// Minimum time that discovery gets without `--spin-time`.
+const MIN_DISCOVERY: Duration = Duration::from_millis(600);
+
+/// Discovery goes on until nothing has changed for this time.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// Discovery waits at most this long for programs on this machine that do not answer: they may be on
+/// another network.
+const MAX_UNANSWERED: Duration = Duration::from_millis(2_500);
+
+/// Discovery waits at most this long for programs that were found but are not completely known.
+const MAX_INCOMPLETE: Duration = Duration::from_secs(10);
+
+/// How long a node, topic or service may take to be found, without `--spin-time`.
+const MIN_SEARCH: Duration = Duration::from_millis(2_000);
+
+/// How often discovery is looked at.
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
+
+/// How often a loop looks whether it is to stop.
+pub(crate) const BREATH: Duration = Duration::from_millis(100);
+
+/// One use of the command: its network, the types it knows, and where it writes.
+pub struct Session<'a> {
+    /// Who else is there.
+    pub network: &'a dyn Network,
+    /// Message types.
+    pub types: &'a Types,
+    /// Results.
+    pub out: &'a mut dyn Write,
+    /// What is said beside them.
+    pub talk: &'a mut dyn Write,
+    /// Set when it is to stop.
+    pub stop: &'a AtomicBool,
+    /// Whether results are JSON: one object, or one on each line of a stream.
+    pub json: bool,
+    /// How long others have to be found. Without it at least 0.6 s, and until every program found has
+    /// told all its nodes, topics and services.
+    pub spin_time: Option<Duration>,
+}
+
+impl Session<'_> {
+    /// Nodes, topics and services after discovery. Programs that could not be found completely are
+    /// named on the side.
+    pub fn look(&mut self) -> Seen {
+        let progress = self.discover(MIN_DISCOVERY, |_| false);
+        if progress.incomplete > 0 && !self.is_stopped() {
+            let (count, programs) = match progress.incomplete {
+                1 => ("one".to_owned(), "program"),
+                count => (count.to_string(), "programs"),
+            };
+            self.say(&format!(
+                "WARNING: {count} {programs} on the network did not tell all nodes, topics and services \
+                 in time; the list is incomplete. Wait longer with `--spin-time SECONDS`"
+            ));
+        }
+        self.network.seen()
+    }
+
+    /// Waits for discovery: as long as `--spin-time` says, or at least `min` and until all programs
+    /// found are completely known. Ends early when `is_found`.
+    fn discover(&self, min: Duration, is_found: impl Fn(&Seen) -> bool) -> Progress {
+        let clock = Stopwatch::start();
+        let mut last = self.network.progress();
+        let mut changed = Duration::ZERO;
+        let mut is_new = true;
+        loop {
+            if is_new && is_found(&self.network.seen()) {
+                return last;
+            }
+            let now = clock.elapsed();
+            let is_done = match self.spin_time {
+                Some(time) => now >= time,
+                None => {
+                    let is_settled = now >= changed + QUIET
+                        && last.incomplete == 0
+                        && (last.unanswered == 0 || now >= MAX_UNANSWERED);
+                    now >= MAX_INCOMPLETE || now >= min && is_settled
+                }
+            };
+            if is_done || self.is_stopped() {
+                return last;
+            }
+            sleep(LOOK_AGAIN);
+            let progress = self.network.progress();
+            is_new = progress.changes != last.changes;
+            if is_new {
+                changed = clock.elapsed();
+            }
+            last = progress;
+        }
+    }
+
+    /// How long a node or service may take to be found.
+    pub(crate) fn found_within(&self) -> Duration {
+        self.spin_time.unwrap_or(MIN_SEARCH)
+    }
+
+    /// Waits until something is found or discovery ends; what is there then, and whether it was found.
+    pub fn look_for(&self, wanted: impl Fn(&Seen) -> bool) -> (Seen, bool) {
+        self.discover(self.found_within(), &wanted);
+        let seen = self.network.seen();
+        let is_there = wanted(&seen);
+        (seen, is_there)
+    }
+
+    /// Waits for something, at most so long or until it is told to stop; whether it is so.
+    ///
+    /// # Errors
+    /// When it was told to stop.
+    pub fn wait(
+        &self,
+        timeout: Option<Duration>,
+        mut wanted: impl FnMut(&Seen) -> bool,
+    ) -> Outcome<bool> {
+        let clock = Stopwatch::start();
+        loop {
+            let now = clock.elapsed();
+            let rest = timeout.map_or(BREATH, |timeout| timeout.saturating_sub(now).min(BREATH));
+            if self.network.wait(rest, &mut wanted) {
+                return Ok(true);
+            }
+            self.go_on()?;
+            if timeout.is_some_and(|timeout| clock.elapsed() >= timeout) {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// Whether it was told to stop.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// # Errors
+    /// When it was told to stop.
+    pub fn go_on(&self) -> Outcome {
+        if self.is_stopped() { Err(Failure::Interrupted) } else { Ok(()) }
+    }
+
+    /// The verb's own node, under a name that no other has.
+    ///
+    /// # Errors
+    /// When the graph refuses the name.
+    pub fn node(&self, name: Option<&str>) -> Outcome<Node> {
+        let name = match name {
+            Some(name) => name.to_owned(),
+            None => format!("{OWN_NODE}_{}", std::process::id()),
+        };
+        Ok(self.network.graph().node(NodeSettings::new(name).bare())?)
+    }
+
+    /// Says something that is no result.
+    pub fn say(&mut self, words: &str) {
+        let _ = writeln!(self.talk, "{words}");
+    }
+
+    /// Writes names, one on a line, or how many there are.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_names<N: std::fmt::Display>(&mut self, names: &[N], count: bool) -> Outcome {
+        if count {
+            writeln!(self.out, "{}", names.len())?;
+        } else {
+            for name in names {
+                writeln!(self.out, "{name}")?;
+            }
+        }
+        self.out.flush()?;
+        Ok(())
+    }
+
+    /// Writes names as [`Session::put_names`], and says so where there are none.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_list<N: std::fmt::Display>(
+        &mut self,
+        what: &str,
+        names: &[N],
+        count: bool,
+    ) -> Outcome {
+        if names.is_empty() && !count {
+            self.say(&format!(
+                "no {what} was found: nothing that runs on this network has one \
+                 (`periplus doctor` examines the network)"
+            ));
+        }
+        self.put_names(names, count)
+    }
+
+    /// Writes the types of what has this name.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_types(&mut self, name: &str, types: &[String]) -> Outcome {
+        if self.json {
+            return self.put(&json!({ "name": name, "types": types }));
+        }
+        self.put_names(types, false)
+    }
+
+    /// Writes the names of what has this type, or how many have it.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub(crate) fn put_found(
+        &mut self,
+        type_name: &str,
+        what: &str,
+        names: &[&str],
+        count: bool,
+    ) -> Outcome {
+        if self.json {
+            return self.put(&json!({ "type": type_name, what: names }));
+        }
+        self.put_list(&format!("{} of this type", what.trim_end_matches('s')), names, count)
+    }
+
+    /// Writes one JSON object on a line.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn put(&mut self, json: &serde_json::Value) -> Outcome {
+        writeln!(self.out, "{json}")?;
+        self.out.flush()?;
+        Ok(())
+    }
+}
+
+/// A name, with its types if they are to be shown.
+pub(crate) fn titled(name: &str, types: &[String], show_types: bool) -> String {
+    if show_types { format!("{name} [{}]", types.join(", ")) } else { name.to_owned() }
+}
+
+/// A name as nodes in the root namespace understand it.
+pub(crate) fn full_name(name: &str) -> String {
+    if name.starts_with('/') { name.to_owned() } else { format!("/{name}") }
+}
+
+/// ` Did you mean ...?`, or which there are.
+pub(crate) fn advice<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> String {
+    let known: Vec<&str> = known.collect();
+    match closest(name, known.iter().copied()) {
+        Some(near) => format!("; did you mean `{near}`?"),
+        None => String::new(),
+    }
+}

@@ -1,0 +1,112 @@
+//! `tf echo`.
+
+use std::time::Duration;
+
+use periplus_geometry::DVec3;
+use periplus_os::{Stopwatch, sleep};
+use periplus_tf::Found;
+use serde_json::json;
+
+use super::listen::Frames;
+use crate::failure::endless;
+use crate::{Outcome, Session};
+
+/// How often it looks for transforms.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// How often it says what it waits for.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What is shown, and how often.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Echo {
+    /// The frame in which the pose is.
+    pub source: String,
+    /// The frame whose pose it is.
+    pub target: String,
+    /// How often.
+    pub period: Duration,
+    /// Ends after the first.
+    pub once: bool,
+}
+
+/// Shows the pose of a frame in another, again and again, as soon as there is one.
+///
+/// As with `tf2_echo` the first frame is that in which the pose of the second is told.
+///
+/// Source: `tf2_ros/src/tf2_echo.cpp`.
+///
+/// # Errors
+/// When the output cannot be written.
+pub fn echo(session: &mut Session<'_>, echo: &Echo) -> Outcome {
+    endless(run(session, echo))
+}
+
+fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
+    let mut frames = Frames::open(session)?;
+    let clock = Stopwatch::start();
+    let (mut due, mut complain) = (Duration::ZERO, PATIENCE);
+    loop {
+        frames.hear(session);
+        let now = clock.elapsed();
+        if now >= due {
+            match frames.survey.buffer.lookup(&echo.source, &echo.target, 0) {
+                Ok(found) => {
+                    show(session, &found)?;
+                    if echo.once {
+                        return Ok(());
+                    }
+                    due = now + echo.period;
+                    complain = now + PATIENCE;
+                }
+                Err(error) if now >= complain => {
+                    session.say(&format!(
+                        "Waiting for transform {} ->  {}: {error}",
+                        echo.source, echo.target
+                    ));
+                    complain = now + PATIENCE;
+                }
+                Err(_) => {}
+            }
+        }
+        session.go_on()?;
+        sleep(LOOK);
+    }
+}
+
+fn show(session: &mut Session<'_>, found: &Found) -> Outcome {
+    let pose = found.target_from_source;
+    let (shift, turn, rpy) = (pose.translation, pose.rotation, pose.rpy());
+    if session.json {
+        return session.put(&json!({
+            "time_ns": found.time_ns,
+            "translation": shift.to_array(),
+            "rotation_xyzw": turn.to_array(),
+            "rpy_rad": [rpy.roll, rpy.pitch, rpy.yaw],
+        }));
+    }
+    let degrees = [rpy.roll, rpy.pitch, rpy.yaw].map(f64::to_degrees);
+    let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| turn * axis);
+    let out = &mut session.out;
+    let (seconds, rest) =
+        (found.time_ns.div_euclid(1_000_000_000), found.time_ns.rem_euclid(1_000_000_000));
+    writeln!(out, "At time {seconds}.{rest:09}")?;
+    writeln!(out, "- Translation: [{:.3}, {:.3}, {:.3}]", shift.x, shift.y, shift.z)?;
+    writeln!(
+        out,
+        "- Rotation: in Quaternion [{:.3}, {:.3}, {:.3}, {:.3}]",
+        turn.x, turn.y, turn.z, turn.w
+    )?;
+    let [roll, pitch, yaw] = [rpy.roll, rpy.pitch, rpy.yaw];
+    writeln!(out, "- Rotation: in RPY (radian) [{roll:.3}, {pitch:.3}, {yaw:.3}]")?;
+    let [roll, pitch, yaw] = degrees;
+    writeln!(out, "- Rotation: in RPY (degree) [{roll:.3}, {pitch:.3}, {yaw:.3}]")?;
+    writeln!(out, "- Matrix:")?;
+    for row in 0..3 {
+        let [x, y, z] = columns.map(|column| column[row]);
+        writeln!(out, " {x:6.3} {y:6.3} {z:6.3} {:6.3}", shift[row])?;
+    }
+    writeln!(out, " {:6.3} {:6.3} {:6.3} {:6.3}", 0.0, 0.0, 0.0, 1.0)?;
+    out.flush()?;
+    Ok(())
+}

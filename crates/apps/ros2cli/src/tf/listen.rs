@@ -1,0 +1,83 @@
+//! Listening to frames.
+
+use std::sync::Arc;
+
+use periplus_geometry::{DQuat, DVec3};
+use periplus_graph::{Mailbox, Node, Qos};
+use periplus_msgs::geometry_msgs::TransformStamped;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_tf::{Kind, Refused, Stamped, Survey};
+
+use crate::{Outcome, Session};
+
+/// Nobody says over DDS who broadcast a transform.
+pub(super) const AUTHORITY: &str = "Authority undetectable";
+
+/// Frames as they are heard.
+pub(super) struct Frames {
+    pub(super) survey: Survey,
+    moving: Mailbox<TFMessage>,
+    fixed: Mailbox<TFMessage>,
+    _node: Node,
+}
+
+/// A message that came.
+pub(super) struct Heard {
+    pub(super) message: Arc<TFMessage>,
+    pub(super) kind: Kind,
+}
+
+impl Frames {
+    pub(super) fn open(session: &Session<'_>) -> Outcome<Self> {
+        Self::of(session, ["/tf", "/tf_static"])
+    }
+
+    /// Frames as they are heard on topics of these names.
+    pub(super) fn of(session: &Session<'_>, [moving, fixed]: [&str; 2]) -> Outcome<Self> {
+        let node = session.node(None)?;
+        Ok(Self {
+            survey: Survey::default(),
+            moving: node.mailbox(moving, Qos::reliable(100))?,
+            fixed: node.mailbox(fixed, Qos::latched(100))?,
+            _node: node,
+        })
+    }
+
+    /// Takes in what has come since the last call. After a jump back in time all that was before is
+    /// forgotten.
+    pub(super) fn hear(&mut self, session: &mut Session<'_>) -> Vec<Heard> {
+        let fixed = self.fixed.drain().into_iter().map(|message| (message, Kind::Fixed));
+        let moving = self.moving.drain().into_iter().map(|message| (message, Kind::Moving));
+        let heard: Vec<Heard> =
+            fixed.chain(moving).map(|(message, kind)| Heard { message, kind }).collect();
+        for one in &heard {
+            for transform in &one.message.transforms {
+                match self.survey.hear(&stamped(transform), AUTHORITY, one.kind) {
+                    Ok(()) => {}
+                    Err(Refused::OldData(..)) => {
+                        session.say("Detected jump back in time. Clearing TF buffer.");
+                    }
+                    Err(refused) => session.say(&format!("WARNING: {refused}")),
+                }
+            }
+        }
+        heard
+    }
+}
+
+pub(super) fn stamp_ns(transform: &TransformStamped) -> i64 {
+    transform.header.stamp.ns()
+}
+
+/// A message's transform, as buffers take it.
+#[must_use]
+pub fn stamped(transform: &TransformStamped) -> Stamped {
+    let (shift, turn) = (&transform.transform.translation, &transform.transform.rotation);
+    Stamped {
+        parent: transform.header.frame_id.clone(),
+        child: transform.child_frame_id.clone(),
+        stamp_ns: stamp_ns(transform),
+        translation: DVec3::new(shift.x, shift.y, shift.z),
+        rotation: DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w),
+    }
+}

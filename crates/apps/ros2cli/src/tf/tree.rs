@@ -1,0 +1,177 @@
+//! `tf tree`.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use periplus_frames::{Forest, Frame};
+use periplus_os::{Machine, Stopwatch, sleep, unix_ns};
+use periplus_resources::Store as _;
+use periplus_tf::{Kind, Survey, display_time};
+use serde_json::json;
+
+use super::listen::Frames;
+use crate::{Failure, Outcome, Session};
+
+/// How often it looks for transforms.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// What is listened to, and what is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// How long.
+    pub wait: Duration,
+    /// The topic of frames that move.
+    pub moving: String,
+    /// The topic of frames that do not.
+    pub fixed: String,
+    /// What is written.
+    pub pictures: Pictures,
+}
+
+/// What is written of a tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pictures {
+    /// Path of the files, without ending.
+    pub stem: PathBuf,
+    /// Whether SVG is written besides.
+    pub svg: bool,
+}
+
+/// Listens to frames and writes their tree as text for Graphviz (`.gv`) and as a picture (`.pdf`), as
+/// `view_frames` does; the tree in words goes to the output.
+///
+/// Source: `tf2_tools/view_frames.py`.
+///
+/// # Errors
+/// When no frame was heard or files cannot be written.
+pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
+    let mut frames = Frames::of(session, [&tree.moving, &tree.fixed])?;
+    session.say(&format!("Listening to tf data for {:?} seconds...", tree.wait.as_secs_f64()));
+    let clock = Stopwatch::start();
+    while clock.elapsed() < tree.wait {
+        frames.hear(session);
+        session.go_on()?;
+        sleep(LOOK);
+    }
+    let mut forest = Forest::new(&frames.survey);
+    // Messages do not say who sent them. Where only one node publishes it was that one.
+    let seen = session.network.seen();
+    for (topic, kind) in [(&tree.moving, Kind::Moving), (&tree.fixed, Kind::Fixed)] {
+        let ends = seen.topic(&crate::session::full_name(topic)).map(|topic| &topic.publishers);
+        if let Some([only]) = ends.map(Vec::as_slice)
+            && let Some(node) = &only.node
+        {
+            forest.set_broadcaster(kind, node);
+        }
+    }
+    put_tree(session, &forest, &frames.survey, unix_ns(), &tree.pictures)?;
+    if forest.frames().next().is_none() {
+        let moving = seen.topic("/tf").map_or(0, |topic| topic.publishers.len());
+        let fixed = seen.topic("/tf_static").map_or(0, |topic| topic.publishers.len());
+        return Err(Failure::failed(format!(
+            "no transform was heard in {:?} s: {moving} publish {}, {fixed} publish {}; start what \
+             publishes them (robot_state_publisher, odometry), or see `periplus doctor`",
+            tree.wait.as_secs_f64(),
+            tree.moving,
+            tree.fixed
+        )));
+    }
+    Ok(())
+}
+
+/// Writes files and the tree in words, and says what is wrong with the tree.
+///
+/// # Errors
+/// When files or the output cannot be written.
+pub fn put_tree(
+    session: &mut Session<'_>,
+    forest: &Forest,
+    survey: &Survey,
+    recorded_ns: i64,
+    pictures: &Pictures,
+) -> Outcome {
+    let recorded_at = display_time(recorded_ns);
+    let mut files =
+        vec![("gv", forest.dot(&recorded_at).into_bytes()), ("pdf", forest.pdf(&recorded_at))];
+    if pictures.svg {
+        files.push(("svg", forest.svg(&recorded_at).into_bytes()));
+    }
+    let mut written = Vec::new();
+    for (ending, bytes) in files {
+        let path = with_ending(&pictures.stem, ending);
+        Machine
+            .replace(&path, &bytes)
+            .map_err(|why| Failure::failed(format!("cannot write {}: {why}", path.display())))?;
+        written.push(path.display().to_string());
+    }
+    for fault in forest.faults() {
+        session.say(&format!("WARNING: {fault}"));
+    }
+    for name in survey.with_slash() {
+        session.say(&format!("WARNING: `{name}` has a slash in front; tf2 drops it"));
+    }
+    if session.json {
+        return session.put(&as_json(forest, recorded_ns, &written));
+    }
+    write!(session.out, "{}", in_words(forest))?;
+    session.out.flush()?;
+    session.say(&format!("written: {}", written.join(", ")));
+    Ok(())
+}
+
+fn with_ending(stem: &Path, ending: &str) -> PathBuf {
+    // Not `with_extension`: a dated name has dots in it.
+    let mut path = stem.as_os_str().to_owned();
+    path.push(format!(".{ending}"));
+    path.into()
+}
+
+/// The tree with a frame on each line.
+fn in_words(forest: &Forest) -> String {
+    let mut text = String::new();
+    for (depth, frame, is_last) in forest.lines() {
+        let mut stem: String = is_last
+            .iter()
+            .take(depth.saturating_sub(1))
+            .map(|last| if *last { "   " } else { "\u{2502}  " })
+            .collect();
+        if depth > 0 {
+            stem += if is_last[depth - 1] { "\u{2514}\u{2500} " } else { "\u{251c}\u{2500} " };
+        }
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{stem}{}{}", frame.name, facts(frame));
+    }
+    text
+}
+
+fn facts(frame: &Frame) -> String {
+    let Some(edge) = &frame.edge else { return String::new() };
+    match edge.kind {
+        Kind::Fixed => format!("  (static, {})", edge.broadcaster),
+        Kind::Moving => format!("  ({:.1} Hz, {})", edge.rate_hz, edge.broadcaster),
+    }
+}
+
+fn as_json(forest: &Forest, recorded_ns: i64, files: &[String]) -> serde_json::Value {
+    let frames: Vec<_> = forest
+        .frames()
+        .map(|frame| {
+            let edge = frame.edge.as_ref().map(|edge| {
+                json!({
+                    "parent": edge.parent, "broadcaster": edge.broadcaster,
+                    "static": edge.kind == Kind::Fixed, "rate_hz": edge.rate_hz,
+                    "newest_ns": edge.newest_ns, "oldest_ns": edge.oldest_ns,
+                    "buffer_length_s": (edge.newest_ns - edge.oldest_ns) as f64 * 1e-9,
+                    "other_parents": frame.other_parents,
+                })
+            });
+            json!({ "frame": frame.name, "transform": edge })
+        })
+        .collect();
+    let faults: Vec<_> = forest.faults().iter().map(ToString::to_string).collect();
+    json!({
+        "recorded_ns": recorded_ns, "roots": forest.roots().collect::<Vec<_>>(), "frames": frames,
+        "faults": faults, "files": files,
+    })
+}

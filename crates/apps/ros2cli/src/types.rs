@@ -1,0 +1,106 @@
+//! The types that a verb knows, and what to do about one that it does not know.
+
+use std::sync::Arc;
+
+use periplus_diagnostics::closest;
+use periplus_msgs::{Layout, TypeRegistry};
+use periplus_rosidl::{Kind, TypeName};
+
+use crate::{Failure, Outcome};
+
+/// Types by name: ours, and those of packages of the user's.
+pub enum Types {
+    /// Ours only.
+    Builtin,
+    /// With others.
+    With(Box<TypeRegistry>),
+}
+
+impl Types {
+    /// All of them.
+    #[must_use]
+    pub fn registry(&self) -> &TypeRegistry {
+        match self {
+            Self::Builtin => TypeRegistry::builtin(),
+            Self::With(types) => types,
+        }
+    }
+
+    /// A message type, as people write it: `std_msgs/msg/String` or `std_msgs/String`.
+    ///
+    /// # Errors
+    /// When it is not known.
+    pub fn message(&self, name: &str) -> Outcome<&Arc<Layout>> {
+        let full = full_type(name, Kind::Message)?;
+        self.registry().layout(&full).ok_or_else(|| self.unknown("message", &full))
+    }
+
+    /// Question and answer of a service type: `std_srvs/srv/Trigger` or `std_srvs/Trigger`.
+    ///
+    /// # Errors
+    /// When it is not known.
+    pub fn service(&self, name: &str) -> Outcome<(String, &Arc<Layout>, &Arc<Layout>)> {
+        let full = full_type(name, Kind::Service)?;
+        let part = |part: &str| self.registry().layout(&format!("{full}_{part}"));
+        match (part("Request"), part("Response")) {
+            (Some(request), Some(response)) => Ok((full, request, response)),
+            _ => Err(self.unknown("service", &full)),
+        }
+    }
+
+    /// A type that is part of an action, such as `nav2_msgs/action/Wait_Goal`.
+    ///
+    /// # Errors
+    /// When it is not known.
+    pub fn action(&self, name: &str, part: &str) -> Outcome<(String, &Arc<Layout>)> {
+        let full = full_type(name, Kind::Action)?;
+        match self.registry().layout(&format!("{full}_{part}")) {
+            Some(layout) => Ok((full, layout)),
+            None => Err(self.unknown("action", &full)),
+        }
+    }
+
+    fn unknown(&self, what: &str, name: &str) -> Failure {
+        // Those of the same package, or of the same name in another.
+        let parts = |name: &str| {
+            let mut parts = name.split('/').map(str::to_owned);
+            (parts.next(), parts.next_back())
+        };
+        let (package, last) = parts(name);
+        let alike = |known: &String| {
+            let (other_package, other_last) = parts(known);
+            package == other_package || last == other_last
+        };
+        let known = self.registry().registry().interfaces().map(|one| one.name.to_string());
+        let known: Vec<String> = known.filter(alike).collect();
+        let near = closest(name, known.iter().map(String::as_str));
+        let near = near.map_or(String::new(), |near| format!("Did you mean `{near}`? "));
+        let package = package.unwrap_or_default();
+        Failure::failed(format!(
+            "the {what} type `{name}` is not known. {near}If it is a package of yours, give its \
+             folder with `--interfaces DIR`, or have the prefix that `{package}` is installed in \
+             on AMENT_PREFIX_PATH"
+        ))
+    }
+}
+
+/// The full name of a type that may be written without its kind.
+pub(crate) fn full_type(name: &str, kind: Kind) -> Outcome<String> {
+    let parts: Vec<&str> = name.split('/').collect();
+    let full = match parts[..] {
+        [package, name] => format!("{package}/{}/{name}", kind.word()),
+        _ => name.to_owned(),
+    };
+    match TypeName::read(&full) {
+        Some(known) if known.kind == kind => Ok(full),
+        _ => Err(Failure::Usage(format!(
+            "`{name}` is no {} type; one is written like `package/{}/Name`",
+            match kind {
+                Kind::Message => "message",
+                Kind::Service => "service",
+                Kind::Action => "action",
+            },
+            kind.word()
+        ))),
+    }
+}

@@ -1,0 +1,184 @@
+//! What the clear services of a costmap do.
+//!
+//! Source: `nav2_costmap_2d/src/clear_costmap_service.cpp`, `costmap_layer.cpp`.
+
+use periplus_grid::Lattice;
+
+use crate::cost::UNKNOWN;
+use crate::costmap::cell_clamped;
+use crate::{Compat, Costmap, LayeredCostmap, Window};
+
+/// Which part of a layer to clear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Region {
+    /// A square about a point of the global frame \[m\].
+    Around {
+        /// Its middle.
+        x_m: f64,
+        /// Its middle.
+        y_m: f64,
+        /// Length of a side.
+        side_m: f64,
+    },
+    /// All but such a square.
+    Except {
+        /// Its middle.
+        x_m: f64,
+        /// Its middle.
+        y_m: f64,
+        /// Length of a side.
+        side_m: f64,
+    },
+    /// All of it.
+    Everything,
+}
+
+/// Clears a part of the layers named, or of all that may be cleared when none is named. Only the
+/// layers' own cells change; the next update brings it into the costmap.
+///
+/// # Errors
+/// Why nothing was cleared: a layer is unknown or may not be cleared. One is enough.
+pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> Result<(), String> {
+    refuse_unfit(costmap, names)?;
+    if names.is_empty() && region == Region::Everything {
+        costmap.reset();
+        return Ok(());
+    }
+    let compat = costmap.frame().compat;
+    let lattice = *costmap.costmap().lattice();
+    for layer in costmap.all_mut() {
+        let is_meant = names.is_empty() || names.iter().any(|name| name == layer.name());
+        if !is_meant || !layer.is_clearable() {
+            continue;
+        }
+        // A layer may have moved less far than the costmap; its own cells count.
+        let cells = *layer.grid().map_or(&lattice, Costmap::lattice);
+        let corner = |x_m, y_m, side_m| corners(&cells, [x_m, y_m], side_m, compat);
+        match region {
+            Region::Around { x_m, y_m, side_m } => {
+                let (start, end) = corner(x_m, y_m, side_m);
+                layer.clear_area(start, end, false, compat);
+            }
+            Region::Except { x_m, y_m, side_m } => {
+                let (start, end) = corner(x_m, y_m, side_m);
+                layer.clear_area(start, end, true, compat);
+            }
+            Region::Everything => layer.reset(),
+        }
+    }
+    if region == Region::Everything {
+        costmap.reset_costs();
+    }
+    Ok(())
+}
+
+/// The cells of the lower left and the upper right corner of a square about a point.
+fn corners(
+    cells: &Lattice,
+    [x_m, y_m]: [f64; 2],
+    side_m: f64,
+    compat: Compat,
+) -> ((i64, i64), (i64, i64)) {
+    let (x_m, y_m) = (x_m - side_m / 2.0, y_m - side_m / 2.0);
+    let cell = |x_m, y_m| {
+        if compat.clamps_cleared_areas() {
+            return cells.whole_cells_to(x_m, y_m);
+        }
+        let (x, y) = cell_clamped(cells, x_m, y_m);
+        (x as i64, y as i64)
+    };
+    (cell(x_m, y_m), cell(x_m + side_m, y_m + side_m))
+}
+
+fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String> {
+    let mut unfit = Vec::new();
+    for name in names {
+        match costmap.layers().iter().find(|layer| layer.name() == name) {
+            None => unfit.push(format!("`{name}` is not there")),
+            Some(layer) if !layer.is_clearable() => {
+                unfit.push(format!("`{name}` keeps what it has"));
+            }
+            Some(_) => {}
+        }
+    }
+    if unfit.is_empty() {
+        return Ok(());
+    }
+    let clearable: Vec<&str> = costmap
+        .layers()
+        .iter()
+        .filter(|layer| layer.is_clearable())
+        .map(|layer| layer.name())
+        .collect();
+    let offer = if clearable.is_empty() { "none".to_owned() } else { clearable.join(", ") };
+    Err(format!("nothing was cleared: {}; layers to clear: {offer}", unfit.join(", ")))
+}
+
+/// Makes cells unknown: those strictly between two, or with `invert` all others.
+pub fn clear_cells(
+    grid: &mut Costmap,
+    start: (i64, i64),
+    end: (i64, i64),
+    invert: bool,
+    compat: Compat,
+) {
+    let lattice = *grid.lattice();
+    let (width, height) = (lattice.width as i64, lattice.height as i64);
+    let (mut start, mut end) = (start, end);
+    if compat.clamps_cleared_areas() {
+        start = (start.0.clamp(0, width), start.1.clamp(0, height));
+        end = (end.0.clamp(0, width), end.1.clamp(0, height));
+    }
+    let within = |first: i64, last: i64, size: i64| {
+        let first = first.saturating_add(1).clamp(0, size);
+        (first as usize, last.clamp(first, size) as usize)
+    };
+    let (x0, xn) = within(start.0, end.0, width);
+    let (y0, yn) = within(start.1, end.1, height);
+    let inside = Window { x0, y0, xn, yn };
+    let mut clear = |window: Window| {
+        for span in window.spans(lattice.width) {
+            grid.costs_mut()[span].fill(UNKNOWN);
+        }
+    };
+    if !invert {
+        return clear(inside);
+    }
+    if inside.is_empty() {
+        return clear(Window::all(&lattice));
+    }
+    clear(Window { x0: 0, y0: 0, xn: lattice.width, yn: y0 });
+    clear(Window { x0: 0, y0: yn, xn: lattice.width, yn: lattice.height });
+    clear(Window { x0: 0, y0, xn: x0, yn });
+    clear(Window { x0: xn, y0, xn: lattice.width, yn });
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_geometry::Pose2;
+    use periplus_grid::Lattice;
+
+    use super::*;
+
+    fn cleared(start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) -> String {
+        let lattice = Lattice::new(1.0, 4, 3, Pose2::IDENTITY).unwrap();
+        let mut grid = Costmap::new(lattice, 0);
+        clear_cells(&mut grid, start, end, invert, compat);
+        let row = |row: &[u8]| row.iter().map(|c| if *c == 255 { '?' } else { '.' }).collect();
+        let rows: Vec<String> = grid.costs().chunks(4).map(row).collect();
+        rows.join(" ")
+    }
+
+    #[test]
+    fn cells_strictly_between_are_cleared() {
+        assert_eq!(cleared((0, 0), (3, 2), false, Compat::Main), ".... .??. ....");
+        assert_eq!(cleared((0, 0), (3, 2), true, Compat::Main), "???? ?..? ????");
+        assert_eq!(cleared((2, 2), (2, 2), true, Compat::Main), "???? ???? ????");
+    }
+
+    #[test]
+    fn the_first_row_and_column_are_cleared_before_main() {
+        assert_eq!(cleared((-9, -9), (9, 9), false, Compat::Main), ".... .??? .???");
+        assert_eq!(cleared((-9, -9), (9, 9), false, Compat::Jazzy), "???? ???? ????");
+    }
+}

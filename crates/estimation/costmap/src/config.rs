@@ -1,0 +1,536 @@
+//! From parameters to a costmap.
+
+mod build;
+mod kind;
+mod yaml;
+
+pub use kind::LayerKind;
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
+use periplus_grid::Lattice;
+use periplus_params::{Given, Kind, Table, Values};
+
+use crate::{Compat, Footprint, Frame, SourceSettings, tables};
+
+/// A costmap as somebody wants it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Parameters of the node, by [`tables::COSTMAP`].
+    pub node: Values,
+    /// Whose habits to keep.
+    pub compat: Compat,
+    /// Whose messages the services have, where distributions differ: those of `compat` if it was told,
+    /// else Jazzy's, as all messages here are.
+    pub forms: Compat,
+    /// Layers, lowest first.
+    pub layers: Vec<LayerConfig>,
+    /// Filters, lowest first.
+    pub filters: Vec<LayerConfig>,
+    /// The outline of the robot, padded.
+    pub footprint: Footprint,
+}
+
+/// A layer or filter as somebody wants it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerConfig {
+    /// Its name, with those of the containers around it.
+    pub name: String,
+    /// What it is.
+    pub kind: LayerKind,
+    /// Its parameters.
+    pub values: Values,
+    /// What sees for it.
+    pub sources: Vec<SourceConfig>,
+    /// Layers within it.
+    pub children: Vec<LayerConfig>,
+}
+
+/// A source as somebody wants it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceConfig {
+    /// Its name.
+    pub name: String,
+    /// Its parameters.
+    pub values: Values,
+}
+
+impl SourceConfig {
+    /// What its parameters say.
+    #[must_use]
+    pub fn settings(&self) -> SourceSettings {
+        SourceSettings::read(&self.name, &self.values)
+    }
+}
+
+/// Containers within containers go no deeper.
+const DEEPEST: usize = 8;
+
+/// What layers are called when nobody names others, with their plugins.
+const USUAL: [(&str, LayerKind); 3] = [
+    ("static_layer", LayerKind::Static),
+    ("obstacle_layer", LayerKind::Obstacle),
+    ("inflation_layer", LayerKind::Inflation),
+];
+
+impl Config {
+    /// Reads parameters: names with dots, such as `obstacle_layer.scan.topic`, and texts. What is
+    /// wrong is told with its place, and the rest is built; `compat` goes before a parameter of that
+    /// name.
+    pub fn read<'a>(
+        given: impl IntoIterator<Item = Given<'a>>,
+        compat: Option<Compat>,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let mut reading = Reading { tree: Tree::default(), diagnostics };
+        for one in given {
+            reading.add(one);
+        }
+        let node = reading.values(&tables::COSTMAP, "", Origin::default());
+        reading.check_size(&node);
+        let given = || node.text("compat").filter(|_| node.is_given("compat"));
+        let told = compat.or_else(|| given().and_then(|text| text.parse().ok()));
+        let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Compat::Jazzy));
+        let names = reading.names(&node, "plugins");
+        let is_usual = names.iter().map(String::as_str).eq(USUAL.map(|(name, _)| name));
+        let usual = if is_usual { &USUAL[..] } else { &[] };
+        let list = List { within: "", at: node.origin("plugins"), usual };
+        let layers = reading.layers(&names, &list, compat, 0);
+        let names = reading.names(&node, "filters");
+        let list = List { within: "", at: node.origin("filters"), usual: &[] };
+        let filters = reading.layers(&names, &list, compat, 0);
+        let footprint = reading.footprint(&node);
+        reading.warn_of_rest();
+        Self { node, compat, forms, layers, filters, footprint }
+    }
+
+    /// What holds for all layers.
+    #[must_use]
+    pub fn frame(&self) -> Frame {
+        Frame {
+            global_frame: self.node.text("global_frame").unwrap_or_default(),
+            is_rolling: self.node.flag("rolling_window").unwrap_or_default(),
+            tracks_unknown: self.node.flag("track_unknown_space").unwrap_or_default(),
+            compat: self.compat,
+        }
+    }
+
+    /// The cells, if no map says otherwise.
+    #[must_use]
+    pub fn lattice(&self) -> Lattice {
+        lattice_of(&self.node)
+    }
+}
+
+/// The cells that parameters of [`tables::COSTMAP`] ask for. Too many become none.
+#[must_use]
+pub(crate) fn lattice_of(node: &Values) -> Lattice {
+    let number = |name: &str| node.number(name).unwrap_or_default();
+    let resolution_m = number("resolution");
+    let count = |name: &str| (number(name) / resolution_m) as usize;
+    let origin = periplus_geometry::Pose2::new(number("origin_x"), number("origin_y"), 0.0);
+    let empty = Lattice { resolution_m, width: 0, height: 0, origin };
+    Lattice::new(resolution_m, count("width"), count("height"), origin).unwrap_or(empty)
+}
+
+/// Names and texts, by the group in which they are.
+#[derive(Default)]
+struct Tree<'a> {
+    /// By group (`obstacle_layer.scan`, or nothing for the node) and then in order.
+    groups: BTreeMap<String, Vec<Given<'a>>>,
+}
+
+/// A list of layers.
+struct List<'a> {
+    /// The container that has it; empty for the node.
+    within: &'a str,
+    /// Where it is written.
+    at: Origin,
+    /// Layers that need no plugin.
+    usual: &'a [(&'a str, LayerKind)],
+}
+
+struct Reading<'a, 'd> {
+    tree: Tree<'a>,
+    diagnostics: &'d mut Diagnostics,
+}
+
+impl<'a> Reading<'a, '_> {
+    /// As in ROS 2, what comes later wins.
+    fn add(&mut self, given: Given<'a>) {
+        let (group, name) = given.name.rsplit_once('.').unwrap_or(("", given.name));
+        let whole = given.name;
+        let given = Given { name, ..given };
+        let entries = self.tree.groups.entry(group.to_owned()).or_default();
+        let Some(earlier) = entries.iter_mut().find(|entry| entry.name == name) else {
+            return entries.push(given);
+        };
+        self.diagnostics.push(
+            Diagnostic::warning(
+                "repeated-parameter",
+                format!("`{whole}` is set twice; the last one counts"),
+            )
+            .at(given.name_origin)
+            .related(earlier.name_origin, "first set here"),
+        );
+        *earlier = given;
+    }
+
+    /// Takes a parameter out of a group.
+    fn take(&mut self, group: &str, name: &str) -> Option<Given<'a>> {
+        let entries = self.tree.groups.get_mut(group)?;
+        let index = entries.iter().position(|entry| entry.name == name)?;
+        Some(entries.remove(index))
+    }
+
+    /// Reads a group by a table; `at` is the place to show when something is missing in it.
+    fn values(&mut self, table: &'static Table, group: &str, at: Origin) -> Values {
+        let mut entries = self.tree.groups.remove(group).unwrap_or_default();
+        let prefix = if group.is_empty() { String::new() } else { format!("{group}.") };
+        if group.is_empty() {
+            // These are told apart once all layers have been read.
+            let (known, rest) =
+                entries.into_iter().partition(|entry| table.find(entry.name).is_some());
+            entries = known;
+            self.tree.groups.insert(String::new(), rest);
+        }
+        for entry in &mut entries {
+            self.forgive(table, entry, &prefix);
+        }
+        table.check(entries, at.0, self.diagnostics)
+    }
+
+    /// Old names and other kinds of numbers are taken, and told.
+    fn forgive(&mut self, table: &'static Table, entry: &mut Given<'a>, prefix: &str) {
+        let Some(parameter) = table.find(entry.name) else { return };
+        if parameter.name != entry.name {
+            self.diagnostics.push(
+                Diagnostic::hint(
+                    "ros1-name",
+                    format!("`{prefix}{}` is the name of ROS 1", entry.name),
+                )
+                .at(entry.name_origin)
+                .replace(
+                    entry.name_origin,
+                    parameter.name,
+                    format!("Nav2 calls it `{}`", parameter.name),
+                ),
+            );
+        }
+        let text = entry.text.trim();
+        let has_fraction = text.contains(['.', 'e', 'E']);
+        if parameter.kind == Kind::Integer
+            && has_fraction
+            && let Ok(number) = text.parse::<f64>()
+        {
+            let whole = libm::round(number);
+            let message = if number == whole {
+                format!("`{prefix}{}` is written as {text}, and must be a whole number", entry.name)
+            } else {
+                format!("`{prefix}{}`: {text} is no whole number, taken as {whole}", entry.name)
+            };
+            self.diagnostics.push(
+                Diagnostic::warning("not-whole", message)
+                    .at(entry.origin)
+                    .note("Nav2 refuses to start with `parameter has invalid type`")
+                    .replace(entry.origin, format!("{whole}"), format!("write `{whole}`")),
+            );
+            entry.text = format!("{whole}").into();
+        }
+    }
+
+    fn names(&mut self, values: &Values, parameter: &str) -> Vec<String> {
+        let mut names = Vec::new();
+        for name in values.texts(parameter) {
+            if names.contains(&name) {
+                self.diagnostics.push(
+                    Diagnostic::warning(
+                        "layer-twice",
+                        format!("`{name}` is in `{parameter}` twice"),
+                    )
+                    .at(values.origin(parameter))
+                    .note("it is used once"),
+                );
+            } else {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    fn layers(
+        &mut self,
+        names: &[String],
+        list: &List<'_>,
+        compat: Compat,
+        depth: usize,
+    ) -> Vec<LayerConfig> {
+        let List { within, at, usual } = *list;
+        let mut layers = Vec::new();
+        for name in names {
+            let full = if within.is_empty() { name.clone() } else { format!("{within}.{name}") };
+            let plugin = self.take(&full, "plugin");
+            let named_at = plugin.as_ref().map_or(at, |plugin| plugin.origin);
+            let kind = match plugin {
+                Some(plugin) => self.kind(&full, &plugin),
+                None => {
+                    let usual = usual.iter().find(|(usual, _)| usual == name);
+                    if usual.is_none() {
+                        self.diagnostics.push(
+                            Diagnostic::error("no-plugin", format!("`{full}.plugin` is not set"))
+                                .at(at)
+                                .note(format!("layer `{full}` is left out"))
+                                .help(format!(
+                                    "write `plugin: \"nav2_costmap_2d::ObstacleLayer\"`, or \
+                                     whatever it is, under `{name}`"
+                                )),
+                        );
+                    }
+                    usual.map(|(_, kind)| *kind)
+                }
+            };
+            let Some(kind) = kind else {
+                self.forget(&full);
+                continue;
+            };
+            layers.push(self.layer(full, kind, named_at, compat, depth));
+        }
+        layers
+    }
+
+    fn layer(
+        &mut self,
+        name: String,
+        kind: LayerKind,
+        named_at: Origin,
+        compat: Compat,
+        depth: usize,
+    ) -> LayerConfig {
+        let values = self.values(kind.table(), &name, named_at);
+        let place = |parameter: &str| {
+            if values.is_given(parameter) { values.origin(parameter) } else { named_at }
+        };
+        let mut sources = Vec::new();
+        if kind.has_sources() {
+            for source in values
+                .texts("observation_sources")
+                .iter()
+                .flat_map(|text| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+            {
+                sources.push(self.source(&name, source, values.origin("observation_sources")));
+            }
+            if sources.is_empty() {
+                self.diagnostics.push(
+                    Diagnostic::warning("no-sources", format!("layer `{name}` has no sources"))
+                        .at(place("observation_sources"))
+                        .note("it will never see an obstacle")
+                        .help(format!("set `{name}.observation_sources`, for example to `scan`")),
+                );
+            }
+        }
+        if kind == LayerKind::Range && values.texts("topics").is_empty() {
+            self.diagnostics.push(
+                Diagnostic::error("no-topics", format!("layer `{name}` has no topics"))
+                    .at(place("topics"))
+                    .help(format!("set `{name}.topics`, for example to `[\"/sonar\"]`")),
+            );
+        }
+        let mut children = Vec::new();
+        if kind == LayerKind::Container {
+            let names = self.names(&values, "plugins");
+            if depth < DEEPEST {
+                let list = List { within: &name, at: place("plugins"), usual: &[] };
+                children = self.layers(&names, &list, compat, depth + 1);
+            } else {
+                self.diagnostics.push(Diagnostic::error(
+                    "too-deep",
+                    format!("`{name}` is a container within {DEEPEST} others; it stays empty"),
+                ));
+            }
+        }
+        LayerConfig { name, kind, values, sources, children }
+    }
+
+    fn source(&mut self, layer: &str, name: String, named_at: Origin) -> SourceConfig {
+        let group = format!("{layer}.{name}");
+        let is_described = self.tree.groups.contains_key(&group);
+        let values = self.values(&tables::SOURCE, &group, named_at);
+        let tall = values.number("max_obstacle_height").unwrap_or_default();
+        let low = values.number("min_obstacle_height").unwrap_or_default();
+        if tall <= low {
+            // The first of the pains: everything is dropped, and nothing says so.
+            let origin = if values.is_given("max_obstacle_height") {
+                values.origin("max_obstacle_height")
+            } else {
+                named_at
+            };
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    "nothing-fits",
+                    format!("`{group}` takes points from {low} m to {tall} m: none, or hardly any"),
+                )
+                .at(origin)
+                .note("heights are measured in the global frame, and points beyond are dropped for marking and clearing")
+                .help(format!("set `{group}.max_obstacle_height`, for example to 2.0")),
+            );
+        }
+        if !is_described {
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    "no-source",
+                    format!("nothing is set under `{group}`; it has all defaults"),
+                )
+                .at(named_at)
+                .note(format!("it listens to the topic `{name}`")),
+            );
+        }
+        if values.number("raytrace_max_range") < values.number("obstacle_max_range")
+            && values.flag("clearing") == Some(true)
+        {
+            self.diagnostics.push(
+                Diagnostic::hint(
+                    "marks-beyond-clearing",
+                    format!("`{group}` marks further than it clears"),
+                )
+                .at(values.origin("obstacle_max_range"))
+                .note("what it marks beyond `raytrace_max_range` is never cleared from where it was seen")
+                .help("set `raytrace_max_range` above `obstacle_max_range`"),
+            );
+        }
+        if values.text("transport_type").is_some_and(|text| text != "raw") {
+            self.diagnostics.push(
+                Diagnostic::warning("transport", format!("`{group}.transport_type` must be `raw`"))
+                    .at(values.origin("transport_type"))
+                    .help("publish the cloud unpacked as well"),
+            );
+        }
+        SourceConfig { name, values }
+    }
+
+    fn kind(&mut self, name: &str, plugin: &Given<'a>) -> Option<LayerKind> {
+        match LayerKind::of_plugin(&plugin.text) {
+            Ok((kind, None)) => Some(kind),
+            Ok((kind, Some(modern))) => {
+                self.diagnostics.push(
+                    Diagnostic::hint(
+                        "ros1-name",
+                        format!("`{}` is the name of ROS 1", plugin.text.trim()),
+                    )
+                    .at(plugin.origin)
+                    .replace(
+                        plugin.origin,
+                        modern,
+                        format!("Nav2 calls it `{modern}`"),
+                    ),
+                );
+                Some(kind)
+            }
+            Err(why) => {
+                self.diagnostics.push(
+                    Diagnostic::error("unknown-plugin", format!("`{name}.plugin`: {why}"))
+                        .at(plugin.origin)
+                        .did_you_mean(plugin.origin, plugin.text.trim(), LayerKind::plugins())
+                        .note("the layer is left out, the others are built"),
+                );
+                None
+            }
+        }
+    }
+
+    /// A costmap that would be too large has no cells.
+    fn check_size(&mut self, node: &Values) {
+        if !lattice_of(node).is_empty() {
+            return;
+        }
+        let number = |name: &str| node.number(name).unwrap_or_default();
+        let (width, height, resolution) = (number("width"), number("height"), number("resolution"));
+        let biggest = ["width", "height", "resolution"].into_iter().find(|it| node.is_given(it));
+        self.diagnostics.push(
+            Diagnostic::error(
+                "bad-size",
+                format!(
+                    "`width`, `height` and `resolution`: {width} x {height} m in cells of \
+                     {resolution} m are too many cells, or none"
+                ),
+            )
+            .at(node.origin(biggest.unwrap_or("width")))
+            .note("the costmap stays empty until a map gives it a size"),
+        );
+    }
+
+    fn footprint(&mut self, node: &Values) -> Footprint {
+        let padding_m = node.number("footprint_padding").unwrap_or_default();
+        let (footprint, complaint) = footprint_of(node);
+        if complaint.is_none() && footprint.points().iter().all(|point| *point == [0.0, 0.0]) {
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    "empty-footprint",
+                    "`footprint` is empty and `robot_radius` is 0: the robot is a point",
+                )
+                .at(node.origin("robot_radius"))
+                .note("nothing is inscribed, so that plans may lead along every wall")
+                .help("set `footprint`, or `robot_radius` to half the robot's width"),
+            );
+        }
+        if let Some(complaint) = complaint {
+            self.diagnostics.push(complaint);
+        }
+        footprint.padded(padding_m)
+    }
+
+    /// Forgets what is said of a layer that is left out.
+    fn forget(&mut self, layer: &str) {
+        let within = format!("{layer}.");
+        self.tree.groups.retain(|group, _| group != layer && !group.starts_with(&within));
+    }
+
+    /// Nobody has read these.
+    fn warn_of_rest(&mut self) {
+        for (group, entries) in std::mem::take(&mut self.tree.groups) {
+            if group.is_empty() {
+                for entry in entries.iter().filter(|entry| !is_common(entry.name)) {
+                    self.diagnostics.push(tables::COSTMAP.unknown(entry));
+                }
+            } else if let Some(entry) = entries.first()
+                && !is_common(&group)
+            {
+                let span: Option<Span> = entry.name_origin.0;
+                let mut hint = Diagnostic::hint(
+                    "unused-group",
+                    format!("nobody reads `{group}`: no layer or source has this name"),
+                );
+                hint.span = span;
+                self.diagnostics.push(hint.help(
+                    "name it in `plugins`, `filters` or `observation_sources`, or take it out",
+                ));
+            }
+        }
+    }
+}
+
+/// What every node of ROS 2 has.
+fn is_common(name: &str) -> bool {
+    ["qos_overrides", "diagnostic_updater", "start_type_description_service"]
+        .iter()
+        .any(|common| name.starts_with(common))
+}
+
+/// The outline without padding, and what is wrong with it.
+pub(crate) fn footprint_of(node: &Values) -> (Footprint, Option<Diagnostic>) {
+    let circle = Footprint::circle(node.number("robot_radius").unwrap_or_default());
+    let text = node.text("footprint").unwrap_or_default();
+    if text.trim().is_empty() || text.trim() == "[]" {
+        return (circle, None);
+    }
+    match Footprint::read(&text) {
+        Ok(footprint) => (footprint, None),
+        Err(why) => {
+            let complaint = Diagnostic::error("bad-footprint", format!("`footprint`: {why}"))
+                .at(node.origin("footprint"))
+                .note("`robot_radius` stands in for it")
+                .help("write corners in order, such as \"[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]\"");
+            (circle, Some(complaint))
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Where a robot must not go.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/keepout_filter.cpp`.
+
+use periplus_diagnostics::Diagnostic;
+use periplus_geometry::{DVec3, Pose};
+use periplus_grid::{Cell, Lattice};
+use periplus_params::Values;
+
+use super::{FilterInfo, FilterKind, Mask, Masked};
+use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
+use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
+
+/// Raises costs to those of a mask.
+pub struct KeepoutFilter {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    /// The cost of zones for a robot that stands in one, if it may leave.
+    leaving_cost: Option<u8>,
+    mask: Option<Mask>,
+    /// The mask must be written anew.
+    has_changed: bool,
+    was_inside: bool,
+    was_lost: bool,
+    complaints: Vec<Diagnostic>,
+}
+
+impl KeepoutFilter {
+    /// From parameters of [`crate::tables::KEEPOUT`].
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values) -> Self {
+        let mut filter = Self {
+            name: name.into(),
+            values: values.clone(),
+            is_enabled: true,
+            leaving_cost: None,
+            mask: None,
+            has_changed: false,
+            was_inside: false,
+            was_lost: false,
+            complaints: Vec::new(),
+        };
+        filter.take(values);
+        filter
+    }
+
+    fn take(&mut self, values: Values) {
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        self.is_enabled = flag("enabled");
+        let cost = values.integer("lethal_override_cost").unwrap_or(252);
+        // Negative ones become large ones without a sign before they are limited.
+        let cost = if (0..=252).contains(&cost) { cost as u8 } else { 252 };
+        self.leaving_cost = flag("override_lethal_cost").then_some(cost);
+        self.values = values;
+        self.has_changed = true;
+    }
+
+    fn wrong(&self, what: String) -> Diagnostic {
+        Diagnostic::error("filter-info", format!("filter `{}`: {what}", self.name))
+            .at(self.values.origin("filter_info_topic"))
+            .help("check the node that publishes the filter info")
+    }
+
+    /// Whether a mask is there.
+    #[must_use]
+    pub fn has_mask(&self) -> bool {
+        self.mask.is_some()
+    }
+
+    /// Whether a robot stands in a zone.
+    fn is_inside(&self, moment: &Moment<'_>) -> bool {
+        let Some(mask) = &self.mask else { return false };
+        let Some(mask_from_global) = mask.placed(moment) else { return false };
+        mask.cell_of(mask_from_global, moment.robot)
+            .is_some_and(|cell| matches!(cost_of(mask.grid[cell]), INSCRIBED | LETHAL))
+    }
+}
+
+/// Where the outline of a mask lies in the global frame.
+fn bounds_of(mask: &Mask, mask_from_global: Pose) -> Bounds {
+    let global_from_mask = mask_from_global.inverse();
+    let Lattice { width, height, .. } = mask.grid.lattice;
+    let mut bounds = Bounds::EMPTY;
+    for (column, row) in [(0, 0), (width, 0), (0, height), (width, height)] {
+        let (x_m, y_m) = mask.grid.lattice.point_at(column as f64, row as f64);
+        let at = global_from_mask.transform_point(DVec3::new(x_m, y_m, 0.0));
+        bounds.touch(at.x, at.y);
+    }
+    bounds
+}
+
+impl Masked for KeepoutFilter {
+    fn set_info(&mut self, info: FilterInfo) {
+        let plain = FilterInfo::default();
+        if info.kind != FilterKind::Keepout {
+            self.complaints.push(self.wrong(format!("the mask is for {:?}", info.kind)));
+        }
+        if (info.base, info.multiplier) != (plain.base, plain.multiplier) {
+            self.complaints.push(self.wrong(format!(
+                "base is {} and multiplier {}, and must be 0 and 1; the mask is used as it is",
+                info.base, info.multiplier
+            )));
+        }
+    }
+
+    fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
+        self.has_changed = true;
+    }
+}
+
+impl Layer for KeepoutFilter {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+        if !self.is_enabled || !moment.compat.updates_keepout_zones() {
+            return;
+        }
+        if self.leaving_cost.is_some() {
+            let is_inside = self.is_inside(moment);
+            self.has_changed |= is_inside != self.was_inside;
+            self.was_inside = is_inside;
+        }
+        if let Some(mask) = &self.mask
+            && self.has_changed
+            && let Some(mask_from_global) = mask.placed(moment)
+        {
+            bounds.include(&bounds_of(mask, mask_from_global));
+            self.has_changed = false;
+        }
+    }
+
+    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+        let Some(mask) = self.mask.as_ref().filter(|_| self.is_enabled) else { return };
+        let Some(mask_from_global) = mask.placed(moment) else {
+            if !std::mem::replace(&mut self.was_lost, true) {
+                self.complaints.push(
+                    Diagnostic::error(
+                        "no-transform",
+                        format!(
+                            "filter `{}` knows no transform from `{}` to `{}`, the frame of its mask",
+                            self.name, moment.global_frame, mask.frame
+                        ),
+                    )
+                    .help("nothing is kept out until somebody publishes it"),
+                );
+            }
+            return;
+        };
+        self.was_lost = false;
+        let zone_cost = self
+            .leaving_cost
+            .filter(|_| moment.compat.updates_keepout_zones() && self.is_inside(moment));
+        let lattice = *master.lattice();
+        let finder = mask.grid.lattice.finder();
+        // Only where the mask is.
+        let near = master.window_of(&bounds_of(mask, mask_from_global));
+        let window = window.intersection(&near.unwrap_or_default());
+        for y in window.y0..window.yn {
+            for x in window.x0..window.xn {
+                let (wx, wy) = lattice.centre_of((x, y));
+                let at = mask_from_global.transform_point(DVec3::new(wx, wy, 0.0));
+                let Some(cell) = finder.cell_of(at.x, at.y) else { continue };
+                let cost = cost_of(mask.grid[cell]);
+                let index = y * lattice.width + x;
+                let old = master.costs()[index];
+                if cost != UNKNOWN && (cost > old || old == UNKNOWN) {
+                    master.costs_mut()[index] = zone_cost.unwrap_or(cost);
+                }
+            }
+        }
+    }
+
+    fn resized(&mut self, _lattice: &Lattice, _is_rolling: bool) {
+        self.has_changed = true;
+    }
+
+    fn reset(&mut self) {
+        self.has_changed = true;
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        self.take(values);
+        Ok(())
+    }
+
+    fn explain(&self, master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
+        let Some(mask) = &self.mask else {
+            return Explanation {
+                reason: Some("no mask has come".to_owned()),
+                parameter: Some(format!("{}.filter_info_topic", self.name)),
+                ..Explanation::default()
+            };
+        };
+        let (x_m, y_m) = master.lattice().centre_of(cell);
+        // Where frames are is known in updates only; most masks are in the costmap's own.
+        let number = mask.grid.at(x_m, y_m);
+        Explanation {
+            value: number.map(|number| cost_of(*number)),
+            reason: number.map(|number| format!("the mask (frame `{}`) says {number}", mask.frame)),
+            ..Explanation::default()
+        }
+    }
+
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        Some(self)
+    }
+
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
+    }
+}

@@ -1,0 +1,247 @@
+//! Where a robot must go slowly.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/speed_filter.cpp`.
+
+use periplus_diagnostics::Diagnostic;
+use periplus_geometry::Pose2;
+use periplus_params::Values;
+
+use super::{FilterInfo, FilterKind, Mask, Masked};
+use crate::{Bounds, Costmap, Layer, Moment, Window};
+
+/// A limit of speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpeedLimit {
+    /// Whether `limit` is in percent of the highest speed; otherwise it is in m/s.
+    pub is_percentage: bool,
+    /// The limit; 0 for none.
+    pub limit: f64,
+}
+
+/// Tells how fast a robot may go where it is.
+pub struct SpeedFilter {
+    name: String,
+    values: Values,
+    is_enabled: bool,
+    info: Option<FilterInfo>,
+    mask: Option<Mask>,
+    /// The path that the robot follows, in the global frame \[m\], and where it was found on it.
+    path: Vec<[f64; 2]>,
+    reached: usize,
+    speed_m_s: f64,
+    /// While a limit ahead is other than the one here, the look ahead does not become shorter.
+    held_m: f64,
+    last: f64,
+    outgoing: Option<SpeedLimit>,
+    /// The place for which a complaint is out already.
+    complained_of: Option<&'static str>,
+    complaints: Vec<Diagnostic>,
+}
+
+impl SpeedFilter {
+    /// From parameters of [`crate::tables::SPEED`].
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Values) -> Self {
+        Self {
+            name: name.into(),
+            is_enabled: values.flag("enabled").unwrap_or_default(),
+            values,
+            info: None,
+            mask: None,
+            path: Vec::new(),
+            reached: 0,
+            speed_m_s: 0.0,
+            held_m: 0.0,
+            last: 0.0,
+            outgoing: None,
+            complained_of: None,
+            complaints: Vec::new(),
+        }
+    }
+
+    /// Takes in the path that the robot follows, in the global frame \[m\].
+    pub fn set_path(&mut self, path: Vec<[f64; 2]>) {
+        self.path = path;
+        self.reached = 0;
+    }
+
+    /// Takes in how fast the robot goes \[m/s\].
+    pub fn set_speed(&mut self, speed_m_s: f64) {
+        self.speed_m_s = speed_m_s.abs();
+    }
+
+    /// A limit to publish, if it is another than before.
+    pub fn take_limit(&mut self) -> Option<SpeedLimit> {
+        self.outgoing.take()
+    }
+
+    /// The limit at a place; an error where the mask says nothing.
+    fn limit_at(&self, moment: &Moment<'_>, at: Pose2) -> Result<f64, &'static str> {
+        let (Some(mask), Some(info)) = (&self.mask, &self.info) else {
+            return Err("no mask has come");
+        };
+        let mask_from_global = mask.placed(moment).ok_or("no transform to the mask")?;
+        let cell = mask.cell_of(mask_from_global, at).ok_or("the robot is beside the mask")?;
+        let number = mask.grid[cell];
+        match number {
+            0 => return Ok(0.0),
+            -1 => return Err("the mask is unknown here"),
+            _ => {}
+        }
+        let limit = info.value(number);
+        let is_possible = match info.kind {
+            FilterKind::SpeedPercent => (0.0..=100.0).contains(&limit),
+            _ => limit >= 0.0,
+        };
+        Ok(if is_possible { limit } else { 0.0 })
+    }
+
+    /// The lowest limit from here along the path; an error where the mask says nothing of the robot's
+    /// own cell.
+    fn limit_ahead(&mut self, moment: &Moment<'_>) -> Result<f64, &'static str> {
+        let number = |name: &str| self.values.number(name).unwrap_or_default();
+        let shortest_m = number("min_lookahead").max(0.0);
+        let longest_m = number("max_lookahead").max(shortest_m);
+        let slowing_m_s2 = number("max_decel");
+        let mut reach_m = longest_m;
+        if slowing_m_s2 < 0.0 {
+            let braking_m = self.speed_m_s * self.speed_m_s / (2.0 * -slowing_m_s2);
+            reach_m = braking_m.clamp(shortest_m, longest_m).max(self.held_m);
+        }
+        self.held_m = 0.0;
+        self.reached = self.nearest(moment.robot);
+        let here = self.limit_at(moment, moment.robot)?;
+        let mut lowest = if here == 0.0 { f64::INFINITY } else { here };
+        let mut along_m = 0.0;
+        for index in self.reached..self.path.len() {
+            let [x_m, y_m] = self.path[index];
+            if index > self.reached {
+                let [last_x_m, last_y_m] = self.path[index - 1];
+                along_m += libm::hypot(x_m - last_x_m, y_m - last_y_m);
+            }
+            if along_m > reach_m {
+                break;
+            }
+            match self.limit_at(moment, Pose2::new(x_m, y_m, 0.0)) {
+                Ok(limit) if limit != 0.0 => lowest = lowest.min(limit),
+                _ => {}
+            }
+        }
+        let lowest = if lowest.is_finite() { lowest } else { 0.0 };
+        if lowest != here {
+            self.held_m = reach_m;
+        }
+        Ok(lowest)
+    }
+
+    /// The start of the segment of the path that is nearest, from where the robot was on it.
+    fn nearest(&self, robot: Pose2) -> usize {
+        let from = if self.reached < self.path.len() { self.reached } else { 0 };
+        let mut found = (f64::INFINITY, from);
+        for index in from..self.path.len().saturating_sub(1) {
+            let distance_m = distance_to_segment(robot, self.path[index], self.path[index + 1]);
+            if distance_m < found.0 {
+                found = (distance_m, index);
+            }
+        }
+        found.1
+    }
+
+    fn complain(&mut self, why: &'static str) {
+        if self.complained_of.replace(why) == Some(why) {
+            return;
+        }
+        self.complaints.push(
+            Diagnostic::warning("no-limit", format!("filter `{}`: {why}", self.name))
+                .at(self.values.origin("filter_info_topic"))
+                .note("the last limit holds"),
+        );
+    }
+}
+
+/// Distance of a robot from the line between two points \[m\].
+fn distance_to_segment(robot: Pose2, start: [f64; 2], end: [f64; 2]) -> f64 {
+    let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
+    let (dx, dy) = (robot.x_m - start[0], robot.y_m - start[1]);
+    let length_squared = along_x * along_x + along_y * along_y;
+    let part = if length_squared > 0.0 {
+        ((dx * along_x + dy * along_y) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    libm::hypot(dx - part * along_x, dy - part * along_y)
+}
+
+impl Masked for SpeedFilter {
+    fn set_info(&mut self, info: FilterInfo) {
+        if matches!(info.kind, FilterKind::SpeedPercent | FilterKind::SpeedAbsolute) {
+            self.info = Some(info);
+        } else {
+            self.complaints.push(
+                Diagnostic::error(
+                    "filter-info",
+                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
+                )
+                .at(self.values.origin("filter_info_topic"))
+                .help("publish type 1 (percent) or 2 (metres per second)"),
+            );
+        }
+    }
+
+    fn set_mask(&mut self, mask: Mask) {
+        self.mask = Some(mask);
+    }
+}
+
+impl Layer for SpeedFilter {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+
+    fn costs(&mut self, moment: &Moment<'_>, _master: &mut Costmap, _window: Window) {
+        if !self.is_enabled || self.mask.is_none() || self.info.is_none() {
+            return;
+        }
+        let looks_ahead = moment.compat.looks_ahead_on_paths()
+            && self.values.flag("enable_path_lookahead").unwrap_or_default();
+        let limit = if looks_ahead && !self.path.is_empty() {
+            self.limit_ahead(moment)
+        } else {
+            self.limit_at(moment, moment.robot)
+        };
+        let limit = match limit {
+            Ok(limit) => limit,
+            Err(why) => return self.complain(why),
+        };
+        self.complained_of = None;
+        if limit != self.last {
+            self.last = limit;
+            let is_percentage = self.info.is_some_and(|info| info.kind == FilterKind::SpeedPercent);
+            self.outgoing = Some(SpeedLimit { is_percentage, limit });
+        }
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        self.is_enabled = values.flag("enabled").unwrap_or_default();
+        self.values = values;
+        Ok(())
+    }
+
+    fn masked(&mut self) -> Option<&mut dyn Masked> {
+        Some(self)
+    }
+
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
+    }
+}

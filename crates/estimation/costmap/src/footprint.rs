@@ -1,0 +1,250 @@
+//! The outline of a robot on the ground.
+//!
+//! Source: `nav2_costmap_2d/src/footprint.cpp`, `array_parser.cpp`, `footprint_collision_checker.cpp`.
+
+use std::f64::consts::PI;
+
+use periplus_geometry::Pose2;
+use periplus_grid::{Cell, Line};
+
+use crate::{Costmap, cost};
+
+/// Corners of a circle.
+const CIRCLE_CORNERS: usize = 16;
+
+/// An outline in the frame of the robot's base, with the radii that follow from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Footprint {
+    points: Vec<[f64; 2]>,
+    /// Of the largest circle about the base that lies within \[m\].
+    pub inscribed_radius_m: f64,
+    /// Of the smallest circle about the base that holds it \[m\].
+    pub circumscribed_radius_m: f64,
+}
+
+impl Default for Footprint {
+    /// No outline; the radii are those with which a layered costmap of Nav2 begins.
+    fn default() -> Self {
+        Self { points: Vec::new(), inscribed_radius_m: 0.1, circumscribed_radius_m: 1.0 }
+    }
+}
+
+impl Footprint {
+    /// From corners \[m\], in order around the robot.
+    #[must_use]
+    pub fn new(points: Vec<[f64; 2]>) -> Self {
+        let (inscribed_radius_m, circumscribed_radius_m) = radii(&points);
+        Self { points, inscribed_radius_m, circumscribed_radius_m }
+    }
+
+    /// A circle, as a polygon with 16 corners.
+    #[must_use]
+    pub fn circle(radius_m: f64) -> Self {
+        let corner = |index: usize| {
+            let (sine, cosine) = libm::sincos(index as f64 * 2.0 * PI / CIRCLE_CORNERS as f64);
+            [cosine * radius_m, sine * radius_m]
+        };
+        Self::new((0..CIRCLE_CORNERS).map(corner).collect())
+    }
+
+    /// From a text such as `[[0.2, 0.1], [0.2, -0.1], [-0.2, 0]]`. Numbers pass through single
+    /// precision, as they do in Nav2.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let points = read_points(text)?;
+        match points.len() {
+            3.. => Ok(Self::new(points)),
+            count => Err(format!("it has {count} corners, and a footprint needs at least three")),
+        }
+    }
+
+    /// Every coordinate further from the base by a padding \[m\].
+    #[must_use]
+    pub fn padded(&self, padding_m: f64) -> Self {
+        // Also coordinates that are zero but for rounding are moved by the whole padding.
+        let away = |at: f64| {
+            if at == 0.0 { at } else { at + padding_m * at.signum() }
+        };
+        Self::new(self.points.iter().map(|[x, y]| [away(*x), away(*y)]).collect())
+    }
+
+    /// The corners, in the frame of the base \[m\].
+    #[must_use]
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The corners in the global frame \[m\] of a robot at `global_from_base`.
+    #[must_use]
+    pub fn placed(&self, global_from_base: Pose2) -> Vec<[f64; 2]> {
+        let (sine, cosine) = libm::sincos(global_from_base.yaw_rad);
+        let place = |[x, y]: &[f64; 2]| {
+            [
+                global_from_base.x_m + (x * cosine - y * sine),
+                global_from_base.y_m + (x * sine + y * cosine),
+            ]
+        };
+        self.points.iter().map(place).collect()
+    }
+
+    /// The cost under the outline of a robot at a pose, as [`outline_cost`] has it.
+    #[must_use]
+    pub fn cost(&self, costmap: &Costmap, global_from_base: Pose2) -> u8 {
+        outline_cost(costmap, &self.placed(global_from_base))
+    }
+}
+
+/// The cost of the outline of a polygon in the global frame \[m\]: the highest of its sides, up to the
+/// first one that is lethal. A side with a lethal cell is lethal, also if it has unknown cells, and so is
+/// a corner outside. Cells within the outline do not count.
+#[must_use]
+pub fn outline_cost(costmap: &Costmap, corners: &[[f64; 2]]) -> u8 {
+    let finder = costmap.finder();
+    let cells: Option<Vec<_>> =
+        corners.iter().map(|[x_m, y_m]| finder.cell_of(*x_m, *y_m)).collect();
+    let Some(cells) = cells.filter(|cells| !cells.is_empty()) else { return cost::LETHAL };
+    let sides = cells.iter().zip(cells.iter().cycle().skip(1));
+    let mut highest = cost::FREE;
+    for (start, end) in sides {
+        highest = highest.max(side_cost(costmap, *start, *end));
+        if highest == cost::LETHAL {
+            break;
+        }
+    }
+    highest
+}
+
+/// The highest cost on a line of cells, or lethal if one of them is.
+fn side_cost(costmap: &Costmap, start: Cell, end: Cell) -> u8 {
+    let mut highest = cost::FREE;
+    for cost in Line::between(start, end).filter_map(|cell| costmap.cost(cell)) {
+        if cost == cost::LETHAL {
+            return cost;
+        }
+        highest = highest.max(cost);
+    }
+    highest
+}
+
+/// Distances from the base of what is nearest and of the furthest corner \[m\]. Fewer than three
+/// corners hold nothing: the first is then `f64::MAX` and the second 0.
+#[must_use]
+pub fn radii(points: &[[f64; 2]]) -> (f64, f64) {
+    if points.len() < 3 {
+        return (f64::MAX, 0.0);
+    }
+    let mut nearest = f64::MAX;
+    let mut furthest: f64 = 0.0;
+    for (index, &start) in points.iter().enumerate() {
+        let end = points[(index + 1) % points.len()];
+        let corner = libm::hypot(start[0], start[1]);
+        nearest = nearest.min(corner).min(distance_to_side(start, end));
+        furthest = furthest.max(corner);
+    }
+    (nearest, furthest)
+}
+
+/// Distance of the origin to the line between two points \[m\].
+fn distance_to_side(start: [f64; 2], end: [f64; 2]) -> f64 {
+    let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
+    let length_squared = along_x * along_x + along_y * along_y;
+    let part = -(start[0] * along_x + start[1] * along_y) / length_squared;
+    // Of two equal corners the part is no number, and the comparison below takes the first.
+    let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
+    libm::hypot(start[0] + part * along_x, start[1] + part * along_y)
+}
+
+/// Lists of numbers in brackets; commas, blanks and tabs separate.
+fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
+    let mut points = Vec::new();
+    let mut numbers: Vec<f64> = Vec::new();
+    let mut depth = 0;
+    let mut rest = text.trim();
+    while let Some(first) = rest.chars().next() {
+        match first {
+            '[' if depth < 2 => depth += 1,
+            '[' => return Err("brackets nest deeper than two".into()),
+            ']' if depth == 2 => {
+                let [x, y] = numbers[..] else {
+                    let count = numbers.len();
+                    return Err(format!("a corner needs x and y, and one has {count} numbers"));
+                };
+                points.push([x, y]);
+                numbers.clear();
+                depth = 1;
+            }
+            ']' if depth == 1 => depth = 0,
+            ']' => return Err("a bracket closes that was not opened".into()),
+            ',' | ' ' | '\t' | '\n' | '\r' => {}
+            _ => {
+                let end = rest.find([',', ' ', '\t', '\n', '\r', '[', ']']).unwrap_or(rest.len());
+                let (word, after) = rest.split_at(end);
+                if depth < 2 {
+                    return Err(format!("`{word}` stands outside of a corner's brackets"));
+                }
+                let number: f32 = word.parse().map_err(|_| format!("`{word}` is no number"))?;
+                if !number.is_finite() {
+                    return Err(format!("`{word}` is no finite number"));
+                }
+                numbers.push(f64::from(number));
+                rest = after;
+                continue;
+            }
+        }
+        rest = &rest[first.len_utf8()..];
+    }
+    if depth == 0 { Ok(points) } else { Err("a bracket is not closed".into()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_grid::Lattice;
+
+    use super::*;
+
+    #[test]
+    fn a_footprint_is_read_and_padded() {
+        let footprint = Footprint::read("[[1, 1] [-1.0e0,1]\t[-1, -1]]").unwrap().padded(0.5);
+        assert_eq!(footprint.points(), [[1.5, 1.5], [-1.5, 1.5], [-1.5, -1.5]]);
+        let square = Footprint::read("[[2,1],[2,-1],[-2,-1],[-2,1]]").unwrap();
+        assert_eq!(square.inscribed_radius_m, 1.0);
+        assert!((square.circumscribed_radius_m - 5.0_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_footprint_is_said() {
+        let wrong = |text: &str| Footprint::read(text).unwrap_err();
+        assert_eq!(wrong("[]"), "it has 0 corners, and a footprint needs at least three");
+        assert_eq!(wrong("[[1, 2, 3]]"), "a corner needs x and y, and one has 3 numbers");
+        assert_eq!(wrong("[[1, a]]"), "`a` is no number");
+        assert_eq!(wrong("[[1, nan]]"), "`nan` is no finite number");
+        assert_eq!(wrong("[1, 2]"), "`1` stands outside of a corner's brackets");
+        assert_eq!(wrong("[[1, 2]"), "a bracket is not closed");
+        assert_eq!(wrong("]"), "a bracket closes that was not opened");
+        assert!(wrong("[[[").contains("deeper"));
+    }
+
+    #[test]
+    fn a_circle_is_padded_as_nav2_pads_it() {
+        let circle = Footprint::circle(0.1).padded(0.01);
+        assert_eq!(circle.points().len(), 16);
+        assert!((circle.points()[0][0] - 0.11).abs() < 1e-12);
+        assert_eq!(circle.points()[0][1], 0.0, "exactly zero is not moved");
+        assert!((circle.points()[4][0] - 0.01).abs() < 1e-12, "a rounding error is");
+    }
+
+    #[test]
+    fn the_outline_counts_and_not_what_it_holds() {
+        let lattice = Lattice::new(1.0, 9, 9, Pose2::IDENTITY).unwrap();
+        let mut costmap = Costmap::new(lattice, 0);
+        let square = Footprint::read("[[2,2],[2,-2],[-2,-2],[-2,2]]").unwrap();
+        let cost = |costmap: &Costmap, x| square.cost(costmap, Pose2::new(x, 4.5, 0.0));
+        costmap.set((4, 4), 254);
+        assert_eq!(cost(&costmap, 4.5), 0);
+        costmap.set((6, 4), 100);
+        assert_eq!(cost(&costmap, 4.5), 100);
+        assert_eq!(cost(&costmap, 0.5), 254, "corners are outside");
+    }
+}

@@ -1,0 +1,448 @@
+//! A map as a layer.
+//!
+//! Source of the rules: `nav2_costmap_2d/plugins/static_layer.cpp`. Unlike there, a map whose origin
+//! is turned lies as it says.
+
+use periplus_diagnostics::Diagnostic;
+use periplus_geometry::{DVec3, Pose, Pose2};
+use periplus_grid::{Cell, Lattice, OccupancyGrid};
+use periplus_params::Values;
+
+use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
+use crate::costmap::half_size_m;
+use crate::polygon::Columns;
+use crate::{Bounds, Combination, Compat, Costmap, Explanation, Layer, Moment, Window};
+
+/// Lengths that differ by less are the same \[m\].
+const SAME_M: f64 = 1e-5;
+
+/// A finer map is malformed \[m\].
+const FINEST_M: f64 = 1e-6;
+
+/// What the numbers of a map mean; parameters of the costmap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MapMeaning {
+    /// Whether unknown cells are unknown instead of free.
+    pub tracks_unknown: bool,
+    /// Which number is unknown; 255 stands for -1.
+    pub unknown_value: i64,
+    /// From which number on a cell is lethal, 0 to 100.
+    pub lethal_threshold: i64,
+    /// Whether cells are free, lethal or unknown only.
+    pub is_trinary: bool,
+    /// Which number is inscribed, on main.
+    pub inscribed_value: Option<i64>,
+    /// Whether the map only raises costs.
+    pub uses_maximum: bool,
+}
+
+impl MapMeaning {
+    /// From parameters of [`crate::tables::COSTMAP`].
+    #[must_use]
+    pub fn read(values: &Values, compat: Compat) -> Self {
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        let integer = |name: &str| values.integer(name).unwrap_or_default();
+        Self {
+            tracks_unknown: flag("track_unknown_space"),
+            unknown_value: integer("unknown_cost_value"),
+            lethal_threshold: integer("lethal_cost_threshold").clamp(0, 100),
+            is_trinary: flag("trinary_costmap"),
+            inscribed_value: compat
+                .knows_inscribed_maps()
+                .then(|| integer("inscribed_obstacle_cost_value")),
+            uses_maximum: flag("use_maximum"),
+        }
+    }
+
+    /// The cost of a map's cell.
+    #[must_use]
+    pub fn cost(&self, occupancy: i8) -> u8 {
+        // The reference takes numbers without a sign: -1 is 255.
+        let value = i64::from(occupancy as u8);
+        if value == self.unknown_value {
+            if self.tracks_unknown { UNKNOWN } else { FREE }
+        } else if Some(value) == self.inscribed_value {
+            INSCRIBED
+        } else if value >= self.lethal_threshold {
+            LETHAL
+        } else if self.is_trinary {
+            FREE
+        } else {
+            (value as f64 / self.lethal_threshold as f64 * f64::from(LETHAL)) as u8
+        }
+    }
+}
+
+/// A map.
+pub struct StaticLayer {
+    name: String,
+    values: Values,
+    meaning: MapMeaning,
+    compat: Compat,
+    is_enabled: bool,
+    clears_footprint: bool,
+    restores_footprint: bool,
+    /// As it came.
+    map: Option<OccupancyGrid>,
+    map_frame: String,
+    grid: Costmap,
+    /// It came, and is not in `grid` yet.
+    is_new: bool,
+    has_changed: bool,
+    /// Whether this update takes part, which is decided in its first half.
+    takes_part: bool,
+    is_waiting: bool,
+    was_lost: bool,
+    outline: Vec<[f64; 2]>,
+    complaints: Vec<Diagnostic>,
+}
+
+impl StaticLayer {
+    /// From parameters of [`crate::tables::STATIC`].
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        values: Values,
+        meaning: MapMeaning,
+        compat: Compat,
+    ) -> Self {
+        let mut layer = Self {
+            name: name.into(),
+            values: values.clone(),
+            meaning,
+            compat,
+            is_enabled: true,
+            clears_footprint: false,
+            restores_footprint: true,
+            map: None,
+            map_frame: String::new(),
+            grid: Costmap::empty(FREE),
+            is_new: false,
+            has_changed: false,
+            takes_part: false,
+            is_waiting: false,
+            was_lost: false,
+            outline: Vec::new(),
+            complaints: Vec::new(),
+        };
+        layer.take(values);
+        layer
+    }
+
+    fn take(&mut self, values: Values) {
+        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        self.is_enabled = flag("enabled");
+        self.restores_footprint =
+            self.compat.restores_cleared_footprint() && flag("restore_cleared_footprint");
+        self.clears_footprint = flag("footprint_clearing_enabled");
+        self.values = values;
+        self.has_changed = true;
+    }
+
+    /// Takes in a map. It counts from the next update on.
+    ///
+    /// # Errors
+    /// Why it is malformed; the layer keeps what it had.
+    pub fn set_map(&mut self, map: OccupancyGrid, frame: &str) -> Result<(), String> {
+        let Lattice { resolution_m, width, height, origin } = map.lattice;
+        if frame.is_empty() {
+            return Err("it names no frame (`header.frame_id`)".into());
+        }
+        if !(resolution_m.is_finite() && resolution_m >= FINEST_M) {
+            return Err(format!("its resolution is {resolution_m} m"));
+        }
+        if !origin.is_finite() {
+            return Err("its origin is not finite".into());
+        }
+        if map.cells.len() != width * height {
+            let count = map.cells.len();
+            return Err(format!("it has {count} cells and should have {width} x {height}"));
+        }
+        if width == 0 || height == 0 {
+            return Err("it has no cells".into());
+        }
+        frame.clone_into(&mut self.map_frame);
+        self.map = Some(upright(map));
+        self.is_new = true;
+        self.is_waiting = false;
+        Ok(())
+    }
+
+    /// Takes in a part of the map that has changed: `cells` row by row in a window of the map.
+    ///
+    /// # Errors
+    /// Why it does not fit.
+    pub fn update_map(&mut self, window: Window, cells: &[i8], frame: &str) -> Result<(), String> {
+        let Some(map) = &mut self.map else { return Err("there is no map yet".into()) };
+        let lattice = map.lattice;
+        if window.xn > lattice.width || window.yn > lattice.height {
+            return Err(format!(
+                "it goes to ({}, {}), and the map has {} x {} cells",
+                window.xn, window.yn, lattice.width, lattice.height
+            ));
+        }
+        if frame != self.map_frame {
+            return Err(format!("it is in frame `{frame}`, and the map in `{}`", self.map_frame));
+        }
+        if cells.len() != window.width() * window.height() {
+            return Err(format!(
+                "it has {} cells and should have {} x {}",
+                cells.len(),
+                window.width(),
+                window.height()
+            ));
+        }
+        if window.is_empty() {
+            return Ok(());
+        }
+        let is_current = self.grid.lattice().len() == lattice.len() && !self.is_new;
+        for (row, span) in cells.chunks(window.width()).zip(window.spans(lattice.width)) {
+            map.cells[span.clone()].copy_from_slice(row);
+            if is_current {
+                for (cost, value) in self.grid.costs_mut()[span].iter_mut().zip(row) {
+                    *cost = self.meaning.cost(*value);
+                }
+            }
+        }
+        self.has_changed = true;
+        Ok(())
+    }
+
+    /// Whether a map is there.
+    #[must_use]
+    pub fn has_map(&self) -> bool {
+        self.map.is_some()
+    }
+
+    fn write_grid(&mut self) {
+        if let Some(map) = &self.map {
+            self.grid = Costmap::new(map.lattice, FREE);
+            for (cost, value) in self.grid.costs_mut().iter_mut().zip(&map.cells) {
+                *cost = self.meaning.cost(*value);
+            }
+        }
+        self.is_new = false;
+        self.has_changed = true;
+    }
+
+    /// Looks each cell of a window up in a map that lies elsewhere.
+    fn look_up(&self, master: &mut Costmap, window: &Window, map_from_global: Pose) {
+        let finder = self.grid.finder();
+        let lattice = *master.lattice();
+        for y in window.y0..window.yn {
+            for x in window.x0..window.xn {
+                let (wx, wy) = lattice.centre_of((x, y));
+                let at = map_from_global.transform_point(DVec3::new(wx, wy, 0.0));
+                let Some(cell) = finder.cell_of(at.x, at.y) else { continue };
+                let Some(cost) = self.grid.cost(cell) else { continue };
+                let index = y * lattice.width + x;
+                let old = master.costs()[index];
+                let new = if self.meaning.uses_maximum {
+                    // Here the reference compares numbers: unknown is the highest.
+                    cost.max(old)
+                } else {
+                    cost
+                };
+                master.costs_mut()[index] = new;
+            }
+        }
+    }
+}
+
+/// A map whose rows run along x of its frame, with the nearest cell of a turned one in each.
+fn upright(map: OccupancyGrid) -> OccupancyGrid {
+    let Lattice { resolution_m, width, height, origin } = map.lattice;
+    if origin.yaw_rad == 0.0 {
+        return map;
+    }
+    let (columns, rows) = (width as f64, height as f64);
+    let corners = [(0.0, 0.0), (columns, 0.0), (0.0, rows), (columns, rows)]
+        .map(|(column, row)| map.lattice.point_at(column, row));
+    let mut bounds = Bounds::EMPTY;
+    for (x_m, y_m) in corners {
+        bounds.touch(x_m, y_m);
+    }
+    // Of a half turn a hair is left over, which is no cell.
+    let count = |length_m: f64| libm::ceil(length_m / resolution_m - 1e-6).max(1.0) as usize;
+    let origin = Pose2::new(bounds.min_x, bounds.min_y, 0.0);
+    let (columns, rows) = (count(bounds.max_x - bounds.min_x), count(bounds.max_y - bounds.min_y));
+    let Ok(lattice) = Lattice::new(resolution_m, columns, rows, origin) else { return map };
+    let finder = map.lattice.finder();
+    let cells = (0..lattice.len())
+        .map(|index| {
+            let (x_m, y_m) = lattice.centre_of(lattice.cell(index));
+            let cell = finder.cell_of(x_m, y_m);
+            cell.map_or(periplus_grid::occupancy::UNKNOWN, |cell| map[cell])
+        })
+        .collect();
+    OccupancyGrid { lattice, cells }
+}
+
+fn is_same(a: &Lattice, b: &Lattice) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() < SAME_M;
+    (a.width, a.height) == (b.width, b.height)
+        && near(a.resolution_m, b.resolution_m)
+        && near(a.origin.x_m, b.origin.x_m)
+        && near(a.origin.y_m, b.origin.y_m)
+}
+
+impl Layer for StaticLayer {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+        self.takes_part = self.map.is_some();
+        if self.map.is_none() {
+            return;
+        }
+        let is_fitting = moment.is_rolling || is_same(self.grid.lattice(), &moment.lattice);
+        if self.is_new || !is_fitting {
+            self.write_grid();
+        }
+        if !moment.is_rolling && !std::mem::take(&mut self.has_changed) {
+            return;
+        }
+        if moment.is_rolling && moment.compat.follows_robot_with_map() {
+            let (half_width_m, half_height_m) = half_size_m(&moment.lattice, moment.compat);
+            bounds.touch(moment.robot.x_m - half_width_m, moment.robot.y_m - half_height_m);
+            bounds.touch(moment.robot.x_m + half_width_m, moment.robot.y_m + half_height_m);
+        } else {
+            // As far as the reference goes: the centres of the first cell and of one past the last.
+            let lattice = self.grid.lattice();
+            let (x_m, y_m) = lattice.centre_of((0, 0));
+            bounds.touch(x_m, y_m);
+            let (x_m, y_m) = lattice.centre_of((lattice.width, lattice.height));
+            bounds.touch(x_m, y_m);
+        }
+        if self.clears_footprint {
+            self.outline = moment.footprint.placed(moment.robot);
+            for [x_m, y_m] in &self.outline {
+                bounds.touch(*x_m, *y_m);
+            }
+        }
+    }
+
+    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+        if !self.is_enabled || !self.takes_part {
+            return;
+        }
+        self.is_waiting = false;
+        let mut under_robot = Vec::new();
+        if self.clears_footprint
+            && let Some(columns) = Columns::of(&self.grid, &self.outline)
+        {
+            for cell in columns.cells() {
+                under_robot.push((cell, self.grid.cost(cell).unwrap_or(FREE)));
+                self.grid.set(cell, FREE);
+            }
+        }
+        if moment.is_rolling {
+            let map_from_global = moment.frames.latest(&self.map_frame, moment.global_frame);
+            match map_from_global {
+                Some(map_from_global) => self.look_up(master, &window, map_from_global),
+                None if !self.was_lost => self.complaints.push(
+                    Diagnostic::warning(
+                        "no-transform",
+                        format!(
+                            "layer `{}` knows no transform from `{}` to `{}`, the frame of its map",
+                            self.name, moment.global_frame, self.map_frame
+                        ),
+                    )
+                    .help("start what localizes the robot, or set its initial pose"),
+                ),
+                None => {}
+            }
+            self.was_lost = map_from_global.is_none();
+        } else if is_same(self.grid.lattice(), master.lattice()) {
+            let how = if self.meaning.uses_maximum { Combination::Max } else { Combination::Copy };
+            how.apply(master, &self.grid, &window);
+        }
+        if self.restores_footprint {
+            for (cell, cost) in under_robot {
+                self.grid.set(cell, cost);
+            }
+        }
+    }
+
+    fn reset(&mut self) {
+        self.has_changed = true;
+        self.is_waiting = true;
+    }
+
+    fn wants_lattice(&self, current: &Lattice, is_size_locked: bool) -> Option<Lattice> {
+        let map = self.map.as_ref().filter(|_| self.is_new)?;
+        (!is_size_locked || !is_same(current, &map.lattice)).then_some(map.lattice)
+    }
+
+    fn resized(&mut self, lattice: &Lattice, is_rolling: bool) {
+        // What a rolling costmap covers does not concern the map. Otherwise it is written again.
+        if !is_rolling && !is_same(self.grid.lattice(), lattice) {
+            self.grid.resize(*lattice);
+            self.is_new = self.map.is_some();
+        }
+        self.has_changed = true;
+    }
+
+    fn is_enabled(&self) -> bool {
+        self.is_enabled
+    }
+
+    fn is_current(&self, _now_ns: i64) -> bool {
+        self.map.is_some() && !self.is_waiting
+    }
+
+    fn grid(&self) -> Option<&Costmap> {
+        Some(&self.grid)
+    }
+
+    fn values(&self) -> Option<&Values> {
+        Some(&self.values)
+    }
+
+    fn configure(&mut self, values: Values) -> Result<(), String> {
+        for fixed in ["map_topic", "subscribe_to_updates", "map_subscribe_transient_local"] {
+            if values.get(fixed) != self.values.get(fixed) {
+                return Err(format!("`{fixed}` cannot be changed while the costmap runs"));
+            }
+        }
+        let restores = values.get("restore_cleared_footprint");
+        if self.compat.guards_restore_parameter()
+            && !self.clears_footprint
+            && restores != self.values.get("restore_cleared_footprint")
+        {
+            return Err("`restore_cleared_footprint` cannot be changed while \
+                 `footprint_clearing_enabled` is false; set that first"
+                .into());
+        }
+        self.take(values);
+        Ok(())
+    }
+
+    fn explain(&self, master: &Costmap, cell: Cell, is_rolling: bool) -> Explanation {
+        let Some(map) = &self.map else {
+            return Explanation {
+                reason: Some("no map has come".to_owned()),
+                parameter: Some(format!("{}.map_topic", self.name)),
+                ..Explanation::default()
+            };
+        };
+        if is_rolling {
+            let reason = "the map lies elsewhere; it is looked up when costs are made".to_owned();
+            return Explanation { reason: Some(reason), ..Explanation::default() };
+        }
+        debug_assert!(is_same(master.lattice(), self.grid.lattice()) || self.is_new);
+        let value = self.grid.cost(cell);
+        let reason = map.get(cell).map(|occupancy| format!("the map says {occupancy} here"));
+        let parameter = match value {
+            Some(FREE) if map.get(cell) == Some(&-1) => Some("track_unknown_space".to_owned()),
+            Some(_) => Some("lethal_cost_threshold".to_owned()),
+            None => None,
+        };
+        Explanation { value, reason, parameter, ..Explanation::default() }
+    }
+
+    fn complaints(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.complaints)
+    }
+}

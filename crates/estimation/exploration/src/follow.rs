@@ -1,0 +1,43 @@
+//! Along a way.
+
+use periplus_geometry::{Pose2, normalize_angle};
+
+/// Forwards and to the left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Velocity {
+    /// Forwards [m/s].
+    pub forward_m_s: f64,
+    /// To the left [rad/s].
+    pub left_rad_s: f64,
+}
+
+/// So far ahead on the way the robot looks \[m\].
+const AHEAD_M: f64 = 0.4;
+
+/// Beyond this angle it turns before it drives \[rad\].
+const TURN_FIRST_RAD: f64 = 0.7;
+
+/// How much faster it turns the more it is off [1/s].
+const TURN_GAIN: f64 = 2.0;
+
+/// The velocity along a way, at most this fast: towards the point a little ahead of the one that is
+/// nearest, slower where the way bends away and before its end (pure pursuit; Coulter, 1992). Points
+/// that lie behind are taken off the way.
+pub fn follow(way: &mut Vec<[f64; 2]>, map_from_base: Pose2, most: Velocity) -> Velocity {
+    let distance = |[x, y]: &[f64; 2]| libm::hypot(x - map_from_base.x_m, y - map_from_base.y_m);
+    let by_distance = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+    let places = way.iter().map(distance).enumerate();
+    if let Some((nearest, _)) = places.min_by(by_distance) {
+        way.drain(..nearest);
+    }
+    let Some(end) = way.last() else { return Velocity::default() };
+    let target = way.iter().find(|point| distance(point) >= AHEAD_M).unwrap_or(end);
+    let bearing = libm::atan2(target[1] - map_from_base.y_m, target[0] - map_from_base.x_m);
+    let off_rad = normalize_angle(bearing - map_from_base.yaw_rad);
+    let left_rad_s = (TURN_GAIN * off_rad).clamp(-most.left_rad_s, most.left_rad_s);
+    if off_rad.abs() > TURN_FIRST_RAD {
+        return Velocity { forward_m_s: 0.0, left_rad_s };
+    }
+    let slower = libm::cos(off_rad) * (distance(end) / AHEAD_M).clamp(0.2, 1.0);
+    Velocity { forward_m_s: most.forward_m_s * slower, left_rad_s }
+}

@@ -1,0 +1,58 @@
+//! Drives of logs, whose maps and references come from SLAM.
+
+use std::path::Path;
+
+use periplus_bags::read_carmen;
+use periplus_geometry::Pose2;
+use periplus_grid::{OccupancyGrid, occupancy};
+use periplus_localization::Scan;
+use periplus_slam::Slam;
+
+use crate::carmen::scan_of;
+use crate::courses::{Course, Sight};
+
+/// A log in the form of CARMEN: every `every`-th scan of its first scanner.
+pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Course, String> {
+    let bytes = std::fs::read(path).map_err(|why| format!("{}: {why}", path.display()))?;
+    let log = read_carmen(&bytes);
+    let kind = log.scans.first().map(|scan| scan.kind.clone());
+    let mut slam = Slam::new(periplus_slam::Settings::default());
+    let mut taken = Vec::new();
+    let scans = log.scans.into_iter().filter(|scan| Some(&scan.kind) == kind.as_ref());
+    for (number, scan) in scans.step_by(every).enumerate() {
+        let Some(odom_from_base) = scan.odom_from_base else { continue };
+        let time_ns = number as i64 * 100_000_000;
+        let as_seen = periplus_slam::Scan { time_ns, ..scan_of(&scan) };
+        let _ = slam.add_scan(&as_seen, Some(odom_from_base));
+        let scan = Scan {
+            base_from_laser: scan.base_from_laser,
+            is_flipped: false,
+            angle_min_rad: scan.angle_min_rad,
+            angle_increment_rad: scan.angle_increment_rad,
+            range_min_m: 0.05,
+            range_max_m: scan.range_max_m.into(),
+            ranges_m: scan.ranges_m,
+        };
+        taken.push((time_ns, odom_from_base, scan));
+    }
+    slam.finish();
+    let map = slam.map().ok_or_else(|| format!("{name}: no map"))?;
+    let way: std::collections::BTreeMap<i64, Pose2> = slam.trajectory().into_iter().collect();
+    let sights = taken.into_iter().filter_map(|(time_ns, odom_from_base, scan)| {
+        let map_from_base = *way.get(&time_ns)?;
+        Some(Sight { odom_from_base, map_from_base, scan })
+    });
+    Ok(Course { name: name.to_owned(), map: trinary(map), sights: sights.collect() })
+}
+
+/// As a map server gives it.
+fn trinary(mut map: OccupancyGrid) -> OccupancyGrid {
+    for cell in &mut map.cells {
+        *cell = match *cell {
+            65.. => occupancy::OCCUPIED,
+            0..=25 => occupancy::FREE,
+            _ => occupancy::UNKNOWN,
+        };
+    }
+    map
+}

@@ -1,0 +1,292 @@
+//! How two maps differ.
+
+use periplus_geometry::Pose2;
+use periplus_grid::occupancy::UNKNOWN;
+use periplus_grid::{Grid, Lattice, LatticeError, NOWHERE, OccupancyGrid, squared_distances};
+
+use crate::align::{Alignment, align, is_wall};
+
+/// How to compare.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Whether to lay the other map over the first before. Else its files say where it lies.
+    pub align: bool,
+    /// How far it may be shifted \[m\].
+    pub window_m: f64,
+    /// How far it may be turned \[rad\].
+    pub window_rad: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { align: true, window_m: 1.5, window_rad: 0.175 }
+    }
+}
+
+/// Cells of one kind in either map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Overlap {
+    /// In both.
+    pub both: usize,
+    /// In the first only.
+    pub first_only: usize,
+    /// In the other only.
+    pub other_only: usize,
+}
+
+impl Overlap {
+    /// Intersection over union; 1 where there is nothing in either.
+    #[must_use]
+    pub fn iou(&self) -> f64 {
+        let union = self.both + self.first_only + self.other_only;
+        if union == 0 { 1.0 } else { self.both as f64 / union as f64 }
+    }
+
+    fn count(&mut self, first: bool, other: bool) {
+        self.both += usize::from(first && other);
+        self.first_only += usize::from(first && !other);
+        self.other_only += usize::from(other && !first);
+    }
+}
+
+/// How far the walls of one map are from those of another \[m\], from centre to centre of cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Walls {
+    /// How many cells are walls.
+    pub count: usize,
+    /// On average.
+    pub mean_m: f64,
+    /// Half are nearer.
+    pub median_m: f64,
+    /// 95 of 100 are nearer.
+    pub p95_m: f64,
+    /// None is further.
+    pub largest_m: f64,
+}
+
+/// How two maps differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Where the other map lies over the first.
+    pub alignment: Alignment,
+    /// Cells of the first map, as many as both maps need.
+    pub lattice: Lattice,
+    /// Walls.
+    pub walls: Overlap,
+    /// Walls, where one that has a neighbour in the other map counts as met.
+    pub walls_nearby: Overlap,
+    /// Free cells.
+    pub free: Overlap,
+    /// Cells of which something is known.
+    pub known: Overlap,
+    /// From the walls of the first map to those of the other.
+    pub first_to_other: Walls,
+    /// From the walls of the other map to those of the first.
+    pub other_to_first: Walls,
+    first: OccupancyGrid,
+    other: OccupancyGrid,
+}
+
+/// Compares a map with another, over the cells of the first.
+///
+/// # Errors
+/// When together they would take too many cells.
+pub fn compare(
+    first: &OccupancyGrid,
+    other: &OccupancyGrid,
+    options: Options,
+) -> Result<Comparison, LatticeError> {
+    let alignment = if options.align {
+        align(first, other, options.window_m, options.window_rad)
+    } else {
+        Alignment { reference_from_other: Pose2::IDENTITY, score: f64::NAN }
+    };
+    let mut laid = other.clone();
+    laid.lattice.origin = alignment.reference_from_other * other.lattice.origin;
+    let lattice = around(first.lattice, laid.lattice)?;
+    let (first, other) = (sampled(first, lattice), sampled(&laid, lattice));
+    let (to_first, to_other) = (distances(&first), distances(&other));
+
+    let (mut walls, mut nearby) = (Overlap::default(), Overlap::default());
+    let (mut free, mut known) = (Overlap::default(), Overlap::default());
+    for index in 0..lattice.len() {
+        let (a, b) = (first.cells[index], other.cells[index]);
+        walls.count(is_wall(a), is_wall(b));
+        // Diagonal neighbours are the square root of two away.
+        nearby.count(
+            is_wall(a) || is_wall(b) && to_first.cells[index] <= 2,
+            is_wall(b) || is_wall(a) && to_other.cells[index] <= 2,
+        );
+        let is_free = |cell: i8| cell >= 0 && !is_wall(cell);
+        free.count(is_free(a), is_free(b));
+        known.count(a >= 0, b >= 0);
+    }
+    Ok(Comparison {
+        alignment,
+        lattice,
+        walls,
+        walls_nearby: nearby,
+        free,
+        known,
+        first_to_other: statistics(&first, &to_other),
+        other_to_first: statistics(&other, &to_first),
+        first,
+        other,
+    })
+}
+
+/// Cells of the first lattice, as many as both need.
+fn around(first: Lattice, other: Lattice) -> Result<Lattice, LatticeError> {
+    let finder = first.finder();
+    let (mut low, mut high) = ((0_i64, 0_i64), (first.width as i64, first.height as i64));
+    for (columns, rows) in
+        [(0, 0), (other.width, 0), (0, other.height), (other.width, other.height)]
+    {
+        let (x_m, y_m) = other.point_at(columns as f64, rows as f64);
+        let (column, row) = finder.cells_to(x_m, y_m);
+        low = (low.0.min(column.floor() as i64), low.1.min(row.floor() as i64));
+        high = (high.0.max(column.ceil() as i64), high.1.max(row.ceil() as i64));
+    }
+    let size = |low: i64, high: i64| usize::try_from(high.saturating_sub(low)).unwrap_or(0);
+    let Lattice { origin, .. } = first.moved(low.0, low.1);
+    Lattice::new(first.resolution_m, size(low.0, high.0), size(low.1, high.1), origin)
+}
+
+/// What a map says of each cell. Cells that are larger than its own show the most occupied of those
+/// that they hold, so that thin walls stay.
+fn sampled(map: &OccupancyGrid, lattice: Lattice) -> OccupancyGrid {
+    let finder = map.lattice.finder();
+    let per_side =
+        (lattice.resolution_m / map.lattice.resolution_m).round().clamp(1.0, 16.0) as usize;
+    let part = 1.0 / per_side as f64;
+    let cells = (0..lattice.len()).map(|index| {
+        let (column, row) = lattice.cell(index);
+        let mut value = UNKNOWN;
+        for step in 0..per_side * per_side {
+            let right = (column as f64) + ((step % per_side) as f64 + 0.5) * part;
+            let up = (row as f64) + ((step / per_side) as f64 + 0.5) * part;
+            let (x_m, y_m) = lattice.point_at(right, up);
+            if let Some(&found) = finder.cell_of(x_m, y_m).and_then(|cell| map.get(cell)) {
+                value = value.max(found);
+            }
+        }
+        value
+    });
+    Grid { lattice, cells: cells.collect() }
+}
+
+fn distances(map: &OccupancyGrid) -> Grid<u32> {
+    squared_distances(map, |&cell| is_wall(cell))
+}
+
+fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
+    let mut found: Vec<u32> = map
+        .cells
+        .iter()
+        .zip(&squares.cells)
+        .filter(|&(&cell, &square)| is_wall(cell) && square != NOWHERE)
+        .map(|(_, &square)| square)
+        .collect();
+    let count = found.len();
+    if count == 0 {
+        let count = map.cells.iter().filter(|&&cell| is_wall(cell)).count();
+        let nothing = f64::NAN;
+        return Walls {
+            count,
+            mean_m: nothing,
+            median_m: nothing,
+            p95_m: nothing,
+            largest_m: nothing,
+        };
+    }
+    found.sort_unstable();
+    let metres = |square: u32| f64::from(square).sqrt() * map.lattice.resolution_m;
+    let at = |share: f64| metres(found[((count - 1) as f64 * share).round() as usize]);
+    Walls {
+        count,
+        mean_m: found.iter().map(|&square| metres(square)).sum::<f64>() / count as f64,
+        median_m: at(0.5),
+        p95_m: at(0.95),
+        largest_m: at(1.0),
+    }
+}
+
+/// Both maps in one picture, in red, green, blue, its first row at the top: walls of both are black,
+/// of the first only blue, of the other only red; free in both is white, and in one alone a light
+/// tint of its colour; what nobody knows is grey.
+#[must_use]
+pub fn picture(comparison: &Comparison) -> (u32, u32, Vec<u8>) {
+    let Lattice { width, height, .. } = comparison.lattice;
+    let rows = comparison.first.rows().rev().zip(comparison.other.rows().rev());
+    let pixels = rows.flat_map(|(first, other)| first.iter().zip(other));
+    let bytes = pixels.flat_map(|(&a, &b)| match (is_wall(a), is_wall(b), a >= 0, b >= 0) {
+        (true, true, ..) => [0, 0, 0],
+        (true, false, ..) => [0, 90, 255],
+        (false, true, ..) => [235, 30, 30],
+        (_, _, true, true) => [255, 255, 255],
+        (_, _, true, false) => [214, 228, 255],
+        (_, _, false, true) => [255, 222, 222],
+        _ => [190, 190, 190],
+    });
+    let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
+    (side(width), side(height), bytes.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_grid::occupancy::{FREE, OCCUPIED};
+
+    use super::*;
+
+    fn map(width: usize, height: usize, x_m: f64, cells: &[i8]) -> OccupancyGrid {
+        let lattice = Lattice::new(1.0, width, height, Pose2::new(x_m, 0.0, 0.0)).unwrap();
+        Grid::from_cells(lattice, cells.to_vec()).unwrap()
+    }
+
+    const AS_IT_LIES: Options = Options { align: false, window_m: 0.0, window_rad: 0.0 };
+
+    #[test]
+    fn a_map_is_like_itself() {
+        let map = map(3, 1, 0.0, &[OCCUPIED, FREE, UNKNOWN]);
+        let same = compare(&map, &map, AS_IT_LIES).unwrap();
+        assert_eq!([same.walls.iou(), same.free.iou(), same.known.iou()], [1.0; 3]);
+        assert_eq!(same.first_to_other.largest_m, 0.0);
+        assert_eq!(picture(&same), (3, 1, vec![0, 0, 0, 255, 255, 255, 190, 190, 190]));
+    }
+
+    #[test]
+    fn a_wall_beside() {
+        let first = map(3, 1, 0.0, &[OCCUPIED, FREE, FREE]);
+        let other = map(3, 1, 1.0, &[OCCUPIED, FREE, FREE]);
+        let found = compare(&first, &other, AS_IT_LIES).unwrap();
+        assert_eq!((found.lattice.width, found.walls.iou()), (4, 0.0));
+        assert_eq!(found.walls_nearby.iou(), 1.0);
+        assert_eq!((found.free.both, found.free.first_only, found.free.other_only), (1, 1, 1));
+        assert_eq!((found.first_to_other.mean_m, found.other_to_first.median_m), (1.0, 1.0));
+    }
+
+    #[test]
+    fn thin_walls_of_a_finer_map_stay() {
+        let fine = Lattice::new(0.25, 8, 4, Pose2::IDENTITY).unwrap();
+        let mut thin = Grid::new(fine, FREE);
+        thin[(1, 2)] = OCCUPIED;
+        let found = compare(&map(2, 1, 0.0, &[OCCUPIED, FREE]), &thin, AS_IT_LIES).unwrap();
+        assert_eq!(found.walls, Overlap { both: 1, first_only: 0, other_only: 0 });
+    }
+
+    #[test]
+    fn without_walls_nothing_is_measured() {
+        let empty = map(2, 1, 0.0, &[FREE, FREE]);
+        let found =
+            compare(&map(2, 1, 0.0, &[OCCUPIED, FREE]), &empty, Options::default()).unwrap();
+        assert_eq!(found.first_to_other.count, 1);
+        assert!(found.first_to_other.mean_m.is_nan() && found.other_to_first.count == 0);
+    }
+
+    #[test]
+    fn maps_far_apart_are_refused() {
+        let map = map(1, 1, 0.0, &[OCCUPIED]);
+        let far = Grid { lattice: map.lattice.moved(1 << 40, 1 << 40), ..map.clone() };
+        assert!(compare(&map, &far, AS_IT_LIES).is_err());
+    }
+}

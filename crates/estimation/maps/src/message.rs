@@ -1,0 +1,144 @@
+//! Maps as messages.
+
+use std::fmt;
+
+use periplus_geometry::{DQuat, Pose, Pose2};
+use periplus_grid::{Grid, Lattice, LatticeError, OccupancyGrid};
+use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::geometry_msgs::{self, Point, Quaternion};
+use periplus_msgs::nav_msgs::{self, MapMetaData};
+use periplus_msgs::std_msgs::Header;
+
+/// Why a message is no map.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BadMap {
+    /// It has another number of values than cells.
+    Length {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Values.
+        values: usize,
+    },
+    /// Its cells have no place.
+    Lattice(LatticeError),
+    /// Its orientation is none: the quaternion.
+    Orientation([f64; 4]),
+}
+
+impl fmt::Display for BadMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { width, height, values } => write!(
+                f,
+                "the map has {values} values for {width} by {height} cells; whoever publishes it is \
+                 wrong"
+            ),
+            Self::Lattice(error) => error.fmt(f),
+            Self::Orientation(xyzw) => {
+                write!(f, "the orientation of the map's origin, {xyzw:?}, is no rotation")
+            }
+        }
+    }
+}
+
+impl std::error::Error for BadMap {}
+
+/// What a message says, without its frame and times. Of the orientation of the origin the yaw
+/// counts; a quaternion of zeros, which many forget, is none.
+///
+/// # Errors
+/// When it is malformed.
+pub fn from_message(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, BadMap> {
+    let MapMetaData { resolution, width, height, ref origin, .. } = message.info;
+    let lattice = lattice_of(resolution, width, height, origin)?;
+    Grid::from_cells(lattice, message.data.clone()).map_err(|cells| BadMap::Length {
+        width,
+        height,
+        values: cells.len(),
+    })
+}
+
+fn lattice_of(
+    resolution: f32,
+    width: u32,
+    height: u32,
+    origin: &geometry_msgs::Pose,
+) -> Result<Lattice, BadMap> {
+    let Quaternion { x, y, z, w } = origin.orientation;
+    let length = (x * x + y * y + z * z + w * w).sqrt();
+    let yaw_rad = if length == 0.0 {
+        0.0
+    } else if length.is_finite() {
+        let rotation = DQuat::from_xyzw(x / length, y / length, z / length, w / length);
+        periplus_geometry::rpy_from_quaternion(rotation).yaw
+    } else {
+        return Err(BadMap::Orientation([x, y, z, w]));
+    };
+    // Whole tenths of millimetres were meant: 0.05 is not one in single precision.
+    let resolution_m = nearest_decimal(resolution);
+    let origin = Pose2::new(origin.position.x, origin.position.y, yaw_rad);
+    Lattice::new(resolution_m, width as usize, height as usize, origin).map_err(BadMap::Lattice)
+}
+
+/// The shortest decimal number that is this one in single precision.
+fn nearest_decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+/// A message that says this, in a frame, loaded and stamped at a time.
+#[must_use]
+pub fn to_message(map: &OccupancyGrid, frame_id: &str, stamp: Time) -> nav_msgs::OccupancyGrid {
+    let lattice = map.lattice;
+    let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
+    let Pose { translation, rotation } = lattice.origin.into();
+    nav_msgs::OccupancyGrid {
+        header: Header { stamp: stamp.clone(), frame_id: frame_id.into() },
+        info: MapMetaData {
+            map_load_time: stamp,
+            resolution: lattice.resolution_m as f32,
+            width: side(lattice.width),
+            height: side(lattice.height),
+            origin: geometry_msgs::Pose {
+                position: Point { x: translation.x, y: translation.y, z: 0.0 },
+                orientation: Quaternion { x: 0.0, y: 0.0, z: rotation.z, w: rotation.w },
+            },
+        },
+        data: map.cells.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_and_back() {
+        let lattice = Lattice::new(0.05, 2, 1, Pose2::new(1.0, -2.0, 1.0)).unwrap();
+        let map = Grid { lattice, cells: vec![-1, 100] };
+        let message = to_message(&map, "map", Time::default());
+        assert!((message.info.origin.orientation.z - 0.479425538604203).abs() < 1e-15);
+        let back = from_message(&message).unwrap();
+        assert_eq!((back.cells, back.lattice.resolution_m), (vec![-1, 100], 0.05));
+        assert!((back.lattice.origin.yaw_rad - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn malformed_ones_are_told() {
+        let lattice = Lattice::new(0.05, 2, 1, Pose2::IDENTITY).unwrap();
+        let good = to_message(&Grid { lattice, cells: vec![0, 0] }, "map", Time::default());
+        let mut short = good.clone();
+        short.data.pop();
+        assert!(from_message(&short).unwrap_err().to_string().contains("1 values for 2 by 1"));
+        let mut flat = good.clone();
+        flat.info.resolution = f32::NAN;
+        assert!(matches!(from_message(&flat), Err(BadMap::Lattice(_))));
+        let mut giant = good.clone();
+        (giant.info.width, giant.info.height) = (u32::MAX, u32::MAX);
+        assert!(from_message(&giant).is_err());
+        let mut forgotten = good;
+        forgotten.info.origin.orientation = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
+        assert_eq!(from_message(&forgotten).unwrap().lattice.origin.yaw_rad, 0.0);
+    }
+}

@@ -1,0 +1,531 @@
+//! A map to its files.
+
+use std::fmt;
+use std::io::{self, Write};
+
+use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_images::{Layout, pgm_head, write_bmp, write_png};
+
+use crate::distro::{Distro, Mode};
+use crate::number::{fixed, general};
+
+/// The grey of unknown cells.
+const UNKNOWN_GREY: u8 = 205;
+/// The grey of free cells.
+const FREE_GREY: u8 = 254;
+
+/// What the picture is written as.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// Bytes with a short header.
+    #[default]
+    Pgm,
+    /// Packed; the only one in which unknown cells of mode scale stay unknown everywhere.
+    Png,
+    /// As Windows has it.
+    Bmp,
+}
+
+impl Format {
+    /// By the ending of files, in capitals or not.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Pgm, Self::Png, Self::Bmp]
+            .into_iter()
+            .find(|format| format.ending().eq_ignore_ascii_case(name))
+    }
+
+    /// The ending of files.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Pgm => "pgm",
+            Self::Png => "png",
+            Self::Bmp => "bmp",
+        }
+    }
+}
+
+/// How to save, as somebody asks for it: what is empty or 0 is left to us.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wish {
+    /// Path of the files, without ending.
+    pub name: String,
+    /// `pgm`, `png`, `bmp`.
+    pub image_format: String,
+    /// `trinary`, `scale`, `raw`.
+    pub mode: String,
+    /// From this share on a cell is occupied: 0 to 1.
+    pub occupied_thresh: f64,
+    /// Up to this share a cell is free: 0 to 1.
+    pub free_thresh: f64,
+}
+
+/// Thresholds between which nothing lies, or which are no shares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadThresholds {
+    /// That of occupied cells.
+    pub occupied_thresh: f64,
+    /// That of free cells.
+    pub free_thresh: f64,
+}
+
+impl fmt::Display for BadThresholds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { occupied_thresh, free_thresh } = self;
+        write!(
+            f,
+            "the thresholds are {free_thresh} for free and {occupied_thresh} for occupied; they must \
+             lie between 0 and 1, the first below the second, such as 0.25 and 0.65"
+        )
+    }
+}
+
+impl std::error::Error for BadThresholds {}
+
+/// How to save, settled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Saving {
+    /// Path of the files, without ending.
+    pub name: String,
+    /// As whose saver.
+    pub distro: Distro,
+    /// What brightness stands for. ROS 1 writes `trinary` only.
+    pub mode: Mode,
+    /// What the picture is written as. ROS 1 writes PGM only.
+    pub format: Format,
+    /// From this share on a cell is occupied.
+    pub occupied_thresh: f64,
+    /// Up to this share a cell is free.
+    pub free_thresh: f64,
+}
+
+impl Saving {
+    /// As a saver does without options: in the files `<name>.pgm` and `<name>.yaml`.
+    #[must_use]
+    pub fn new(name: impl Into<String>, distro: Distro) -> Self {
+        Self {
+            name: name.into(),
+            distro,
+            mode: Mode::Trinary,
+            format: Format::Pgm,
+            occupied_thresh: 0.65,
+            free_thresh: 0.25,
+        }
+    }
+}
+
+impl Wish {
+    /// Settles what is left open, as `nav2_map_server` does: no name is `map_<seconds>`, a format or
+    /// mode that is not known is PNG or trinary. What was settled otherwise than asked is said.
+    ///
+    /// # Errors
+    /// When the thresholds make no sense.
+    pub fn settle(
+        &self,
+        distro: Distro,
+        unix_s: i64,
+    ) -> Result<(Saving, Vec<String>), BadThresholds> {
+        let mut said = Vec::new();
+        let mut name = self.name.clone();
+        if name.is_empty() {
+            name = if distro == Distro::Noetic { "map".into() } else { format!("map_{unix_s}") };
+            said.push(format!("no name is given; the map is saved as `{name}`"));
+        }
+        let usual = |value: f64, usual: f64| if value == 0.0 { usual } else { value };
+        let occupied_thresh = usual(self.occupied_thresh, 0.65);
+        let free_thresh = usual(self.free_thresh, 0.25);
+        // Written so that numbers that are none fail, too.
+        if !(free_thresh >= 0.0 && occupied_thresh <= 1.0 && free_thresh < occupied_thresh) {
+            return Err(BadThresholds { occupied_thresh, free_thresh });
+        }
+        let mode = Mode::from_name(&self.mode).unwrap_or_else(|| {
+            if !self.mode.is_empty() {
+                said.push(format!("`{}` is no mode of maps; it is saved in trinary", self.mode));
+            }
+            Mode::Trinary
+        });
+        let format = match self.image_format.as_str() {
+            "" if mode == Mode::Scale => Format::Png,
+            "" => Format::Pgm,
+            name => Format::from_name(name).unwrap_or_else(|| {
+                said.push(format!("pictures are not written as `{name}`; it is saved as PNG"));
+                Format::Png
+            }),
+        };
+        if mode == Mode::Scale && format == Format::Pgm {
+            said.push(
+                "a PGM cannot say which cells are unknown, which mode scale needs; take PNG".into(),
+            );
+        }
+        Ok((Saving { name, distro, mode, format, occupied_thresh, free_thresh }, said))
+    }
+}
+
+/// Both files of a map.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapFiles {
+    /// Where the picture belongs.
+    pub image_path: String,
+    /// The picture.
+    pub image: Vec<u8>,
+    /// Where the YAML belongs.
+    pub yaml_path: String,
+    /// The YAML.
+    pub yaml: String,
+}
+
+/// Makes both files of a map, as a saver does.
+///
+/// Sources: `map_server/src/map_saver.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp`.
+#[must_use]
+pub fn render(map: &OccupancyGrid, saving: &Saving) -> MapFiles {
+    let (image_path, yaml_path, yaml) = render_yaml(&map.lattice, saving);
+    MapFiles { image: picture(map, &settled(saving)), image_path, yaml_path, yaml }
+}
+
+fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
+    let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
+    let (width, height) = (side(map.lattice.width), side(map.lattice.height));
+    let top_down = map.rows().rev().flatten();
+    if saving.mode == Mode::Scale && saving.format != Format::Pgm {
+        let pixels: Vec<u8> = top_down
+            .flat_map(|&cell| {
+                let (grey, alpha) = (scale_grey(cell), if is_known(cell) { 255 } else { 0 });
+                [grey, grey, grey, alpha]
+            })
+            .collect();
+        return match saving.format {
+            Format::Bmp => write_bmp(width, height, Layout::Rgba, &pixels),
+            _ => write_png(width, height, Layout::Rgba, &pixels),
+        };
+    }
+    let table = table(saving);
+    let pixels = top_down.map(|cell| table[usize::from(cell.cast_unsigned())]);
+    match saving.format {
+        Format::Png => write_png(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
+        Format::Bmp => write_bmp(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
+        Format::Pgm => {
+            let mut bytes = head(&map.lattice, saving).into_bytes();
+            bytes.reserve_exact(map.lattice.len());
+            bytes.extend(pixels);
+            bytes
+        }
+    }
+}
+
+/// The brightness of each value of a cell, but for mode scale with unknown cells.
+fn table(saving: &Saving) -> [u8; 256] {
+    let percent = |share: f64| (share * 100.0).round_ties_even() as i64;
+    let (free, occupied) = (percent(saving.free_thresh), percent(saving.occupied_thresh));
+    let grey = |cell: i8| match saving.mode {
+        Mode::Trinary => trinary_grey(cell, free, occupied, saving.distro),
+        Mode::Scale => scale_grey(cell),
+        Mode::Raw => {
+            if is_known(cell) {
+                cell.cast_unsigned()
+            } else {
+                255
+            }
+        }
+    };
+    std::array::from_fn(|value| grey((value as u8).cast_signed()))
+}
+
+/// What the PGM of a map begins with.
+fn head(lattice: &Lattice, saving: &Saving) -> String {
+    let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
+    let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(lattice));
+    let comment = (saving.distro == Distro::Noetic).then_some(comment.as_str());
+    pgm_head(side(lattice.width), side(lattice.height), comment)
+}
+
+/// The PGM of a map, written row by row: the map itself need not be held as a whole.
+pub struct PgmRows<'a> {
+    out: &'a mut dyn Write,
+    table: [u8; 256],
+    line: Vec<u8>,
+}
+
+impl<'a> PgmRows<'a> {
+    /// Begins the picture of a map that lies there.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn begin(
+        out: &'a mut dyn Write,
+        lattice: &Lattice,
+        saving: &Saving,
+    ) -> io::Result<PgmRows<'a>> {
+        let saving = settled(saving);
+        out.write_all(head(lattice, &saving).as_bytes())?;
+        Ok(PgmRows { out, table: table(&saving), line: Vec::new() })
+    }
+
+    /// The cells of the next row; the highest comes first.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn push(&mut self, cells: &[i8]) -> io::Result<()> {
+        self.line.clear();
+        self.line.extend(cells.iter().map(|cell| self.table[usize::from(cell.cast_unsigned())]));
+        self.out.write_all(&self.line)
+    }
+}
+
+/// Paths of both files of a map, and what the YAML says: image, YAML, text.
+#[must_use]
+pub fn render_yaml(lattice: &Lattice, saving: &Saving) -> (String, String, String) {
+    let saving = settled(saving);
+    let image_path = format!("{}.{}", saving.name, saving.format.ending());
+    let yaml = match saving.distro {
+        Distro::Noetic => noetic_yaml(lattice, &image_path),
+        _ => yaml(lattice, &saving, &image_path),
+    };
+    (image_path, format!("{}.yaml", saving.name), yaml)
+}
+
+/// As the saver of the distribution can do it.
+fn settled(saving: &Saving) -> Saving {
+    match saving.distro {
+        Distro::Noetic => Saving { mode: Mode::Trinary, format: Format::Pgm, ..saving.clone() },
+        _ => saving.clone(),
+    }
+}
+
+/// Messages carry the resolution in single precision, and savers print that.
+fn resolution(lattice: &Lattice) -> f64 {
+    f64::from(lattice.resolution_m as f32)
+}
+
+fn is_known(cell: i8) -> bool {
+    (0..=100).contains(&cell)
+}
+
+fn trinary_grey(cell: i8, free: i64, occupied: i64, distro: Distro) -> u8 {
+    // ROS 1 takes whatever is above the threshold for occupied.
+    let is_known = is_known(cell) || distro == Distro::Noetic && cell >= 0;
+    let cell = i64::from(cell);
+    if !is_known {
+        UNKNOWN_GREY
+    } else if cell <= free {
+        FREE_GREY
+    } else if cell >= occupied {
+        0
+    } else {
+        UNKNOWN_GREY
+    }
+}
+
+/// Percents to brightness, rounded down; half bright where nothing is known.
+fn scale_grey(cell: i8) -> u8 {
+    match u16::try_from(cell) {
+        Ok(percent @ 0..=100) => u8::try_from((100 - percent) * 255 / 100).unwrap_or(255),
+        _ => 127,
+    }
+}
+
+fn yaml(lattice: &Lattice, saving: &Saving, image_path: &str) -> String {
+    let image = image_path.rsplit(['/', '\\']).next().unwrap_or(image_path);
+    let (image, mode) = (scalar(image), saving.mode.name());
+    let origin = lattice.origin;
+    let numbers = if saving.distro == Distro::Humble {
+        // Three significant digits, not three decimals: what lies 12.345 m away comes back at 12.3.
+        let short = |value: f64| general(value, 3);
+        [
+            short(resolution(lattice)),
+            short(origin.x_m),
+            short(origin.y_m),
+            short(origin.yaw_rad),
+            short(saving.occupied_thresh),
+            short(saving.free_thresh),
+        ]
+    } else {
+        // What the pixels are needs these thresholds, whatever those were that made them.
+        let (occupied, free) = match saving.mode {
+            Mode::Trinary => ("0.65".into(), "0.196".into()),
+            _ => (fixed(saving.occupied_thresh, 3), fixed(saving.free_thresh, 3)),
+        };
+        [
+            fixed(resolution(lattice), 3),
+            fixed(origin.x_m, 3),
+            fixed(origin.y_m, 3),
+            general(origin.yaw_rad, 7),
+            occupied,
+            free,
+        ]
+    };
+    let [resolution, x, y, yaw, occupied, free] = numbers;
+    format!(
+        "image: {image}\nmode: {mode}\nresolution: {resolution}\norigin: [{x}, {y}, {yaw}]\n\
+         negate: 0\noccupied_thresh: {occupied}\nfree_thresh: {free}"
+    )
+}
+
+fn noetic_yaml(lattice: &Lattice, image_path: &str) -> String {
+    let origin = lattice.origin;
+    format!(
+        "image: {image_path}\nresolution: {:.6}\norigin: [{:.6}, {:.6}, {:.6}]\nnegate: 0\n\
+         occupied_thresh: 0.65\nfree_thresh: 0.196\n\n",
+        resolution(lattice),
+        origin.x_m,
+        origin.y_m,
+        origin.yaw_rad,
+    )
+}
+
+/// A text as `yaml-cpp` writes it: without quotes where that is no mistake.
+fn scalar(text: &str) -> String {
+    let is_null = matches!(text, "" | "~" | "null" | "Null" | "NULL");
+    let mut characters = text.chars();
+    let first = characters.next().unwrap_or(' ');
+    let second = characters.next().unwrap_or(' ');
+    let starts_plain = match first {
+        '-' | '?' | ':' => second != ' ',
+        ',' | '[' | ']' | '{' | '}' | '#' | '&' | '*' | '!' | '|' | '>' | '\'' | '"' | '%'
+        | '@' | '`' | ' ' => false,
+        _ => true,
+    };
+    let is_plain = starts_plain
+        && !is_null
+        && !text.ends_with([' ', ':'])
+        && !text.contains(": ")
+        && !text.contains(" #")
+        && !text.chars().any(char::is_control);
+    if is_plain {
+        return text.to_owned();
+    }
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            it if it.is_control() => quoted.push_str(&format!("\\x{:02x}", u32::from(it))),
+            it => quoted.push(it),
+        }
+    }
+    quoted + "\""
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+    use periplus_geometry::Pose2;
+    use periplus_grid::{Grid, Lattice};
+    use periplus_resources::MemoryHost;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::load::load;
+
+    fn map(width: usize, height: usize, origin: Pose2, cells: &[i8]) -> OccupancyGrid {
+        let lattice = Lattice::new(0.05, width, height, origin).unwrap();
+        Grid::from_cells(lattice, cells.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn jazzy_keeps_three_decimals() {
+        let map = map(2, 1, Pose2::new(-12.345, 100.25, std::f64::consts::FRAC_PI_2), &[0, 100]);
+        let files = render(&map, &Saving::new("maps/my room", Distro::Jazzy));
+        assert_eq!(files.image, b"P5\n2 1\n255\n\xfe\x00");
+        assert_eq!(files.yaml_path, "maps/my room.yaml");
+        expect![[r#"
+            image: my room.pgm
+            mode: trinary
+            resolution: 0.050
+            origin: [-12.345, 100.250, 1.570796]
+            negate: 0
+            occupied_thresh: 0.65
+            free_thresh: 0.196"#]]
+        .assert_eq(&files.yaml);
+        let scale =
+            Saving { mode: Mode::Scale, format: Format::Png, ..Saving::new("a", Distro::Jazzy) };
+        assert!(render(&map, &scale).yaml.ends_with("occupied_thresh: 0.650\nfree_thresh: 0.250"));
+    }
+
+    #[test]
+    fn humble_keeps_three_digits() {
+        let map = map(1, 1, Pose2::new(-12.345, 100.25, 0.0), &[0]);
+        expect![[r#"
+            image: a.pgm
+            mode: trinary
+            resolution: 0.05
+            origin: [-12.3, 100, 0]
+            negate: 0
+            occupied_thresh: 0.65
+            free_thresh: 0.25"#]]
+        .assert_eq(&render(&map, &Saving::new("a", Distro::Humble)).yaml);
+    }
+
+    #[test]
+    fn names_that_yaml_would_misread_are_quoted() {
+        assert_eq!(scalar("room.pgm"), "room.pgm");
+        assert_eq!(scalar("#1.pgm"), "\"#1.pgm\"");
+        assert_eq!(scalar("a: \"b\".pgm"), "\"a: \\\"b\\\".pgm\"");
+        assert_eq!(scalar("-a.pgm"), "-a.pgm");
+    }
+
+    #[test]
+    fn what_is_left_open_is_settled() {
+        let (saving, said) = Wish::default().settle(Distro::Jazzy, 1_700_000_000).unwrap();
+        assert_eq!(saving, Saving::new("map_1700000000", Distro::Jazzy));
+        assert_eq!(said.len(), 1);
+        let wish = |format: &str, mode: &str| {
+            let wish = Wish {
+                name: "a".into(),
+                image_format: format.into(),
+                mode: mode.into(),
+                ..Wish::default()
+            };
+            let (saving, said) = wish.settle(Distro::Jazzy, 0).unwrap();
+            (saving.format, saving.mode, said.len())
+        };
+        assert_eq!(wish("", "scale"), (Format::Png, Mode::Scale, 0));
+        assert_eq!(wish("PGM", "Scale"), (Format::Pgm, Mode::Scale, 1));
+        assert_eq!(wish("gif", "trinery"), (Format::Png, Mode::Trinary, 2));
+        for (free_thresh, occupied_thresh) in
+            [(2.0, 2.0), (-2.0, -2.0), (0.7, 0.2), (f64::NAN, 0.5)]
+        {
+            let wish = Wish { free_thresh, occupied_thresh, ..Wish::default() };
+            assert!(wish.settle(Distro::Jazzy, 0).is_err());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_saved_comes_back(
+            cells in prop::collection::vec(prop::sample::select(vec![-1_i8, 0, 100]), 12),
+            x_mm in -99_000..99_000_i32, yaw_rad in -3.0..3.0_f64,
+            distro in prop::sample::select(vec![Distro::Noetic, Distro::Humble, Distro::Jazzy]),
+            format in prop::sample::select(vec![Format::Pgm, Format::Png, Format::Bmp]),
+            mode in prop::sample::select(Mode::ALL.to_vec()),
+        ) {
+            let x_m = f64::from(x_mm) / 1000.0;
+            let map = map(4, 3, Pose2::new(x_m, 0.0, yaw_rad), &cells);
+            let free_thresh = if mode == Mode::Trinary { 0.196 } else { 0.25 };
+            let saving = Saving { mode, format, free_thresh, ..Saving::new("/m/a", distro) };
+            let files = render(&map, &saving);
+            if saving.format == Format::Pgm || distro == Distro::Noetic {
+                let mut rows = Vec::new();
+                let mut writer = PgmRows::begin(&mut rows, &map.lattice, &saving).unwrap();
+                for row in map.rows().rev() {
+                    writer.push(row).unwrap();
+                }
+                prop_assert_eq!(&rows, &files.image);
+            }
+            let host = MemoryHost::new()
+                .with_file(&files.image_path, files.image)
+                .with_file(&files.yaml_path, files.yaml);
+            let read = load("/m/a.yaml", distro, &host).map.unwrap().grid;
+            // A PGM of mode scale cannot say what is unknown, and raw has a value for each.
+            if mode != Mode::Scale || format != Format::Pgm || distro == Distro::Noetic {
+                prop_assert_eq!(read.cells, cells);
+            }
+            let coarse_m = if distro == Distro::Humble { 0.6 } else { 0.0006 };
+            prop_assert!((read.lattice.origin.x_m - x_m).abs() < coarse_m);
+            prop_assert!((read.lattice.origin.yaw_rad - yaw_rad).abs() < 0.006);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! How well a map agrees with what is really there, as far as it says anything.
+
+use periplus_grid::occupancy::UNKNOWN;
+use periplus_grid::{Lattice, LatticeError, OccupancyGrid};
+
+use crate::align::{Alignment, align, is_wall};
+use crate::compare::{Comparison, Options, compare};
+
+/// A map beside the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BesideTruth {
+    /// The truth as the first map, where the map knows something, and the map as the other.
+    pub comparison: Comparison,
+    /// How the map was moved to lie on the truth.
+    pub alignment: Alignment,
+    /// Which part of what is really free the map knows, 0 to 1; none where nothing is free.
+    pub explored: Option<f64>,
+}
+
+impl BesideTruth {
+    /// What programs are told of it, by name: `free_iou` and `walls_iou` (where a neighbouring cell
+    /// counts as met), 0 to 1; `wall_mean_m` and `wall_p95_m` from the map's walls to the nearest true
+    /// ones \[m\]; `explored`, 0 to 1; `shift_m` and `turn_rad`, by which the map was moved. What
+    /// cannot be known is left out.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<(&'static str, f64)> {
+        let walls = self.comparison.other_to_first;
+        let moved = self.alignment.reference_from_other;
+        let all = [
+            ("free_iou", self.comparison.free.iou()),
+            ("walls_iou", self.comparison.walls_nearby.iou()),
+            ("wall_mean_m", walls.mean_m),
+            ("wall_p95_m", walls.p95_m),
+            ("explored", self.explored.unwrap_or(f64::NAN)),
+            ("shift_m", libm::hypot(moved.x_m, moved.y_m)),
+            ("turn_rad", moved.yaw_rad),
+        ];
+        all.into_iter().filter(|(_, value)| value.is_finite()).collect()
+    }
+}
+
+/// Compares a map with the truth, after it was moved within so many metres and radians to where it fits
+/// best. Free cells of the truth that the map does not know, and walls that nothing it knows is beside,
+/// do not count: nobody was there yet.
+///
+/// # Errors
+/// When together they would take too many cells.
+pub fn beside_truth(
+    truth: &OccupancyGrid,
+    map: &OccupancyGrid,
+    window_m: f64,
+    window_rad: f64,
+) -> Result<BesideTruth, LatticeError> {
+    let alignment = align(truth, map, window_m, window_rad);
+    let mut laid = map.clone();
+    laid.lattice.origin = alignment.reference_from_other * map.lattice.origin;
+    let is_known = known(&laid, &truth.lattice);
+    let is_free = |cell: i8| cell >= 0 && !is_wall(cell);
+    let free = || (0..truth.cells.len()).filter(|&index| is_free(truth.cells[index]));
+    let explored = match free().count() {
+        0 => None,
+        all => Some(free().filter(|&index| is_known[index]).count() as f64 / all as f64),
+    };
+    let seen = |index: usize| {
+        let cell = truth.cells[index];
+        let counts =
+            if is_wall(cell) { beside(&truth.lattice, index, &is_known) } else { is_known[index] };
+        if counts { cell } else { UNKNOWN }
+    };
+    let cells = (0..truth.cells.len()).map(seen).collect();
+    let seen = OccupancyGrid { lattice: truth.lattice, cells };
+    let as_it_lies = Options { align: false, window_m: 0.0, window_rad: 0.0 };
+    let comparison = compare(&seen, &laid, as_it_lies)?;
+    Ok(BesideTruth { comparison, alignment, explored })
+}
+
+/// Of which cells a map says something.
+fn known(map: &OccupancyGrid, cells: &Lattice) -> Vec<bool> {
+    let finder = map.lattice.finder();
+    let knows = |index: usize| {
+        let (x_m, y_m) = cells.centre_of(cells.cell(index));
+        finder.cell_of(x_m, y_m).and_then(|cell| map.get(cell)).is_some_and(|&value| value >= 0)
+    };
+    (0..cells.len()).map(knows).collect()
+}
+
+/// Whether a cell or one of its eight neighbours is known.
+fn beside(cells: &Lattice, index: usize, is_known: &[bool]) -> bool {
+    let (column, row) = cells.cell(index);
+    let rows = row.saturating_sub(1)..=(row + 1).min(cells.height - 1);
+    let columns = column.saturating_sub(1)..=(column + 1).min(cells.width - 1);
+    rows.into_iter().any(|row| columns.clone().any(|column| is_known[cells.index((column, row))]))
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_geometry::Pose2;
+    use periplus_grid::Grid;
+    use periplus_grid::occupancy::{FREE, OCCUPIED};
+
+    use super::*;
+
+    /// A room of 8 by 8 cells of 0.5 m, with a box in it so that nothing of it is symmetric.
+    fn room() -> OccupancyGrid {
+        let lattice = Lattice::new(0.5, 10, 10, Pose2::IDENTITY).unwrap();
+        let mut room = Grid::new(lattice, FREE);
+        for index in 0..lattice.len() {
+            let (column, row) = lattice.cell(index);
+            let is_edge = [0, 9].contains(&column) || [0, 9].contains(&row);
+            if is_edge || (column, row) == (3, 6) {
+                room.cells[index] = OCCUPIED;
+            }
+        }
+        room
+    }
+
+    #[test]
+    fn half_a_map_is_half_explored_and_right() {
+        let room = room();
+        let mut map = room.clone();
+        for index in 0..map.cells.len() {
+            if map.lattice.cell(index).1 >= 5 {
+                map.cells[index] = UNKNOWN;
+            }
+        }
+        let found = beside_truth(&room, &map, 0.0, 0.0).unwrap();
+        // Four of eight rows; one of the other four has a box.
+        assert_eq!(found.explored, Some(32.0 / 63.0));
+        assert_eq!([found.comparison.free.iou(), found.comparison.walls_nearby.iou()], [1.0; 2]);
+        assert_eq!(found.comparison.other_to_first.largest_m, 0.0);
+    }
+
+    #[test]
+    fn a_map_that_lies_elsewhere_is_moved_first() {
+        let (room, mut map) = (room(), room());
+        map.lattice.origin = Pose2::new(0.3, -0.2, 0.0);
+        let found = beside_truth(&room, &map, 1.0, 0.05).unwrap();
+        let moved = found.alignment.reference_from_other;
+        assert!((moved.x_m + 0.3).abs() < 0.03 && (moved.y_m - 0.2).abs() < 0.03, "{moved:?}");
+        assert!(found.comparison.free.iou() > 0.9, "{:?}", found.comparison.free);
+    }
+
+    #[test]
+    fn a_wall_that_is_not_there_is_far_from_any() {
+        let (room, mut map) = (room(), room());
+        map[(6, 3)] = OCCUPIED;
+        let found = beside_truth(&room, &map, 0.0, 0.0).unwrap();
+        // Three cells from the nearest wall, of half a metre each.
+        assert_eq!(found.comparison.other_to_first.largest_m, 1.5);
+        assert_eq!(found.comparison.free.other_only, 0);
+        assert_eq!(found.comparison.free.first_only, 1);
+    }
+}

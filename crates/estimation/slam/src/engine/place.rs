@@ -1,0 +1,157 @@
+//! What people say: where the robot is, and how scans belong together.
+
+use std::collections::BTreeMap;
+
+use periplus_geometry::Pose2;
+use periplus_scan_matching::{Placed, Prior, Symmetric3, register};
+
+use super::{LEAST_POINTS, Slam, Taken};
+use crate::graph::{Edge, Kind};
+use crate::local::{apart, close_by, floored, grouped, locate};
+use crate::loops::Closure;
+use crate::scan::Scan;
+
+/// Scans this near look at the same things \[m\].
+const REACH_M: f64 = 5.0;
+/// Scans within this way of each other belong together anyway \[m\].
+const SAME_VISIT_M: f64 = 3.0;
+/// How sure people are when they move a scan: one standard deviation to search within, and to believe
+/// when scans do not tell \[m, rad\].
+const HAND: [f64; 2] = [0.3, 0.15];
+const CLAIM: [f64; 2] = [0.1, 0.05];
+/// Part of the points that must find partners before scans tell better than people.
+const MATCHED: f64 = 0.5;
+
+fn diagonal([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
+    let (place, heading) = (shift_m * shift_m, turn_rad * turn_rad);
+    Symmetric3::diagonal(1.0 / place, 1.0 / place, 1.0 / heading)
+}
+
+impl Slam {
+    /// Somebody says where the robot is in the map, and how sure that is (along the axes of the map):
+    /// the next scan is looked for around there, and the map goes on from there. Before the first
+    /// scan it says where the map begins.
+    pub fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) {
+        if map_from_base.is_finite() {
+            self.start = Some((map_from_base.normalized(), covariance));
+        }
+    }
+
+    /// A scan from where somebody says that the robot is.
+    pub(super) fn take_at(
+        &mut self,
+        scan: &Scan,
+        odom_from_base: Option<Pose2>,
+        start: Pose2,
+        covariance: Symmetric3,
+    ) -> Taken {
+        let Some(last) = &self.last else { return self.begin(scan, odom_from_base, start) };
+        let ends = scan.ends(None, self.settings.used_m());
+        let cloud = ends.cloud(&self.settings.cloud);
+        if cloud.points().len() < LEAST_POINTS {
+            // It says nothing; the next one may.
+            self.start = Some((start, covariance));
+            return Taken::Lost;
+        }
+        let near = nearest(&self.graph.poses, start, self.settings.local_scans);
+        let key = near.first().copied().unwrap_or(last.key);
+        let map_from_key = self.graph.poses[key];
+        let expected = (map_from_key.inverse() * start).normalized();
+        let turned = covariance.turned(-map_from_key.yaw_rad);
+        let claim = turned.inverse().unwrap_or(diagonal(HAND));
+        let (key_from_base, information, doubted, is_matched) = if near.is_empty() {
+            (expected, claim, claim, false)
+        } else {
+            let group = grouped(&self.keys, &self.graph, &near, key);
+            let group = group.placed();
+            let found = locate(&cloud, &group, expected, &turned, &self.settings, true, self.usual);
+            (found.fit.target_from_moving, found.information, found.doubted, found.is_matched)
+        };
+        let pose = (map_from_key * key_from_base).normalized();
+        let new = self.set_down((scan.time_ns, odom_from_base), (&cloud, &ends), pose);
+        let edge = Edge::new((key, new), key_from_base, floored(&information), Kind::Chain);
+        self.graph.add_edge(edge.doubting(&floored(&doubted)));
+        self.work.ties.push_back(new);
+        // A scan that fits nothing is kept all the same: somebody knows where it is.
+        if is_matched || near.is_empty() { Taken::Kept } else { Taken::Lost }
+    }
+
+    /// Somebody has moved kept scans to where they belong: each is held against the scans that it now
+    /// lies among, and the map is bent accordingly. Gives how many were tied. The work that follows
+    /// is done in the background.
+    pub fn close_by_hand(&mut self, moved: &BTreeMap<usize, Pose2>) -> usize {
+        let mut tied = 0;
+        for (&key, &map_from_key) in moved {
+            if key < self.keys.len() && map_from_key.is_finite() {
+                tied += usize::from(self.tie_by_hand(key, map_from_key.normalized()));
+            }
+        }
+        if tied > 0 {
+            self.solve_soon();
+            self.work.ties.extend(moved.keys().copied().filter(|&key| key < self.keys.len()));
+        }
+        tied
+    }
+
+    fn tie_by_hand(&mut self, key: usize, map_from_key: Pose2) -> bool {
+        let is_other = |&other: &usize| {
+            (self.keys[key].travel_m - self.keys[other].travel_m).abs() > SAME_VISIT_M
+        };
+        let near = nearest(&self.graph.poses, map_from_key, self.keys.len());
+        let near: Vec<usize> = near.into_iter().filter(is_other).take(3).collect();
+        // Where nothing else was seen, the place is relative to where the map began.
+        let other = near.first().copied().unwrap_or(0);
+        if other == key {
+            return false;
+        }
+        let expected = (self.graph.poses[other].inverse() * map_from_key).normalized();
+        let group = grouped(&self.keys, &self.graph, &near, other);
+        let group = group.placed();
+        let prior = Prior { target_from_moving: expected, information: diagonal(HAND) };
+        let cloud = self.keys[key].cloud();
+        let moving = [Placed::alone(&cloud)];
+        let how = close_by(&self.settings.register);
+        let fit = (!near.is_empty())
+            .then(|| register(&moving, &group, expected, Some(&prior), &how))
+            .filter(|fit| fit.matched >= MATCHED);
+        let (pose, information, words) = match &fit {
+            Some(fit) => (
+                fit.target_from_moving,
+                floored(&fit.information),
+                format!("{:.0} % of the points find partners there", 100.0 * fit.matched),
+            ),
+            None => {
+                (expected, diagonal(CLAIM), "scans do not tell there; taken as it was put".into())
+            }
+        };
+        let (from, to) = if other < key { (other, key) } else { (key, other) };
+        let from_from_to = if other < key { pose } else { pose.inverse().normalized() };
+        let information =
+            if other < key { information } else { information.turned(from_from_to.yaw_rad) };
+        self.graph.add_edge(Edge::new((from, to), from_from_to, information, Kind::Loop));
+        self.loops.told.push(Closure {
+            keys: (from, to),
+            old_from_new: from_from_to,
+            is_accepted: true,
+            region_m: 0.0,
+            agreeing: fit.map_or(0.0, |fit| fit.matched),
+            reason: format!("moved by hand; {words}"),
+        });
+        true
+    }
+}
+
+/// Kept scans around a place, the nearest first; a turn counts a little.
+pub(crate) fn nearest(poses: &[Pose2], place: Pose2, most: usize) -> Vec<usize> {
+    let mut near: Vec<(f64, usize)> = poses
+        .iter()
+        .enumerate()
+        .filter_map(|(key, &pose)| {
+            let (metres, radians) = apart(pose, place);
+            (metres < REACH_M).then_some((metres + 0.6 * radians, key))
+        })
+        .collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.truncate(most);
+    near.into_iter().map(|it| it.1).collect()
+}

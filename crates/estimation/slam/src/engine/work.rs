@@ -1,0 +1,273 @@
+//! Work in the background, in slices that are short whatever the map.
+
+mod state;
+
+use std::collections::VecDeque;
+
+use periplus_geometry::Pose2;
+use periplus_scan_matching::Agreement;
+
+use super::Slam;
+use crate::graph::{Edge, Kind, Outcome, Saved, Size, Solver};
+use crate::local::{apart, both_ways};
+use crate::loops::Loops;
+use crate::near::ties;
+
+/// What is to be done.
+#[derive(Default)]
+pub(super) struct Work {
+    /// Keys whose ties to old ones are to be looked for.
+    pub(super) ties: VecDeque<usize>,
+    /// Keys for which older ones may go.
+    pub(super) thins: VecDeque<usize>,
+    /// Way at the last tie to an old scan \[m\].
+    pub(super) tied_m: f64,
+    solving: Option<Solving>,
+    /// Ties since the map was last solved for, and whether one of them pulls.
+    loose: usize,
+    is_strained: bool,
+    /// Keys when the map was last solved for.
+    solved_at: usize,
+    pub(super) tied: usize,
+    pub(super) searches: usize,
+    pub(super) slices: usize,
+    /// How often the map was bent, in steps and in all.
+    pub(super) bends: usize,
+    solves: usize,
+}
+
+/// A map that is being bent.
+struct Solving {
+    solver: Option<Solver>,
+    /// Without a solver, what it was when a session was saved.
+    resumed: Option<Saved>,
+    steps: usize,
+    /// Poses and edges for which the solver was made.
+    size: Size,
+    /// What to go back to when the new map is worse: poses before, and the edges that are on trial.
+    trial: Option<(Vec<Pose2>, Vec<usize>)>,
+}
+
+/// A tie that is off by more pulls (squared Mahalanobis distance).
+const STRAIN: f64 = 6.0;
+/// Keys between two times that the map is bent for ties, and of how many more one is added to that.
+const SOLVE_EVERY: usize = 4;
+const SOLVE_PART: usize = 60;
+/// So many ties that do not pull are solved for anyway.
+const LOOSE: usize = 60;
+/// Products of blocks in one slice of a step: some 4 ms.
+const PRODUCTS: usize = 1_000_000;
+/// A step that moves less is the last \[m\].
+const SETTLED_M: f64 = 1e-3;
+/// Ties whose squared Mahalanobis distance is far above this count little.
+const DOUBTED: f64 = 100.0;
+/// After a closure, points that overlap anew must agree to this part; fewer points are no evidence.
+const AGREEING: f64 = 0.65;
+const JUDGED: u32 = 600;
+/// Scans of the newest way that are looked at after a closure, and how near others are \[m\].
+const LOOKED_AT: usize = 40;
+const NEAR_M: f64 = 4.0;
+/// Way after which another scan is an old one \[m\].
+const OLD_M: f64 = 10.0;
+
+/// Weight of an edge by its squared distance: closures that were verified, and chains, count as they
+/// are; ties less when the map says otherwise (Geman and McClure).
+fn robust(kind: Kind, chi2: f64) -> f64 {
+    match kind {
+        Kind::Near => {
+            let shrink = DOUBTED / (DOUBTED + chi2);
+            shrink * shrink
+        }
+        _ => 1.0,
+    }
+}
+
+impl Slam {
+    /// Does so many slices of work, or all that there are.
+    pub fn work_slices(&mut self, most: usize) {
+        for _ in 0..most {
+            if !self.work_slice() {
+                break;
+            }
+        }
+    }
+
+    /// Does one slice of work; false when there is none.
+    fn work_slice(&mut self) -> bool {
+        // Ties first: a way that nothing holds would be searched for loops.
+        if let Some(key) = self.work.ties.pop_front() {
+            self.tie(key);
+        } else if self.work.solving.is_some() {
+            self.solve_step();
+        } else if self.is_to_be_solved() {
+            self.solve(None);
+        } else if self.loops.is_busy() {
+            self.search();
+        } else if let Some(key) = self.work.thins.pop_front() {
+            self.thin(key);
+        } else {
+            // Not counted: it changes nothing of the map.
+            return self.settings.audits_live
+                && self.live_audit.work(&self.keys, &self.graph, self.work.bends);
+        }
+        self.work.slices += 1;
+        true
+    }
+
+    /// A map is bent for ties that pull, but not for every one: the larger it is, the more scans share
+    /// the work.
+    fn is_to_be_solved(&self) -> bool {
+        let keys = self.keys.len();
+        let is_due = keys >= self.work.solved_at + SOLVE_EVERY + keys / SOLVE_PART;
+        (self.work.is_strained && is_due) || self.work.loose >= LOOSE + keys / SOLVE_PART
+    }
+
+    fn tie(&mut self, key: usize) {
+        for edge in ties(&self.keys, &self.graph, key, &self.settings) {
+            self.work.is_strained |= edge.chi2(&self.graph.poses) > STRAIN;
+            self.work.loose += 1;
+            self.work.tied += 1;
+            self.work.tied_m = self.work.tied_m.max(self.keys[key].travel_m);
+            self.graph.add_edge(edge);
+        }
+        if self.settings.is_lifelong {
+            self.work.thins.push_back(key);
+        }
+    }
+
+    fn search(&mut self) {
+        self.work.searches += 1;
+        let edges = self.loops.work(&self.keys, &self.graph, &self.settings);
+        if edges.is_empty() {
+            return;
+        }
+        let poses = self.graph.poses.clone();
+        self.lay_pieces(&edges);
+        let added = edges.into_iter().map(|edge| self.graph.add_edge(edge)).collect();
+        self.solve(Some((poses, added)));
+    }
+
+    /// Begins to bend the map.
+    pub(super) fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
+        self.work.loose = 0;
+        self.work.is_strained = false;
+        self.work.solved_at = self.keys.len();
+        let size = (self.graph.poses.len(), self.graph.edges.len());
+        let solving = Solving { solver: None, resumed: None, steps: 0, size, trial };
+        self.work.solving = Some(solving);
+    }
+
+    /// Asks for the map to be bent; when it is being bent, once more after that.
+    pub(super) fn solve_soon(&mut self) {
+        self.work.loose += LOOSE + self.keys.len() / SOLVE_PART;
+    }
+
+    fn solve_step(&mut self) {
+        let Some(mut solving) = self.work.solving.take() else { return };
+        let resumed = solving.resumed.take();
+        let solver = solving.solver.take();
+        let solver = solver.or_else(|| {
+            resumed.and_then(|it| Solver::resumed(&self.graph, solving.size, &robust, it))
+        });
+        let Some(mut solver) = solver else {
+            // To prepare is a slice of its own.
+            solving.solver = Some(Solver::new(&self.graph, solving.size, self.work.solves));
+            self.work.solves += 1;
+            self.work.solving = Some(solving);
+            return;
+        };
+        let outcome = solver.advance(&mut self.graph, &robust, PRODUCTS);
+        solving.solver = Some(solver);
+        let Some(outcome) = outcome else {
+            self.work.solving = Some(solving);
+            return;
+        };
+        solving.steps += 1;
+        self.work.bends += 1;
+        let goes_on = matches!(outcome, Outcome::Moved(by) if by > SETTLED_M);
+        if goes_on && solving.steps < self.settings.solve_steps {
+            self.work.solving = Some(solving);
+        } else if let Some((poses, edges)) = solving.trial {
+            self.judge(poses, &edges);
+        }
+    }
+
+    /// Keeps a closure when what now overlaps agrees, or goes back.
+    fn judge(&mut self, before: Vec<Pose2>, edges: &[usize]) {
+        let sum = self.overlap();
+        let closed: Vec<Edge> = edges.iter().map(|&edge| self.graph.edges[edge]).collect();
+        if sum.judged() > JUDGED && sum.share() < AGREEING {
+            self.undo(&before, edges);
+            let reason = format!(
+                "undone: in the map that came of it {:.0} % of the points were seen through",
+                100.0 * (1.0 - sum.share())
+            );
+            self.loops.disbelieve(&closed, &reason);
+            return;
+        }
+        let how = format!(
+            "; then {} points overlap and {:.0} % agree",
+            sum.judged(),
+            100.0 * sum.share()
+        );
+        self.loops.told_of(&closed).for_each(|told| told.reason.push_str(&how));
+        // The uncertainty is gone: near scans can now be compared directly.
+        self.loops.forget();
+        let first = self.keys.len().saturating_sub(LOOKED_AT);
+        self.work.ties.extend(first..self.keys.len());
+    }
+
+    /// Goes back to the poses before some edges were on trial, which count no more.
+    pub(super) fn undo(&mut self, before: &[Pose2], edges: &[usize]) {
+        for &edge in edges {
+            self.graph.edges[edge].weight = 0.0;
+        }
+        self.graph.poses[..before.len()].copy_from_slice(before);
+        // Keys that came in the meantime hang on the chain.
+        self.graph.hang(before.len());
+    }
+
+    /// Holds the newest way against the old scans that it now lies on.
+    fn overlap(&self) -> Agreement {
+        let mut sum = Agreement::default();
+        let first = self.keys.len().saturating_sub(LOOKED_AT);
+        for key in first..self.keys.len() {
+            let here = self.graph.poses[key];
+            let mut near: Vec<(f64, usize)> = (0..first)
+                .filter(|&old| self.keys[key].travel_m - self.keys[old].travel_m > OLD_M)
+                .map(|old| (apart(here, self.graph.poses[old]).0, old))
+                .filter(|it| it.0 < NEAR_M)
+                .collect();
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for &(_, old) in near.iter().take(2) {
+                let old_from_key = self.graph.between(old, key);
+                let (a, b) = (self.keys[key].cloud(), self.keys[old].cloud());
+                sum += both_ways(&a, &b, old_from_key, 0.25);
+            }
+        }
+        sum
+    }
+
+    /// Looks for ties that were missed while places were uncertain, and bends the map until it rests.
+    pub(super) fn settle(&mut self) {
+        let is_held = |key: &usize| self.graph.is_held(*key);
+        self.work.ties.extend((0..self.keys.len()).filter(|key| !is_held(key)));
+        self.work_slices(usize::MAX);
+        self.solve(None);
+        self.work_slices(usize::MAX);
+        if self.settings.closes_loops {
+            // Places are known better now, but for those in other pieces of map, which were asked for.
+            for key in Loops::unheld(&self.keys, &self.graph) {
+                self.loops.ask(&self.keys, &self.graph, key, false);
+                self.work_slices(usize::MAX);
+            }
+        }
+    }
+}
+
+impl Work {
+    /// So many keys are gone.
+    pub(super) fn renumbered(&mut self, gone: usize) {
+        self.solved_at = self.solved_at.saturating_sub(gone);
+    }
+}

@@ -1,0 +1,562 @@
+//! Particles that each have a map of their own: a Rao-Blackwellized particle filter.
+//!
+//! Written from the equations of Grisetti, Stachniss, Burgard 2007, "Improved Techniques for Grid
+//! Mapping With Rao-Blackwellized Particle Filters"; numbers in comments are theirs. The way of a scan:
+//! 1. how the robot has moved since the last one is found by laying scans onto those just before
+//!    (Haehnel et al. 2003 do the same before they draw particles);
+//! 2. after enough motion each particle moves along, lays the scan onto its own map (`fit`), and goes
+//!    to a place drawn from what is likely around there (`proposal`);
+//! 3. it draws the scan into its map, of which it shares with others what is the same (`cells`);
+//! 4. when few particles explain most of what was seen, these are multiplied (`resample`);
+//! 5. the front end is a graph that closes loops: each way that comes of a closure is offered to some of the
+//!    particles, and weighed against what they explain (`offers`); at the end its closures decide where the
+//!    particles' map violates them and nothing contradicts the graph's (`fallback`).
+//!
+//! Along corridors, where only odometry tells how far the robot went, particles are spread as widely as the
+//! front end is uncertain, each with errors of its own that last for some way (`proposal`). What the maps
+//! take of memory is bounded: where they share too little, fewer particles go on, and that is told.
+//!
+//! The map is that of the particle that has explained the most on its whole way (`ways`).
+
+mod beams;
+mod cells;
+mod fallback;
+mod fit;
+mod nodes;
+mod offers;
+mod proposal;
+mod resample;
+mod settings;
+mod spread;
+mod trace;
+mod ways;
+
+use std::thread;
+
+use periplus_geometry::{Pose2, Stream};
+
+use crate::doubts::{Doubt, Remark};
+use crate::engine::{Counts, Slam, Taken, Update};
+use crate::key::Track;
+use crate::local::apart;
+use crate::map::Plan;
+use crate::method::{Mapper, Method};
+use crate::scan::Scan;
+use crate::settings::Settings;
+
+use beams::Beams;
+use cells::Cells;
+use fit::{Guess, climb};
+use nodes::Node;
+use offers::Offered;
+use trace::Trace;
+use ways::{Tip, Ways};
+
+pub use settings::{GmappingSettings, Noise};
+
+/// Scans are laid onto cells in which at least this part of the beams ended.
+const SOLID_SHARE: f64 = 0.1;
+/// Scans of fewer points cannot be laid onto a map.
+const LEAST_POINTS: usize = 12;
+/// Part of the points that the map must have something near for a scan to fit.
+const LEAST_MATCHED: f64 = 0.3;
+/// How far odometry is off at least \[m, rad\].
+const LEAST_SIGMA: [f64; 2] = [0.01, 0.005];
+/// Kept scans that the front end remembers; it lays new ones onto no more.
+const REMEMBERED: usize = 30;
+/// Bytes that the front end and the scans that were used may take \[bytes\]: some 5 km. Without them the
+/// particles go on alone.
+const MOST_REMEMBERED: usize = 64 << 20;
+/// Bytes that the maps of all particles may take, and after how many scans that are used these are weighed.
+const MOST_OF_MAPS: usize = 80 << 20;
+const WEIGHED_EVERY: u64 = 4;
+/// Room for what so many scans are drawn to, that share nothing, is kept for each particle.
+const ROOM: usize = 2;
+/// Errors that last do so for about this way \[m\].
+const LASTING_M: f64 = 20.0;
+/// A turn of a radian counts as so much way \[m\].
+const TURN_WAY_M: f64 = 0.3;
+/// Scans farther apart in time tell nothing of how beams of one scan are shifted \[s\].
+const RECENT_S: f64 = 1.0;
+
+/// What one particle believes.
+#[derive(Clone)]
+struct Particle {
+    map_from_base: Pose2,
+    cells: Cells,
+    tip: Tip,
+    /// Logarithm of its weight since particles were drawn anew, and of its whole way.
+    log: f64,
+    log_of_way: f64,
+    /// Whether its last scan fit.
+    is_matched: bool,
+    /// Errors of the front end that it believes in for some way, in standard deviations.
+    lasting: [f64; 3],
+}
+
+/// Where the robot was at a scan, from where it was at the last one that was used.
+struct Step {
+    time_ns: i64,
+    update: u32,
+    update_from_base: Pose2,
+}
+
+/// A map made by particles.
+pub struct Gmapping {
+    settings: GmappingSettings,
+    front: Slam,
+    particles: Vec<Particle>,
+    ways: Ways,
+    steps: Vec<Step>,
+    /// Scans that were used; empty once memory for them is short.
+    nodes: Vec<Node>,
+    /// Bytes of them, about.
+    nodes_size: usize,
+    offered: Offered,
+    /// Where the front end has the scan that was used last, and the one before.
+    used: Option<Track>,
+    last: Option<Track>,
+    way_m: f64,
+    update_from_base: Pose2,
+    best: usize,
+    counts: Counts,
+    resamplings: usize,
+    /// What is told, how much of it came from the front end, and what is still to be told.
+    remarks: Vec<Remark>,
+    told_of_front: usize,
+    told_of_memory: Option<usize>,
+    /// One for each thread, to be filled again.
+    traces: Vec<Trace>,
+}
+
+impl Gmapping {
+    /// An empty map.
+    #[must_use]
+    pub fn new(settings: GmappingSettings) -> Self {
+        let front = Settings {
+            slices_per_scan: settings.slices_per_scan,
+            keeps_each_pose: false,
+            drawn_beams: 1,
+            range_min_m: settings.range_min_m,
+            range_max_m: settings
+                .range_max_m
+                .unwrap_or(f32::INFINITY)
+                .min(Settings::default().range_max_m),
+            ..Settings::default()
+        };
+        let threads = settings.threads.clamp(1, settings.particles.max(1));
+        Self {
+            front: Slam::new(front),
+            particles: Vec::new(),
+            ways: Ways::default(),
+            steps: Vec::new(),
+            nodes: Vec::new(),
+            nodes_size: 0,
+            offered: Offered::default(),
+            used: None,
+            last: None,
+            way_m: 0.0,
+            update_from_base: Pose2::IDENTITY,
+            best: 0,
+            counts: Counts::default(),
+            resamplings: 0,
+            remarks: Vec::new(),
+            told_of_front: 0,
+            told_of_memory: None,
+            traces: std::iter::repeat_with(Trace::default).take(threads).collect(),
+            settings,
+        }
+    }
+
+    /// Takes a scan that the front end has placed; whether it was used.
+    fn take(&mut self, scan: &Scan, here: Track) -> bool {
+        // The map of the front end may have bent since: ways are as it has them now.
+        let front_from_base = self.front.on_the_way(&here);
+        let since =
+            |track: &Track| (self.front.on_the_way(track).inverse() * front_from_base).normalized();
+        let motion = self.last.as_ref().and_then(|last| {
+            let seconds = scan.time_ns.saturating_sub(last.time_ns) as f64 * 1e-9;
+            let motion = since(last);
+            let per = 1.0 / seconds;
+            (seconds > 0.0 && seconds < RECENT_S)
+                .then(|| Pose2::new(motion.x_m * per, motion.y_m * per, motion.yaw_rad * per))
+        });
+        let used = self.used.map(|used| (used.time_ns, since(&used)));
+        self.last = Some(here);
+        let Some((used_ns, moved)) = used else {
+            let beams = Beams::new(scan, None, &self.settings);
+            self.begin(&beams, front_from_base);
+            self.keep(here, &beams);
+            return true;
+        };
+        self.update_from_base = moved;
+        let (metres, radians) = apart(moved, Pose2::IDENTITY);
+        let seconds = scan.time_ns.saturating_sub(used_ns) as f64 * 1e-9;
+        let is_due = metres >= self.settings.update_shift_m
+            || radians >= self.settings.update_turn_rad
+            || self.settings.update_time_s.is_some_and(|most| seconds >= most);
+        if !is_due {
+            return false;
+        }
+        let beams = Beams::new(scan, motion, &self.settings);
+        if beams.points.len() < LEAST_POINTS {
+            return false;
+        }
+        self.update_from_base = Pose2::IDENTITY;
+        self.way_m += metres + TURN_WAY_M * radians;
+        self.update(&beams, moved);
+        self.keep(here, &beams);
+        true
+    }
+
+    /// Keeps a scan that was used, to be drawn again.
+    fn keep(&mut self, here: Track, beams: &Beams) {
+        self.used = Some(here);
+        if self.nodes.len() + 1 < self.counts.kept {
+            return;
+        }
+        let node = Node::new(here, self.way_m, beams);
+        self.nodes_size += node.size();
+        self.nodes.push(node);
+        if self.nodes_size + self.front.size() > MOST_REMEMBERED {
+            self.nodes = Vec::new();
+            self.nodes_size = 0;
+        }
+    }
+
+    /// The first scan: all particles share its map.
+    fn begin(&mut self, beams: &Beams, map_from_base: Pose2) {
+        let mut cells = Cells::new(self.settings.resolution_m, SOLID_SHARE);
+        let trace = &mut self.traces[0];
+        trace.fill(beams, map_from_base, cells.per_m());
+        cells.draw(trace);
+        let tip = self.ways.begin(map_from_base);
+        let first = Particle {
+            map_from_base,
+            cells,
+            tip,
+            log: 0.0,
+            log_of_way: 0.0,
+            is_matched: true,
+            lasting: [0.0; 3],
+        };
+        for index in 0..self.settings.particles.max(1) {
+            if index > 0 {
+                self.ways.share(tip);
+            }
+            let seed = self.settings.seed;
+            let mut stream = Stream::keyed(seed, "gmapping particle", index as u64);
+            let lasting = [stream.normal(), stream.normal(), stream.normal()];
+            self.particles.push(Particle { lasting, ..first.clone() });
+        }
+        self.counts.kept += 1;
+    }
+
+    /// Moves all particles, weighs them, and draws them anew when it is time.
+    fn update(&mut self, beams: &Beams, moved: Pose2) {
+        self.counts.kept += 1;
+        self.drop_what_has_no_room(beams, moved);
+        let (settings, number) = (&self.settings, self.counts.kept as u64);
+        let (metres, radians) = apart(moved, Pose2::IDENTITY);
+        let noise = settings.noise;
+        let sigma_m = noise.place_by_way * metres + noise.place_by_turn * radians;
+        let sigma_rad = noise.heading_by_way * metres + noise.heading_by_turn * radians;
+        let front = self.used.as_ref().and_then(|used| self.front.scatter_since(used));
+        let sigmas = (sigma_m.max(LEAST_SIGMA[0]), sigma_rad.max(LEAST_SIGMA[1]));
+        let step = |index: usize, particle: &mut Particle, trace: &mut Trace| {
+            // Particles are at most 10,000.
+            let mut stream =
+                Stream::keyed(settings.seed, "gmapping particle", number << 16 | index as u64);
+            particle.go_on_lasting(metres, &mut stream);
+            let guess = Guess {
+                map_from_base: (particle.map_from_base * moved).normalized(),
+                sigma_m: sigmas.0,
+                sigma_rad: sigmas.1,
+                front,
+                began_rad: particle.map_from_base.yaw_rad,
+                lasting: particle.lasting,
+            };
+            particle.go(&guess, beams, trace, settings, &mut stream);
+        };
+        let share = self.particles.len().div_ceil(self.traces.len());
+        if let [trace] = self.traces.as_mut_slice() {
+            for (index, particle) in self.particles.iter_mut().enumerate() {
+                step(index, particle, trace);
+            }
+        } else {
+            thread::scope(|scope| {
+                let parts = self.particles.chunks_mut(share).zip(&mut self.traces);
+                for (part, (particles, trace)) in parts.enumerate() {
+                    let step = &step;
+                    scope.spawn(move || {
+                        for (index, particle) in particles.iter_mut().enumerate() {
+                            step(part * share + index, particle, trace);
+                        }
+                    });
+                }
+            });
+        }
+        for particle in &mut self.particles {
+            particle.tip = self.ways.go_on(particle.tip, particle.map_from_base);
+        }
+        self.best = self.foremost();
+        self.counts.lost += usize::from(!self.particles[self.best].is_matched);
+        self.resample(number);
+        if number % WEIGHED_EVERY == 0 {
+            self.save_memory();
+        }
+    }
+
+    /// Each particle copies what a scan is drawn to. Where that is so much that not all have room, only the
+    /// foremost stay.
+    fn drop_what_has_no_room(&mut self, beams: &Beams, moved: Pose2) {
+        let Some(best) = self.particles.get(self.best) else { return };
+        let trace = &mut self.traces[0];
+        trace.fill(beams, (best.map_from_base * moved).normalized(), best.cells.per_m());
+        let copied = ROOM * trace.tiles() * cells::TILE_SIZE;
+        let room = (MOST_OF_MAPS / copied.max(1)).max(1);
+        if self.particles.len() > room {
+            let mut order = self.order();
+            order.truncate(room);
+            self.go_on_from(&order, false);
+            self.told_of_memory = Some(room);
+        }
+    }
+
+    /// The particles, the foremost first.
+    fn order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.particles.len()).collect();
+        order.sort_by(|&a, &b| {
+            let log = |it: usize| self.particles[it].log;
+            // The best of all first, whatever it explained of late.
+            (b == self.best).cmp(&(a == self.best)).then(log(b).total_cmp(&log(a))).then(a.cmp(&b))
+        });
+        order
+    }
+
+    /// Where the maps of all particles take too much memory, the foremost go on in the place of the others.
+    fn save_memory(&mut self) {
+        let mut order = self.order();
+        while order.len() > 1 && self.maps_size() > MOST_OF_MAPS {
+            order.truncate(order.len().div_ceil(2));
+            let chosen = (0..self.particles.len()).map(|it| order[it % order.len()]);
+            self.go_on_from(&chosen.collect::<Vec<_>>(), false);
+            order = (0..order.len()).collect();
+            self.told_of_memory = Some(order.len());
+        }
+    }
+
+    /// Bytes of all maps, about.
+    fn maps_size(&self) -> usize {
+        self.particles.iter().map(|it| it.cells.size() + size_of::<Particle>()).sum()
+    }
+
+    /// Tells what is new.
+    fn tell(&mut self, time_ns: i64) {
+        let front = self.front.remarks();
+        self.remarks.extend_from_slice(&front[self.told_of_front..]);
+        self.told_of_front = front.len();
+        if let Some(count) = self.told_of_memory.take() {
+            let remark = Remark { time_ns, doubt: Doubt::FewerMaps(count) };
+            let is_old =
+                |it: &Remark| matches!(it.doubt, Doubt::FewerMaps(least) if least <= count);
+            if !self.remarks.iter().any(is_old) {
+                self.remarks.push(remark);
+            }
+        }
+    }
+
+    /// The particle that has explained the most on its whole way.
+    fn foremost(&self) -> usize {
+        (0..self.particles.len()).fold(0, |best, other| {
+            let is_better = self.particles[other].log_of_way > self.particles[best].log_of_way;
+            if is_better { other } else { best }
+        })
+    }
+
+    /// Draws particles anew when too few of them count.
+    fn resample(&mut self, number: u64) {
+        let count = self.particles.len() as f64;
+        let logs: Vec<f64> = self.particles.iter().map(|it| it.log).collect();
+        let weights = resample::weights(&logs, self.settings.gain * count);
+        if resample::effective(&weights) >= self.settings.resample_share * count {
+            return;
+        }
+        self.resamplings += 1;
+        let mut stream = Stream::keyed(self.settings.seed, "gmapping resampling", number);
+        let chosen = resample::resample(&weights, &mut stream);
+        self.go_on_from(&chosen, true);
+    }
+
+    /// For each particle which one it goes on from.
+    fn go_on_from(&mut self, chosen: &[usize], is_drawn: bool) {
+        for &index in chosen {
+            self.ways.share(self.particles[index].tip);
+        }
+        for particle in &self.particles {
+            self.ways.end(particle.tip);
+        }
+        // The best one stays the best, if it is still there.
+        self.best = chosen.iter().position(|&it| it == self.best).unwrap_or_else(|| {
+            let log = |place: usize| self.particles[chosen[place]].log_of_way;
+            (0..chosen.len()).fold(0, |best, it| if log(it) > log(best) { it } else { best })
+        });
+        let particle = |&index: &usize| {
+            let particle = self.particles[index].clone();
+            // Drawn by their weights, they are alike.
+            Particle { log: if is_drawn { 0.0 } else { particle.log }, ..particle }
+        };
+        self.particles = chosen.iter().map(particle).collect();
+    }
+}
+
+impl Gmapping {
+    /// Keeps the pose of a scan, in the place of the previous one unless each pose is kept.
+    fn push_step(&mut self, step: Step) {
+        if let [.., before, last] = self.steps.as_mut_slice()
+            && !self.settings.keeps_each_pose
+            && before.update == last.update
+            && last.update == step.update
+        {
+            *last = step;
+            return;
+        }
+        self.steps.push(step);
+    }
+}
+
+impl Particle {
+    /// Errors that last change slowly, each particle's in its own way.
+    fn go_on_lasting(&mut self, metres: f64, stream: &mut Stream) {
+        let kept = libm::exp(-metres / LASTING_M);
+        let fresh = (1.0 - kept * kept).sqrt();
+        self.lasting = self.lasting.map(|it| kept * it + fresh * stream.normal());
+    }
+
+    /// Goes where a scan has it, and draws it.
+    fn go(
+        &mut self,
+        guess: &Guess,
+        beams: &Beams,
+        trace: &mut Trace,
+        settings: &GmappingSettings,
+        stream: &mut Stream,
+    ) {
+        let fit = climb(&self.cells, &beams.points, guess, settings);
+        self.is_matched =
+            fit.matched() > LEAST_MATCHED && fit.score(settings) > settings.least_score;
+        let drawn = if self.is_matched {
+            proposal::around(&fit, guess, settings, stream)
+        } else {
+            proposal::blind(&fit, guess, settings, stream)
+        };
+        self.map_from_base = drawn.map_from_base;
+        self.log += drawn.likelihood;
+        self.log_of_way += drawn.likelihood;
+        trace.fill(beams, self.map_from_base, self.cells.per_m());
+        self.cells.draw(trace);
+    }
+}
+
+impl Mapper for Gmapping {
+    fn method(&self) -> Method {
+        Method::Gmapping
+    }
+
+    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+        self.counts.scans += 1;
+        let before = self.particles.get(self.best).map(|it| it.map_from_base);
+        let told = self.front.add_scan(scan, odom_from_base);
+        let mut taken = told.taken;
+        let mut is_map_bent = false;
+        if let Taken::Ignored(_) = taken {
+            self.counts.ignored += 1;
+        } else {
+            let (best, offers) = (self.best, self.offered.taken);
+            if let Some(here) = self.front.newest() {
+                taken = match (self.take(scan, here), taken) {
+                    (true, _) => Taken::Kept,
+                    (false, Taken::Kept) => Taken::Passed,
+                    (false, other) => other,
+                };
+            }
+            self.offer(false);
+            is_map_bent = before.is_some() && (best != self.best || offers != self.offered.taken);
+            self.push_step(Step {
+                time_ns: scan.time_ns,
+                update: self.counts.kept.saturating_sub(1) as u32,
+                update_from_base: self.update_from_base,
+            });
+        }
+        if self.nodes.len() < self.counts.kept {
+            self.front.forget(REMEMBERED);
+        }
+        self.tell(scan.time_ns);
+        let map_from_base = self.map_from_base();
+        let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
+        Update {
+            taken,
+            map_from_base,
+            map_from_odom: odom_from_base
+                .map_or(Pose2::IDENTITY, |odom| (map_from_base * odom.inverse()).normalized()),
+            is_map_bent,
+        }
+    }
+
+    fn finish(&mut self) {
+        if !self.nodes.is_empty() {
+            self.front.finish();
+            self.offer(true);
+            self.fall_back();
+        }
+        self.tell(self.steps.last().map_or(0, |it| it.time_ns));
+    }
+
+    fn map_from_base(&self) -> Pose2 {
+        self.particles.get(self.best).map_or(Pose2::IDENTITY, |best| {
+            (best.map_from_base * self.update_from_base).normalized()
+        })
+    }
+
+    fn trajectory(&self) -> Vec<(i64, Pose2)> {
+        let Some(best) = self.particles.get(self.best) else { return Vec::new() };
+        let way = self.ways.to(best.tip);
+        let place = |step: &Step| {
+            (step.time_ns, (way[step.update as usize] * step.update_from_base).normalized())
+        };
+        self.steps.iter().map(place).collect()
+    }
+
+    fn plan(&self) -> Option<Box<dyn Plan + '_>> {
+        let settings = &self.settings;
+        let cells = match self.particles.get(self.best) {
+            Some(best) => best.cells.clone(),
+            None => Cells::new(settings.resolution_m, SOLID_SHARE),
+        };
+        Some(Box::new(cells.plan(settings.occupied_share, settings.bounds_m)?))
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    fn resamplings(&self) -> usize {
+        self.resamplings
+    }
+
+    fn remarks(&self) -> &[Remark] {
+        &self.remarks
+    }
+
+    fn current_remarks(&self) -> Vec<Remark> {
+        self.front.current_remarks()
+    }
+
+    fn size(&self) -> usize {
+        self.maps_size()
+            + self.ways.size()
+            + self.nodes_size
+            + self.steps.len() * size_of::<Step>()
+            + self.front.size()
+    }
+}

@@ -1,0 +1,42 @@
+//! Scans that were used, to be drawn again where they turn out to belong.
+
+use periplus_scan_matching::PackedPlaces;
+
+use super::beams::Beams;
+use crate::key::Track;
+
+/// A scan that was used. All particles share it.
+pub(super) struct Node {
+    /// Where the front end has it.
+    pub(super) track: Track,
+    /// Length of the way up to it \[m\].
+    pub(super) way_m: f64,
+    hits: PackedPlaces,
+    rims: PackedPlaces,
+}
+
+impl Node {
+    pub(super) fn new(track: Track, way_m: f64, beams: &Beams) -> Self {
+        Self {
+            track,
+            way_m,
+            hits: PackedPlaces::new(&beams.hits, beams.origin),
+            rims: PackedPlaces::new(&beams.rims, beams.origin),
+        }
+    }
+
+    /// The beams that are drawn.
+    pub(super) fn beams(&self) -> Beams {
+        Beams {
+            points: Vec::new(),
+            hits: self.hits.iter().collect(),
+            rims: self.rims.iter().collect(),
+            origin: self.hits.middle(),
+        }
+    }
+
+    /// Bytes held, about.
+    pub(super) fn size(&self) -> usize {
+        size_of::<Self>() + self.hits.size() + self.rims.size()
+    }
+}

@@ -1,0 +1,162 @@
+//! What the graph of the front end offers to particles: other ways, and the maps that come of them.
+//!
+//! Particles that are drawn forward in time cover a long way only when there are very many of them: at the
+//! end of a round of 300 m none of thirty is where it should be. The front end is a graph that closes loops,
+//! and each time that it bends, it proposes a way as a whole. Such a way is a proposal like any other: it is
+//! weighed by how well scans fit what was seen at the same place much earlier, against the best of the
+//! particles, and takes the place of some of those that explain less. The weights do the rest; a wrong
+//! closure of the graph is outlived by the particles that did not go along with it.
+
+use periplus_geometry::Pose2;
+
+use super::cells::{Cells, Seen};
+use super::nodes::Node;
+use super::trace::Trace;
+use super::{Gmapping, GmappingSettings, Particle, SOLID_SHARE};
+use crate::local::apart;
+
+/// What a scan is held against is older by so much way \[m\]: scans just before were laid onto each other
+/// and agree anyhow.
+const OLD_M: f64 = 10.0;
+/// A way is offered when some pose, as seen from the newest, is elsewhere by more than this \[m\] ...
+const ELSEWHERE_M: f64 = 0.08;
+/// ... and so much way after the offer before \[m\], or, when a loop was closed, so much.
+const EVERY_M: f64 = 20.0;
+const LEAST_M: f64 = 2.0;
+/// Of the particles every so manieth keeps its own way.
+const KEEPS: usize = 2;
+/// Ends of beams that are held against the map, at most.
+const JUDGED: usize = 120;
+/// Logarithms of the likelihood of an end where nothing was seen, and where the map was seen through.
+const UNKNOWN: f64 = -0.5;
+const OPEN: f64 = -1.0;
+/// The same for each solid cell that the scan sees through.
+const THROUGH: f64 = -0.3;
+
+/// A map drawn along a way, and how well the way explains what was seen twice.
+pub(super) struct Drawn {
+    pub(super) cells: Cells,
+    log: f64,
+}
+
+/// Draws scans along a way. Each is held against what was drawn of those that are older by some way.
+pub(super) fn draw(
+    nodes: &[Node],
+    way: &[Pose2],
+    settings: &GmappingSettings,
+    trace: &mut Trace,
+) -> Drawn {
+    let mut cells = Cells::new(settings.resolution_m, SOLID_SHARE);
+    let mut log = 0.0;
+    let mut old = 0;
+    for (node, &pose) in nodes.iter().zip(way) {
+        while nodes[old].way_m + OLD_M < node.way_m {
+            trace.fill(&nodes[old].beams(), way[old], cells.per_m());
+            cells.draw(trace);
+            old += 1;
+        }
+        trace.fill(&node.beams(), pose, cells.per_m());
+        log += judge(&cells, trace, settings);
+    }
+    for (node, &pose) in nodes.iter().zip(way).skip(old) {
+        trace.fill(&node.beams(), pose, cells.per_m());
+        cells.draw(trace);
+    }
+    Drawn { cells, log }
+}
+
+/// Logarithm of how likely a scan is on a map.
+fn judge(cells: &Cells, trace: &Trace, settings: &GmappingSettings) -> f64 {
+    let ends = trace.ends();
+    let every = ends.len().div_ceil(JUDGED).max(1);
+    let per_squared = settings.resolution_m * settings.resolution_m / settings.likelihood_sigma_m2;
+    let kernel = settings.kernel_cells as i32;
+    let one = |&[x, y]: &[f64; 2]| match cells.seen(x, y, kernel) {
+        Seen::Near(squared) => (-squared * per_squared).max(UNKNOWN),
+        Seen::Nothing => UNKNOWN,
+        Seen::Through => OPEN,
+    };
+    let sum: f64 = ends.iter().step_by(every).map(one).sum();
+    let passed = cells.passed(trace) as f64;
+    sum * every as f64 + THROUGH * passed
+}
+
+impl Gmapping {
+    /// Lets the front end offer its way, when it has bent since it did so last.
+    pub(super) fn offer(&mut self, is_last: bool) {
+        let (Some(newest), Some(best)) = (self.nodes.last(), self.particles.get(self.best)) else {
+            return;
+        };
+        let bends = self.front.bends();
+        if bends == self.offered.bends {
+            return;
+        }
+        let closures = self.front.closures().iter().filter(|it| it.is_accepted).count();
+        let every_m = if closures == self.offered.closures { EVERY_M } else { LEAST_M };
+        if !is_last && newest.way_m < self.offered.way_m + every_m {
+            return;
+        }
+        self.offered.bends = bends;
+        let way: Vec<Pose2> =
+            self.nodes.iter().map(|it| self.front.on_the_way(&it.track)).collect();
+        let own = self.ways.to(best.tip);
+        if !is_elsewhere(&way, &own) {
+            return;
+        }
+        self.offered.way_m = newest.way_m;
+        self.offered.closures = closures;
+        let trace = &mut self.traces[0];
+        let asked = draw(&self.nodes, &own, &self.settings, trace).log;
+        let offer = draw(&self.nodes, &way, &self.settings, trace);
+        let better = offer.log - asked;
+
+        let (log, log_of_way) = (best.log + better, best.log_of_way + better);
+        let chosen: Vec<usize> = (0..self.particles.len())
+            .filter(|&it| self.particles[it].log_of_way < log_of_way)
+            .filter(|&it| it % KEEPS != self.offered.count % KEEPS || self.particles.len() == 1)
+            .collect();
+        self.offered.count += 1;
+        if chosen.is_empty() {
+            return;
+        }
+        self.offered.taken += 1;
+        let tip = self.ways.along(&way);
+        for (number, &index) in chosen.iter().enumerate() {
+            if number > 0 {
+                self.ways.share(tip);
+            }
+            self.ways.end(self.particles[index].tip);
+            self.particles[index] = Particle {
+                map_from_base: way[way.len() - 1],
+                cells: offer.cells.clone(),
+                tip,
+                log,
+                log_of_way,
+                is_matched: true,
+                lasting: self.particles[index].lasting,
+            };
+        }
+        self.best = self.foremost();
+        self.resample(self.counts.kept as u64);
+    }
+}
+
+/// Whether two ways differ, as seen from their ends.
+fn is_elsewhere(way: &[Pose2], own: &[Pose2]) -> bool {
+    let (Some(end), Some(own_end)) = (way.last(), own.last()) else { return false };
+    let (from_end, from_own_end) = (end.inverse(), own_end.inverse());
+    way.iter()
+        .zip(own)
+        .any(|(pose, own)| apart(from_end * *pose, from_own_end * *own).0 > ELSEWHERE_M)
+}
+
+/// When the front end offered its way.
+#[derive(Default)]
+pub(super) struct Offered {
+    bends: usize,
+    way_m: f64,
+    closures: usize,
+    count: usize,
+    /// Offers that some particle took.
+    pub(super) taken: usize,
+}

@@ -1,0 +1,147 @@
+//! Poses and what is known between them.
+
+mod cholesky;
+mod order;
+mod riders;
+mod solve;
+mod system;
+
+use periplus_geometry::{Pose2, normalize_angle};
+use periplus_scan_matching::Symmetric3;
+
+use crate::drift::reversed;
+
+pub(crate) use riders::riders;
+pub(crate) use solve::{Outcome, Saved, Size, Solver};
+pub(crate) use system::System;
+
+/// Where what is known between two poses comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// From a scan to the next, by matching and odometry together.
+    Chain,
+    /// Between scans whose places were known well enough to be compared directly.
+    Near,
+    /// A loop closed after a search.
+    Loop,
+}
+
+/// What is known between two poses.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    pub(crate) from_from_to: Pose2,
+    /// Errors are a shift along the axes of `from` and a turn.
+    pub(crate) information: Symmetric3,
+    /// Its inverse, and that for `to_from_from`.
+    pub(crate) covariances: [Symmetric3; 2],
+    pub(crate) kind: Kind,
+    /// 1 when it counts, 0 when it does not.
+    pub(crate) weight: f64,
+}
+
+/// Information of a step of which nothing is known.
+const GAP: f64 = 1e-4;
+
+impl Edge {
+    pub(crate) fn new(
+        (from, to): (usize, usize),
+        from_from_to: Pose2,
+        information: Symmetric3,
+        kind: Kind,
+    ) -> Self {
+        // What is known to nothing is uncertain without bound, in numbers that can be computed with.
+        let covariance = information.inverse().unwrap_or(Symmetric3::diagonal(1e6, 1e6, 1e6));
+        let covariances = [covariance, reversed(&covariance, from_from_to)];
+        Self { from, to, from_from_to, information, covariances, kind, weight: 1.0 }
+    }
+
+    /// A step of which nothing is known: a separate piece of map begins after it.
+    pub(crate) fn gap((from, to): (usize, usize), from_from_to: Pose2) -> Self {
+        let nothing = Symmetric3::diagonal(GAP, GAP, GAP);
+        Self::new((from, to), from_from_to, nothing, Kind::Chain)
+    }
+
+    /// Whether nothing is known of it.
+    pub(crate) fn is_gap(&self) -> bool {
+        self.kind == Kind::Chain && self.information.xx <= GAP
+    }
+
+    /// The same, with another information for questions of uncertainty.
+    pub(crate) fn doubting(self, information: &Symmetric3) -> Self {
+        let covariances =
+            Self::new((self.from, self.to), self.from_from_to, *information, self.kind);
+        Self { covariances: covariances.covariances, ..self }
+    }
+
+    /// Shift and turn by which poses differ from what this says.
+    pub(crate) fn error(&self, poses: &[Pose2]) -> [f64; 3] {
+        error(poses, (self.from, self.to), self.from_from_to)
+    }
+
+    /// Squared Mahalanobis distance of the error.
+    pub(crate) fn chi2(&self, poses: &[Pose2]) -> f64 {
+        self.information.quadratic(self.error(poses))
+    }
+}
+
+/// Shift and turn by which two poses differ from what is known between them.
+pub(crate) fn error(poses: &[Pose2], (from, to): (usize, usize), known: Pose2) -> [f64; 3] {
+    let found = poses[from].inverse() * poses[to];
+    let turn = normalize_angle(found.yaw_rad - known.yaw_rad);
+    [found.x_m - known.x_m, found.y_m - known.y_m, turn]
+}
+
+/// Poses of key scans in the map and what is known between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Graph {
+    /// `map_from_key`.
+    pub(crate) poses: Vec<Pose2>,
+    pub(crate) edges: Vec<Edge>,
+    /// For each pose the edges at it.
+    pub(crate) at: Vec<Vec<u32>>,
+}
+
+impl Graph {
+    pub(crate) fn add_pose(&mut self, map_from_key: Pose2) -> usize {
+        self.poses.push(map_from_key);
+        self.at.push(Vec::new());
+        self.poses.len() - 1
+    }
+
+    pub(crate) fn add_edge(&mut self, edge: Edge) -> usize {
+        let index = self.edges.len();
+        self.at[edge.from].push(index as u32);
+        self.at[edge.to].push(index as u32);
+        self.edges.push(edge);
+        index
+    }
+
+    /// Whether a tie or a closure holds a pose to older ones.
+    pub(crate) fn is_held(&self, key: usize) -> bool {
+        self.at[key].iter().any(|&edge| {
+            let edge = &self.edges[edge as usize];
+            edge.kind != Kind::Chain && edge.to == key && edge.weight > 0.5
+        })
+    }
+
+    /// Puts poses from one on where they hang on those that they came after.
+    pub(crate) fn hang(&mut self, from: usize) {
+        for key in from..self.poses.len() {
+            let chain = self.at[key]
+                .iter()
+                .map(|&edge| self.edges[edge as usize])
+                .find(|edge| edge.kind == Kind::Chain && edge.to == key);
+            if let Some(edge) = chain {
+                self.poses[key] = (self.poses[edge.from] * edge.from_from_to).normalized();
+            }
+        }
+    }
+
+    /// `a_from_b` of two poses.
+    pub(crate) fn between(&self, a: usize, b: usize) -> Pose2 {
+        let pose = self.poses[a].inverse() * self.poses[b];
+        pose.normalized()
+    }
+}

@@ -1,0 +1,84 @@
+//! Poses that move as one body, so that work and memory of the solver stay bounded.
+
+use periplus_geometry::Stream;
+
+use super::{Graph, Kind, Size};
+
+/// So many bodies are solved for, about.
+const MOST: usize = 6000;
+/// Only steps that are known this well are as if they were stiff: one standard deviation \[m\].
+const FIRM_M: f64 = 0.05;
+
+/// The body that each pose is part of, counted in order. Up to some thousand poses each is one of its
+/// own. In a larger map a few poses in a row ride with the first of them: what lies between neighbours
+/// is known to a centimetre, and what is to be spread over kilometres does not ask for each single
+/// step.
+///
+/// Where bodies begin is drawn anew with every turn, so that no step is stiff for ever. Drawn, because
+/// by turns of even and odd pairs a zigzag is hardly ever lost: every body is pulled to both sides.
+pub(crate) fn riders(graph: &Graph, (poses, edges): Size, turn: usize) -> Vec<u32> {
+    let together = poses.div_ceil(MOST).max(1);
+    let mut is_firm = vec![false; poses];
+    for edge in graph.edges[..edges].iter().filter(|edge| edge.weight > 0.0) {
+        let is_step = edge.kind == Kind::Chain && edge.to == edge.from + 1;
+        is_firm[edge.to] |= is_step && edge.covariances[0].largest_shift() < FIRM_M * FIRM_M;
+    }
+    let mut dice = Stream::keyed(0, "riders", turn as u64);
+    let (mut body, mut size) = (0, 0);
+    let bodies = is_firm.iter().map(|is_firm| {
+        let is_drawn = dice.unit() * (together as f64) < 1.0;
+        if size > 0 && (is_drawn || !is_firm || size >= 2 * together) {
+            body += 1;
+            size = 0;
+        }
+        size += 1;
+        body
+    });
+    bodies.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_geometry::Pose2;
+    use periplus_scan_matching::Symmetric3;
+
+    use super::*;
+    use crate::graph::Edge;
+
+    /// A way of steps, of which one is known badly.
+    fn way(poses: usize, loose: usize) -> Graph {
+        let mut graph = Graph::default();
+        for pose in 0..poses {
+            graph.add_pose(Pose2::new(pose as f64, 0.0, 0.0));
+            let known = if pose == loose { 1.0 } else { 1e4 };
+            let information = Symmetric3::diagonal(known, known, 1e4);
+            if pose > 0 {
+                let step = Pose2::new(1.0, 0.0, 0.0);
+                graph.add_edge(Edge::new((pose - 1, pose), step, information, Kind::Chain));
+            }
+        }
+        graph
+    }
+
+    #[test]
+    fn poses_of_small_maps_are_their_own() {
+        let graph = way(MOST, 7);
+        let bodies = riders(&graph, (MOST, MOST - 1), 3);
+        assert!(bodies.into_iter().eq(0..MOST as u32));
+    }
+
+    #[test]
+    fn poses_of_large_maps_ride_with_others_and_not_over_loose_steps() {
+        let graph = way(3 * MOST, 7);
+        let size = (3 * MOST, 3 * MOST - 1);
+        let turns = [0, 1].map(|turn| riders(&graph, size, turn));
+        assert_ne!(turns[0], turns[1]);
+        for bodies in turns {
+            assert_ne!(bodies[6], bodies[7]);
+            assert!(bodies.windows(2).all(|it| it[1] == it[0] || it[1] == it[0] + 1));
+            assert!(bodies.windows(7).all(|it| it[6] > it[0]));
+            let count = bodies[3 * MOST - 1] as usize;
+            assert!((MOST * 9 / 10..MOST * 13 / 10).contains(&count), "{count}");
+        }
+    }
+}

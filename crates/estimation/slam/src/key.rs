@@ -1,0 +1,48 @@
+//! Scans that are kept.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use periplus_geometry::Pose2;
+use periplus_scan_matching::{Cloud, PackedCloud, PackedPlaces};
+
+/// A scan that is kept.
+#[derive(Clone, Debug)]
+pub(crate) struct Key {
+    pub(crate) cloud: Arc<PackedCloud>,
+    /// Ends of beams for drawing, in the base's frame; none where the cloud holds enough of them.
+    pub(crate) ends: Option<Arc<PackedPlaces>>,
+    /// Length of the way from the first one \[m\], a turn counted as a little way.
+    pub(crate) travel_m: f64,
+}
+
+impl Key {
+    pub(crate) fn new(cloud: &Cloud, ends: Option<PackedPlaces>, travel_m: f64) -> Self {
+        Self { cloud: Arc::new(PackedCloud::new(cloud)), ends: ends.map(Arc::new), travel_m }
+    }
+
+    /// Its points.
+    pub(crate) fn cloud(&self) -> Cloud {
+        self.cloud.cloud()
+    }
+
+    /// Bytes held, about.
+    pub(crate) fn size(&self) -> usize {
+        let ends = self.ends.as_ref().map_or(0, |it| it.size());
+        self.cloud.size() + ends + size_of::<Self>() + size_of::<(PackedCloud, PackedPlaces)>()
+    }
+}
+
+/// Scans that were kept on a part of the way \[m\].
+pub(crate) fn between(keys: &[Key], from_m: f64, to_m: f64) -> Range<usize> {
+    let start = keys.partition_point(|key| key.travel_m < from_m);
+    start..keys.partition_point(|key| key.travel_m <= to_m)
+}
+
+/// Where a scan that came in was, relative to one that is kept.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Track {
+    pub(crate) time_ns: i64,
+    pub(crate) key: usize,
+    pub(crate) key_from_base: Pose2,
+}

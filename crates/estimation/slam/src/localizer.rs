@@ -1,0 +1,306 @@
+//! Where a robot is on a stored graph.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use periplus_geometry::Pose2;
+use periplus_scan_matching::{Cloud, Placed, Symmetric3};
+
+use crate::engine::{Counts, Slam, Taken, Update};
+use crate::local::{Group, apart, locate};
+use crate::map::{Plan, Sketch};
+use crate::method::{Mapper, Method};
+use crate::odometry::Trust;
+use crate::scan::Scan;
+
+/// Scans of the stored graph, and of the robot's own memory, that a new one is laid onto.
+const STORED: usize = 6;
+const OWN: usize = 2;
+/// Scans this near look at the same things \[m\].
+const REACH_M: f64 = 5.0;
+/// Less motion than this since the scan before needs no search \[m, rad\].
+const SEARCH_M: f64 = 0.1;
+const SEARCH_RAD: f64 = 0.05;
+/// Clouds of fewer points cannot be laid onto others.
+const LEAST_POINTS: usize = 12;
+/// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
+const JUMP_M: f64 = 4.0;
+const FASTEST_M_S: f64 = 5.0;
+/// How fast it is learnt what is usual.
+const USUAL: f64 = 0.05;
+/// Poses that are remembered.
+const REMEMBERED: usize = 10_000;
+/// What the place is uncertain by at least and at most: one standard deviation \[m, rad\]. What is lost
+/// is searched for in all of that.
+const LEAST: [f64; 2] = [0.02, 0.01];
+const MOST: [f64; 2] = [1.0, 0.5];
+/// How sure people are of where they start \[m, rad\].
+const START: [f64; 2] = [0.5, 0.26];
+
+/// Finds the robot on a stored graph. The graph stays as it is; of what the robot sees itself it keeps
+/// only the last few scans, so that it is found where the world has changed, and its memory does not
+/// grow.
+pub struct Localizer {
+    stored: Slam,
+    /// Stored scans by the square of [`REACH_M`] that they are in.
+    squares: BTreeMap<(i64, i64), Vec<usize>>,
+    own: VecDeque<Own>,
+    most_own: usize,
+    trust: Trust,
+    last: Option<Last>,
+    start: (Pose2, Symmetric3),
+    poses: VecDeque<(i64, Pose2)>,
+    counts: Counts,
+    usual: f64,
+}
+
+/// A scan of the robot's own memory.
+struct Own {
+    cloud: Cloud,
+    map_from_key: Pose2,
+}
+
+struct Last {
+    time_ns: i64,
+    odom_from_base: Option<Pose2>,
+    map_from_base: Pose2,
+    /// Along the axes of the map.
+    covariance: Symmetric3,
+}
+
+fn square(pose: Pose2) -> (i64, i64) {
+    ((pose.x_m / REACH_M).floor() as i64, (pose.y_m / REACH_M).floor() as i64)
+}
+
+fn spread([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
+    Symmetric3::diagonal(shift_m * shift_m, shift_m * shift_m, turn_rad * turn_rad)
+}
+
+impl Localizer {
+    /// On a stored graph; the robot remembers so many scans of its own. It starts where the graph
+    /// began, until somebody says otherwise ([`Localizer::place`]).
+    #[must_use]
+    pub fn new(stored: Slam, most_own: usize) -> Self {
+        let mut squares: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (key, &pose) in stored.poses().iter().enumerate() {
+            squares.entry(square(pose)).or_default().push(key);
+        }
+        let first = stored.poses().first().copied().unwrap_or(Pose2::IDENTITY);
+        Self {
+            stored,
+            squares,
+            own: VecDeque::new(),
+            most_own,
+            trust: Trust::default(),
+            last: None,
+            start: (first, spread(START)),
+            poses: VecDeque::new(),
+            counts: Counts::default(),
+            usual: 0.7,
+        }
+    }
+
+    /// Somebody says where the robot is, and how sure that is (along the axes of the map): the next
+    /// scan is looked for around there. What the robot has seen itself is forgotten.
+    pub fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) {
+        if map_from_base.is_finite() {
+            self.own.clear();
+            self.last = None;
+            self.start = (map_from_base.normalized(), covariance);
+        }
+    }
+
+    /// Forgets what the robot has seen itself.
+    pub fn forget(&mut self) {
+        self.own.clear();
+    }
+
+    /// The stored graph.
+    #[must_use]
+    pub fn stored(&self) -> &Slam {
+        &self.stored
+    }
+
+    /// What the map is drawn of: the stored graph alone.
+    #[must_use]
+    pub fn sketch(&self) -> Sketch {
+        self.stored.sketch()
+    }
+
+    /// Scans of its own that it remembers.
+    #[must_use]
+    pub fn own_scans(&self) -> usize {
+        self.own.len()
+    }
+
+    /// How uncertain the place of the robot is, along the axes of the map \[m, rad\].
+    #[must_use]
+    pub fn covariance(&self) -> Symmetric3 {
+        self.last.as_ref().map_or(self.start.1, |last| last.covariance)
+    }
+
+    fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+        let settings = self.stored.settings();
+        let seconds = self
+            .last
+            .as_ref()
+            .map_or(0.0, |last| (scan.time_ns.saturating_sub(last.time_ns)) as f64 * 1e-9);
+        let told = self.last.as_ref().and_then(|last| {
+            let motion = (last.odom_from_base?.inverse() * odom_from_base?).normalized();
+            let most_m = JUMP_M + FASTEST_M_S * seconds.max(0.0);
+            (libm::hypot(motion.x_m, motion.y_m) < most_m).then_some(motion)
+        });
+        let (expected, covariance) = match &self.last {
+            None => self.start,
+            Some(last) => {
+                let motion = told.unwrap_or(Pose2::IDENTITY);
+                let spread =
+                    told.map_or_else(Trust::blind, |motion| self.trust.covariance(motion, 0.0));
+                let grown = last.covariance + spread.turned(last.map_from_base.yaw_rad);
+                ((last.map_from_base * motion).normalized(), bounded(&grown))
+            }
+        };
+        let motion = told
+            .filter(|_| seconds > 0.0 && seconds < 1.0)
+            .map(|it| Pose2::new(it.x_m / seconds, it.y_m / seconds, it.yaw_rad / seconds));
+        let cloud = scan.ends(motion, settings.used_m()).cloud(&settings.cloud);
+        let mut next =
+            Last { time_ns: scan.time_ns, odom_from_base, map_from_base: expected, covariance };
+        let near = self.near(expected);
+        let own = || {
+            self.own
+                .iter()
+                .rev()
+                .take(OWN)
+                .filter(|own| apart(own.map_from_key, expected).0 < REACH_M)
+        };
+        // In the frame of one scan numbers are small.
+        let frame = near.first().map(|&key| self.stored.poses()[key]);
+        let frame = frame.or_else(|| own().next().map(|own| own.map_from_key));
+        let mut taken = Taken::Lost;
+        if let Some(map_from_frame) = frame.filter(|_| cloud.points().len() >= LEAST_POINTS) {
+            let frame_from = |pose: Pose2| (map_from_frame.inverse() * pose).normalized();
+            let stored = near
+                .iter()
+                .map(|&key| (self.stored.cloud(key), frame_from(self.stored.poses()[key])));
+            let stored = Group::new(stored);
+            let mut group = stored.placed();
+            group.extend(own().map(|own| Placed {
+                cloud: &own.cloud,
+                group_from_cloud: frame_from(own.map_from_key),
+            }));
+            let moved = told.map(|it| (libm::hypot(it.x_m, it.y_m), it.yaw_rad.abs()));
+            let searches = moved.is_none_or(|(m, rad)| m > SEARCH_M || rad > SEARCH_RAD);
+            let turned = covariance.turned(-map_from_frame.yaw_rad);
+            let expected = frame_from(expected);
+            let found = locate(&cloud, &group, expected, &turned, settings, searches, self.usual);
+            if found.is_matched {
+                next.map_from_base = (map_from_frame * found.fit.target_from_moving).normalized();
+                let known = found.information.inverse().unwrap_or(turned);
+                next.covariance = bounded(&known.turned(map_from_frame.yaw_rad));
+                self.usual += USUAL * (found.fit.matched - self.usual);
+                taken = Taken::Passed;
+            }
+        }
+        if taken == Taken::Passed {
+            if let (Some(motion), Some(last)) = (told, &self.last) {
+                let moved = (last.map_from_base.inverse() * next.map_from_base).normalized();
+                self.trust.learn(motion, moved, false);
+            }
+            let is_new = self.own.back().is_none_or(|own| {
+                let (metres, radians) = apart(own.map_from_key, next.map_from_base);
+                metres > settings.key_shift_m || radians > settings.key_turn_rad
+            });
+            if is_new && self.most_own > 0 {
+                taken = Taken::Kept;
+                self.own.push_back(Own { cloud, map_from_key: next.map_from_base });
+                while self.own.len() > self.most_own {
+                    self.own.pop_front();
+                }
+            }
+        }
+        self.last = Some(next);
+        taken
+    }
+
+    /// Stored scans around a place, the nearest first; a turn counts a little.
+    fn near(&self, place: Pose2) -> Vec<usize> {
+        let (column, row) = square(place);
+        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
+        let keys = around.filter_map(|square| self.squares.get(&square)).flatten();
+        let mut near: Vec<(f64, usize)> = keys
+            .filter_map(|&key| {
+                let (metres, radians) = apart(self.stored.poses()[key], place);
+                (metres < REACH_M).then_some((metres + 0.6 * radians, key))
+            })
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.truncate(STORED);
+        near.into_iter().map(|it| it.1).collect()
+    }
+}
+
+/// A covariance between the least and the most that is believed.
+fn bounded(covariance: &Symmetric3) -> Symmetric3 {
+    let sum = *covariance + spread(LEAST);
+    let most = spread(MOST);
+    if sum.largest_shift() > most.xx || sum.tt > most.tt { most } else { sum }
+}
+
+impl Mapper for Localizer {
+    fn method(&self) -> Method {
+        Method::Graph
+    }
+
+    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+        self.counts.scans += 1;
+        let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
+        let taken = match scan.fault() {
+            Some(reason) => Taken::Ignored(reason),
+            None => self.take(scan, odom_from_base),
+        };
+        match taken {
+            Taken::Kept => self.counts.kept += 1,
+            Taken::Lost => self.counts.lost += 1,
+            Taken::Ignored(_) => self.counts.ignored += 1,
+            Taken::Passed => {}
+        }
+        let map_from_base = self.map_from_base();
+        if !matches!(taken, Taken::Ignored(_)) {
+            self.poses.push_back((scan.time_ns, map_from_base));
+            if self.poses.len() > REMEMBERED {
+                self.poses.pop_front();
+            }
+        }
+        Update {
+            taken,
+            map_from_base,
+            map_from_odom: odom_from_base
+                .map_or(Pose2::IDENTITY, |odom| (map_from_base * odom.inverse()).normalized()),
+            is_map_bent: false,
+        }
+    }
+
+    fn finish(&mut self) {}
+
+    fn map_from_base(&self) -> Pose2 {
+        self.last.as_ref().map_or(self.start.0, |last| last.map_from_base)
+    }
+
+    /// The last ten thousand.
+    fn trajectory(&self) -> Vec<(i64, Pose2)> {
+        self.poses.iter().copied().collect()
+    }
+
+    fn plan(&self) -> Option<Box<dyn Plan + '_>> {
+        Some(Box::new(self.stored.sketch().plan()?))
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    fn size(&self) -> usize {
+        let own: usize = self.own.iter().map(|own| own.cloud.size()).sum();
+        self.stored.size() + own + self.poses.len() * size_of::<(i64, Pose2)>()
+    }
+}

@@ -1,0 +1,764 @@
+//! Closing of loops: searching, doubting, believing.
+//!
+//! A closure is believed for reasons that are counted, not for a score:
+//! 1. the stretch of way just driven is found in an old stretch within all of the region that the
+//!    uncertainty allows (three standard deviations; branch and bound, so nothing better was missed);
+//! 2. held against each other both ways, scans do not see through each other's walls;
+//! 3. no other place in the region passes the same tests (else it waits for more of the way);
+//! 4. where the region is large, other stretches must tell the same, independently: closures agree
+//!    pairwise with each other over the ways between them, and more do so than with any rival;
+//! 5. when the map has been bent accordingly, all that now overlaps still agrees; else all is undone.
+
+mod scale;
+mod state;
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use periplus_geometry::{Pose2, normalize_angle};
+use periplus_scan_matching::{
+    Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register,
+};
+
+use crate::drift::{Sighting, from_here, reversed};
+use crate::graph::{Edge, Graph, Kind};
+use crate::key::{Key, between};
+use crate::local::{
+    Group, against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
+};
+use crate::settings::Settings;
+
+use scale::scale;
+
+/// Length of a stretch that is searched for, and from one search to the next \[m\].
+const STRETCH_M: f64 = 9.0;
+const LEAST_STRETCH_M: f64 = 5.0;
+const EVERY_M: f64 = 2.5;
+/// Length of a stretch in which is searched, and how much of its surroundings belongs to it \[m\].
+const PLACE_M: f64 = 5.0;
+const AROUND_M: f64 = 3.0;
+/// Way between two stretches before one is old for the other \[m\].
+const OLD_M: f64 = 15.0;
+/// Middles of two stretches that show the same are not farther apart \[m\].
+const MEET_M: f64 = 9.0;
+/// So far is searched, to see whether something better lies just beyond \[m\].
+const SEEN_M: f64 = 10.5;
+/// Beyond this nothing is searched \[m\]: standard deviation of the place.
+const MOST_M: f64 = 60.0;
+/// Below this ties to near scans find all there is, 3 standard deviations \[m, rad\].
+const KNOWN_M: f64 = 0.5;
+const KNOWN_RAD: f64 = 0.2;
+/// Searched points have a mean likelihood of at least this.
+const LEAST_SCORE: f64 = 0.42;
+/// The second best place is looked at when its score is this part of the best one's.
+const RIVAL: f64 = 0.8;
+/// Places farther apart than this are different ones \[m, rad\].
+const OTHER_M: f64 = 0.8;
+const OTHER_RAD: f64 = 0.5;
+/// Part of judged points that must agree; points to judge; part of points with partners.
+const AGREEING: f64 = 0.88;
+const JUDGED: u32 = 400;
+const MATCHED: f64 = 0.6;
+/// Scans of the old stretch that each of the new one is held against.
+const COMPARED: usize = 3;
+/// The same where two stretches were driven in opposite directions, and each shows a part that is
+/// hidden from the other: fewer partners, but more points that both can judge and that agree.
+const PARTLY_MATCHED: f64 = 0.3;
+const PARTLY_JUDGED: u32 = 800;
+const PARTLY_AGREEING: f64 = 0.9;
+/// Peaks this near to the rim of what was searched are none \[m\].
+const RIM_M: f64 = 0.15;
+/// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
+const CONSISTENT: f64 = 11.3;
+/// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
+const ONE_WITNESS_M: f64 = 2.0;
+const PARTLY_ONE_WITNESS_M: f64 = 1.0;
+const TWO_WITNESSES_M: f64 = 12.0;
+/// A closure that others speak against is tried at the end when its scans agree on more than this.
+const CLEAR: f64 = 0.93;
+/// Witnesses are at least this way apart \[m\], and are heard over so much way.
+const APART_M: f64 = 4.0;
+const HEARD_M: f64 = 60.0;
+/// That two closures agree says nothing where three standard deviations of the ways between them are
+/// more than this part of the smaller region, and more than this \[m\]: by chance they would agree as well.
+const EMPTY: f64 = 0.5;
+const EMPTY_M: f64 = 2.0;
+/// Searches for one stretch, and searches that wait, at most.
+const MOST_ASKED: usize = 30;
+const MOST_WAITING: usize = 300;
+/// What is known of places in other pieces of map: nothing. As many of them are asked for at once, each
+/// as if it were so far out in its region.
+const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
+/// Whole buildings look alike in places: where nothing is known, likelihood, agreement and witnesses must
+/// be better.
+const ANYWHERE_M: f64 = 250.0;
+const ANYWHERE_SCORE: f64 = 0.5;
+const ANYWHERE_AGREEING: f64 = 0.95;
+const ANYWHERE_WITNESSES: usize = 5;
+const MOST_ELSEWHERE: usize = 24;
+const FARTHER: f64 = 2.0;
+/// Fields that are kept; the larger, the fewer.
+const KEPT_FIELDS: usize = 12;
+/// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
+const FAR_M: f32 = 14.0;
+const SPACING_M: f32 = 0.15;
+/// Where scans see farther, cells are larger up to so many times.
+const COARSE: f64 = 2.0;
+/// Scans of a stretch that are laid onto others, and more where they have few points.
+const FEW_SCANS: usize = 8;
+const FEW_POINTS: usize = 800;
+
+/// What became of a closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Kept scans that it ties, the old one first.
+    pub keys: (usize, usize),
+    /// The place of the later in the frame of the older.
+    pub old_from_new: Pose2,
+    /// Whether it is part of the map.
+    pub is_accepted: bool,
+    /// Three standard deviations of the place before, in the worst direction \[m\].
+    pub region_m: f64,
+    /// Part of judged points that agreed.
+    pub agreeing: f64,
+    /// Why it was accepted, or why not.
+    pub reason: String,
+}
+
+/// One search: a stretch of way in an old one.
+struct Task {
+    stretch: Range<usize>,
+    anchor: usize,
+    place: usize,
+    covariance: Symmetric3,
+}
+
+/// A stretch of way in which others are searched.
+struct Place {
+    keys: Range<usize>,
+    middle: usize,
+}
+
+/// A closure that is waiting for others.
+#[derive(Clone)]
+struct Candidate {
+    anchor: usize,
+    middle: usize,
+    middle_from_anchor: Pose2,
+    information: Symmetric3,
+    region_m: f64,
+    share: f64,
+    is_unique: bool,
+    /// Whether most points of one stretch are hidden from the other.
+    is_partial: bool,
+}
+
+impl Candidate {
+    fn told(&self) -> Closure {
+        Closure {
+            keys: (self.middle, self.anchor),
+            old_from_new: self.middle_from_anchor,
+            is_accepted: false,
+            region_m: self.region_m,
+            agreeing: self.share,
+            reason: String::new(),
+        }
+    }
+
+    fn edge(&self) -> Edge {
+        let keys = (self.middle, self.anchor);
+        Edge::new(keys, self.middle_from_anchor, self.information, Kind::Loop)
+    }
+}
+
+/// What other closures say of one.
+struct Evidence {
+    /// Closures that agree with it.
+    agreeing: Vec<usize>,
+    /// Independent stretches that tell the same, itself among them.
+    witnesses: usize,
+    wanted: usize,
+    /// Independent stretches that tell something else.
+    rivals: usize,
+}
+
+impl Evidence {
+    fn is_enough(&self) -> bool {
+        self.witnesses >= self.wanted + self.rivals
+    }
+}
+
+/// What two closures say of each other.
+enum Word {
+    Agrees,
+    Opposes,
+    /// The ways between them are so uncertain that anything would agree.
+    Silent,
+}
+
+/// A field that is kept, of a place.
+struct Kept {
+    place: usize,
+    /// What it was made of: keys, and where they were from the middle of the place.
+    of: Vec<(usize, Pose2)>,
+    /// Made when it is asked for.
+    field: Option<Field>,
+}
+
+/// All that is known and asked about loops.
+#[derive(Default)]
+pub(crate) struct Loops {
+    places: Vec<Place>,
+    place_from: usize,
+    searched_m: f64,
+    tasks: VecDeque<Task>,
+    pending: Vec<Candidate>,
+    fields: VecDeque<Kept>,
+    pub(crate) told: Vec<Closure>,
+}
+
+impl Loops {
+    /// Takes note of a new key; asks for searches when it is time.
+    pub(crate) fn notice(&mut self, keys: &[Key], graph: &Graph, tied_m: f64, is_torn: bool) {
+        let last = keys.len() - 1;
+        let travel_m = keys[last].travel_m;
+        if travel_m - keys[self.place_from].travel_m >= PLACE_M {
+            let range = self.place_from..last + 1;
+            let half = keys[range.start].travel_m + 0.5 * PLACE_M;
+            let middle = range.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
+            self.places.push(Place { keys: range, middle });
+            self.place_from = last;
+        }
+        if travel_m - self.searched_m < EVERY_M {
+            return;
+        }
+        // Where near scans hold the way, nothing is to be searched.
+        self.searched_m = travel_m;
+        if travel_m - tied_m < STRETCH_M {
+            return;
+        }
+        self.ask(keys, graph, last, is_torn);
+    }
+
+    /// Asks for all old stretches that the one up to a key may have met.
+    ///
+    /// Where the map is torn, all that lies in other pieces of it is asked for as well.
+    pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize, is_torn: bool) {
+        let scale = scale(keys, last);
+        let start = (0..last)
+            .rev()
+            .find(|&key| keys[last].travel_m - keys[key].travel_m > scale * STRETCH_M)
+            .unwrap_or(0);
+        let stretch = start..last + 1;
+        let way = keys[last].travel_m - keys[start].travel_m;
+        if way < LEAST_STRETCH_M {
+            return;
+        }
+        let half = keys[start].travel_m + 0.5 * way;
+        let anchor = stretch.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
+        let sightings = from_here(graph, anchor, MOST_M);
+        let mut covariances: Vec<Option<Sighting>> = vec![None; keys.len()];
+        for sighting in sightings {
+            covariances[sighting.key] = Some(sighting);
+        }
+        let mut asked: Vec<(f64, Task)> = Vec::new();
+        let mut elsewhere: Vec<(f64, Task)> = Vec::new();
+        // Places reach over those beside them.
+        for (place, old) in self.places.iter().enumerate().step_by(scale as usize) {
+            let gone_m = keys[start].travel_m - keys[old.keys.end - 1].travel_m;
+            if gone_m < scale * (OLD_M - STRETCH_M) {
+                break;
+            }
+            let Some(sighting) = &covariances[old.middle] else {
+                // It lies in another piece of map, or so far away that nothing is known of it.
+                let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
+                elsewhere.push((FARTHER, task));
+                continue;
+            };
+            let (region_m, region_rad) = (3.0 * sighting.shift_m(), 3.0 * sighting.turn_rad());
+            if region_m < KNOWN_M && region_rad < KNOWN_RAD {
+                continue;
+            }
+            let (metres, _) = apart(graph.poses[anchor], graph.poses[old.middle]);
+            if metres > region_m + scale * MEET_M {
+                continue;
+            }
+            let covariance = reversed(&sighting.covariance, graph.between(anchor, old.middle));
+            let task = Task { stretch: stretch.clone(), anchor, place, covariance };
+            // The likeliest first: how far out in its region a meeting would be.
+            asked.push(((metres - scale * MEET_M).max(0.0) / region_m.max(0.1), task));
+        }
+        asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
+        asked.truncate(MOST_ASKED);
+        if is_torn {
+            let every = elsewhere.len().div_ceil(MOST_ELSEWHERE).max(1);
+            asked.extend(elsewhere.into_iter().skip(anchor % every).step_by(every));
+        }
+        // Under load the oldest questions go unanswered; they are asked again at the end.
+        let over = (self.tasks.len() + asked.len()).saturating_sub(MOST_WAITING);
+        self.tasks.drain(..over.min(self.tasks.len()));
+        self.tasks.extend(asked.into_iter().map(|it| it.1));
+    }
+
+    /// Ends of all stretches that no tie or closure holds.
+    pub(crate) fn unheld(keys: &[Key], graph: &Graph) -> Vec<usize> {
+        let mut ends = Vec::new();
+        let mut asked_m = 0.0;
+        let mut held_m = f64::NEG_INFINITY;
+        for (key, it) in keys.iter().enumerate() {
+            if graph.is_held(key) {
+                held_m = it.travel_m;
+            }
+            if it.travel_m - asked_m >= EVERY_M && it.travel_m - held_m > STRETCH_M {
+                asked_m = it.travel_m;
+                ends.push(key);
+            }
+        }
+        ends
+    }
+
+    /// Whether searches are waiting.
+    pub(crate) fn is_busy(&self) -> bool {
+        !self.tasks.is_empty()
+    }
+
+    /// Does one search; gives edges when closures are believed after it.
+    pub(crate) fn work(&mut self, keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<Edge> {
+        let Some(task) = self.tasks.pop_front() else { return Vec::new() };
+        match self.search(&task, keys, graph, settings) {
+            Some(candidate) => self.weigh(candidate, keys, graph),
+            None => Vec::new(),
+        }
+    }
+
+    fn search(
+        &mut self,
+        task: &Task,
+        keys: &[Key],
+        graph: &Graph,
+        settings: &Settings,
+    ) -> Option<Candidate> {
+        let middle = self.places[task.place].middle;
+        let scale = scale(keys, task.stretch.end - 1);
+        let around = self.around(task.place, keys, scale);
+        let around: Vec<usize> = around.filter(|&key| key < task.stretch.start).collect();
+        let old = grouped(keys, graph, &around, middle);
+        let old = old.placed();
+        let stretch: Vec<usize> = task.stretch.clone().collect();
+        let new = grouped(keys, graph, &stretch, task.anchor);
+        let new = new.placed();
+        let expected = graph.between(middle, task.anchor);
+        let region = [3.0 * task.covariance.xx.sqrt() + 0.4, 3.0 * task.covariance.yy.sqrt() + 0.4];
+        let half_rad = (3.0 * task.covariance.tt.sqrt() + 0.03).min(std::f64::consts::PI);
+        let (meet_m, seen_m) = (scale * MEET_M, scale * SEEN_M);
+        // Only the part of the region where the two can meet.
+        let part = |middle: f64, half: f64| {
+            let (low, high) = ((middle - half).max(-seen_m), (middle + half).min(seen_m));
+            (low < high).then_some((0.5 * (low + high), 0.5 * (high - low)))
+        };
+        let (x_m, half_x_m) = part(expected.x_m, region[0])?;
+        let (y_m, half_y_m) = part(expected.y_m, region[1])?;
+        let points = spread(&points_of(&new), scale as f32 * SPACING_M, scale as f32 * FAR_M);
+        if points.len() < 40 {
+            return None;
+        }
+        let window = Window {
+            middle: Pose2::new(x_m, y_m, expected.yaw_rad),
+            half_m: [half_x_m, half_y_m],
+            half_rad,
+            step_rad: heading_step(&points, settings.loop_field.resolution_m) / scale.min(COARSE),
+        };
+        let of = around.iter().map(|&key| (key, graph.between(middle, key)));
+        let field = self.field(task.place, of, keys, settings, scale);
+        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
+        let is_anywhere = region_m > ANYWHERE_M;
+        let least_score = if is_anywhere { ANYWHERE_SCORE } else { LEAST_SCORE };
+        let (best, _) = field.search(&points, &window, least_score, None);
+        let best = best?;
+        // A peak at the rim is the slope of something beyond.
+        let rim = [best.pose.x_m - x_m, best.pose.y_m - y_m];
+        let is_at_rim = rim[0].abs() > half_x_m - RIM_M || rim[1].abs() > half_y_m - RIM_M;
+        let is_far = best.pose.x_m.abs() > meet_m || best.pose.y_m.abs() > meet_m;
+        if is_at_rim || is_far {
+            return None;
+        }
+        let least = (RIVAL * best.score).max(least_score);
+        let (second, _) =
+            field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
+        let verdict = verify(best.pose, &new, &old, settings);
+        let mut told = Closure {
+            keys: (middle, task.anchor),
+            old_from_new: best.pose,
+            is_accepted: false,
+            region_m,
+            agreeing: verdict.share,
+            reason: String::new(),
+        };
+        if let Some(reason) = verdict.fault {
+            told.reason = format!("{reason} (likelihood {:.2})", best.score);
+            self.told.push(told);
+            return None;
+        }
+        if is_anywhere && verdict.share < ANYWHERE_AGREEING {
+            told.reason = format!(
+                "{:.0} % of the points are seen through, too many for a place that may be anywhere",
+                100.0 * (1.0 - verdict.share)
+            );
+            self.told.push(told);
+            return None;
+        }
+        let place = verdict.fit.target_from_moving;
+        let rival = second.map(|peak| verify(peak.pose, &new, &old, settings)).filter(|other| {
+            let (metres, radians) = apart(other.fit.target_from_moving, place);
+            other.fault.is_none()
+                && (metres > 0.5 * OTHER_M || radians > 0.5 * OTHER_RAD)
+                && other.fit.matched > 0.9 * verdict.fit.matched
+        });
+        Some(Candidate {
+            anchor: task.anchor,
+            middle,
+            middle_from_anchor: place,
+            information: floored(&verdict.fit.information),
+            region_m,
+            share: verdict.share,
+            is_unique: rival.is_none() && verdict.fit.firmness > 0.0,
+            is_partial: verdict.fit.matched < MATCHED,
+        })
+    }
+
+    /// Keys of a place and those around it.
+    fn around(&self, place: usize, keys: &[Key], scale: f64) -> Range<usize> {
+        let own = &self.places[place].keys;
+        let around_m = scale * AROUND_M + 0.5 * (scale - 1.0) * PLACE_M;
+        let (from_m, to_m) =
+            (keys[own.start].travel_m - around_m, keys[own.end - 1].travel_m + around_m);
+        between(keys, from_m, to_m)
+    }
+
+    /// The field of a place: the one that is kept, or one of these keys.
+    fn field(
+        &mut self,
+        place: usize,
+        of: impl Iterator<Item = (usize, Pose2)>,
+        keys: &[Key],
+        settings: &Settings,
+        scale: f64,
+    ) -> &Field {
+        let at = self.fields.iter().position(|kept| kept.place == place);
+        let kept = at.and_then(|at| self.fields.remove(at));
+        let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
+        self.fields.truncate((KEPT_FIELDS as f64 / scale) as usize - 1);
+        self.fields.push_front(kept);
+        let Kept { of, field, .. } = &mut self.fields[0];
+        field.get_or_insert_with(|| {
+            let group = Group::new(of.iter().map(|&(key, pose)| (keys[key].cloud(), pose)));
+            Field::new(&points_of(&group.placed()), [0.0, 0.0], &field_settings(settings, scale))
+        })
+    }
+
+    /// Whether enough speaks for a closure, and for those that agree with it; then their edges.
+    ///
+    /// Each is believed by its own evidence: as many witnesses as its own region asks for, among those
+    /// that agree with it. Those that fit elsewhere too are never believed: near scans will tell better
+    /// once the place is known. But they are done with.
+    fn weigh(&mut self, new: Candidate, keys: &[Key], graph: &Graph) -> Vec<Edge> {
+        self.told.push(new.told());
+        self.pending.push(new);
+        let newest = self.pending.len() - 1;
+        let evidence = self.evidence(newest, keys, graph);
+        self.tell(newest, &evidence, evidence.is_enough());
+        if !evidence.is_enough() || !self.pending[newest].is_unique {
+            return Vec::new();
+        }
+        let mut believed = Vec::new();
+        for &index in evidence.agreeing.iter().chain([&newest]) {
+            if !self.pending[index].is_unique {
+                continue;
+            }
+            let own = self.evidence(index, keys, graph);
+            if own.is_enough() {
+                self.tell(index, &own, true);
+                believed.push(index);
+            }
+        }
+        let edges = believed.iter().map(|&index| self.pending[index].edge()).collect();
+        // Others that agreed may still find witnesses of their own.
+        let is_done = |index: usize, it: &Candidate| {
+            believed.contains(&index) || (evidence.agreeing.contains(&index) && !it.is_unique)
+        };
+        let mut index = 0;
+        self.pending.retain(|it| {
+            index += 1;
+            !is_done(index - 1, it)
+        });
+        edges
+    }
+
+    /// What other closures say of one.
+    fn evidence(&self, of: usize, keys: &[Key], graph: &Graph) -> Evidence {
+        let it = &self.pending[of];
+        let from_anchor = sightings(graph, it.anchor);
+        let from_middle = sightings(graph, it.middle);
+        let here_m = keys[it.anchor].travel_m;
+        let mut agreeing: Vec<usize> = Vec::new();
+        let mut rivals: Vec<f64> = Vec::new();
+        // Witnesses: unique ones, far enough from each other.
+        let mut witnesses: Vec<f64> = Vec::new();
+        let is_apart = |ways: &[f64], way: f64| ways.iter().all(|it| (it - way).abs() >= APART_M);
+        if it.is_unique {
+            witnesses.push(here_m);
+        }
+        for (index, other) in self.pending.iter().enumerate().rev() {
+            let there_m = keys[other.anchor].travel_m;
+            // What is far away says nothing of what is here.
+            if index == of || (here_m - there_m).abs() > HEARD_M {
+                continue;
+            }
+            match consistency(it, other, graph, &from_anchor, &from_middle) {
+                Word::Agrees => {
+                    agreeing.push(index);
+                    if other.is_unique && is_apart(&witnesses, there_m) {
+                        witnesses.push(there_m);
+                    }
+                }
+                Word::Opposes if other.is_unique && is_apart(&rivals, there_m) => {
+                    rivals.push(there_m);
+                }
+                _ => {}
+            }
+        }
+        let wanted = match it.region_m {
+            ..PARTLY_ONE_WITNESS_M => 1,
+            ..ONE_WITNESS_M if !it.is_partial => 1,
+            ..TWO_WITNESSES_M => 2,
+            ..ANYWHERE_M => 3,
+            _ => ANYWHERE_WITNESSES,
+        };
+        Evidence { agreeing, witnesses: witnesses.len(), wanted, rivals: rivals.len() }
+    }
+
+    /// Writes down what became of a closure.
+    fn tell(&mut self, index: usize, evidence: &Evidence, is_believed: bool) {
+        let it = &self.pending[index];
+        let (keys, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
+        let words = match (it.is_unique, is_believed) {
+            (true, _) => "the only place in the region",
+            (false, false) => "fits elsewhere too",
+            (false, true) => "fits elsewhere too, though others agree with it",
+        };
+        let is_accepted = is_believed && it.is_unique;
+        let told = self.told.iter_mut().rev();
+        let Some(told) = { told }.find(|told| told.keys == keys && told.old_from_new == pose)
+        else {
+            return;
+        };
+        told.is_accepted = is_accepted;
+        told.reason = format!(
+            "{} of {} independent witnesses, {} against; {words}",
+            evidence.witnesses, evidence.wanted, evidence.rivals,
+        );
+    }
+
+    /// Closures that lack a witness, that nothing speaks against, and that fit nowhere else: those with the
+    /// most witnesses first.
+    pub(crate) fn waiting(&self, keys: &[Key], graph: &Graph) -> Vec<Edge> {
+        let mut waiting: Vec<(usize, f64, usize)> = (0..self.pending.len())
+            .filter(|&index| self.pending[index].is_unique && !self.pending[index].is_partial)
+            .filter_map(|index| {
+                let evidence = self.evidence(index, keys, graph);
+                let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
+                let is_clear = evidence.rivals == 0 || self.pending[index].share > CLEAR;
+                let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
+                is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
+            })
+            .collect();
+        waiting.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        waiting.into_iter().map(|it| self.pending[it.2].edge()).collect()
+    }
+
+    /// Of the closures that contradict one, the best supported: the other answer to where the robot was.
+    pub(crate) fn rival_of(&self, edge: &Edge, keys: &[Key], graph: &Graph) -> Option<Edge> {
+        let keys_of = |it: &Candidate| (it.middle, it.anchor);
+        let it = self.pending.iter().find(|it| keys_of(it) == (edge.from, edge.to))?;
+        let from_anchor = sightings(graph, it.anchor);
+        let from_middle = sightings(graph, it.middle);
+        let here_m = keys[it.anchor].travel_m;
+        let opposes = |index: &usize| {
+            let other = &self.pending[*index];
+            let is_near = (here_m - keys[other.anchor].travel_m).abs() <= HEARD_M;
+            let word = || consistency(it, other, graph, &from_anchor, &from_middle);
+            other.is_unique && is_near && matches!(word(), Word::Opposes)
+        };
+        let witnesses = |index: &usize| self.evidence(*index, keys, graph).witnesses;
+        let rivals = (0..self.pending.len()).filter(opposes);
+        rivals
+            .max_by_key(|index| (witnesses(index), *index))
+            .map(|index| self.pending[index].edge())
+    }
+
+    /// A closure that waited is part of the map.
+    pub(crate) fn believe(&mut self, edge: &Edge, reason: String) {
+        self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
+        let told = self.told.iter_mut().rev();
+        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+            (told.is_accepted, told.reason) = (true, reason);
+        }
+    }
+
+    /// Another closure passes the same tests: neither is part of the map.
+    pub(crate) fn leave_undecided(&mut self, edge: &Edge, apart_m: f64) {
+        let told = self.told.iter_mut().rev();
+        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+            told.reason = format!(
+                "{}; on trial when the log had ended, a closure {apart_m:.1} m from it passed as well",
+                told.reason
+            );
+        }
+    }
+
+    /// Two passes that the map had side by side are joined.
+    pub(crate) fn join(&mut self, edge: &Edge, shift_m: f64) {
+        self.told.push(Closure {
+            keys: (edge.from, edge.to),
+            old_from_new: edge.from_from_to,
+            is_accepted: true,
+            region_m: shift_m,
+            agreeing: 1.0,
+            reason: format!(
+                "joined when all scans were in: both passes showed the same walls {shift_m:.2} m apart"
+            ),
+        });
+    }
+
+    /// Closures are part of the map no more.
+    pub(crate) fn disbelieve(&mut self, edges: &[Edge], reason: &str) {
+        for told in self.told_of(edges) {
+            told.is_accepted = false;
+            told.reason = reason.to_owned();
+        }
+    }
+
+    /// The map has moved: what was asked before is asked of another map.
+    pub(crate) fn forget(&mut self) {
+        self.tasks.clear();
+        self.fields.clear();
+    }
+
+    /// What is told of the closures that these edges are.
+    pub(crate) fn told_of<'a>(
+        &'a mut self,
+        edges: &'a [Edge],
+    ) -> impl Iterator<Item = &'a mut Closure> {
+        self.told.iter_mut().filter(move |told| {
+            let is_of = |edge: &Edge| {
+                (edge.from, edge.to) == told.keys && edge.from_from_to == told.old_from_new
+            };
+            told.is_accepted && edges.iter().any(is_of)
+        })
+    }
+
+    /// Bytes held.
+    pub(crate) fn size(&self) -> usize {
+        self.fields.iter().filter_map(|kept| kept.field.as_ref()).map(Field::size).sum()
+    }
+}
+
+/// The field of loops where scans see so many times as far as indoors.
+fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
+    let indoors = settings.loop_field;
+    let (scale, coarse) = (scale as f32, scale.min(COARSE) as f32);
+    FieldSettings {
+        resolution_m: coarse * indoors.resolution_m,
+        sigma_m: coarse * indoors.sigma_m,
+        most_half_m: scale * indoors.most_half_m,
+        ..indoors
+    }
+}
+
+/// What came of a test.
+struct Verdict {
+    fit: Fit,
+    share: f64,
+    fault: Option<String>,
+}
+
+/// Scans of a group, evenly, that have enough points together to be laid onto others.
+fn few<'a>(group: &[Placed<'a>]) -> Vec<Placed<'a>> {
+    let points: usize = group.iter().map(|it| it.cloud.points().len()).sum();
+    let least = FEW_POINTS * group.len() / points.max(1);
+    let every = group.len().div_ceil(least.max(FEW_SCANS)).max(1);
+    group.iter().step_by(every).copied().collect()
+}
+
+/// Registers two stretches from a start and holds them against each other both ways.
+fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Settings) -> Verdict {
+    // Far from where it was searched it would be another place.
+    let prior =
+        Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
+    let (new_few, old_few) = (few(new), few(old));
+    let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
+    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED);
+    let share = sum.share();
+    // Seen from the other end, most points of one are hidden from the other.
+    let is_partial =
+        fit.matched > PARTLY_MATCHED && share > PARTLY_AGREEING && sum.judged() > PARTLY_JUDGED;
+    let fault = if fit.matched < MATCHED && !is_partial {
+        Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
+    } else if sum.judged() < JUDGED {
+        Some(format!("only {} points are seen from both", sum.judged()))
+    } else if share < AGREEING {
+        Some(format!("{:.0} % of the points are seen through", 100.0 * (1.0 - share)))
+    } else {
+        None
+    };
+    Verdict { fit, share, fault }
+}
+
+fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {
+    let mut found = vec![None; graph.poses.len()];
+    for sighting in from_here(graph, key, MOST_M) {
+        found[sighting.key] = Some(sighting.covariance);
+    }
+    found
+}
+
+/// Whether two closures agree over the ways between them, by squared Mahalanobis distance: from the one
+/// old place along the old way to the other, by its closure to the new way, back along it, and by the
+/// first closure home. (Pairwise consistency: Mangelson et al. 2018.)
+fn consistency(
+    a: &Candidate,
+    b: &Candidate,
+    graph: &Graph,
+    from_anchor_a: &[Option<Symmetric3>],
+    from_middle_a: &[Option<Symmetric3>],
+) -> Word {
+    let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
+        return Word::Silent;
+    };
+    // Both paths from the old place of a to the anchor of b.
+    let by_old = graph.between(a.middle, b.middle);
+    let by_new = graph.between(a.anchor, b.anchor);
+    let loose = Symmetric3::diagonal(0.01, 0.01, 0.0005);
+    let over_old = by_old * b.middle_from_anchor;
+    let old_covariance = old_way.compounded(by_old, b.middle_from_anchor, &loose);
+    let over_new = a.middle_from_anchor * by_new;
+    let new_covariance = loose.compounded(a.middle_from_anchor, by_new, &new_way);
+    let error = [
+        over_old.x_m - over_new.x_m,
+        over_old.y_m - over_new.y_m,
+        normalize_angle(over_old.yaw_rad - over_new.yaw_rad),
+    ];
+    let sum = old_covariance + new_covariance;
+    let Some(information) = sum.inverse() else { return Word::Silent };
+    if information.quadratic(error) >= CONSISTENT {
+        return Word::Opposes;
+    }
+    let by_chance_m = 3.0 * sum.largest_shift().sqrt();
+    if by_chance_m < (EMPTY * a.region_m.min(b.region_m)).max(EMPTY_M) {
+        Word::Agrees
+    } else {
+        Word::Silent
+    }
+}

@@ -1,0 +1,309 @@
+//! Maps from scans at known places.
+
+use std::ops::Range;
+
+use periplus_geometry::Pose2;
+use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
+use periplus_scan_matching::PackedPlaces;
+
+use crate::key::Key;
+
+/// What a beam that passes a cell, and one that ends in it, say of it: log odds in hundredths, for
+/// chances of 0.4 and 0.75; sums end at +-4, so that a cell that changed is learnt anew.
+const MISS: i16 = -41;
+const HIT: i16 = 110;
+const LIMIT: i16 = 400;
+/// Cells beyond a map's edge \[cells\].
+const MARGIN: f64 = 4.0;
+/// Neither seen nor passed.
+const UNSEEN: i16 = i16::MIN;
+
+/// Scans at their places at one moment. It can be drawn somewhere else while the map grows on; the
+/// scans themselves are shared.
+#[derive(Clone, Debug, Default)]
+pub struct Sketch {
+    scans: Vec<Drawn>,
+    resolution_m: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Drawn {
+    key: Key,
+    map_from_key: Pose2,
+}
+
+impl Drawn {
+    /// Ends of beams, in the frame of the key.
+    fn ends(&self) -> &PackedPlaces {
+        self.key.ends.as_deref().unwrap_or(self.key.cloud.places())
+    }
+}
+
+impl Sketch {
+    pub(crate) fn new(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Self {
+        let drawn = |(key, &map_from_key): (&Key, &Pose2)| Drawn { key: key.clone(), map_from_key };
+        Self { scans: keys.iter().zip(poses).map(drawn).collect(), resolution_m }
+    }
+
+    /// The map; none when it would be too large to hold.
+    #[must_use]
+    pub fn draw(self) -> Option<OccupancyGrid> {
+        let plan = self.plan()?;
+        Some(plan.rows(0..plan.lattice.height))
+    }
+
+    /// What it takes to draw the map a few rows at a time; none when it would be too large even so.
+    #[must_use]
+    pub fn plan(self) -> Option<SketchPlan> {
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        let mut spans = Vec::with_capacity(self.scans.len());
+        for scan in &self.scans {
+            let pose = scan.map_from_key;
+            let (mut lowest, mut highest) = (pose.y_m, pose.y_m);
+            let mut include = |x: f64, y: f64| {
+                low = [low[0].min(x), low[1].min(y)];
+                high = [high[0].max(x), high[1].max(y)];
+                (lowest, highest) = (lowest.min(y), highest.max(y));
+            };
+            include(pose.x_m, pose.y_m);
+            for end in scan.ends().iter() {
+                let (x, y) = pose.transform_point(end[0].into(), end[1].into());
+                include(x, y);
+            }
+            // Beams begin at the scanner, which is not where the base is.
+            let [x, y] = scan.key.cloud.places().middle();
+            let (_, y) = pose.transform_point(x.into(), y.into());
+            spans.push([lowest.min(y), highest.max(y)]);
+        }
+        if self.scans.is_empty() {
+            (low, high) = ([0.0; 2], [0.0; 2]);
+        }
+        // Corners at whole cells, so that the same place has the same cell in every run.
+        let resolution_m = self.resolution_m;
+        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN) * resolution_m);
+        let cells = |axis: usize| {
+            ((high[axis] - corner[axis]) / resolution_m + MARGIN).ceil().max(1.0) as usize
+        };
+        let origin = Pose2::new(corner[0], corner[1], 0.0);
+        let lattice = Lattice::new(resolution_m, cells(0), cells(1), origin).ok()?;
+        // A cell more on either side, for rounding.
+        let row = |y: f64| ((y - corner[1]) / resolution_m).max(0.0) as u32;
+        let rows = |[low, high]: [f64; 2]| [row(low).saturating_sub(1), row(high) + 2];
+        Some(SketchPlan {
+            scans: self.scans,
+            lattice,
+            spans: spans.into_iter().map(rows).collect(),
+        })
+    }
+}
+
+/// A map that can be drawn a few rows at a time, so that it is never held as a whole.
+pub trait Plan {
+    /// Where its cells are.
+    fn lattice(&self) -> Lattice;
+
+    /// Some of its rows, counted from the lowest.
+    fn rows(&self, rows: Range<usize>) -> OccupancyGrid;
+}
+
+/// Scans at their places, and which rows of the map each of them touches.
+pub struct SketchPlan {
+    scans: Vec<Drawn>,
+    lattice: Lattice,
+    /// First row, and the one after the last.
+    spans: Vec<[u32; 2]>,
+}
+
+impl Plan for SketchPlan {
+    fn lattice(&self) -> Lattice {
+        self.lattice
+    }
+
+    /// Draws scans at their places: cells that beams passed are free, those where they ended occupied.
+    /// Within a scan a cell where a beam ends is not passed by others.
+    fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
+        let part = part(&self.lattice, &rows);
+        let mut odds: Grid<i16> = Grid::new(part, UNSEEN);
+        let mut marks = Marks::default();
+        for (scan, span) in self.scans.iter().zip(&self.spans) {
+            if (span[0] as usize) < rows.end && (span[1] as usize) > rows.start {
+                marks.fill(scan, &self.lattice, &rows);
+                marks.vote(&mut odds, rows.start);
+            }
+        }
+        odds.map(percent)
+    }
+}
+
+/// Some rows of a lattice.
+pub(crate) fn part(lattice: &Lattice, rows: &Range<usize>) -> Lattice {
+    Lattice { height: rows.len(), ..lattice.moved(0, rows.start as i64) }
+}
+
+/// Which cells of some rows the beams of a scan passed, and in which they ended: a bit for each. It is kept
+/// to be filled again.
+#[derive(Default)]
+struct Marks {
+    /// First column, at a border of words, and first row.
+    low: (usize, usize),
+    /// Words of a row.
+    words: usize,
+    passed: Vec<u64>,
+    ended: Vec<u64>,
+}
+
+impl Marks {
+    fn fill(&mut self, scan: &Drawn, lattice: &Lattice, rows: &Range<usize>) {
+        self.words = 0;
+        let finder = lattice.finder();
+        let (pose, [x, y]) = (scan.map_from_key, scan.key.cloud.places().middle());
+        let (x, y) = pose.transform_point(x.into(), y.into());
+        let Some(start) = finder.cell_of(x, y) else { return };
+        let (s, c) = libm::sincos(pose.yaw_rad);
+        let ends: Vec<_> = scan
+            .ends()
+            .iter()
+            .filter_map(|end| {
+                let (x, y) = (f64::from(end[0]), f64::from(end[1]));
+                finder.cell_of(c * x - s * y + pose.x_m, s * x + c * y + pose.y_m)
+            })
+            .collect();
+        let (mut low, mut high) = (start, start);
+        for end in &ends {
+            low = (low.0.min(end.0), low.1.min(end.1));
+            high = (high.0.max(end.0), high.1.max(end.1));
+        }
+        let (bottom, top) = (low.1.max(rows.start), (high.1 + 1).min(rows.end));
+        if bottom >= top {
+            return;
+        }
+        self.low = (low.0 & !63, bottom);
+        self.words = (high.0 - self.low.0) / 64 + 1;
+        for bits in [&mut self.passed, &mut self.ended] {
+            bits.clear();
+            bits.resize(self.words * (top - bottom), 0);
+        }
+        let place = |(column, row): (usize, usize)| {
+            let column = column - self.low.0;
+            ((row - bottom) * self.words + column / 64, 1_u64 << (column % 64))
+        };
+        let is_inside = |row: usize| (bottom..top).contains(&row);
+        for &end in &ends {
+            if start.1.max(end.1) < bottom || start.1.min(end.1) >= top {
+                continue;
+            }
+            for cell in Line::between(start, end).filter(|cell| is_inside(cell.1)) {
+                let (word, bit) = place(cell);
+                self.passed[word] |= bit;
+            }
+            if is_inside(end.1) {
+                let (word, bit) = place(end);
+                self.ended[word] |= bit;
+            }
+        }
+    }
+
+    /// What the scan says of each of these cells.
+    fn vote(&self, odds: &mut Grid<i16>, first_row: usize) {
+        if self.words == 0 {
+            return;
+        }
+        let lines = self.passed.chunks_exact(self.words).zip(self.ended.chunks_exact(self.words));
+        for (line, (passed, ended)) in lines.enumerate() {
+            let begin = odds.lattice.index((self.low.0, self.low.1 - first_row + line));
+            for (word, (&passed, &ended)) in passed.iter().zip(ended).enumerate() {
+                for (mut bits, says) in [(ended, HIT), (passed & !ended, MISS)] {
+                    while bits != 0 {
+                        let bit = bits.trailing_zeros() as usize;
+                        bits &= bits - 1;
+                        vote(&mut odds.cells[begin + 64 * word + bit], says);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How likely a cell is occupied.
+fn percent(&odds: &i16) -> i8 {
+    if odds == UNSEEN {
+        return occupancy::UNKNOWN;
+    }
+    let chance = 1.0 / (1.0 + libm::exp(-f64::from(odds) / 100.0));
+    (100.0 * chance + 0.5) as i8
+}
+
+fn vote(cell: &mut i16, by: i16) {
+    let before = if *cell == UNSEEN { 0 } else { *cell };
+    *cell = (before + by).clamp(-LIMIT, LIMIT);
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_geometry::Stream;
+    use periplus_scan_matching::Cloud;
+
+    use super::*;
+    use crate::settings::Settings;
+
+    /// Scans of a room, at places in a row.
+    fn sketch() -> Sketch {
+        let settings = Settings::default();
+        let mut stream = Stream::keyed(1, "sketch", 0);
+        let scans = (0..40).map(|scan| {
+            let ends: Vec<[f32; 2]> = (0..360)
+                .map(|beam| {
+                    let (s, c) = libm::sincosf((beam as f32).to_radians());
+                    let range = (3.0 / c.abs().max(s.abs())).min(3.5 + 4.0 * stream.unit() as f32);
+                    [0.2 + range * c, range * s]
+                })
+                .collect();
+            let step = 1.0_f32.to_radians();
+            let cloud =
+                Cloud::new(ends.iter().map(|it| Some(*it)), [0.2, 0.0], step, &settings.cloud);
+            let key = Key::new(&cloud, Some(PackedPlaces::new(&ends, [0.2, 0.0])), 0.0);
+            let at = f64::from(scan);
+            Drawn { key, map_from_key: Pose2::new(0.5 * at, -0.4 * at, 0.3 * at) }
+        });
+        Sketch { scans: scans.collect(), resolution_m: 0.05 }
+    }
+
+    /// Every scan on the whole map, cell by cell.
+    fn plain(sketch: &Sketch, lattice: Lattice) -> Vec<i16> {
+        let mut odds = vec![UNSEEN; lattice.len()];
+        for scan in &sketch.scans {
+            let pose = scan.map_from_key;
+            let cell = |[x, y]: [f32; 2]| {
+                let (x, y) = pose.transform_point(x.into(), y.into());
+                lattice.cell_of(x, y).unwrap()
+            };
+            let start = cell(scan.key.cloud.places().middle());
+            let ends: std::collections::BTreeSet<_> = scan.ends().iter().map(cell).collect();
+            let passed: std::collections::BTreeSet<_> =
+                ends.iter().flat_map(|&end| Line::between(start, end)).collect();
+            ends.iter().for_each(|&cell| vote(&mut odds[lattice.index(cell)], HIT));
+            passed.difference(&ends).for_each(|&cell| vote(&mut odds[lattice.index(cell)], MISS));
+        }
+        odds
+    }
+
+    #[test]
+    fn a_map_in_parts_is_the_whole_map() {
+        let plan = sketch().plan().unwrap();
+        let lattice = plan.lattice();
+        let whole = plan.rows(0..lattice.height);
+        assert_eq!(Some(&whole), sketch().draw().as_ref());
+        let plain = plain(&sketch(), lattice);
+        assert_eq!(whole.cells, plain.iter().map(percent).collect::<Vec<i8>>());
+        for at_once in [1, 7, 64, lattice.height - 1] {
+            let mut cells = Vec::new();
+            for low in (0..lattice.height).step_by(at_once) {
+                let band = plan.rows(low..(low + at_once).min(lattice.height));
+                let (x_m, y_m) = band.lattice.centre_of((3, 0));
+                assert_eq!(lattice.cell_of(x_m, y_m), Some((3, low)));
+                cells.extend(band.cells);
+            }
+            assert!(cells == whole.cells, "{at_once} rows at a time");
+        }
+    }
+}

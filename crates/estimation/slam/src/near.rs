@@ -1,0 +1,156 @@
+//! Ties to old scans at places that are known well enough to compare directly.
+
+use periplus_geometry::normalize_angle;
+use periplus_scan_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, register};
+
+use crate::drift::{Sighting, within};
+use crate::graph::{Edge, Graph, Kind};
+use crate::key::Key;
+use crate::local::{
+    apart, both_ways, close_by, floored, grouped, heading_step, points_of, sampled,
+};
+use crate::settings::Settings;
+
+/// A place is known well enough when its uncertainty is below this \[m\] (a turn counted with it).
+const MOST_M: f64 = 0.6;
+/// Paths to them lead no farther away than this and the way since the last tie \[m\].
+const NEAR_M: f64 = 12.0;
+/// Scans this near look at the same things \[m\].
+const REACH_M: f64 = 4.0;
+/// A scan is old when the robot has gone so far since \[m\].
+const OLD_M: f64 = 10.0;
+/// Points that the other scans must judge, the part of them that must agree, and the part of all
+/// points that must find partners.
+const JUDGED: u32 = 50;
+const AGREEING: f64 = 0.85;
+const MATCHED: f64 = 0.6;
+/// Beyond these uncertainties (3 standard deviations) the place is searched for \[m, rad\].
+const KNOWN_M: f64 = 0.2;
+const KNOWN_RAD: f64 = 0.06;
+/// Another place farther than this \[m\] with this part of the likelihood makes a tie ambiguous.
+const OTHER_M: f64 = 0.5;
+const RIVAL: f64 = 0.8;
+/// Squared Mahalanobis distance of what is possible: 99.9 % for 3 degrees of freedom.
+const POSSIBLE: f64 = 16.3;
+/// How near two points are the same \[m\].
+const TOLERANCE_M: f32 = 0.2;
+/// Old scans on either side of the one that is compared with.
+const BESIDE: usize = 2;
+/// Ties of one scan to different visits.
+const VISITS: usize = 2;
+
+/// Ties a key to old ones nearby whose place it knows well; gives the new edges.
+pub(crate) fn ties(keys: &[Key], graph: &Graph, key: usize, settings: &Settings) -> Vec<Edge> {
+    // What leads to an old scan nearby goes back to where the way was last held, and along an old way.
+    let held = (0..key).rev().find(|&it| graph.is_held(it)).map_or(0.0, |it| keys[it].travel_m);
+    let reach_m = NEAR_M + (keys[key].travel_m - held).max(0.0);
+    let seen = within(graph, key, MOST_M, reach_m);
+    let here = graph.poses[key];
+    let mut candidates: Vec<(f64, Sighting)> = seen
+        .into_iter()
+        .filter(|it| keys[key].travel_m - keys[it.key].travel_m > OLD_M)
+        .filter_map(|it| {
+            let (metres, radians) = apart(here, graph.poses[it.key]);
+            (metres < REACH_M).then_some((metres + 1.2 * radians, it))
+        })
+        .collect();
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.key.cmp(&b.1.key)));
+    let mut edges: Vec<Edge> = Vec::new();
+    let mut tried: Vec<usize> = Vec::new();
+    for (_, candidate) in candidates {
+        let is_same_visit =
+            |&other: &usize| (keys[other].travel_m - keys[candidate.key].travel_m).abs() < OLD_M;
+        if tried.iter().any(is_same_visit) {
+            continue;
+        }
+        let is_tied = |&edge: &u32| {
+            let edge = &graph.edges[edge as usize];
+            edge.kind == Kind::Near && edge.to == key && is_same_visit(&edge.from)
+        };
+        if graph.at[key].iter().any(is_tied) {
+            tried.push(candidate.key);
+            continue;
+        }
+        tried.push(candidate.key);
+        edges.extend(tie(keys, graph, key, &candidate, settings));
+        if edges.len() >= VISITS || tried.len() >= 2 * VISITS {
+            break;
+        }
+    }
+    edges
+}
+
+/// Compares a key with an old one and those around it.
+pub(crate) fn tie(
+    keys: &[Key],
+    graph: &Graph,
+    key: usize,
+    old: &Sighting,
+    settings: &Settings,
+) -> Option<Edge> {
+    let (from, to) = (old.key.saturating_sub(BESIDE), (old.key + BESIDE).min(keys.len() - 1));
+    let group: Vec<usize> = (from..=to).collect();
+    let group = grouped(keys, graph, &group, old.key);
+    let group = group.placed();
+    let expected = graph.between(old.key, key);
+    // The sighting is as seen from the key; its size is what matters here.
+    let (shift_m, turn_rad) = (old.shift_m(), old.turn_rad());
+    let cloud = &keys[key].cloud();
+    let moving = [Placed::alone(cloud)];
+    let prior = Prior {
+        target_from_moving: expected,
+        information: Symmetric3::diagonal(
+            1.0 / (shift_m * shift_m).max(1e-6),
+            1.0 / (shift_m * shift_m).max(1e-6),
+            1.0 / (turn_rad * turn_rad).max(1e-7),
+        ),
+    };
+    let how = close_by(&settings.register);
+    let mut fit = register(&moving, &group, expected, Some(&prior), &how);
+    let mut rival = None;
+    if 3.0 * shift_m > KNOWN_M || 3.0 * turn_rad > KNOWN_RAD {
+        let points = sampled(cloud, 120);
+        let window = Window {
+            middle: expected,
+            half_m: [3.0 * shift_m + 0.1; 2],
+            half_rad: 3.0 * turn_rad + 0.02,
+            step_rad: heading_step(&points, settings.local_field.resolution_m),
+        };
+        let middle = [expected.x_m as f32, expected.y_m as f32];
+        let field = Field::new(&points_of(&group), middle, &settings.local_field);
+        if let (Some(peak), _) = field.search(&points, &window, 0.25, None) {
+            let other = register(&moving, &group, peak.pose, Some(&prior), &how);
+            if other.cost < fit.cost {
+                fit = other;
+            }
+            let least = RIVAL * peak.score;
+            let elsewhere = (fit.target_from_moving, OTHER_M, 0.5);
+            let (second, _) = field.search(&points, &window, least, Some(elsewhere));
+            rival = second.map(|peak| register(&moving, &group, peak.pose, Some(&prior), &how));
+        }
+    }
+    // What ties say must be possible by what is known, in every direction.
+    let found = fit.target_from_moving;
+    let off = graph.between(key, old.key).inverse() * found.inverse();
+    let off = [off.x_m, off.y_m, normalize_angle(off.yaw_rad)];
+    let loose = Symmetric3::diagonal(1e-3, 1e-3, 1e-4);
+    let turned = old.covariance.turned(-graph.between(key, old.key).yaw_rad) + loose;
+    let is_possible = turned.inverse().is_some_and(|known| known.quadratic(off) < POSSIBLE);
+    let is_ambiguous = rival.is_some_and(|rival| {
+        apart(rival.target_from_moving, found).0 > 0.5 * OTHER_M
+            && rival.matched > 0.85 * fit.matched
+    });
+    if fit.matched < MATCHED || !is_possible || is_ambiguous {
+        return None;
+    }
+    let mut sum = Agreement::default();
+    for one in &group {
+        let one_from_key = one.group_from_cloud.inverse() * found;
+        sum += both_ways(cloud, one.cloud, one_from_key, TOLERANCE_M);
+    }
+    if sum.judged() < JUDGED || sum.share() < AGREEING {
+        return None;
+    }
+    let information = floored(&fit.information);
+    Some(Edge::new((old.key, key), fit.target_from_moving, information, Kind::Near))
+}

@@ -1,0 +1,175 @@
+//! All scans against their neighbours at once.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use periplus_geometry::Pose2;
+use periplus_scan_matching::{Cloud, agreement, compare};
+
+use crate::graph::{Graph, Kind, System, error, riders};
+use crate::key::Key;
+use crate::local::apart;
+use crate::settings::Settings;
+
+/// Scans farther apart than this are not compared \[m\].
+const REACH_M: f64 = 5.0;
+/// A turn of a radian between two scans counts as so far apart \[m\].
+const TURN_M: f64 = 0.3;
+/// Scans within this way of each other need no proof that they see the same \[m\].
+const SAME_VISIT_M: f64 = 6.0;
+/// Widths of partners and of weights from the first sweep to the last \[m\].
+const PARTNERS_M: [f32; 2] = [0.3, 0.15];
+const WEIGHTS_M: [f32; 2] = [0.12, 0.06];
+/// What chains say counts this much beside: along corridors only odometry knows.
+const CHAIN: f64 = 0.1;
+/// A sweep moves poses by centimetres: one that would move some by more is not believed \[m\].
+const FARTHEST_M: f64 = 2.0;
+
+/// Refines all poses: each scan is held against its neighbours in place, points of each against lines
+/// of the other, and all poses are solved for together; a few times, as points find better partners.
+/// So a pose is held by all that was ever seen from around it, and not by the order of the drive.
+///
+/// What a pair of scans tells goes straight into the equations: of a map of kilometres there are some
+/// hundred thousand pairs.
+pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
+    let pairs = choose(keys, graph, settings);
+    for sweep in 0..settings.refine_sweeps {
+        let Some((poses, farthest_m)) = refined(keys, graph, &pairs, sweep, settings) else {
+            return;
+        };
+        if farthest_m > FARTHEST_M {
+            return;
+        }
+        graph.poses = poses;
+    }
+}
+
+/// Poses after a sweep, and by how much the farthest has moved; none when they cannot be solved for.
+fn refined(
+    keys: &[Key],
+    graph: &Graph,
+    pairs: &[(usize, usize)],
+    sweep: usize,
+    settings: &Settings,
+) -> Option<(Vec<Pose2>, f64)> {
+    let sweeps = settings.refine_sweeps;
+    let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
+    let width = |[from, to]: [f32; 2]| from + (to - from) * part;
+    let poses = &graph.poses;
+    let chain = || graph.edges.iter().filter(|edge| edge.kind == Kind::Chain);
+    let bodies = riders(graph, (poses.len(), graph.edges.len()), sweep);
+    let ends = || chain().map(|edge| (edge.from, edge.to)).chain(pairs.iter().copied());
+    let mut system = System::new(&bodies, ends);
+    for edge in chain() {
+        let information = edge.information * CHAIN;
+        system.add(poses, (edge.from, edge.to), edge.error(poses), &information);
+    }
+    let mut clouds = Clouds::new(keys);
+    for &(from, to) in pairs {
+        let held = compare(
+            &clouds.get(to),
+            &clouds.get(from),
+            graph.between(from, to),
+            width(PARTNERS_M),
+            width(WEIGHTS_M),
+            if sweep + 2 < sweeps { 2 } else { 1 },
+            &settings.register,
+        );
+        if held.matched >= 0.3 {
+            let off = error(poses, (from, to), held.target_from_moving);
+            system.add(poses, (from, to), off, &held.information);
+        }
+    }
+    system.hold(0.0);
+    system.factorize(0, system.len(), usize::MAX)?;
+    Some(system.solve(poses))
+}
+
+/// Clouds that were looked at last, unpacked.
+struct Clouds<'a> {
+    keys: &'a [Key],
+    kept: Vec<Option<(usize, Rc<Cloud>)>>,
+}
+
+/// So many are kept.
+const KEPT_CLOUDS: usize = 128;
+
+impl<'a> Clouds<'a> {
+    fn new(keys: &'a [Key]) -> Self {
+        Self { keys, kept: vec![None; KEPT_CLOUDS] }
+    }
+
+    fn get(&mut self, key: usize) -> Rc<Cloud> {
+        let kept = &mut self.kept[key % KEPT_CLOUDS];
+        match kept {
+            Some((of, cloud)) if *of == key => Rc::clone(cloud),
+            _ => {
+                let cloud = Rc::new(self.keys[key].cloud());
+                *kept = Some((key, Rc::clone(&cloud)));
+                cloud
+            }
+        }
+    }
+}
+
+/// Pairs of scans that see the same, the earlier first.
+fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize)> {
+    let mut clouds = Clouds::new(keys);
+    let cell = |key: usize| {
+        let pose = graph.poses[key];
+        ((pose.x_m / REACH_M).floor() as i32, (pose.y_m / REACH_M).floor() as i32)
+    };
+    let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
+    let mut pairs = Vec::new();
+    for key in 0..keys.len() {
+        let (column, row) = cell(key);
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        for dx in -1..=1 {
+            for dy in -1..=1 {
+                let there = cells.get(&(column + dx, row + dy)).into_iter().flatten();
+                near.extend(there.filter_map(|&other| {
+                    let (metres, radians) = apart(graph.poses[key], graph.poses[other]);
+                    (metres < REACH_M).then_some((metres + TURN_M * radians, other))
+                }));
+            }
+        }
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut count = 0;
+        let is_gap = |&edge: &u32| {
+            let edge = &graph.edges[edge as usize];
+            edge.is_gap() && edge.to == key
+        };
+        // A piece of map that begins here is chained to nothing.
+        let begins = key == 0 || graph.at[key].iter().any(is_gap);
+        let mut is_chained = begins;
+        for (_, other) in near {
+            if count >= settings.refine_neighbours {
+                break;
+            }
+            if (other + 1 == key && !begins) || is_alike(&mut clouds, graph, other, key) {
+                pairs.push((other, key));
+                is_chained |= other + 1 == key;
+                count += 1;
+            }
+        }
+        if !is_chained {
+            pairs.push((key - 1, key));
+        }
+        cells.entry((column, row)).or_default().push(key);
+    }
+    pairs
+}
+
+/// Whether two scans see the same.
+fn is_alike(clouds: &mut Clouds<'_>, graph: &Graph, a: usize, b: usize) -> bool {
+    let a_from_b = graph.between(a, b);
+    let keys = clouds.keys;
+    let (at_a, at_b) = (clouds.get(a), clouds.get(b));
+    let mut sum = agreement(&at_b, &at_a, a_from_b, 0.25);
+    let least = if (keys[b].travel_m - keys[a].travel_m).abs() < SAME_VISIT_M { 0.5 } else { 0.75 };
+    if sum.agreeing < 20 || sum.share() < least {
+        return false;
+    }
+    sum += agreement(&at_a, &at_b, a_from_b.inverse(), 0.25);
+    sum.share() >= least
+}

@@ -1,0 +1,94 @@
+//! A trajectory held against the truth.
+
+use std::collections::BTreeMap;
+
+use periplus_geometry::Pose2;
+
+/// How far a trajectory is off.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Judgement {
+    /// Length of the way \[m\].
+    pub(crate) way_m: f64,
+    /// After the best rigid alignment \[m\].
+    pub(crate) rms_m: f64,
+    pub(crate) most_m: f64,
+    /// Mean error of relations between passes \[m\], and how many there are.
+    pub(crate) loops_m: f64,
+    pub(crate) loops: usize,
+    /// The same by way: from where on \[m\], how many, and their mean error \[m\].
+    pub(crate) stretches: Vec<(f64, usize, f64)>,
+}
+
+/// Places of different passes nearer than this are compared \[m\], one for each metre of way; passes are
+/// so much way apart \[m\].
+const NEAR_M: f64 = 5.0;
+const EVERY_M: f64 = 1.0;
+const APART_M: f64 = 20.0;
+/// Errors are told for so much way together \[m\].
+const STRETCH_M: f64 = 20.0;
+
+pub(crate) fn judge(truth: &[Pose2], found: &[Pose2]) -> Judgement {
+    let mut ways = vec![0.0];
+    for pair in truth.windows(2) {
+        let step = libm::hypot(pair[1].x_m - pair[0].x_m, pair[1].y_m - pair[0].y_m);
+        ways.push(ways[ways.len() - 1] + step);
+    }
+    let way_m = ways[truth.len() - 1];
+    let (rms_m, most_m) = aligned(truth, found);
+    let mut picked: Vec<usize> = vec![0];
+    for at in 0..truth.len() {
+        if ways[at] - ways[picked[picked.len() - 1]] >= EVERY_M {
+            picked.push(at);
+        }
+    }
+    let mut errors: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
+    for (index, &new) in picked.iter().enumerate() {
+        // The nearest of each earlier pass.
+        let mut nearest: Option<(f64, usize)> = None;
+        for &old in &picked[..=index] {
+            let metres =
+                libm::hypot(truth[old].x_m - truth[new].x_m, truth[old].y_m - truth[new].y_m);
+            let is_near = metres < NEAR_M && ways[new] - ways[old] > APART_M;
+            if is_near && nearest.is_none_or(|it| metres < it.0) {
+                nearest = Some((metres, old));
+            }
+            if !is_near && let Some((_, old)) = nearest.take() {
+                let known = truth[old].inverse() * truth[new];
+                let off = known.inverse() * (found[old].inverse() * found[new]);
+                let stretch = (ways[new] / STRETCH_M) as u32;
+                errors.entry(stretch).or_default().push(libm::hypot(off.x_m, off.y_m));
+            }
+        }
+    }
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+    let all: Vec<f64> = errors.values().flatten().copied().collect();
+    let stretches =
+        errors.iter().map(|(&stretch, of)| (STRETCH_M * f64::from(stretch), of.len(), mean(of)));
+    let stretches = stretches.collect();
+    Judgement { way_m, rms_m, most_m, loops_m: mean(&all), loops: all.len(), stretches }
+}
+
+/// Root mean square and largest distance after the best rigid alignment \[m\].
+fn aligned(truth: &[Pose2], found: &[Pose2]) -> (f64, f64) {
+    let count = truth.len() as f64;
+    let mean = |poses: &[Pose2]| {
+        let sum = poses.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.x_m, sum.1 + it.y_m));
+        (sum.0 / count, sum.1 / count)
+    };
+    let (at, to) = (mean(found), mean(truth));
+    let (mut dot, mut cross) = (0.0, 0.0);
+    for (a, b) in found.iter().zip(truth) {
+        let (ax, ay, bx, by) = (a.x_m - at.0, a.y_m - at.1, b.x_m - to.0, b.y_m - to.1);
+        dot += ax * bx + ay * by;
+        cross += ax * by - ay * bx;
+    }
+    let (s, c) = libm::sincos(libm::atan2(cross, dot));
+    let (mut squares, mut most) = (0.0, 0.0_f64);
+    for (a, b) in found.iter().zip(truth) {
+        let (ax, ay) = (a.x_m - at.0, a.y_m - at.1);
+        let (dx, dy) = (c * ax - s * ay + to.0 - b.x_m, s * ax + c * ay + to.1 - b.y_m);
+        squares += dx * dx + dy * dy;
+        most = most.max(libm::hypot(dx, dy));
+    }
+    ((squares / count).sqrt(), most)
+}

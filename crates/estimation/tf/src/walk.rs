@@ -1,0 +1,144 @@
+//! From one frame to another.
+//!
+//! Source: `BufferCore::walkToTopParent` and `getLatestCommonTime`.
+
+use periplus_geometry::Pose;
+
+use crate::buffer::{Buffer, Found, FrameId};
+use crate::error::{LookupError, Unreachable};
+
+/// A chain that is longer runs in a circle.
+const DEEPEST: usize = 1000;
+
+/// Up from the source to the top of its tree, then up from the target until both meet. Where the
+/// source has no sample at that time its chain ends, which does no harm when the target lies on it.
+pub(crate) fn walk(
+    buffer: &Buffer,
+    target: FrameId,
+    source: FrameId,
+    time_ns: i64,
+) -> Result<Found, LookupError> {
+    let time_ns = if time_ns == 0 { common_time_ns(buffer, target, source)? } else { time_ns };
+    let mut top_from_source = Pose::IDENTITY;
+    let mut top = source;
+    let mut outside = None;
+    for depth in 0.. {
+        if depth > DEEPEST {
+            return Err(circle(buffer));
+        }
+        let Some(cache) = buffer.cache(top) else { break };
+        let sample = match cache.at(time_ns) {
+            Ok(sample) => sample,
+            Err(error) => {
+                outside = Some(error);
+                break;
+            }
+        };
+        if top == target {
+            return Ok(Found { time_ns, target_from_source: top_from_source });
+        }
+        top_from_source = sample.pose() * top_from_source;
+        top = sample.parent;
+    }
+
+    let mut top_from_target = Pose::IDENTITY;
+    let mut frame = target;
+    for depth in 0.. {
+        if depth > DEEPEST {
+            return Err(circle(buffer));
+        }
+        if frame == top {
+            let target_from_source = top_from_target.inverse() * top_from_source;
+            return Ok(Found { time_ns, target_from_source });
+        }
+        let Some(cache) = buffer.cache(frame) else { break };
+        let sample =
+            cache.at(time_ns).map_err(|error| looking_up(buffer, error, target, source))?;
+        if frame == source {
+            return Ok(Found { time_ns, target_from_source: top_from_target.inverse() });
+        }
+        top_from_target = sample.pose() * top_from_target;
+        frame = sample.parent;
+    }
+    Err(match outside {
+        Some(error) => looking_up(buffer, error, target, source),
+        None => unconnected(buffer, target, source),
+    })
+}
+
+/// The newest time that all moving frames between two have in common; 0 when none of them moves.
+fn common_time_ns(buffer: &Buffer, target: FrameId, source: FrameId) -> Result<i64, LookupError> {
+    let earlier = |time_ns: i64, newest_ns: i64| {
+        if newest_ns == 0 { time_ns } else { time_ns.min(newest_ns) }
+    };
+    let or_none = |time_ns: i64| if time_ns == i64::MAX { 0 } else { time_ns };
+    let mut rise: Vec<(i64, FrameId)> = Vec::new();
+    let mut time_ns = i64::MAX;
+    let mut frame = source;
+    while let Some((newest_ns, parent)) = step(buffer, frame) {
+        time_ns = earlier(time_ns, newest_ns);
+        rise.push((newest_ns, parent));
+        frame = parent;
+        if frame == target {
+            return Ok(or_none(time_ns));
+        }
+        if rise.len() > DEEPEST {
+            return Err(circle(buffer));
+        }
+    }
+    let mut time_ns = i64::MAX;
+    let mut frame = target;
+    for depth in 0.. {
+        if depth > DEEPEST {
+            return Err(circle(buffer));
+        }
+        let Some((newest_ns, parent)) = step(buffer, frame) else { break };
+        time_ns = earlier(time_ns, newest_ns);
+        if let Some(meeting) = rise.iter().position(|&(_, met)| met == parent) {
+            let shared = rise[..=meeting].iter();
+            return Ok(or_none(shared.fold(time_ns, |time_ns, &(ns, _)| earlier(time_ns, ns))));
+        }
+        frame = parent;
+        if frame == source {
+            return Ok(or_none(time_ns));
+        }
+    }
+    Err(unconnected(buffer, target, source))
+}
+
+/// Newest stamp and parent of a frame that has one.
+fn step(buffer: &Buffer, frame: FrameId) -> Option<(i64, FrameId)> {
+    let (newest_ns, parent) = buffer.cache(frame)?.newest();
+    (parent != 0).then_some((newest_ns, parent))
+}
+
+fn looking_up(
+    buffer: &Buffer,
+    error: LookupError,
+    target: FrameId,
+    source: FrameId,
+) -> LookupError {
+    let message = format!(
+        "{}, when looking up transform from frame [{}] to frame [{}]",
+        error.message,
+        buffer.name(source),
+        buffer.name(target)
+    );
+    LookupError::new(error.kind, message)
+}
+
+fn unconnected(buffer: &Buffer, target: FrameId, source: FrameId) -> LookupError {
+    let message = format!(
+        "Could not find a connection between '{}' and '{}' because they are not part of the same \
+         tree.Tf has two or more unconnected trees.",
+        buffer.name(target),
+        buffer.name(source)
+    );
+    LookupError::new(Unreachable::Connectivity, message)
+}
+
+fn circle(buffer: &Buffer) -> LookupError {
+    let frames = buffer.frames_text();
+    let message = format!("The tf tree is invalid because it contains a loop.\n{frames}\n");
+    LookupError::new(Unreachable::Lookup, message)
+}

@@ -1,0 +1,78 @@
+//! `docs/type-hashes.md`: which type hashes are checked, and against whom. With UPDATE_EXPECT=1 it is
+//! written anew.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use expect_test::expect_file;
+use periplus_msgs::TypeRegistry;
+
+/// Who says what a hash is, the strongest first, and what the table calls it.
+const SOURCES: [(&str, &str); 5] = [
+    ("running", "a running system"),
+    ("jazzy", "build of Jazzy"),
+    ("rosidl", "rosidl's code"),
+    ("rosbags-jazzy", "rosbags' own types"),
+    ("rosbags", "rosbags over our text"),
+];
+
+const HEAD: &str = "\
+# Type hashes
+
+Since ROS 2 Iron every endpoint says by a hash (RIHS01) what its type is. Ours are calculated from the
+texts in `crates/messages/msgs/interfaces`, and held against those of others by `crates/messages/msgs/tests/oracle.rs`.
+Each type, its hash and who says so stand in `crates/messages/msgs/tests/data/hashes.tsv` and `published.tsv`
+there; how they were got, in `make.py`.
+
+- *A running system*: `ros2 topic info -v` and `ros2 service info` of ROS 2 Jazzy.
+- *Build of Jazzy*: the JSON that rosidl wrote for the packages on PyPI (`ros-sensor-msgs` and others),
+  which hold the binaries of ROS 2 Jazzy.
+- *Rosidl's code*: `*__description.c` as rosidl made it, in public workspaces built with Iron or later.
+- *Rosbags' own types*: the types that PyPI's `rosbags` 0.11.9 knows by itself for Jazzy.
+- *Rosbags over our text*: its calculation on our text. It judges how we calculate, not whether the text
+  is that of the release: where nothing stronger is known, a difference from it would not show here.
+
+A service counts as itself, and by its request, its response and its event where somebody tells them.
+
+";
+
+#[test]
+fn the_list_of_checked_hashes_is_true() {
+    // Package, then the best source of each type.
+    let mut packages: BTreeMap<&str, BTreeMap<&str, usize>> = BTreeMap::new();
+    let tables = [include_str!("data/hashes.tsv"), include_str!("data/published.tsv")];
+    for line in tables.iter().flat_map(|table| table.lines()) {
+        let [name, _, source] = line.split('\t').collect::<Vec<_>>()[..] else {
+            panic!("{line} has not three columns");
+        };
+        let rank = SOURCES.iter().position(|(known, _)| *known == source).unwrap_or(SOURCES.len());
+        assert!(rank < SOURCES.len(), "{line} has a source that is not explained");
+        let package = name.split('/').next().unwrap_or_default();
+        let best = packages.entry(package).or_default().entry(name).or_insert(rank);
+        *best = rank.min(*best);
+    }
+    let known: BTreeSet<String> = TypeRegistry::builtin()
+        .type_names()
+        .filter_map(|name| name.split('/').next().map(str::to_owned))
+        .collect();
+    let checked: BTreeSet<String> = packages.keys().map(|name| (*name).to_owned()).collect();
+    let unchecked: Vec<&String> = known.difference(&checked).collect();
+    let mut text = HEAD.to_owned();
+    let titles: Vec<&str> = SOURCES.iter().map(|(_, title)| *title).collect();
+    let _ = writeln!(text, "| package | {} |\n|---|{}", titles.join(" | "), "---|".repeat(5));
+    let mut sums = [0; SOURCES.len()];
+    for (package, types) in &packages {
+        let mut counts = [0; SOURCES.len()];
+        types.values().for_each(|rank| counts[*rank] += 1);
+        sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+        let _ = writeln!(text, "| `{package}` | {} |", row(&counts));
+    }
+    let _ = writeln!(text, "| all | {} |", row(&sums));
+    let _ = writeln!(text, "\nNot checked: {unchecked:?}.");
+    expect_file!["../../../../docs/type-hashes.md"].assert_eq(&text);
+}
+
+fn row(counts: &[usize]) -> String {
+    let shown = |count: &usize| if *count == 0 { String::new() } else { count.to_string() };
+    counts.iter().map(shown).collect::<Vec<_>>().join(" | ")
+}

@@ -1,0 +1,296 @@
+//! Messages of one kind of recording as those of another.
+
+use std::fmt;
+use std::sync::Arc;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_msgs::{
+    Adaptation, DecodeError, DynamicMessage, EncodeError, Format, Layout, TypeRegistry, recode,
+};
+use periplus_rosidl::{Dialect, Kind, Registry, TypeName};
+
+use crate::{BagTopic, QosProfile, Style, qos};
+
+/// For whom messages are encoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// ROS 2: CDR, types as this program knows them, where it does.
+    Ros2,
+    /// ROS 1 Noetic.
+    Ros1,
+}
+
+impl Target {
+    fn encoding(self) -> &'static str {
+        match self {
+            Self::Ros2 => "cdr",
+            Self::Ros1 => "ros1",
+        }
+    }
+
+    fn format(self) -> Format {
+        match self {
+            Self::Ros2 => Format::CDR,
+            Self::Ros1 => Format::Ros1,
+        }
+    }
+
+    /// The types that are known there.
+    fn known(self) -> &'static TypeRegistry {
+        match self {
+            Self::Ros2 => TypeRegistry::builtin(),
+            Self::Ros1 => TypeRegistry::ros1(),
+        }
+    }
+}
+
+/// Makes the messages of one topic those of another kind.
+#[derive(Debug)]
+pub struct Translation {
+    topic: BagTopic,
+    way: Way,
+    out: Vec<u8>,
+}
+
+#[derive(Debug)]
+enum Way {
+    /// They are already.
+    Same,
+    /// The same values in other bytes.
+    Recode { layout: Arc<Layout>, from: Format, to: Format },
+    /// Another revision of the type.
+    Adapt { layout: Arc<Layout>, from: Format, adaptation: Adaptation, to: Format },
+}
+
+/// Why a message cannot be translated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TranslateError {
+    /// Its bytes are no such message.
+    Decode(DecodeError),
+    /// The other kind cannot hold it.
+    Encode(EncodeError),
+}
+
+impl fmt::Display for TranslateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Decode(error) => error.fmt(f),
+            Self::Encode(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for TranslateError {}
+
+/// Types that ROS 1 had under another name.
+const RENAMED: [(&str, &str); 1] = [("tf/tfMessage", "tf2_msgs/msg/TFMessage")];
+
+impl Translation {
+    /// How messages of a topic become those for a target. None, with a finding, when nobody knows
+    /// what they look like.
+    #[must_use]
+    pub fn new(topic: &BagTopic, target: Target, diagnostics: &mut Diagnostics) -> Option<Self> {
+        let renamed = RENAMED.iter().find(|(old, _)| *old == topic.type_name);
+        let type_name = renamed.map_or(topic.type_name.as_str(), |(_, new)| new);
+        if topic.encoding == target.encoding() && renamed.is_none() {
+            let mut topic = topic.clone();
+            complete(&mut topic, target);
+            return Some(Self { topic, way: Way::Same, out: Vec::new() });
+        }
+        let from = match topic.encoding.as_str() {
+            "cdr" => Format::CDR,
+            "ros1" => Format::Ros1,
+            other => {
+                let wrong = format!("messages of `{}` are encoded as `{other}`", topic.name);
+                diagnostics.push(left_out(wrong, "only CDR and ROS 1 are translated"));
+                return None;
+            }
+        };
+        let Some(name) = TypeName::read(type_name) else {
+            let wrong =
+                format!("`{type_name}`, the type of `{}`, is no name of a type", topic.name);
+            diagnostics.push(left_out(wrong, "types are named `package/Name`"));
+            return None;
+        };
+        let own = own_types(topic, type_name);
+        let full_name = name.to_string();
+        let source = own.layout(&full_name).or_else(|| match from {
+            Format::Ros1 => TypeRegistry::ros1().layout(&full_name),
+            Format::Cdr(_) => TypeRegistry::builtin().layout(&full_name),
+        });
+        let Some(source) = source.cloned() else {
+            let wrong = format!("nobody knows the type `{full_name}` of `{}`", topic.name);
+            diagnostics.push(left_out(wrong, "the recording does not define it in a text"));
+            return None;
+        };
+        let own = match target {
+            Target::Ros2 => TypeRegistry::new(own.registry().for_ros2(), &mut Diagnostics::new()),
+            Target::Ros1 => own,
+        };
+        let types = if target.known().layout(&full_name).is_some() { target.known() } else { &own };
+        let Some(described) = describe(topic, &name, types, target) else {
+            let wrong =
+                format!("`{full_name}`, the type of `{}`, does not exist there", topic.name);
+            diagnostics.push(left_out(
+                wrong,
+                "ROS 1 has neither texts of wide characters nor parts of services as messages",
+            ));
+            return None;
+        };
+        let goal = types.layout(&full_name)?;
+        let to = target.format();
+        let way = if source.has_bytes_of(goal) {
+            Way::Recode { layout: source, from, to }
+        } else {
+            let adaptation = Adaptation::new(&source, goal);
+            diagnostics.push(adapted(topic, &full_name, &adaptation));
+            Way::Adapt { layout: source, from, adaptation, to }
+        };
+        Some(Self { topic: described, way, out: Vec::new() })
+    }
+
+    /// A topic whose messages stay as they are, whatever they are.
+    #[must_use]
+    pub fn untouched(topic: &BagTopic) -> Self {
+        Self { topic: topic.clone(), way: Way::Same, out: Vec::new() }
+    }
+
+    /// The topic as it is there.
+    #[must_use]
+    pub fn topic(&self) -> &BagTopic {
+        &self.topic
+    }
+
+    /// Whether messages stay as they are.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        matches!(self.way, Way::Same)
+    }
+
+    /// The bytes of a message there.
+    ///
+    /// # Errors
+    /// When they are no such message.
+    pub fn translate<'a>(&'a mut self, data: &'a [u8]) -> Result<&'a [u8], TranslateError> {
+        self.out.clear();
+        match &self.way {
+            Way::Same => return Ok(data),
+            Way::Recode { layout, from, to } => {
+                recode(layout, *from, data, *to, &mut self.out).map_err(TranslateError::Decode)?;
+            }
+            Way::Adapt { layout, from, adaptation, to } => {
+                let message = DynamicMessage::decode(layout, *from, data);
+                let message = adaptation.apply(message.map_err(TranslateError::Decode)?);
+                message.encode(*to, &mut self.out).map_err(TranslateError::Encode)?;
+            }
+        }
+        Ok(&self.out)
+    }
+}
+
+fn left_out(wrong: String, help: &str) -> Diagnostic {
+    Diagnostic::warning("untranslatable-topic", wrong)
+        .help(format!("the topic is left out: {help}"))
+}
+
+fn adapted(topic: &BagTopic, type_name: &str, adaptation: &Adaptation) -> Diagnostic {
+    let wrong = format!("`{}` holds another revision of `{type_name}`", topic.name);
+    let mut finding = Diagnostic::warning("other-revision", wrong);
+    if !adaptation.lost().is_empty() {
+        finding = finding.note(format!("without a place there: {}", adaptation.lost().join(", ")));
+    }
+    if !adaptation.blank().is_empty() {
+        finding = finding.note(format!("without a value there: {}", adaptation.blank().join(", ")));
+    }
+    finding
+}
+
+/// The types that the topic's own text defines.
+fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
+    let mut registry = Registry::new();
+    let dialect = match topic.schema_encoding.as_str() {
+        "ros2msg" => Some(Dialect::Ros2),
+        "ros1msg" => Some(Dialect::Ros1),
+        _ => None,
+    };
+    // What is wrong with a text shows in the type not being known.
+    let mut findings = Diagnostics::new();
+    if let (Some(dialect), Some(name)) = (dialect, TypeName::read(type_name)) {
+        let mut sources = SourceMap::new();
+        let text = String::from_utf8_lossy(&topic.schema).into_owned();
+        let file = sources.add(format!("schema of {}", topic.name), text);
+        registry.add_schema(&name, file, &sources, dialect, &mut findings);
+    }
+    TypeRegistry::new(registry, &mut findings)
+}
+
+/// The topic with its type as it is known there; none when it cannot be.
+fn describe(
+    topic: &BagTopic,
+    name: &TypeName,
+    types: &TypeRegistry,
+    target: Target,
+) -> Option<BagTopic> {
+    let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
+    let full_name = name.to_string();
+    let mut described = BagTopic {
+        name: topic.name.clone(),
+        type_name: full_name.clone(),
+        encoding: target.encoding().into(),
+        schema_encoding: String::new(),
+        schema: Vec::new(),
+        metadata: Default::default(),
+    };
+    match target {
+        Target::Ros2 => {
+            described.schema_encoding = "ros2msg".into();
+            described.schema = types.schema_text(&full_name)?.into();
+            let latched = about("latching") == "1";
+            let profile = if latched { QosProfile::latched(1) } else { QosProfile::reliable(10) };
+            let profiles = qos::to_yaml(&[profile], Style::default(), 0);
+            described.metadata.insert("offered_qos_profiles".into(), profiles);
+            described
+                .metadata
+                .extend(types.hash(&full_name).map(|hash| ("topic_type_hash".to_owned(), hash)));
+        }
+        Target::Ros1 => {
+            // ROS 1 has no names for parts of services.
+            if name.kind != Kind::Message {
+                return None;
+            }
+            described.type_name = name.short();
+            described.schema_encoding = "ros1msg".into();
+            let text = types.registry().ros1_text(name)?;
+            described.schema = text.text.into();
+            described.metadata.insert("md5sum".into(), text.md5);
+            let is_latched = qos::from_text(about("offered_qos_profiles"))
+                .iter()
+                .any(|profile| profile.durability == crate::Durability::TransientLocal);
+            let latching = if is_latched { "1" } else { "0" };
+            described.metadata.insert("latching".into(), latching.into());
+        }
+    }
+    Some(described)
+}
+
+/// Adds the text of a type that a recording only names, when it is known here.
+fn complete(topic: &mut BagTopic, target: Target) {
+    let Some(name) = TypeName::read(&topic.type_name) else { return };
+    if target == Target::Ros1 && !topic.metadata.contains_key("md5sum") {
+        let own = own_types(topic, &topic.type_name);
+        let text = own.registry().ros1_text(&name);
+        topic.metadata.extend(text.map(|text| ("md5sum".to_owned(), text.md5)));
+    }
+    if !topic.schema.is_empty() {
+        return;
+    }
+    if let Some(known) = describe(topic, &name, target.known(), target) {
+        topic.schema = known.schema;
+        topic.schema_encoding = known.schema_encoding;
+        for (key, value) in known.metadata {
+            if key != "offered_qos_profiles" && key != "latching" {
+                topic.metadata.entry(key).or_insert(value);
+            }
+        }
+    }
+}

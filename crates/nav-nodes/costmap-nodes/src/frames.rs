@@ -1,0 +1,63 @@
+//! Where frames are, as heard on `/tf` and `/tf_static`.
+
+use periplus_costmap::Frames;
+use periplus_geometry::Pose;
+use periplus_graph::{GraphError, Mailbox, Node, Qos};
+use periplus_msgs::tf2_msgs;
+use periplus_tf::{Kind, LookupError};
+use periplus_tf_ros as whereabouts;
+
+/// Most transforms that wait between two updates.
+const DEPTH: usize = 1000;
+
+/// Frames, and where news of them come from.
+pub(crate) struct Listener {
+    frames: whereabouts::Frames,
+    moving: Mailbox<tf2_msgs::TFMessage>,
+    fixed: Mailbox<tf2_msgs::TFMessage>,
+}
+
+impl Listener {
+    pub(crate) fn new(node: &Node) -> Result<Self, GraphError> {
+        Ok(Self {
+            frames: whereabouts::Frames::default(),
+            moving: node.mailbox("/tf", Qos::reliable(DEPTH))?,
+            fixed: node.mailbox("/tf_static", Qos::latched(DEPTH))?,
+        })
+    }
+
+    /// Takes in what has come.
+    pub(crate) fn listen(&mut self) {
+        for (mailbox, kind) in [(&self.fixed, Kind::Fixed), (&self.moving, Kind::Moving)] {
+            for message in mailbox.drain() {
+                self.frames.take(&message, kind);
+            }
+        }
+    }
+
+    /// Drops transforms of before a jump of the clock; frames that never move stay.
+    pub(crate) fn forget(&mut self) {
+        let _ = self.moving.drain();
+        self.frames.forget();
+    }
+
+    /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
+    pub(crate) fn at(
+        &self,
+        target: &str,
+        source: &str,
+        time_ns: i64,
+    ) -> Result<(Pose, i64), LookupError> {
+        self.frames.at(target, source, time_ns)
+    }
+
+    pub(crate) fn has(&self, frame: &str) -> bool {
+        self.frames.has(frame)
+    }
+}
+
+impl Frames for Listener {
+    fn latest(&self, target: &str, source: &str) -> Option<Pose> {
+        self.at(target, source, 0).ok().map(|(pose, _)| pose)
+    }
+}

@@ -1,0 +1,104 @@
+//! Who is told what is estimated.
+
+use periplus_ekf::{Estimate, Variable};
+use periplus_geometry::DVec3;
+use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
+use periplus_msgs::geometry_msgs::{
+    Accel, AccelWithCovariance, AccelWithCovarianceStamped, PoseWithCovariance, Twist,
+    TwistWithCovariance, Vector3,
+};
+use periplus_msgs::nav_msgs::Odometry;
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_tf_ros::pose;
+
+/// Topics that are published.
+pub(crate) struct Outputs {
+    odometry: Publisher<Odometry>,
+    acceleration: Option<Publisher<AccelWithCovarianceStamped>>,
+    pub(crate) tf: Publisher<TFMessage>,
+    diagnostics: Publisher<DiagnosticArray>,
+}
+
+impl Outputs {
+    pub(crate) fn new(node: &Node, tells_acceleration: bool) -> Result<Self, GraphError> {
+        let acceleration =
+            tells_acceleration.then(|| node.publisher("accel/filtered", Qos::reliable(10)));
+        Ok(Self {
+            odometry: node.publisher("odometry/filtered", Qos::reliable(10))?,
+            acceleration: acceleration.transpose()?,
+            tf: node.publisher("/tf", Qos::reliable(100))?,
+            diagnostics: node.publisher("/diagnostics", Qos::reliable(10))?,
+        })
+    }
+
+    pub(crate) fn publish(&self, estimate: &Estimate, world: &str, base: &str) {
+        let (linear, angular) = estimate.twist();
+        self.odometry.publish(Odometry {
+            header: Header::at(estimate.time_ns, world),
+            child_frame_id: base.to_owned(),
+            pose: PoseWithCovariance {
+                pose: pose(estimate.world_from_base()),
+                covariance: estimate.covariance_of(Variable::X),
+            },
+            twist: TwistWithCovariance {
+                twist: Twist { linear: vector(linear), angular: vector(angular) },
+                covariance: estimate.covariance_of(Variable::Vx),
+            },
+        });
+        if let Some(acceleration) = &self.acceleration {
+            let mut covariance = [0.0; 36];
+            for row in 0..3 {
+                for column in 0..3 {
+                    let at = Variable::Ax.at();
+                    covariance[row * 6 + column] = estimate.covariance[(at + row, at + column)];
+                }
+            }
+            let accel = Accel { linear: vector(estimate.acceleration()), ..Accel::default() };
+            acceleration.publish(AccelWithCovarianceStamped {
+                header: Header::at(estimate.time_ns, base),
+                accel: AccelWithCovariance { accel, covariance },
+            });
+        }
+    }
+
+    /// How it goes: what keeps the node from its work, and what was not believed.
+    pub(crate) fn publish_health(&self, health: &Health<'_>, time_ns: i64) {
+        let status = vec![health.to_message()];
+        self.diagnostics.publish(DiagnosticArray { header: Header::at(time_ns, ""), status });
+    }
+}
+
+/// How it goes.
+pub(crate) struct Health<'a> {
+    pub(crate) node: &'a str,
+    pub(crate) trouble: Option<&'a str>,
+    pub(crate) estimate: Option<&'a Estimate>,
+    pub(crate) refused: &'a [(String, u64)],
+}
+
+impl Health<'_> {
+    fn to_message(&self) -> DiagnosticStatus {
+        let refused = self.refused.iter().map(|(source, count)| KeyValue {
+            key: format!("{source} not believed"),
+            value: count.to_string(),
+        });
+        let (level, message) = match (self.trouble, self.estimate) {
+            (Some(trouble), _) => (DiagnosticStatus::ERROR, trouble),
+            (None, None) => (DiagnosticStatus::WARN, "nothing has been measured yet"),
+            (None, Some(_)) => (DiagnosticStatus::OK, "the filter runs"),
+        };
+        DiagnosticStatus {
+            level,
+            name: format!("{}: filter", self.node.trim_start_matches('/')),
+            message: message.to_owned(),
+            hardware_id: String::new(),
+            values: refused.collect(),
+        }
+    }
+}
+
+fn vector(vector: DVec3) -> Vector3 {
+    Vector3 { x: vector.x, y: vector.y, z: vector.z }
+}

@@ -1,0 +1,104 @@
+//! Between messages and what localization knows.
+
+use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
+use periplus_localization::{Covariance2, Particles, Scan};
+use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
+use periplus_msgs::nav2_msgs;
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::std_msgs::Header;
+use periplus_tf_ros::pose;
+
+/// How far the length of a quaternion may be from 1: what is off further was not meant as one.
+const OFF: f64 = 0.01;
+
+/// A scan of a message, with where its scanner is on the robot: `base_from_laser`. A scanner that
+/// hangs upside down is one whose axis points down.
+#[must_use]
+pub fn scan(message: &LaserScan, base_from_laser: Pose) -> Scan {
+    let ahead = base_from_laser.rotation * DVec3::X;
+    let up = base_from_laser.rotation * DVec3::Z;
+    let place = base_from_laser.translation;
+    Scan {
+        base_from_laser: Pose2::new(place.x, place.y, libm::atan2(ahead.y, ahead.x)),
+        is_flipped: up.z < 0.0,
+        angle_min_rad: message.angle_min.into(),
+        angle_increment_rad: message.angle_increment.into(),
+        range_min_m: message.range_min.into(),
+        range_max_m: message.range_max.into(),
+        ranges_m: message.ranges.clone(),
+    }
+}
+
+/// The pose on the ground of a message; in words why it is none.
+pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
+    let geometry_msgs::Pose { position, orientation: q } = pose;
+    let rotation = DQuat::from_xyzw(q.x, q.y, q.z, q.w);
+    let length = rotation.length();
+    // What is no number is off, too.
+    let is_rotation = (length - 1.0).abs() < OFF;
+    if !is_rotation {
+        return Err(format!(
+            "its orientation ({}, {}, {}, {}) is no rotation: a quaternion has length one, this one \
+             has {length:.3}",
+            q.x, q.y, q.z, q.w
+        ));
+    }
+    let xyz = [position.x, position.y, position.z];
+    Ok(Pose2::from(Pose::from_xyz_quaternion(xyz, rotation)))
+}
+
+pub(crate) fn pose_with_covariance(
+    map_from_base: Pose2,
+    covariance: Covariance2,
+    time_ns: i64,
+    frame: &str,
+) -> PoseWithCovarianceStamped {
+    PoseWithCovarianceStamped {
+        header: Header::at(time_ns, frame),
+        pose: PoseWithCovariance { pose: pose(map_from_base), covariance: covariance.to_rows() },
+    }
+}
+
+pub(crate) fn cloud(particles: &Particles, time_ns: i64, frame: &str) -> nav2_msgs::ParticleCloud {
+    let particle = |index: usize| nav2_msgs::Particle {
+        pose: pose(particles.pose(index)),
+        weight: particles.weight[index],
+    };
+    nav2_msgs::ParticleCloud {
+        header: Header::at(time_ns, frame),
+        particles: (0..particles.len()).map(particle).collect(),
+    }
+}
+
+pub(crate) fn poses(
+    all: impl Iterator<Item = Pose2>,
+    time_ns: i64,
+    frame: &str,
+) -> geometry_msgs::PoseArray {
+    geometry_msgs::PoseArray { header: Header::at(time_ns, frame), poses: all.map(pose).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_go_there_and_back_and_no_rotation_is_none() {
+        let there = Pose2::new(1.0, -2.0, 3.0);
+        let back = pose2(&pose(there)).unwrap_or_default();
+        assert!((back.yaw_rad - 3.0).abs() < 1e-12 && back.x_m == 1.0, "{back:?}");
+        let mut bad = pose(there);
+        bad.orientation = geometry_msgs::Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
+        assert!(pose2(&bad).is_err_and(|why| why.contains("is no rotation")));
+        bad.orientation.w = f64::NAN;
+        assert!(pose2(&bad).is_err());
+    }
+
+    #[test]
+    fn a_scanner_upside_down_is_known_by_its_axis() {
+        let message = LaserScan { ranges: vec![1.0], ..LaserScan::default() };
+        let over = DQuat::from_rotation_x(std::f64::consts::PI);
+        let scan = scan(&message, Pose::from_xyz_quaternion([0.1, 0.0, 0.3], over));
+        assert!(scan.is_flipped && scan.base_from_laser.yaw_rad.abs() < 1e-12, "{scan:?}");
+    }
+}

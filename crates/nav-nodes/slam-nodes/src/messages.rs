@@ -1,0 +1,106 @@
+//! Between messages and what mapping knows.
+
+use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
+use periplus_grid::OccupancyGrid;
+use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
+use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
+use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_msgs::std_msgs::Header;
+use periplus_scan_matching::Symmetric3;
+use periplus_slam::Scan;
+use periplus_tf_ros::pose;
+
+/// How far the length of a quaternion may be from 1: what is off further was not meant as one.
+const OFF: f64 = 0.01;
+/// How sure people are who do not say: one standard deviation \[m, rad\], as `RViz` sends it.
+const USUAL: [f64; 2] = [0.5, 0.26];
+
+/// A scan of a message, with where its scanner is on the robot. A scanner that hangs upside down is
+/// one whose axis points down, or one that is said to be.
+pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool) -> Scan {
+    let ahead = base_from_laser.rotation * DVec3::X;
+    let up = base_from_laser.rotation * DVec3::Z;
+    let place = base_from_laser.translation;
+    Scan {
+        time_ns: message.header.stamp.ns(),
+        base_from_laser: Pose2::new(place.x, place.y, libm::atan2(ahead.y, ahead.x)),
+        is_flipped: (up.z < 0.0) != is_inverted,
+        angle_min_rad: message.angle_min.into(),
+        angle_increment_rad: message.angle_increment.into(),
+        time_increment_s: message.time_increment.into(),
+        range_min_m: message.range_min,
+        range_max_m: message.range_max,
+        ranges_m: message.ranges.clone(),
+    }
+}
+
+/// From which share of hits on a cell of a published map is a wall \[%\]: when more spoke for it than
+/// against it.
+const WALL: i8 = 50;
+
+/// A map as `slam_toolbox` and `slam_gmapping` publish it: walls, free ground and what nobody has seen.
+/// Nav2's static layer takes only a cell of 100 for a wall, unless told otherwise.
+pub(crate) fn published(map: &OccupancyGrid) -> OccupancyGrid {
+    map.map(|&cell| match cell {
+        UNKNOWN => UNKNOWN,
+        WALL.. => OCCUPIED,
+        _ => FREE,
+    })
+}
+
+/// The pose on the ground of a message; in words why it is none.
+pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
+    let geometry_msgs::Pose { position, orientation: q } = pose;
+    let rotation = DQuat::from_xyzw(q.x, q.y, q.z, q.w);
+    let length = rotation.length();
+    // What is no number is off, too.
+    let is_rotation = (length - 1.0).abs() < OFF;
+    if !is_rotation || !position.x.is_finite() || !position.y.is_finite() {
+        return Err(format!(
+            "its place ({}, {}) has to be finite, and its orientation ({}, {}, {}, {}) a quaternion \
+             of length one; this one has {length:.3}",
+            position.x, position.y, q.x, q.y, q.z, q.w
+        ));
+    }
+    let xyz = [position.x, position.y, position.z];
+    Ok(Pose2::from(Pose::from_xyz_quaternion(xyz, rotation)))
+}
+
+/// Rows of six: x, y, z and the turns about them.
+const XX: usize = 0;
+const XY: usize = 1;
+const XT: usize = 5;
+const YX: usize = 6;
+const YY: usize = 7;
+const YT: usize = 11;
+const TX: usize = 30;
+const TY: usize = 31;
+const TT: usize = 35;
+
+pub(crate) fn pose_with_covariance(
+    map_from_base: Pose2,
+    covariance: &Symmetric3,
+    time_ns: i64,
+    frame: &str,
+) -> PoseWithCovarianceStamped {
+    let mut rows = [0.0; 36];
+    let Symmetric3 { xx, xy, xt, yy, yt, tt } = *covariance;
+    for (at, value) in
+        [(XX, xx), (XY, xy), (XT, xt), (YX, xy), (YY, yy), (YT, yt), (TX, xt), (TY, yt), (TT, tt)]
+    {
+        rows[at] = value;
+    }
+    PoseWithCovarianceStamped {
+        header: Header::at(time_ns, frame),
+        pose: PoseWithCovariance { pose: pose(map_from_base), covariance: rows },
+    }
+}
+
+/// How sure a message is; what it leaves open, or is none, is what people usually mean.
+pub(crate) fn covariance(rows: &[f64; 36]) -> Symmetric3 {
+    let variance = |at: usize, usual: f64| {
+        let given = rows[at];
+        if given.is_finite() && given > 0.0 { given } else { usual * usual }
+    };
+    Symmetric3::diagonal(variance(XX, USUAL[0]), variance(YY, USUAL[0]), variance(TT, USUAL[1]))
+}

@@ -1,0 +1,312 @@
+//! From a path to a scene.
+
+use std::path::{Path, PathBuf};
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
+use periplus_resources::{Kind, ReadError, nearest};
+use periplus_scene::Scene;
+use periplus_urdf::Robot;
+use periplus_xml::Document;
+
+use crate::detect::{Language, language, promised};
+use crate::documents::{model_of, read_xml};
+use crate::example_worlds::{self, Example};
+use crate::includes::Files;
+use crate::mesh_files::{self, MeshSummary};
+use crate::other_files;
+use crate::setting::{Setting, shown};
+
+/// What a file gave.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The file.
+    pub path: PathBuf,
+    /// What it is written in.
+    pub language: Language,
+    /// The texts that took part.
+    pub sources: SourceMap,
+    /// What is wrong with them.
+    pub diagnostics: Diagnostics,
+    /// The XML, with xacro expanded. None when it is not XML, or does not expand.
+    pub document: Option<Document>,
+    /// Whether the document is what its macros make of it: no error came before it was interpreted.
+    pub is_expanded: bool,
+    /// The robot, of a URDF.
+    pub robot: Option<Robot>,
+    /// What it means. None for files that describe no scene.
+    pub scene: Option<Scene>,
+    /// What a mesh file holds.
+    pub mesh: Option<MeshSummary>,
+    /// What other files hold, a line each.
+    pub contents: Vec<String>,
+    /// Other files that took part, in order of use.
+    pub files: Vec<PathBuf>,
+    /// Names of the arguments that it declares or reads; empty for what is no xacro.
+    pub known_arguments: Vec<String>,
+}
+
+impl Loaded {
+    /// The names among these arguments that the file knows nothing of. None of a file that could not
+    /// be expanded.
+    #[must_use]
+    pub fn unknown_arguments<'a>(&self, given: &'a [(String, String)]) -> Vec<&'a str> {
+        if self.document.is_none() {
+            return Vec::new();
+        }
+        let names = given.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| !self.known_arguments.iter().any(|known| known == name)).collect()
+    }
+
+    /// Warns of an argument that has no effect on the file.
+    pub fn warn_of_argument(&mut self, name: &str) {
+        let file = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let warning = Diagnostic::warning(
+            "unknown-argument",
+            format!("`{file}` has no argument `{name}`: `{name}:=...` changes nothing"),
+        );
+        let known = self.known_arguments.iter().map(String::as_str);
+        let warning = match closest(name, known) {
+            Some(near) => warning.help(format!("did you mean `{near}`?")),
+            None if self.language != Language::Xacro => {
+                warning.help("only xacro files take arguments")
+            }
+            None if self.known_arguments.is_empty() => {
+                warning.help("declare it: <xacro:arg name=\"...\" default=\"...\"/>")
+            }
+            None => warning.help(format!("it has {}", self.known_arguments.join(", "))),
+        };
+        self.diagnostics.push(warning);
+    }
+}
+
+/// Reads a file of any kind that is known.
+#[must_use]
+pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
+    let written = path;
+    let path = setting.working_folder.join(path);
+    if setting.host.kind(&path) == Some(Kind::Folder) {
+        return load_folder(path, setting);
+    }
+    // Large files of which only the name counts.
+    if let Some(Language::Recording | Language::Archive) = other_files::recognise(&path, &[])
+        && setting.host.kind(&path).is_some()
+    {
+        return load_bytes(&path, &[], setting);
+    }
+    match setting.host.read(&path) {
+        Ok(bytes) => load_bytes(&path, &bytes, setting),
+        Err(ReadError::Missing) if let Some(found) = on_resource_path(written, setting) => {
+            load(&found, setting)
+        }
+        Err(ReadError::Missing)
+            if let Some(Example::BuiltIn(text)) = example_worlds::find(written) =>
+        {
+            let mut loaded = load_bytes(&path, text.as_bytes(), setting);
+            let name = written.display();
+            loaded.diagnostics.push(
+                Diagnostic::hint("example-world", format!("`{name}` is the built-in world of that name"))
+                    .note("it has the models, sensors and topics of Gazebo's example, in shapes of our own"),
+            );
+            loaded
+        }
+        Err(error) => {
+            let found = example_worlds::find(written).filter(|_| error == ReadError::Missing);
+            let mut loaded = empty(path);
+            let near = match error {
+                ReadError::Missing => nearest(setting.host, &loaded.path),
+                _ => None,
+            };
+            let helped = match found {
+                Some(Example::OfGazebo) => Some(
+                    "Gazebo has an example of that name, which is not built in: copy it from a \
+                     machine with Gazebo (`/usr/share/gz/gz-sim8/worlds`, or \
+                     `/usr/share/gazebo-11/worlds`) and put its folder on GZ_SIM_RESOURCE_PATH"
+                        .to_owned(),
+                ),
+                _ if near.is_some() => near.map(|near| {
+                    format!("did you mean `{}`?", shown(&near, &setting.working_folder))
+                }),
+                Some(Example::Unknown(Some(near))) => {
+                    Some(format!("did you mean `{near}.sdf`, which is built in?"))
+                }
+                _ => None,
+            };
+            let told = Diagnostic::error(
+                "unreadable-file",
+                format!(
+                    "`{}` cannot be read: {error}",
+                    shown(&loaded.path, &setting.working_folder)
+                ),
+            );
+            loaded.diagnostics.push(told.help(helped.unwrap_or_else(|| {
+                "check the path; it is taken from the folder you stand in".to_owned()
+            })));
+            loaded
+        }
+    }
+}
+
+/// A file of a relative path in the folders of resources, where Gazebo looks for worlds too.
+fn on_resource_path(written: &Path, setting: &Setting<'_>) -> Option<PathBuf> {
+    if written.is_absolute() || written.starts_with("..") {
+        return None;
+    }
+    let found = setting.resolver.resolve(written.to_str()?, &setting.working_folder).ok()?;
+    (setting.host.kind(&found) == Some(Kind::File)).then_some(found)
+}
+
+/// Reads the model that a folder holds.
+fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
+    let has = |name: &str| setting.host.kind(&path.join(name)) == Some(Kind::File);
+    if has("model.config") || has("model.sdf") {
+        match setting.resolver.model_file(&path) {
+            Ok(file) => return load(&file, setting),
+            Err(miss) => {
+                let mut loaded = empty(path);
+                loaded.diagnostics.push(miss.into_diagnostic(Origin::default()));
+                return loaded;
+            }
+        }
+    }
+    let what = if has("metadata.yaml") {
+        (Language::Recording, "a recording")
+    } else if has("package.xml") {
+        (Language::Folder, "a package")
+    } else {
+        (Language::Folder, "a folder without a model.config")
+    };
+    let mut loaded = empty(path);
+    loaded.language = what.0;
+    let told = format!("`{}` is {}", shown(&loaded.path, &setting.working_folder), what.1);
+    let advice = what.0.advice().unwrap_or_default();
+    loaded.diagnostics.push(Diagnostic::error("folder", told).help(advice));
+    loaded
+}
+
+/// Reads what a file of this name would hold: a text that came over a wire, or is built in. What it
+/// mentions is looked for from that place.
+#[must_use]
+pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
+    let mut loaded = empty(setting.working_folder.join(path));
+    let path = loaded.path.clone();
+    if mesh_files::is_mesh(&path) {
+        loaded.language = Language::Mesh;
+        loaded.mesh = mesh_files::summarise(&path, bytes, setting, &mut loaded.diagnostics);
+        return loaded;
+    }
+    if let Some(language) = other_files::recognise(&path, bytes) {
+        loaded.language = language;
+        other_files::read(bytes, setting, &mut loaded);
+        return loaded;
+    }
+    if let Some(document) =
+        read_xml(&path, bytes, setting, &mut loaded.sources, &mut loaded.diagnostics)
+    {
+        loaded.language = language(&path, &document);
+        interpret(document, setting, &mut loaded);
+    }
+    loaded
+}
+
+/// Nothing yet of a file.
+fn empty(path: PathBuf) -> Loaded {
+    Loaded {
+        language: promised(&path),
+        path,
+        sources: SourceMap::new(),
+        diagnostics: Diagnostics::new(),
+        document: None,
+        is_expanded: false,
+        robot: None,
+        scene: None,
+        mesh: None,
+        contents: Vec::new(),
+        files: Vec::new(),
+        known_arguments: Vec::new(),
+    }
+}
+
+/// Whether an expanded file is one of macros and properties for others to include: a robot
+/// without links, or any other root such as `<root>` or `<xacro>`.
+fn is_for_inclusion(document: &Document) -> bool {
+    let root = &document.root;
+    match root.local_name() {
+        "robot" => root.value("name").is_none() || root.child("link").is_none(),
+        "sdf" | "gazebo" | "launch" => false,
+        _ => true,
+    }
+}
+
+fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
+    let document = if loaded.language == Language::Xacro {
+        let expansion = periplus_xacro::Setting {
+            path: loaded.path.clone(),
+            working_folder: setting.working_folder.clone(),
+            arguments: setting.arguments.clone(),
+            host: setting.host,
+            resolver: setting.resolver,
+        };
+        let expanded = periplus_xacro::expand(
+            &document,
+            expansion,
+            &mut loaded.sources,
+            &mut loaded.diagnostics,
+        );
+        let Some(expanded) = expanded else { return };
+        loaded.files.extend(expanded.includes);
+        loaded.known_arguments = expanded.known_arguments;
+        expanded.document
+    } else {
+        document
+    };
+    loaded.is_expanded = !loaded.diagnostics.has_errors();
+    match document.root.local_name() {
+        _ if loaded.language == Language::Xacro && is_for_inclusion(&document) => {
+            loaded.diagnostics.push(
+                Diagnostic::hint("macros-only", "this file holds no link, so it is no robot yet")
+                    .at(document.root.origin)
+                    .help("include it in a robot: <xacro:include filename=\"...\"/>"),
+            );
+        }
+        "robot" => {
+            loaded.robot = periplus_urdf::read(&document, &mut loaded.diagnostics);
+            if let Some(robot) = &loaded.robot {
+                periplus_urdf::advise(robot, &mut loaded.diagnostics);
+                let model = model_of(robot, &mut loaded.sources, &mut loaded.diagnostics);
+                loaded.scene = Some(Scene { models: vec![model], ..Scene::default() });
+            }
+        }
+        "sdf" | "gazebo" => {
+            let mut files = Files::new(setting);
+            let mut context = periplus_sdf::Context {
+                sources: &mut loaded.sources,
+                diagnostics: &mut loaded.diagnostics,
+                includes: &mut files,
+            };
+            loaded.scene = Some(periplus_sdf::read_document(&document, &mut context));
+            loaded.files.extend(files.into_paths());
+        }
+        _ if matches!(loaded.language, Language::Launch | Language::ModelConfig) => {}
+        _ if loaded.language == Language::Package => {
+            let name = document.root.child("name").map(|name| name.text().into_owned());
+            loaded.contents.extend(name.map(|name| format!("package {name}")));
+        }
+        other => {
+            let origin = document.root.name_origin();
+            loaded.diagnostics.push(
+                Diagnostic::error(
+                    "unknown-format",
+                    format!("`<{other}>` is no robot, model or world"),
+                )
+                .at(origin)
+                .did_you_mean(origin, other, ["robot", "sdf", "launch"])
+                .help("a URDF starts with <robot>, an SDF with <sdf>"),
+            );
+        }
+    }
+    if let Some(scene) = &mut loaded.scene {
+        mesh_files::resolve(scene, setting, &loaded.sources, &mut loaded.diagnostics);
+        periplus_plugin_specs::lint(scene, &mut loaded.diagnostics);
+    }
+    loaded.document = Some(document);
+}

@@ -1,0 +1,49 @@
+//! What tests of whole files share.
+#![allow(dead_code, reason = "each test program uses a part")]
+
+use std::path::{Path, PathBuf};
+
+use periplus_diagnostics::{Style, render};
+use periplus_loader::{Loaded, Setting, describe, load, summarise};
+use periplus_os::Machine;
+use periplus_resources::{Host, MemoryHost, Resolver};
+
+/// This crate's folder: paths in messages are shown from here.
+pub(crate) fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Reads a file as a person standing in `folder` would.
+pub(crate) fn read(host: &dyn Host, folder: &Path, path: &Path, search: &[PathBuf]) -> Loaded {
+    let resolver = Resolver::new(host, search);
+    let setting = Setting {
+        host,
+        resolver: &resolver,
+        working_folder: folder.to_owned(),
+        arguments: Vec::new(),
+        open_meshes: true,
+    };
+    load(path, &setting)
+}
+
+/// Findings and contents of a file, as `periplus check` shows them.
+pub(crate) fn shown(loaded: &Loaded) -> String {
+    let findings =
+        loaded.diagnostics.iter().map(|d| render(d, &loaded.sources, Style::Plain) + "\n");
+    let mut out: String = findings.collect();
+    if let Some(scene) = &loaded.scene {
+        out.push_str(&describe(&summarise(scene)));
+    }
+    out
+}
+
+/// What is said of a file of this crate.
+pub(crate) fn said_of(path: &str) -> String {
+    shown(&read(&Machine, &folder(), Path::new(path), &[]))
+}
+
+/// What is said of a text under a made-up name.
+pub(crate) fn said_of_text(name: &str, text: &str) -> String {
+    let host = MemoryHost::new().with_file(Path::new("/r").join(name), text);
+    shown(&read(&host, Path::new("/r"), Path::new(name), &[]))
+}

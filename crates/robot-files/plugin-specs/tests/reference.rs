@@ -1,0 +1,46 @@
+//! `docs/plugins.md` is made from the tables: `UPDATE_EXPECT=1 cargo test -p periplus-plugin-specs`.
+
+use std::fmt::Write as _;
+
+use expect_test::expect_file;
+use periplus_plugin_specs::{Family, Flow, Support, known};
+
+#[test]
+fn the_reference_says_what_the_tables_say() {
+    let mut out = String::from(
+        "# Plugins\n\nEvery plugin that `periplus check` knows, with the parameters it reads. Made from the \
+         tables in `crates/robot-files/plugin-specs/src/tables`.\nA parameter that is not here is not read; \"and more\" \
+         marks plugins whose list is not complete.\n",
+    );
+    for family in [Family::ClassicRos2, Family::ClassicRos1, Family::Classic, Family::Gz] {
+        let _ = writeln!(out, "\n## {family}");
+        for plugin in known().filter(|plugin| plugin.family == family) {
+            let _ = write!(out, "\n{}", plugin.table.to_markdown());
+            let _ = write!(out, "\n`{}`", plugin.filename());
+            for class in plugin.classes {
+                let _ = write!(out, ", `{class}`");
+            }
+            if plugin.open {
+                out.push_str("; and more");
+            }
+            if plugin.support == Support::Kept {
+                out.push_str("; kept, not run");
+            }
+            out.push_str(".\n");
+            for topic in plugin.topics {
+                let way = if topic.flow == Flow::Out { "publishes" } else { "listens to" };
+                let _ = write!(out, "\n- {way} `{}`", topic.name);
+                if let Some(parameter) = topic.set_by {
+                    let _ = write!(out, ", or what `{parameter}` says");
+                }
+                if let Some(parameter) = topic.when {
+                    let _ = write!(out, ", if `{parameter}`");
+                }
+            }
+            if !plugin.topics.is_empty() {
+                out.push('\n');
+            }
+        }
+    }
+    expect_file!["../../../../docs/plugins.md"].assert_eq(&out);
+}

@@ -1,0 +1,152 @@
+//! What holds links together.
+
+use periplus_diagnostics::Origin;
+use periplus_geometry::{DVec3, Pose};
+use periplus_xml::Element;
+use serde::Serialize;
+
+use crate::Sensor;
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKind {
+    /// Not at all.
+    Fixed,
+    /// It turns about an axis, within limits if any.
+    Revolute,
+    /// It turns about an axis without limits.
+    Continuous,
+    /// It slides along an axis.
+    Prismatic,
+    /// It turns in every direction.
+    Ball,
+    /// It turns about two axes, one after the other.
+    Universal,
+    /// It turns about two axes that do not meet.
+    Revolute2,
+    /// It turns and slides together.
+    Screw,
+    /// Two turns held in a ratio.
+    Gearbox,
+    /// It moves freely (URDF `floating`).
+    Floating,
+    /// It slides in a plane across its axis (URDF `planar`).
+    Planar,
+}
+
+/// What holds two links together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Joint {
+    /// Its name, unique in its model.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// The link, frame or nested model on the parent's side, scoped; or `world`.
+    pub parent: String,
+    /// The link, frame or nested model on the child's side, scoped.
+    pub child: String,
+    /// The joint's frame in the child's.
+    pub child_from_joint: Pose,
+    /// The first axis.
+    pub axis: Option<Axis>,
+    /// The second axis of universal, revolute2 and gearbox joints.
+    pub axis2: Option<Axis>,
+    /// Way per turn of a screw [m], positive as in SDF's `screw_thread_pitch`.
+    pub thread_pitch_m: Option<f64>,
+    /// Force-torque sensors; poses are `joint_from_sensor`.
+    pub sensors: Vec<Sensor>,
+    /// Engine settings and the rest.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<Element>,
+    /// Where it was read.
+    #[serde(skip)]
+    pub origin: Origin,
+}
+
+/// An axis of motion. Metres and newtons for a prismatic joint, radians and newton metres
+/// otherwise.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Axis {
+    /// Unit direction in the joint's frame.
+    pub direction_in_joint: DVec3,
+    /// Lowest position [m or rad]; `-inf` is free.
+    pub lower: f64,
+    /// Highest position [m or rad]; `inf` is free.
+    pub upper: f64,
+    /// Greatest force [N or N m]; `inf` is free.
+    pub effort: f64,
+    /// Greatest speed [m/s or rad/s]; `inf` is free.
+    pub velocity: f64,
+    /// Viscous damping [N s/m or N m s/rad].
+    pub damping: f64,
+    /// Static friction [N or N m].
+    pub friction: f64,
+    /// Spring constant [N/m or N m/rad].
+    pub spring_stiffness: f64,
+    /// Where the spring rests [m or rad].
+    pub spring_reference: f64,
+    /// The joint it follows.
+    pub mimic: Option<Mimic>,
+    /// What nobody here interprets: limit stiffness and dissipation.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<Element>,
+}
+
+/// `position = multiplier * (other - reference) + offset`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mimic {
+    /// The joint that leads.
+    pub joint: String,
+    /// Which of its axes: `axis` or `axis2`.
+    pub axis: String,
+    /// Ratio of the motions.
+    pub multiplier: f64,
+    /// Added [m or rad].
+    pub offset: f64,
+    /// Subtracted from the leader [m or rad].
+    pub reference: f64,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self {
+            direction_in_joint: DVec3::Z,
+            lower: f64::NEG_INFINITY,
+            upper: f64::INFINITY,
+            effort: f64::INFINITY,
+            velocity: f64::INFINITY,
+            damping: 0.0,
+            friction: 0.0,
+            spring_stiffness: 0.0,
+            spring_reference: 0.0,
+            mimic: None,
+            extra: Vec::new(),
+        }
+    }
+}
+
+impl Joint {
+    /// A joint without axis at the child's origin.
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        kind: JointKind,
+        parent: impl Into<String>,
+        child: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            parent: parent.into(),
+            child: child.into(),
+            child_from_joint: Pose::IDENTITY,
+            axis: None,
+            axis2: None,
+            thread_pitch_m: None,
+            sensors: Vec::new(),
+            extra: Vec::new(),
+            origin: Origin::default(),
+        }
+    }
+}

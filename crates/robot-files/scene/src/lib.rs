@@ -1,0 +1,44 @@
+//! The world as plain data.
+//!
+//! What a robot or world file means, free of how it was spelled: every pose resolved to one fixed
+//! parent, every default filled in, names scoped with `::`. What nobody here interprets is kept
+//! word for word in the `extra` lists and in [`Plugin::content`], so that writing a scene loses
+//! nothing.
+//!
+//! Two scenes are equal when they mean the same; [`Origin`]s do not count.
+
+mod actor;
+mod joint;
+mod json;
+mod light;
+mod link;
+mod material;
+mod model;
+mod outline;
+mod physics;
+mod plugin;
+mod sensor;
+mod shape;
+mod surface;
+mod tree;
+mod world;
+
+pub use actor::Actor;
+pub use joint::{Axis, Joint, JointKind, Mimic};
+pub use light::{Attenuation, Light, LightKind, Spot};
+pub use link::{Collision, Inertial, Link, Visual};
+pub use material::{Colour, Material, Pbr, Script, builtin_material, builtin_material_names};
+pub use model::{Frame, FrameRole, Model};
+pub use outline::{Edge, Trapezoid, edges, trapezoids};
+pub use periplus_diagnostics::Origin;
+pub use periplus_geometry::{DVec3, Pose};
+pub use periplus_xml::Element;
+pub use physics::Physics;
+pub use plugin::Plugin;
+pub use sensor::{
+    Camera, CameraKind, Distortion, Imu, Lidar, Noise, NoiseKind, ScanAxis, Sensor, SensorKind,
+};
+pub use shape::{Heightmap, Image, Mesh, Polyline, Shape};
+pub use surface::{Contact, Friction, Surface};
+pub use tree::{TfEdge, carrying_link, tf_tree};
+pub use world::{Gui, Scene, SphericalCoordinates, World};

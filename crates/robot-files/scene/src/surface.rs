@@ -1,0 +1,85 @@
+//! How shapes touch.
+
+use periplus_geometry::DVec3;
+use periplus_xml::Element;
+use serde::Serialize;
+
+/// Friction, contact and bounce.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Surface {
+    /// Friction.
+    pub friction: Friction,
+    /// Stiffness and bounce.
+    pub contact: Contact,
+    /// Torsional friction, soft contacts, other engines.
+    #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<Element>,
+}
+
+/// Coulomb friction after ODE: two coefficients along two directions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Friction {
+    /// Coefficient along the first direction.
+    pub mu: f64,
+    /// Coefficient along the second.
+    pub mu2: f64,
+    /// The first direction in the collision's frame, or in that of [`Self::fdir1_expressed_in`];
+    /// zero lets the engine choose.
+    pub fdir1: DVec3,
+    /// The link or frame of the model that the first direction stands still in
+    /// (`gz:expressed_in`), as wheels with rollers need it.
+    pub fdir1_expressed_in: Option<String>,
+    /// Slip along the first direction [m/(N s)].
+    pub slip1: f64,
+    /// Slip along the second.
+    pub slip2: f64,
+}
+
+/// Stiffness and bounce.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contact {
+    /// Stiffness [N/m].
+    pub kp: f64,
+    /// Damping [N s/m].
+    pub kd: f64,
+    /// Greatest speed of correction [m/s].
+    pub max_vel_m_s: f64,
+    /// Depth that is left alone [m].
+    pub min_depth_m: f64,
+    /// Share of speed that a bounce keeps.
+    pub restitution: f64,
+    /// Speed below which nothing bounces [m/s].
+    pub bounce_threshold_m_s: f64,
+    /// Whether it only reports contacts.
+    pub collide_without_contact: bool,
+    /// Which others it touches: those whose category shares a bit.
+    pub collide_bitmask: u32,
+}
+
+impl Default for Friction {
+    fn default() -> Self {
+        Self {
+            mu: 1.0,
+            mu2: 1.0,
+            fdir1: DVec3::ZERO,
+            fdir1_expressed_in: None,
+            slip1: 0.0,
+            slip2: 0.0,
+        }
+    }
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self {
+            kp: 1e12,
+            kd: 1.0,
+            max_vel_m_s: 0.01,
+            min_depth_m: 0.0,
+            restitution: 0.0,
+            bounce_threshold_m_s: 100_000.0,
+            collide_without_contact: false,
+            collide_bitmask: 0xffff,
+        }
+    }
+}

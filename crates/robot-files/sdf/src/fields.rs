@@ -1,0 +1,320 @@
+//! The parts of an element, and which of them a reader has used: what is left over in the end is
+//! kept word for word and, if nobody knows its name, told.
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, MOST_KEPT, Origin, Severity};
+use periplus_geometry::DVec3;
+use periplus_scene::Colour;
+use periplus_xml::{Attribute, Element, Node};
+
+use crate::value::{self, leaf};
+use crate::verbatim::keep;
+
+/// An element that is being read. Each question marks what it found as used; [`Self::finish`]
+/// settles the rest.
+pub(crate) struct Fields<'a, 'd> {
+    pub(crate) element: &'a Element,
+    pub(crate) diagnostics: &'d mut Diagnostics,
+    used: Vec<bool>,
+    used_attributes: Vec<bool>,
+    known: Vec<&'static str>,
+    known_attributes: Vec<&'static str>,
+    kept: Vec<Element>,
+}
+
+impl<'a, 'd> Fields<'a, 'd> {
+    pub(crate) fn new(element: &'a Element, diagnostics: &'d mut Diagnostics) -> Self {
+        Self {
+            element,
+            diagnostics,
+            used: vec![false; element.children.len()],
+            used_attributes: vec![false; element.attributes.len()],
+            // Most elements have about so many kinds of children.
+            known: Vec::with_capacity(16),
+            known_attributes: Vec::new(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// All children of a name.
+    pub(crate) fn children(&mut self, name: &'static str) -> Vec<&'a Element> {
+        self.known.push(name);
+        let mut found = Vec::new();
+        for (node, used) in self.element.children.iter().zip(&mut self.used) {
+            if let Node::Element(child) = node
+                && child.name == name
+            {
+                *used = true;
+                found.push(child);
+            }
+        }
+        found
+    }
+
+    /// The child of a name. More of them are left out with a warning, for readers of SDF have
+    /// always taken the first.
+    pub(crate) fn child(&mut self, name: &'static str) -> Option<&'a Element> {
+        self.known.push(name);
+        let mut first: Option<&'a Element> = None;
+        for (node, used) in self.element.children.iter().zip(&mut self.used) {
+            let Node::Element(child) = node else { continue };
+            if child.name != name {
+                continue;
+            }
+            *used = true;
+            match first {
+                None => first = Some(child),
+                Some(first) => self.diagnostics.push(
+                    Diagnostic::warning(
+                        "repeated-element",
+                        format!("`<{name}>` may stand only once; this one is left out"),
+                    )
+                    .at(child.origin)
+                    .related(first.origin, "the first one counts"),
+                ),
+            }
+        }
+        first
+    }
+
+    /// The child of a name, opened for reading; see [`Self::close`].
+    pub(crate) fn open(&mut self, name: &'static str) -> Option<Fields<'a, '_>> {
+        let child = self.child(name)?;
+        Some(Fields::new(child, self.diagnostics))
+    }
+
+    /// Keeps what was left over in a child that [`Self::open`] gave, under the child's name.
+    pub(crate) fn close(&mut self, name: &'static str, rest: Vec<Element>) {
+        if !rest.is_empty() {
+            let mut wrapper = Element::new(name);
+            wrapper.children.extend(rest.into_iter().map(Node::Element));
+            self.kept.push(wrapper);
+        }
+    }
+
+    pub(crate) fn attribute(&mut self, name: &'static str) -> Option<&'a Attribute> {
+        self.known_attributes.push(name);
+        let index = self.element.attributes.iter().position(|it| it.name == name)?;
+        self.used_attributes[index] = true;
+        Some(&self.element.attributes[index])
+    }
+
+    /// An attribute that must be there and not be empty; an error where it is not.
+    pub(crate) fn required_attribute(&mut self, name: &'static str) -> Option<&'a Attribute> {
+        match self.attribute(name) {
+            Some(attribute) if !attribute.value.is_empty() => Some(attribute),
+            found => {
+                let element = &self.element.name;
+                let (message, origin) = match found {
+                    Some(empty) => {
+                        (format!("the attribute `{name}` of `<{element}>` is empty"), empty.origin)
+                    }
+                    None => {
+                        (format!("`<{element}>` lacks the attribute `{name}`"), self.element.origin)
+                    }
+                };
+                self.diagnostics.push(
+                    Diagnostic::error("missing-attribute", message)
+                        .at(origin)
+                        .help(format!("write `<{element} {name}=\"...\">`")),
+                );
+                None
+            }
+        }
+    }
+
+    /// Children that are known and kept word for word.
+    pub(crate) fn verbatim(&mut self, names: &[&'static str]) {
+        self.known.extend(names);
+    }
+
+    /// Attributes that mean nothing to a reader.
+    pub(crate) fn ignore_attributes(&mut self, names: &[&'static str]) {
+        for &name in names {
+            let _ = self.attribute(name);
+        }
+    }
+
+    /// Settles the rest: gives every child that was not read, and tells those of unknown name.
+    pub(crate) fn finish(mut self) -> Vec<Element> {
+        let mut rest = std::mem::take(&mut self.kept);
+        let verbatim_from = rest.len();
+        for (node, used) in self.element.children.iter().zip(&self.used) {
+            match node {
+                Node::Element(child) if !used => rest.push(keep(child)),
+                Node::Text(text) if !text.text.trim().is_empty() => self.diagnostics.push(
+                    Diagnostic::warning(
+                        "stray-text",
+                        format!("text directly in `<{}>` means nothing", self.element.name),
+                    )
+                    .at(text.origin),
+                ),
+                _ => {}
+            }
+        }
+        for child in &rest[verbatim_from..] {
+            if child.prefix().is_none() && !self.known.contains(&&*child.name) {
+                let parent = &self.element.name;
+                let message = format!("`<{}>` is not known inside `<{parent}>`", child.name);
+                let place = child.name_origin();
+                let told = Diagnostic::warning("unknown-element", message)
+                    .at(place)
+                    .note("it is kept, but nothing here reads it");
+                // Looking for near names takes a while, and more findings are only counted.
+                let suggest = self.diagnostics.count(Severity::Warning) < MOST_KEPT;
+                let known = self.known.iter().copied().filter(|_| suggest);
+                self.diagnostics.push(told.did_you_mean(place, &child.name, known));
+            }
+        }
+        self.settle_attributes();
+        rest
+    }
+
+    fn settle_attributes(&mut self) {
+        for (attribute, used) in self.element.attributes.iter().zip(&self.used_attributes) {
+            let foreign = attribute.name.contains(':') || attribute.name == "xmlns";
+            if !used && !foreign {
+                unknown_attribute(
+                    self.element,
+                    attribute,
+                    &self.known_attributes,
+                    self.diagnostics,
+                );
+            }
+        }
+    }
+
+    /// The value of a leaf child, read by `read`; `default` where there is none.
+    fn leaf<T>(
+        &mut self,
+        name: &'static str,
+        default: T,
+        read: impl FnOnce(&Element, &mut Diagnostics) -> Option<T>,
+    ) -> T {
+        let Some(child) = self.child(name) else { return default };
+        leaf(child, &[], self.diagnostics);
+        if child.text().is_empty() {
+            value::empty(child, self.diagnostics);
+            return default;
+        }
+        read(child, self.diagnostics).unwrap_or(default)
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&mut self, name: &'static str, default: f64) -> f64 {
+        self.leaf(name, default, value::number)
+    }
+
+    /// A finite number that may be missing.
+    pub(crate) fn optional_number(&mut self, name: &'static str) -> Option<f64> {
+        self.leaf(name, None, |child, d| Some(value::number(child, d)))
+    }
+
+    /// A finite number, not below zero.
+    pub(crate) fn magnitude(&mut self, name: &'static str, default: f64) -> f64 {
+        self.leaf(name, default, |child, d| {
+            let number = value::number(child, d)?;
+            value::not_negative(number, child, d).then_some(number)
+        })
+    }
+
+    /// A finite rate. Gazebo takes one that is not above zero for "without limit", which is 0 here.
+    pub(crate) fn rate(&mut self, name: &'static str, default: f64) -> f64 {
+        let rate = self.number(name, default);
+        if rate < 0.0
+            && let Some(child) = self.element.child(name)
+        {
+            self.diagnostics.push(
+                Diagnostic::hint(
+                    "negative-rate",
+                    format!("`<{name}>` is below 0, which counts as 0: without limit"),
+                )
+                .at(child.text_origin())
+                .help(format!("write `<{name}>0</{name}>`")),
+            );
+        }
+        rate.max(0.0)
+    }
+
+    /// A number that may be infinite.
+    pub(crate) fn limit(&mut self, name: &'static str, default: f64) -> f64 {
+        self.leaf(name, default, value::number_or_infinite)
+    }
+
+    /// A length above zero that must be given.
+    pub(crate) fn length(&mut self, name: &'static str, default: f64) -> f64 {
+        self.require(name, &periplus_geometry::format_number(default));
+        self.leaf(name, default, |child, d| {
+            let number = value::number(child, d)?;
+            value::positive(number, child, d).then_some(number)
+        })
+    }
+
+    pub(crate) fn boolean(&mut self, name: &'static str, default: bool) -> bool {
+        self.leaf(name, default, value::boolean)
+    }
+
+    /// A whole number, not below zero.
+    pub(crate) fn count(&mut self, name: &'static str, default: u32) -> u32 {
+        self.leaf(name, default, value::count)
+    }
+
+    pub(crate) fn integer(&mut self, name: &'static str, default: i64) -> i64 {
+        self.leaf(name, default, value::integer)
+    }
+
+    pub(crate) fn vector(&mut self, name: &'static str, default: DVec3) -> DVec3 {
+        self.leaf(name, default, |child, d| value::numbers(child, d).map(DVec3::from_array))
+    }
+
+    pub(crate) fn pair(&mut self, name: &'static str, default: [f64; 2]) -> [f64; 2] {
+        self.leaf(name, default, value::numbers)
+    }
+
+    pub(crate) fn colour(&mut self, name: &'static str) -> Option<Colour> {
+        self.leaf(name, None, |child, d| Some(value::colour(child, d)))
+    }
+
+    /// Text; none where it is missing or empty.
+    pub(crate) fn text(&mut self, name: &'static str) -> Option<String> {
+        let child = self.child(name)?;
+        leaf(child, &[], self.diagnostics);
+        // What libsdformat writes for text that nobody gave.
+        let text = child.text();
+        (!text.is_empty() && text != "__default__").then(|| text.into_owned())
+    }
+
+    /// Warns where a child is missing that SDF wants; the default is used.
+    pub(crate) fn require(&mut self, name: &'static str, default: &str) {
+        if self.element.child(name).is_none() {
+            let parent = &self.element.name;
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    "missing-element",
+                    format!("`<{parent}>` lacks `<{name}>`; {default} is assumed"),
+                )
+                .at(self.element.origin)
+                .help(format!("add `<{name}>{default}</{name}>`")),
+            );
+        }
+    }
+
+    pub(crate) fn origin(&self) -> Origin {
+        self.element.origin
+    }
+}
+
+pub(crate) fn unknown_attribute(
+    element: &Element,
+    attribute: &Attribute,
+    known: &[&'static str],
+    diagnostics: &mut Diagnostics,
+) {
+    let message = format!("`<{}>` has no attribute `{}`", element.name, attribute.name);
+    let name_origin = Origin(attribute.origin.0.map(|span| span.part(0, attribute.name.len())));
+    diagnostics.push(
+        Diagnostic::warning("unknown-attribute", message)
+            .at(attribute.origin)
+            .note("it is left out")
+            .did_you_mean(name_origin, &attribute.name, known.iter().copied()),
+    );
+}

@@ -1,0 +1,92 @@
+//! Making elements of SDF that remember where they come from.
+
+use std::borrow::Cow;
+
+use periplus_diagnostics::Origin;
+use periplus_geometry::{DQuat, Pose, format_number};
+use periplus_xml::{Element, Node, Text};
+
+/// An element without content.
+pub(super) fn element(name: &str, origin: Origin) -> Element {
+    Element { origin, ..Element::new(name) }
+}
+
+/// `<name>text</name>`.
+pub(super) fn leaf(name: &str, text: &str, origin: Origin) -> Element {
+    let mut leaf = element(name, origin);
+    leaf.children.push(Node::Text(Text { text: text.into(), origin }));
+    leaf
+}
+
+/// A leaf of numbers.
+pub(super) fn numbers(name: &str, numbers: &[f64], origin: Origin) -> Element {
+    let text: Vec<String> = numbers.iter().map(|number| format_number(*number)).collect();
+    leaf(name, &text.join(" "), origin)
+}
+
+/// Adds a `<pose>`, exact to the last bit, unless it says nothing.
+pub(super) fn push_pose(to: &mut Element, pose: Pose, origin: Origin) {
+    if pose == Pose::IDENTITY {
+        return;
+    }
+    let [x, y, z] = pose.translation.to_array();
+    if pose.rotation == DQuat::IDENTITY {
+        to.push(numbers("pose", &[x, y, z, 0.0, 0.0, 0.0], origin));
+        return;
+    }
+    let [qx, qy, qz, qw] = pose.rotation.to_array();
+    let pose = numbers("pose", &[x, y, z, qx, qy, qz, qw], origin);
+    to.push(pose.with_attribute("rotation_format", "quat_xyzw"));
+}
+
+/// The child of a name, made if it is not there.
+pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Element {
+    let is_it = |node: &Node| matches!(node, Node::Element(child) if child.name == name);
+    let place = match parent.children.iter().position(is_it) {
+        Some(place) => place,
+        None => {
+            let child = element(name, parent.origin);
+            parent.push(child);
+            parent.children.len() - 1
+        }
+    };
+    match &mut parent.children[place] {
+        Node::Element(child) => child,
+        // The place was found by this very test.
+        _ => unreachable!("the node at this place is an element"),
+    }
+}
+
+/// Puts a child in the place of those of its name, and gives back the first of them.
+pub(super) fn set(parent: &mut Element, child: Element) -> Option<Element> {
+    let is_it = |node: &Node| matches!(node, Node::Element(other) if other.name == child.name);
+    let first = parent.children.iter().position(is_it);
+    let old = first.map(|place| parent.children.remove(place));
+    parent.children.retain(|node| !is_it(node));
+    parent.push(child);
+    match old {
+        Some(Node::Element(old)) => Some(old),
+        _ => None,
+    }
+}
+
+/// The value of one of Gazebo's settings, and where it stands: the attribute `value`, or else the
+/// text (libsdformat, `GetKeyValueAsString`).
+pub(super) fn value(setting: &Element) -> (Cow<'_, str>, Origin) {
+    match setting.attribute("value") {
+        Some(value) => (Cow::Borrowed(value.value.trim()), value.value_origin),
+        None => (setting.text(), setting.text_origin()),
+    }
+}
+
+/// One of Gazebo's settings as a leaf of another name.
+pub(super) fn renamed(setting: &Element, name: &str) -> Element {
+    let (text, origin) = value(setting);
+    leaf(name, &text, origin)
+}
+
+/// `true`, `yes` and `1` are true, and nothing else is (libsdformat, `ParseSDFExtension`).
+pub(super) fn is_true(setting: &Element) -> bool {
+    let (text, _) = value(setting);
+    text.eq_ignore_ascii_case("true") || text.eq_ignore_ascii_case("yes") || text == "1"
+}

@@ -1,0 +1,106 @@
+//! Geometry and materials.
+
+use periplus_diagnostics::Origin;
+use periplus_geometry::Pose;
+use periplus_xml::{Element, Node};
+
+use super::element::{child_mut, element, leaf, numbers, push_pose};
+use crate::robot::{Collision, Geometry, Material, Visual};
+
+/// A `<collision>` with what the blocks about its link say.
+pub(super) fn collision(
+    collision: &Collision,
+    name: &str,
+    head_from_collision: Pose,
+    settings: &[Element],
+) -> Element {
+    let mut to = element("collision", collision.origin).with_attribute("name", name);
+    push_pose(&mut to, head_from_collision, collision.origin);
+    to.push(geometry(&collision.geometry, collision.origin));
+    to.children.extend(settings.iter().cloned().map(Node::Element));
+    to
+}
+
+/// A `<visual>` with what the blocks about its link say. `look` is its material's definition.
+pub(super) fn visual(
+    visual: &Visual,
+    look: Option<&Material>,
+    name: &str,
+    head_from_visual: Pose,
+    settings: &[Element],
+) -> Element {
+    let mut to = element("visual", visual.origin).with_attribute("name", name);
+    push_pose(&mut to, head_from_visual, visual.origin);
+    to.push(geometry(&visual.geometry, visual.origin));
+    to.children.extend(settings.iter().cloned().map(Node::Element));
+    if let Some(look) = look {
+        colour(look, &mut to);
+    }
+    to
+}
+
+/// The colour of a URDF, unless a block gave one. Gazebo brightens it, for its renderers darken
+/// (libsdformat, `CreateVisual`).
+fn colour(look: &Material, to: &mut Element) {
+    let material = child_mut(to, "material");
+    if let Some(colour) = &look.colour
+        && material.child("diffuse").is_none()
+        && material.child("ambient").is_none()
+    {
+        let [red, green, blue, alpha] = colour.rgba;
+        let bright = |part: f64| (part / 0.8).clamp(0.0, 1.0);
+        let rgba = [bright(red), bright(green), bright(blue), alpha.clamp(0.0, 1.0)];
+        material.push(numbers("diffuse", &rgba, look.origin));
+        material.push(numbers("ambient", &rgba, look.origin));
+    }
+    // Gazebo drops the texture of a URDF; as a map of the colour it can be drawn.
+    if let Some(texture) = &look.texture
+        && material.child("pbr").is_none()
+    {
+        let metal = child_mut(child_mut(material, "pbr"), "metal");
+        metal.push(leaf("albedo_map", &texture.filename, look.origin));
+    }
+}
+
+fn geometry(geometry: &Geometry, origin: Origin) -> Element {
+    let one = |name: &str, parts: &[(&str, f64)]| {
+        parts.iter().fold(element(name, origin), |shape, (part, value)| {
+            shape.with_child(numbers(part, &[*value], origin))
+        })
+    };
+    let shape = match geometry {
+        // The reader has said what is wrong; a wrong size must not become SDF's default of 1 m.
+        shape if !has_extent(shape) => element("empty", origin),
+        Geometry::Box { size_m } => {
+            element("box", origin).with_child(numbers("size", size_m, origin))
+        }
+        Geometry::Cylinder { radius_m, length_m } => {
+            one("cylinder", &[("radius", *radius_m), ("length", *length_m)])
+        }
+        Geometry::Capsule { radius_m, length_m } => {
+            one("capsule", &[("radius", *radius_m), ("length", *length_m)])
+        }
+        Geometry::Sphere { radius_m } => one("sphere", &[("radius", *radius_m)]),
+        Geometry::Mesh { filename, scale, origin } => {
+            let mesh = element("mesh", *origin).with_child(leaf("uri", filename, *origin));
+            if *scale == [1.0; 3] {
+                mesh
+            } else {
+                mesh.with_child(numbers("scale", scale, *origin))
+            }
+        }
+        Geometry::Unknown(shape) => shape.clone(),
+    };
+    element("geometry", origin).with_child(shape)
+}
+
+fn has_extent(geometry: &Geometry) -> bool {
+    match geometry {
+        Geometry::Box { size_m } => size_m.iter().all(|size| *size > 0.0),
+        // A capsule without cylinder is a sphere.
+        Geometry::Capsule { radius_m, length_m } => *radius_m > 0.0 && *length_m >= 0.0,
+        Geometry::Cylinder { radius_m, length_m } => *radius_m > 0.0 && *length_m > 0.0,
+        Geometry::Sphere { radius_m } => *radius_m > 0.0,
+        Geometry::Mesh { .. } | Geometry::Unknown(_) => true,
+    }
+}

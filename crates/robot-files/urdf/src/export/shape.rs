@@ -1,0 +1,276 @@
+//! Shapes and looks.
+
+use std::collections::BTreeMap;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_geometry::Pose;
+use periplus_scene::{
+    Collision as SceneCollision, Colour, Material as SceneMaterial, Pbr, Shape,
+    Visual as SceneVisual,
+};
+use periplus_xml::{Element, Node};
+
+use super::lost;
+use crate::convert::LUMP;
+use crate::robot::{
+    Collision, ColourAsWritten, Extra, Geometry, Material, Placement, Texture, Visual,
+};
+
+/// Where a shape came from, by the rule by which Gazebo names the shapes of a URDF.
+pub(super) struct Source {
+    /// The name without what the rule adds: that of a link, or the shape's own.
+    pub(super) base: String,
+    /// Whether the name follows the rule.
+    pub(super) by_rule: bool,
+}
+
+impl Source {
+    fn of(head: &str, name: &str, kind: &str, index: usize) -> Self {
+        let number = if index > 0 { format!("_{index}") } else { String::new() };
+        let ending = format!("_{kind}{number}");
+        match name.strip_suffix(&*ending) {
+            Some(base) if !base.is_empty() => {
+                let prefix = format!("{head}{LUMP}");
+                let base = base.strip_prefix(&*prefix).unwrap_or(base);
+                Self { base: base.to_owned(), by_rule: true }
+            }
+            _ => Self { base: name.to_owned(), by_rule: false },
+        }
+    }
+
+    /// The name that the shape needs on a link so that the rule gives its old one.
+    pub(super) fn name_on(&self, link: &str) -> Option<String> {
+        (self.base != link).then(|| self.base.clone())
+    }
+}
+
+/// Where all shapes of a body came from.
+pub(super) fn sources<'a>(
+    head: &str,
+    names: impl Iterator<Item = &'a str>,
+    kind: &str,
+) -> Vec<Source> {
+    names.enumerate().map(|(index, name)| Source::of(head, name, kind, index)).collect()
+}
+
+/// What SDF says about a shape beyond URDF.
+pub(super) type Rest = Vec<Element>;
+
+/// The parts of a shape beyond pose and geometry.
+pub(super) fn rest(written: &Element) -> Rest {
+    written
+        .elements()
+        .filter(|part| !["pose", "geometry"].contains(&&*part.name))
+        .cloned()
+        .collect()
+}
+
+/// The block about all shapes of a link: what they all have. What differs is lost.
+pub(super) fn common(
+    kind: &str,
+    rests: &[Rest],
+    link: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<Element> {
+    let first = rests.first()?;
+    if let Some(other) = rests.iter().find(|rest| *rest != first) {
+        let differing =
+            other.iter().chain(first).find(|part| !(first.contains(part) && other.contains(part)));
+        let what = differing.map_or("settings", |part| &*part.name);
+        let origin = differing.map_or(Origin::default(), |part| part.origin);
+        diagnostics.push(
+            lost(format!(
+                "the {kind}s of `{link}` differ in `{what}`, and URDF says it once per link"
+            ))
+            .at(origin)
+            .label(format!("the first {kind} decides"))
+            .help("put them on links of their own, on fixed joints"),
+        );
+    }
+    if first.is_empty() {
+        return None;
+    }
+    // The short form that everybody writes.
+    if kind == "visual"
+        && let [only] = &**first
+        && let Some(name) = script_only(only)
+    {
+        return Some(Element::new("material").with_text(name));
+    }
+    let mut block = Element::new(kind);
+    block.children.extend(first.iter().cloned().map(Node::Element));
+    Some(block)
+}
+
+/// The name of a material that is nothing but one of Gazebo's own.
+fn script_only(material: &Element) -> Option<String> {
+    let mut parts = material.elements();
+    let script = parts.next().filter(|part| part.name == "script")?;
+    let uris: Vec<_> = script.named("uri").map(Element::text).collect();
+    (parts.next().is_none() && uris == [crate::convert::BUILTIN_MATERIALS])
+        .then(|| script.child("name").map(|name| name.text().into_owned()))?
+}
+
+pub(super) fn collision(
+    from: &SceneCollision,
+    name: Option<String>,
+    link_from_collision: Pose,
+    diagnostics: &mut Diagnostics,
+) -> Option<Collision> {
+    Some(Collision {
+        geometry: geometry(&from.shape, &from.name, from.origin, diagnostics)?,
+        name,
+        link_from_collision: Placement::from_pose(link_from_collision),
+        extra: Extra::default(),
+        origin: from.origin,
+    })
+}
+
+pub(super) fn visual(
+    from: &SceneVisual,
+    look: Option<Material>,
+    name: Option<String>,
+    link_from_visual: Pose,
+    diagnostics: &mut Diagnostics,
+) -> Option<Visual> {
+    Some(Visual {
+        geometry: geometry(&from.shape, &from.name, from.origin, diagnostics)?,
+        name,
+        link_from_visual: Placement::from_pose(link_from_visual),
+        material: look,
+        extra: Extra::default(),
+        origin: from.origin,
+    })
+}
+
+fn geometry(
+    shape: &Shape,
+    name: &str,
+    origin: Origin,
+    diagnostics: &mut Diagnostics,
+) -> Option<Geometry> {
+    let cannot = |what: &str, help: &str, diagnostics: &mut Diagnostics| {
+        diagnostics
+            .push(lost(format!("URDF has no {what}, and `{name}` is one")).at(origin).help(help));
+    };
+    Some(match shape {
+        Shape::Empty => {
+            diagnostics.push(
+                Diagnostic::warning("not-in-urdf", format!("`{name}` has no shape"))
+                    .at(origin)
+                    .label("left out"),
+            );
+            return None;
+        }
+        Shape::Box { size_m } => Geometry::Box { size_m: size_m.to_array() },
+        Shape::Cylinder { radius_m, length_m } => {
+            Geometry::Cylinder { radius_m: *radius_m, length_m: *length_m }
+        }
+        Shape::Sphere { radius_m } => Geometry::Sphere { radius_m: *radius_m },
+        Shape::Capsule { radius_m, length_m } => {
+            diagnostics.push(
+                Diagnostic::warning("newer-urdf", format!("`{name}` is a capsule"))
+                    .at(origin)
+                    .note("capsules are of URDF 1.2; older readers refuse the file"),
+            );
+            Geometry::Capsule { radius_m: *radius_m, length_m: *length_m }
+        }
+        Shape::Mesh(mesh) => {
+            if mesh.submesh.is_some() || !mesh.extra.is_empty() {
+                cannot("part of a mesh", "save the part as a mesh of its own", diagnostics);
+            }
+            Geometry::Mesh {
+                filename: mesh.uri.clone(),
+                scale: mesh.scale.to_array(),
+                origin: mesh.origin,
+            }
+        }
+        Shape::Unknown(element) => Geometry::Unknown(element.clone()),
+        other => {
+            let (what, help) = match other {
+                Shape::Cone { .. } => ("cone", "use a mesh"),
+                Shape::Ellipsoid { .. } => ("ellipsoid", "use a sphere mesh with a scale"),
+                Shape::Plane { .. } => ("plane", "use a flat box"),
+                Shape::Polylines(_) => ("polyline", "use a mesh"),
+                Shape::Heightmap(_) => ("heightmap", "keep the ground in the world"),
+                Shape::Image(_) => ("image", "keep the walls in the world"),
+                _ => ("such shape", "leave it out"),
+            };
+            cannot(what, help, diagnostics);
+            return None;
+        }
+    })
+}
+
+/// The looks met so far: in a URDF a name means one look.
+#[derive(Default)]
+pub(super) struct Looks {
+    known: BTreeMap<String, Material>,
+}
+
+impl Looks {
+    /// What URDF can say of a look: one colour and a texture. `written` is the look as SDF; what
+    /// is said is taken out of it.
+    pub(super) fn of(
+        &mut self,
+        look: &SceneMaterial,
+        written: Option<&mut Element>,
+    ) -> Option<Material> {
+        let texture = look.pbr.as_ref().and_then(texture);
+        let colour = match (look.ambient == look.diffuse, look.diffuse) {
+            (true, Some(diffuse)) => as_written(diffuse),
+            _ => None,
+        };
+        if texture.is_none() && colour.is_none() {
+            return None;
+        }
+        if let Some(written) = written {
+            let said = |part: &Element| match &*part.name {
+                "ambient" | "diffuse" => colour.is_some(),
+                "pbr" => texture.is_some(),
+                _ => false,
+            };
+            written.children.retain(|node| node.as_element().is_none_or(|part| !said(part)));
+        }
+        let mut material = Material {
+            name: look.name.clone().unwrap_or_default(),
+            colour: colour.map(|rgba| ColourAsWritten { rgba, extra: Extra::default() }),
+            texture: texture.map(|filename| Texture { filename, extra: Extra::default() }),
+            extra: Extra::default(),
+            origin: Origin::default(),
+        };
+        if !material.name.is_empty() {
+            let first = self.known.entry(material.name.clone()).or_insert_with(|| material.clone());
+            if *first != material {
+                material.name.clear();
+            }
+        }
+        Some(material)
+    }
+}
+
+/// The texture of a look whose maps are this one alone.
+fn texture(pbr: &Pbr) -> Option<String> {
+    let alone = pbr.element.as_ref().is_none_or(|element| {
+        let parts = element.elements().flat_map(Element::elements).count();
+        element.elements().count() == 1 && parts == 1
+    });
+    let numbers = pbr.roughness.is_some() || pbr.metalness.is_some();
+    pbr.albedo_map.clone().filter(|_| alone && !numbers)
+}
+
+/// The colour that Gazebo brightens to this one; see the other direction. Full brightness may
+/// have been anything from 0.8 on; 1 is what people write.
+fn as_written(Colour([red, green, blue, alpha]): Colour) -> Option<[f64; 4]> {
+    let dark = |bright: f64| -> Option<f64> {
+        if bright == 1.0 {
+            return Some(1.0);
+        }
+        let guess = bright * 0.8;
+        // Rounding may be one step off.
+        [guess, guess.next_up(), guess.next_down()]
+            .into_iter()
+            .find(|dark| (dark / 0.8).clamp(0.0, 1.0) == bright)
+    };
+    Some([dark(red)?, dark(green)?, dark(blue)?, alpha])
+}

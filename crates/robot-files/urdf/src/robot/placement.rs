@@ -1,0 +1,57 @@
+//! Where something stands, as the file says it.
+
+use periplus_geometry::{DQuat, Pose, Rpy};
+
+use super::Extra;
+
+/// An `<origin>`: a pose as written, so that writing it again changes nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// Shift [m].
+    pub xyz_m: [f64; 3],
+    /// Turn.
+    pub rotation: Rotation,
+    /// What nobody here interprets.
+    pub extra: Extra,
+}
+
+/// A turn as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rotation {
+    /// Roll, pitch, yaw about fixed axes [rad].
+    Rpy([f64; 3]),
+    /// A quaternion x, y, z, w (`quat_xyzw`, URDF 1.2).
+    Quaternion([f64; 4]),
+}
+
+impl Default for Rotation {
+    fn default() -> Self {
+        Self::Rpy([0.0; 3])
+    }
+}
+
+impl Placement {
+    /// The same as a pose.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        match self.rotation {
+            Rotation::Rpy([roll, pitch, yaw]) => {
+                Pose::from_xyz_rpy(self.xyz_m, Rpy { roll, pitch, yaw })
+            }
+            Rotation::Quaternion(xyzw) => {
+                Pose::from_xyz_quaternion(self.xyz_m, DQuat::from_array(xyzw))
+            }
+        }
+    }
+
+    /// A pose as roll, pitch and yaw, which every reader knows.
+    #[must_use]
+    pub fn from_pose(pose: Pose) -> Self {
+        let Rpy { roll, pitch, yaw } = pose.rpy();
+        Self {
+            xyz_m: pose.translation.to_array(),
+            rotation: Rotation::Rpy([roll, pitch, yaw]),
+            extra: Extra::default(),
+        }
+    }
+}

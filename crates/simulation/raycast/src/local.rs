@@ -1,0 +1,149 @@
+//! A ray in the frame of a tree, ready to be traced in single precision.
+
+use periplus_geometry::DVec3;
+
+use crate::bvh::Node;
+use crate::simd::{V8, splat3};
+use crate::walk::NodeTest;
+
+/// Rounding of one f32 operation, relative.
+pub(crate) const ROUND: f32 = 1.2e-7;
+/// Directions along an axis are taken to be at least this steep, lest their inverse overflow.
+pub(crate) const FLAT: f32 = 1e-18;
+
+/// A ray in the frame of a tree.
+///
+/// Boxes are tested with margins that cover every rounding of the box test and of the triangle
+/// test (Ize 2013, "Robust BVH ray traversal", carried over to fused arithmetic). So a box is never
+/// passed over that holds a triangle the triangle test would accept, whatever the order of
+/// traversal: single rays and packets, vectors and plain code find the very same hits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LocalRay {
+    pub(crate) origin: [f32; 3],
+    pub(crate) direction: [f32; 3],
+    /// The two lesser axes and the one along which the ray goes most.
+    pub(crate) axes: [usize; 3],
+    /// Of the shear that turns the ray into the axis `axes[2]`.
+    pub(crate) shear: [f32; 3],
+    pub(crate) min: f32,
+}
+
+impl LocalRay {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+    pub(crate) fn new(origin: DVec3, direction: DVec3, min: f64) -> Self {
+        let origin = [origin.x as f32, origin.y as f32, origin.z as f32];
+        let direction = [direction.x as f32, direction.y as f32, direction.z as f32];
+        let [x, y, z] = direction;
+        let (x, y, z) = (x.abs(), y.abs(), z.abs());
+        let along = if x > y {
+            if x > z { 0 } else { 2 }
+        } else if y > z {
+            1
+        } else {
+            2
+        };
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][along];
+        let length = direction[along];
+        let shear = [direction[axes[0]] / length, direction[axes[1]] / length, 1.0 / length];
+        Self { origin, direction, axes, shear, min: min.max(0.0) as f32 }
+    }
+}
+
+/// How far computed distances to the triangles of a tree may be off, besides their relative
+/// rounding: `extent` is the largest of a triangle.
+#[inline(always)]
+pub(crate) fn distance_margin(extent: f32, shear: f32) -> f32 {
+    32.0 * ROUND * extent * shear.abs()
+}
+
+/// The distance up to which boxes have to be looked into when a hit at `best` is known.
+#[inline(always)]
+pub(crate) fn reach(best: f32, margin: f32) -> f32 {
+    best * (1.0 + 32.0 * ROUND) + margin
+}
+
+/// A ray as the box test wants it.
+pub(crate) struct BoxTest<V> {
+    near_rows: [usize; 3],
+    far_rows: [usize; 3],
+    near: [V; 3],
+    near_offset: [V; 3],
+    far: [V; 3],
+    far_offset: [V; 3],
+    min: V,
+}
+
+impl<V: V8> BoxTest<V> {
+    #[inline(always)]
+    pub(crate) fn new(ray: &LocalRay, margin: f32) -> Self {
+        let mut near_rows = [0; 3];
+        let mut far_rows = [0; 3];
+        let mut near = [0.0; 3];
+        let mut near_offset = [0.0; 3];
+        let mut far = [0.0; 3];
+        let mut far_offset = [0.0; 3];
+        for axis in 0..3 {
+            let d = ray.direction[axis];
+            let d = if d.abs() < FLAT { FLAT.copysign(d) } else { d };
+            let back = d < 0.0;
+            near_rows[axis] = axis + 3 * usize::from(back);
+            far_rows[axis] = axis + 3 * usize::from(!back);
+            let inverse = 1.0 / d;
+            near[axis] = inverse * (1.0 - 4.0 * ROUND);
+            far[axis] = inverse * (1.0 + 4.0 * ROUND);
+            let (start, end) = (ray.origin[axis] * near[axis], ray.origin[axis] * far[axis]);
+            near_offset[axis] = -start - start.abs() * (4.0 * ROUND);
+            far_offset[axis] = -end + end.abs() * (4.0 * ROUND);
+        }
+        let min = ray.min * (1.0 - 32.0 * ROUND) - margin;
+        Self {
+            near_rows,
+            far_rows,
+            near: splat3(near),
+            near_offset: splat3(near_offset),
+            far: splat3(far),
+            far_offset: splat3(far_offset),
+            min: V::splat(if min > 0.0 { min } else { 0.0 }),
+        }
+    }
+
+    /// The same for all rays of this direction that start within `off` of its origin, to either
+    /// side.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "with room for rounding")]
+    pub(crate) fn around(mut self, off: DVec3) -> Self {
+        let off = off.to_array();
+        for axis in 0..3 {
+            let off = V::splat(off[axis] as f32 * (1.0 + 16.0 * ROUND));
+            let zero = V::splat(0.0);
+            let near = self.near[axis].max(zero.sub(self.near[axis]));
+            let far = self.far[axis].max(zero.sub(self.far[axis]));
+            self.near_offset[axis] = self.near_offset[axis].sub(off.mul(near));
+            self.far_offset[axis] = self.far_offset[axis].add(off.mul(far));
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn near(&self, node: &Node, axis: usize) -> V {
+        let row = V::load(&node.0[self.near_rows[axis] & 7]);
+        row.mul_add_about(self.near[axis], self.near_offset[axis])
+    }
+
+    #[inline(always)]
+    fn far(&self, node: &Node, axis: usize) -> V {
+        let row = V::load(&node.0[self.far_rows[axis] & 7]);
+        row.mul_add_about(self.far[axis], self.far_offset[axis])
+    }
+}
+
+impl<V: V8> NodeTest<V> for BoxTest<V> {
+    #[inline(always)]
+    fn children(&self, node: &Node, reach: V) -> (u32, V) {
+        let enter = self.near(node, 0).max(self.near(node, 1));
+        let enter = enter.max(self.near(node, 2).max(self.min));
+        let leave = self.far(node, 0).min(self.far(node, 1)).min(self.far(node, 2).min(reach));
+        (enter.le(leave).bits(), enter)
+    }
+}

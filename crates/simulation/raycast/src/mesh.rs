@@ -1,0 +1,324 @@
+//! Triangles and the tree over them.
+
+mod together;
+mod turns;
+
+use std::fmt;
+
+use periplus_geometry::DVec3;
+
+use crate::bvh::{self, Bounds, LEAF, MAX_LEAF, Node, build, leaf_range};
+use crate::local::{BoxTest, LocalRay, distance_margin, reach};
+use crate::simd::{Row, V8, splat3};
+use crate::triangle;
+use crate::walk::{Leaves, Stack, Step, walk};
+
+pub(crate) use together::Best;
+pub(crate) use turns::Queue;
+
+/// Coordinates beyond this are no place \[m\].
+const FARTHEST_M: f64 = 1e12;
+
+/// Triangles with a tree over them, in a frame of their own. Single precision about the middle of
+/// the mesh: distances are good to about 1e-7 of the mesh's size and of themselves.
+#[derive(Clone, Debug)]
+pub struct TriangleMesh {
+    /// Of the tree's frame \[m\].
+    pub(crate) middle_m: DVec3,
+    pub(crate) low_m: DVec3,
+    pub(crate) high_m: DVec3,
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) blocks: Vec<Block>,
+    /// Block and lane of every triangle.
+    places: Vec<u32>,
+    /// The longest side of a triangle's box \[m\].
+    pub(crate) extent: f32,
+}
+
+/// Up to eight triangles: `corners[corner][axis]`. What is not used has no area.
+#[repr(C, align(64))]
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    pub(crate) corners: [[Row; 3]; 3],
+    pub(crate) ids: [u32; 8],
+}
+
+/// Why triangles make no mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshError {
+    /// This triangle names a corner that is not there.
+    NoSuchCorner {
+        /// The triangle's place in the list.
+        triangle: usize,
+    },
+    /// This position is not finite or farther than 1e12 m.
+    BadPosition {
+        /// The position's place in the list.
+        position: usize,
+    },
+    /// More than 2^28 triangles.
+    TooMany,
+}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchCorner { triangle } => {
+                write!(f, "triangle {triangle} names a position that is not in the list")
+            }
+            Self::BadPosition { position } => {
+                write!(f, "position {position} is not a number within 1e12 m of the origin")
+            }
+            Self::TooMany => {
+                write!(f, "more than {} triangles; split the mesh", bvh::MAX_PRIMITIVES)
+            }
+        }
+    }
+}
+
+impl std::error::Error for MeshError {}
+
+/// The nearest triangle found so far; `id` is `u32::MAX` when there is none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    pub(crate) distance: f32,
+    pub(crate) id: u32,
+}
+
+impl Nearest {
+    #[inline(always)]
+    fn is_worse_than(&self, distance: f32, id: u32) -> bool {
+        distance < self.distance || distance == self.distance && id < self.id
+    }
+}
+
+impl TriangleMesh {
+    /// From positions \[m\] and corners of triangles, with `threads` (0 counts as 1) threads. The
+    /// same triangles make the same mesh, whatever their number. Triangles without area are kept
+    /// and never hit.
+    ///
+    /// # Errors
+    /// When a corner or a position is unusable.
+    pub fn new(
+        positions_m: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        threads: usize,
+    ) -> Result<Self, MeshError> {
+        if triangles.len() > bvh::MAX_PRIMITIVES {
+            return Err(MeshError::TooMany);
+        }
+        let usable = |p: &[f64; 3]| p.iter().all(|x| x.abs() <= FARTHEST_M);
+        if let Some(position) = positions_m.iter().position(|p| !usable(p)) {
+            return Err(MeshError::BadPosition { position });
+        }
+        let known = |t: &[u32; 3]| t.iter().all(|&corner| (corner as usize) < positions_m.len());
+        if let Some(triangle) = triangles.iter().position(|t| !known(t)) {
+            return Err(MeshError::NoSuchCorner { triangle });
+        }
+        let (mut low_m, mut high_m) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &p in positions_m {
+            low_m = low_m.min(DVec3::from_array(p));
+            high_m = high_m.max(DVec3::from_array(p));
+        }
+        if positions_m.is_empty() {
+            (low_m, high_m) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        let middle_m = (low_m + high_m) * 0.5;
+        #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+        let local: Vec<[f32; 3]> = positions_m
+            .iter()
+            .map(|&p| (DVec3::from_array(p) - middle_m).to_array().map(|x| x as f32))
+            .collect();
+        let mut extent = 0.0_f32;
+        let mut boxes: Vec<Bounds> = Vec::with_capacity(triangles.len());
+        for (number, triangle) in (0_u32..).zip(triangles) {
+            let (bounds, size) = bounds(triangle.map(|corner| local[corner as usize]), number);
+            extent = extent.max(size);
+            boxes.push(bounds);
+        }
+        let mut nodes = build(&mut boxes, MAX_LEAF, threads);
+        let mut blocks = Vec::with_capacity(triangles.len() / 4);
+        let mut places = vec![0; triangles.len()];
+        for node in &mut nodes {
+            for slot in 0..8 {
+                let word = node.child(slot);
+                if !node.is_used(slot) || word & LEAF == 0 {
+                    continue;
+                }
+                let (first, count) = leaf_range(word);
+                let mut block = Block { corners: [[Row([0.0; 8]); 3]; 3], ids: [u32::MAX; 8] };
+                for (lane, each) in boxes[first..first + count].iter().enumerate() {
+                    let id = each.number();
+                    block.ids[lane] = id;
+                    for (corner, &position) in triangles[id as usize].iter().enumerate() {
+                        for (axis, &value) in local[position as usize].iter().enumerate() {
+                            block.corners[corner][axis].0[lane] = value;
+                        }
+                    }
+                    #[expect(clippy::cast_possible_truncation, reason = "fewer than 2³¹")]
+                    let place = (blocks.len() * 8 + lane) as u32;
+                    places[id as usize] = place;
+                }
+                node.set_child(slot, bvh::leaf(blocks.len(), count));
+                blocks.push(block);
+            }
+        }
+        Ok(Self { middle_m, low_m, high_m, nodes, blocks, places, extent })
+    }
+
+    /// How many triangles there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// What tree and triangles take in memory.
+    #[must_use]
+    pub fn size_bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.places)
+    }
+
+    /// Middle and half sides of the box around it \[m\].
+    pub(crate) fn bounds_m(&self) -> (DVec3, DVec3) {
+        ((self.low_m + self.high_m) / 2.0, (self.high_m - self.low_m) / 2.0)
+    }
+
+    /// Takes the area of triangles, so that no ray meets them any more.
+    pub(crate) fn erase(&mut self, ids: std::ops::Range<u32>) {
+        for id in ids {
+            let place = self.places[id as usize] as usize;
+            for row in self.blocks[place / 8].corners.as_flattened_mut() {
+                row.0[place % 8] = 0.0;
+            }
+        }
+    }
+
+    /// Unit normal of a triangle by the right-hand rule, zero for one without area.
+    pub(crate) fn normal(&self, id: u32) -> DVec3 {
+        let place = self.places[id as usize] as usize;
+        let block = &self.blocks[place / 8];
+        let [a, b, c] = [0, 1, 2].map(|corner: usize| {
+            let [x, y, z] = [0, 1, 2].map(|axis: usize| block.corners[corner][axis].0[place % 8]);
+            DVec3::new(x.into(), y.into(), z.into())
+        });
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// A ray given in the mesh's frame \[m\], in that of its tree.
+    #[inline(always)]
+    pub(crate) fn localize(&self, origin_m: DVec3, direction: DVec3, min_m: f64) -> LocalRay {
+        LocalRay::new(origin_m - self.middle_m, direction, min_m)
+    }
+
+    /// Makes `nearest` the nearest triangle that `accept` lets pass, if one is as near. With `ANY`
+    /// the first found will do.
+    #[inline(always)]
+    pub(crate) fn trace<V: V8, const ANY: bool>(
+        &self,
+        ray: &LocalRay,
+        nearest: &mut Nearest,
+        stack: &mut Stack,
+        accept: impl Fn(u32) -> bool,
+    ) {
+        let margin = distance_margin(self.extent, ray.shear[2]);
+        let limit = reach(nearest.distance, margin);
+        let rows = RayRows::<V>::new(ray);
+        let mut leaves =
+            OneRay::<V, _, ANY> { blocks: &self.blocks, rows: &rows, margin, nearest, accept };
+        walk(&self.nodes, &BoxTest::<V>::new(ray, margin), limit, stack, &mut leaves);
+    }
+}
+
+/// A ray as the triangle test wants it.
+struct RayRows<V> {
+    axes: [usize; 3],
+    origin: [V; 3],
+    shear: [V; 3],
+    min: V,
+}
+
+impl<V: V8> RayRows<V> {
+    #[inline(always)]
+    fn new(ray: &LocalRay) -> Self {
+        let [x, y, z] = ray.axes;
+        Self {
+            axes: ray.axes,
+            origin: splat3([ray.origin[x], ray.origin[y], ray.origin[z]]),
+            shear: splat3(ray.shear),
+            min: V::splat(ray.min),
+        }
+    }
+
+    #[inline(always)]
+    fn corner(&self, corner: &[Row; 3]) -> [V; 3] {
+        [
+            V::load(&corner[self.axes[0]]).sub(self.origin[0]),
+            V::load(&corner[self.axes[1]]).sub(self.origin[1]),
+            V::load(&corner[self.axes[2]]).sub(self.origin[2]),
+        ]
+    }
+}
+
+/// One ray against eight triangles at a time.
+struct OneRay<'a, V, A, const ANY: bool> {
+    blocks: &'a [Block],
+    rows: &'a RayRows<V>,
+    margin: f32,
+    nearest: &'a mut Nearest,
+    accept: A,
+}
+
+impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for OneRay<'_, V, A, ANY> {
+    #[inline(always)]
+    fn visit(&mut self, word: u32) -> Step {
+        let block = &self.blocks[leaf_range(word).0];
+        let [a, b, c] = &block.corners;
+        let rows = self.rows;
+        let corners = [rows.corner(a), rows.corner(b), rows.corner(c)];
+        let best = V::splat(self.nearest.distance);
+        let (mask, distances) = triangle::intersect(corners, rows.shear, rows.min, best);
+        let mut bits = mask.bits();
+        if bits == 0 {
+            return Step::On;
+        }
+        let distances = distances.store();
+        while bits != 0 {
+            let lane = bits.trailing_zeros() as usize & 7;
+            bits &= bits - 1;
+            let (distance, id) = (distances.0[lane], block.ids[lane]);
+            if self.nearest.is_worse_than(distance, id) && (self.accept)(id) {
+                *self.nearest = Nearest { distance, id };
+                if ANY {
+                    return Step::Stop;
+                }
+            }
+        }
+        Step::Within(reach(self.nearest.distance, self.margin))
+    }
+}
+
+/// The box of a triangle, with room for what rounding does to the triangle test, and its longest
+/// side.
+fn bounds(corners: [[f32; 3]; 3], number: u32) -> (Bounds, f32) {
+    let [a, b, c] = corners;
+    let mut low = [0.0_f32; 3];
+    let mut high = [0.0_f32; 3];
+    let mut extent = 0.0_f32;
+    for axis in 0..3 {
+        low[axis] = a[axis].min(b[axis]).min(c[axis]);
+        high[axis] = a[axis].max(b[axis]).max(c[axis]);
+        extent = extent.max(high[axis] - low[axis]);
+    }
+    for axis in 0..3 {
+        let room = 2e-6 * extent + 2.4e-7 * low[axis].abs().max(high[axis].abs());
+        low[axis] -= room;
+        high[axis] += room;
+    }
+    (Bounds::new(low, high, number), extent)
+}

@@ -1,0 +1,211 @@
+//! What of a surface changes from point to point, and what gives light.
+
+use periplus_geometry::{DVec3, Pose};
+use periplus_images::Image;
+use periplus_raycast::{Hit, InstanceId};
+use periplus_scene::{Light, World};
+
+use super::{PartId, Surroundings};
+use crate::body::Body;
+use crate::light::{Lamp, Shine};
+use crate::look::{Look, rgb};
+use crate::mesh::Selected;
+
+/// Light from all around, and what is seen where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sky {
+    pub(crate) ambient: [f32; 3],
+    pub(crate) background: [f32; 3],
+    pub(crate) shadows: bool,
+}
+
+impl Default for Sky {
+    /// SDF's defaults.
+    fn default() -> Self {
+        Self { ambient: [0.4; 3], background: [0.7; 3], shadows: true }
+    }
+}
+
+impl Sky {
+    pub(super) fn of(world: &World) -> Self {
+        Self {
+            ambient: rgb(world.ambient),
+            background: rgb(world.background),
+            shadows: world.shadows,
+        }
+    }
+}
+
+/// What does not change from point to point of what a ray met.
+#[derive(Clone, Copy)]
+pub(crate) struct Met<'a> {
+    pub(crate) instance: InstanceId,
+    pub(crate) primitive: u32,
+    pub(crate) look: &'a Look,
+    /// Whether there is no [`Surroundings::detail`] besides.
+    pub(crate) is_plain: bool,
+}
+
+impl Surroundings {
+    /// Adds a light to the world, or puts it in place of the one of its name; its pose is
+    /// `world_from_light`. Lights on links come and go with their models.
+    pub fn set_light(&mut self, light: &Light) {
+        self.remove_light(&light.name);
+        self.lamps.push(Lamp { light: light.clone(), part: None });
+    }
+
+    /// Puts a light in place of the one of its name on a link; false if there is none.
+    pub fn set_light_on(&mut self, PartId(part): PartId, light: &Light) -> bool {
+        let mut lamps = self.lamps.iter_mut().filter(|lamp| lamp.part == Some(part));
+        let known = lamps.find(|lamp| lamp.light.name == light.name);
+        known.map(|lamp| lamp.light = light.clone()).is_some()
+    }
+
+    /// Takes a light of the world away; false if there is none of this name.
+    pub fn remove_light(&mut self, name: &str) -> bool {
+        let before = self.lamps.len();
+        self.lamps.retain(|lamp| lamp.part.is_some() || lamp.light.name != name);
+        self.lamps.len() < before
+    }
+
+    pub(crate) fn sky(&self) -> Sky {
+        self.sky
+    }
+
+    /// All lights that shine, where they are now.
+    pub(crate) fn shines(&self) -> Vec<Shine> {
+        let placed = |lamp: &Lamp| {
+            let world_from_parent = match lamp.part {
+                None => Pose::IDENTITY,
+                Some(part) => self.world_from_part(PartId(part))?,
+            };
+            Shine::of(&lamp.light, world_from_parent * lamp.light.parent_from_light)
+        };
+        self.lamps.iter().filter_map(placed).collect()
+    }
+
+    /// The look of what a ray met.
+    pub(crate) fn met(&self, hit: &Hit) -> Met<'_> {
+        let thing = self.thing(hit.instance);
+        let look = thing.look(hit.primitive);
+        let is_plain = match &thing.body {
+            Some(Body::Mesh(mesh)) => {
+                let Selected { normals, uvs, .. } = &mesh.selected;
+                normals.is_empty() && (look.texture.is_none() || uvs.is_empty())
+            }
+            _ => true,
+        };
+        Met { instance: hit.instance, primitive: hit.primitive, look, is_plain }
+    }
+
+    /// Class and number of what a ray met.
+    pub(crate) fn label_of(&self, instance: InstanceId) -> Option<(u8, u16)> {
+        self.thing(instance).label.map(|label| (label.class, label.number))
+    }
+
+    /// The normal for light, and the colour of the texture with the opacity of all.
+    pub(crate) fn detail(&self, hit: &Hit, point: DVec3) -> (DVec3, [f32; 4]) {
+        let thing = self.thing(hit.instance);
+        let look = thing.look(hit.primitive);
+        let plain = (hit.normal, [1.0, 1.0, 1.0, look.opacity]);
+        let Some(Body::Mesh(mesh)) = &thing.body else { return plain };
+        let selected = &mesh.selected;
+        let textured = look.texture.as_ref().filter(|_| !selected.uvs.is_empty());
+        if textured.is_none() && selected.normals.is_empty() {
+            return plain;
+        }
+        let part = &self.parts[thing.part as usize];
+        let world_from_body = part.world_from_link * thing.link_from_body;
+        let point = world_from_body.inverse().transform_point(point);
+        let Some(corners) = selected.triangles.get(hit.primitive as usize) else { return plain };
+        let Some(shares) = shares(selected, *corners, point) else { return plain };
+        let mut normal = hit.normal;
+        if !selected.normals.is_empty() {
+            let blended = blend(*corners, shares, |corner| selected.normals[corner].map(f64::from));
+            let smooth = world_from_body.rotation * DVec3::from_array(blended);
+            // Seen from behind, or bent away from the eye by rough shapes: the flat one is better.
+            let smooth = smooth.normalize_or_zero();
+            let facing = smooth.dot(hit.normal);
+            if facing.abs() > 0.2 {
+                normal = if facing < 0.0 { -smooth } else { smooth };
+            }
+        }
+        let mut tint = plain.1;
+        if let Some(image) = textured {
+            let [u, v, _] = blend(*corners, shares, |corner| {
+                let [u, v] = selected.uvs[corner].map(f64::from);
+                [u, v, 0.0]
+            });
+            let [r, g, b, a] = sample(image, u, v);
+            tint = [r, g, b, a * look.opacity];
+        }
+        (normal, tint)
+    }
+}
+
+/// The weights of the corners of a triangle at a point; none if it has no area.
+fn shares(selected: &Selected, corners: [u32; 3], point: DVec3) -> Option<[f64; 3]> {
+    let [a, b, c] = corners.map(|corner| DVec3::from_array(selected.positions_m[corner as usize]));
+    let (ab, ac, ap) = (b - a, c - a, point - a);
+    let normal = ab.cross(ac);
+    let area = normal.length_squared();
+    if area == 0.0 {
+        return None;
+    }
+    let of_b = ap.cross(ac).dot(normal) / area;
+    let of_c = ab.cross(ap).dot(normal) / area;
+    Some([1.0 - of_b - of_c, of_b, of_c])
+}
+
+fn blend(corners: [u32; 3], shares: [f64; 3], of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+    let [a, b, c] = corners.map(|corner| of(corner as usize));
+    [0, 1, 2].map(|k: usize| a[k] * shares[0] + b[k] * shares[1] + c[k] * shares[2])
+}
+
+/// The colour of an image at texture coordinates, v upwards, repeated without end, blended between
+/// the middles of pixels.
+#[expect(clippy::cast_possible_truncation, reason = "pixel numbers are within the image")]
+fn sample(image: &Image, u: f64, v: f64) -> [f32; 4] {
+    let (width, height) = (f64::from(image.width), f64::from(image.height));
+    if !(u.is_finite() && v.is_finite()) {
+        return [1.0; 4];
+    }
+    let x = (u - u.floor()) * width - 0.5;
+    let y = (1.0 - (v - v.floor())) * height - 0.5;
+    let (left, top) = (x.floor(), y.floor());
+    let (dx, dy) = ((x - left) as f32, (y - top) as f32);
+    let wrap = |k: f64, n: u32| (k as i64).rem_euclid(i64::from(n)) as usize;
+    let pixel = |column: f64, row: f64| {
+        let index = wrap(row, image.height) * image.width as usize + wrap(column, image.width);
+        image.rgba[index].map(|byte| f32::from(byte) / 255.0)
+    };
+    let corners = [
+        pixel(left, top),
+        pixel(left + 1.0, top),
+        pixel(left, top + 1.0),
+        pixel(left + 1.0, top + 1.0),
+    ];
+    [0, 1, 2, 3].map(|k: usize| {
+        let upper = corners[0][k] + (corners[1][k] - corners[0][k]) * dx;
+        let lower = corners[2][k] + (corners[3][k] - corners[2][k]) * dx;
+        upper + (lower - upper) * dy
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_lies_with_v_upwards() {
+        let image = Image {
+            width: 2,
+            height: 2,
+            rgba: vec![[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255; 4]],
+        };
+        assert_eq!(sample(&image, 0.25, 0.75), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(sample(&image, 0.25, 0.25), [0.0, 0.0, 1.0, 1.0]);
+        assert_eq!(sample(&image, 5.75, -0.25), [0.0, 1.0, 0.0, 1.0]);
+        assert_eq!(sample(&image, 0.5, 0.75), [0.5, 0.5, 0.0, 1.0]);
+    }
+}

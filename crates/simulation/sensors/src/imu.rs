@@ -1,0 +1,256 @@
+//! Inertial measurement units.
+
+mod reference;
+
+use periplus_geometry::{DQuat, DVec3, Stream};
+
+pub use reference::OrientationReference;
+
+use crate::{Motion, NoiseModel, Streams};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// What an IMU measures, in its own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImuReading {
+    /// `reference_from_sensor`; none where the sensor reports no orientation.
+    pub orientation: Option<DQuat>,
+    /// Angular velocity [rad/s].
+    pub angular_velocity_rad_s: DVec3,
+    /// Specific force: acceleration less gravity, so that z reads +9.8 at rest (REP 145) [m/s²].
+    pub linear_acceleration_m_s2: DVec3,
+}
+
+/// An inertial measurement unit.
+///
+/// An accelerometer gathers velocity over its period, and so does this one: it reports the change
+/// of its own velocity (with the lever arm on its link) since the last measurement, divided by the
+/// time, as seen at half of the turn in between. The sum of all readings times their periods is
+/// then the change of velocity, whatever happens between them. Gravity is as felt now.
+#[derive(Clone, Debug)]
+pub struct Imu {
+    angular_velocity: [NoiseModel; 3],
+    linear_acceleration: [NoiseModel; 3],
+    reference: Option<OrientationReference>,
+    world_from_reference: Option<DQuat>,
+    last: Option<(i64, Motion)>,
+}
+
+impl Imu {
+    /// An IMU with a reference for its orientation; with none it reports no orientation.
+    #[must_use]
+    pub fn new(
+        spec: &periplus_scene::Imu,
+        reference: Option<OrientationReference>,
+        streams: &Streams,
+    ) -> Self {
+        let noises = |noises: &[periplus_scene::Noise; 3], group: &str| {
+            [0, 1, 2].map(|axis| {
+                NoiseModel::new(&noises[axis], streams, &format!("{group}/{}", AXES[axis]))
+            })
+        };
+        Self {
+            angular_velocity: noises(&spec.angular_velocity, "angular_velocity"),
+            linear_acceleration: noises(&spec.linear_acceleration, "linear_acceleration"),
+            reference: reference.filter(|_| spec.enable_orientation),
+            world_from_reference: None,
+            last: None,
+        }
+    }
+
+    /// Takes note of the motion at a time when a measurement is due and nobody wants it, so that
+    /// the next one knows where to start from. Also right at the start.
+    pub fn pass(&mut self, now_ns: i64, motion: &Motion) {
+        self.settle_reference(motion);
+        self.last = Some((now_ns, *motion));
+    }
+
+    /// The reading of now. Without an earlier measurement the acceleration is taken for none.
+    pub fn measure(
+        &mut self,
+        now_ns: i64,
+        motion: &Motion,
+        gravity_m_s2: DVec3,
+        stream: &mut Stream,
+    ) -> ImuReading {
+        let mut dt_s = 0.0;
+        let mut felt = DVec3::ZERO;
+        if let Some((last_ns, last)) = self.last.filter(|(last_ns, _)| *last_ns < now_ns) {
+            #[expect(clippy::cast_precision_loss, reason = "a short time")]
+            let passed_s = (now_ns - last_ns) as f64 / 1e9;
+            dt_s = passed_s;
+            let (before, now) =
+                (last.world_from_sensor.rotation, motion.world_from_sensor.rotation);
+            // Halfway between two near rotations, whichever sign the quaternions have.
+            let nearer = if before.dot(now) < 0.0 { -now } else { now };
+            let halfway = (before + nearer).normalize();
+            felt = halfway.conjugate() * ((motion.linear_m_s - last.linear_m_s) / dt_s);
+        }
+        self.pass(now_ns, motion);
+        let force = felt - motion.in_sensor(gravity_m_s2);
+        let turn = motion.in_sensor(motion.angular_rad_s);
+        let mut spoil = |noises: &mut [NoiseModel; 3], vector: DVec3| {
+            let values = vector.to_array();
+            let spoiled = [0, 1, 2].map(|axis| noises[axis].apply(values[axis], dt_s, stream));
+            DVec3::from_array(spoiled)
+        };
+        ImuReading {
+            angular_velocity_rad_s: spoil(&mut self.angular_velocity, turn),
+            linear_acceleration_m_s2: spoil(&mut self.linear_acceleration, force),
+            orientation: self
+                .world_from_reference
+                .map(|reference| reference.conjugate() * motion.world_from_sensor.rotation),
+        }
+    }
+
+    /// Variances of angular velocity [rad²/s²] and linear acceleration [m²/s⁴] along x, y, z.
+    #[must_use]
+    pub fn variances(&self) -> [[f64; 3]; 2] {
+        let of = |noises: &[NoiseModel; 3]| {
+            [0, 1, 2].map(|axis| noises[axis].spec().stddev * noises[axis].spec().stddev)
+        };
+        [of(&self.angular_velocity), of(&self.linear_acceleration)]
+    }
+
+    /// Takes the orientation of now as reference, where that is the start's (a calibration).
+    pub fn set_reference(&mut self, world_from_reference: DQuat) {
+        if self.reference.is_some() {
+            self.world_from_reference = Some(world_from_reference);
+        }
+    }
+
+    /// Forgets all motion, for a robot that was put elsewhere.
+    pub fn forget(&mut self) {
+        self.last = None;
+    }
+
+    /// Back to the start.
+    pub fn reset(&mut self) {
+        self.last = None;
+        self.world_from_reference = None;
+        self.angular_velocity.iter_mut().for_each(NoiseModel::reset);
+        self.linear_acceleration.iter_mut().for_each(NoiseModel::reset);
+    }
+
+    fn settle_reference(&mut self, motion: &Motion) {
+        if self.world_from_reference.is_none() {
+            let start = motion.world_from_sensor.rotation;
+            self.world_from_reference = self.reference.map(|reference| match reference {
+                OrientationReference::Start { start_from_reference } => {
+                    start * start_from_reference
+                }
+                OrientationReference::World { world_from_reference } => world_from_reference,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use periplus_geometry::{Pose, Rpy};
+    use periplus_scene::{Noise, NoiseKind};
+
+    use super::*;
+
+    const GRAVITY: DVec3 = DVec3::new(0.0, 0.0, -9.8);
+
+    fn silent() -> periplus_scene::Imu {
+        periplus_scene::Imu {
+            angular_velocity: [Noise::default(); 3],
+            linear_acceleration: [Noise::default(); 3],
+            enable_orientation: true,
+            localization: None,
+            extra: Vec::new(),
+        }
+    }
+
+    fn imu(reference: OrientationReference) -> Imu {
+        Imu::new(&silent(), Some(reference), &Streams::new(0, "imu"))
+    }
+
+    fn near(a: DVec3, b: [f64; 3], within: f64) -> bool {
+        a.distance(DVec3::from_array(b)) < within
+    }
+
+    fn stream() -> Stream {
+        Stream::keyed(0, "", 0)
+    }
+
+    #[test]
+    fn at_rest_it_feels_the_ground() {
+        let mut imu = imu(OrientationReference::WORLD);
+        let pitched = Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch: FRAC_PI_2, yaw: 0.0 });
+        let level = imu.measure(0, &Motion::at_rest(Pose::IDENTITY), GRAVITY, &mut stream());
+        assert_eq!(level.linear_acceleration_m_s2, DVec3::new(0.0, 0.0, 9.8));
+        // Nose down: up is behind.
+        let down = imu.measure(10, &Motion::at_rest(pitched), GRAVITY, &mut stream());
+        assert!(near(down.linear_acceleration_m_s2, [-9.8, 0.0, 0.0], 1e-12), "{down:?}");
+    }
+
+    #[test]
+    fn falling_it_feels_nothing() {
+        let mut imu = imu(OrientationReference::START);
+        let fall = |time_s: f64| Motion {
+            linear_m_s: GRAVITY * time_s,
+            ..Motion::at_rest(Pose::IDENTITY)
+        };
+        imu.pass(0, &fall(0.0));
+        let reading = imu.measure(10_000_000, &fall(0.01), GRAVITY, &mut stream());
+        assert!(near(reading.linear_acceleration_m_s2, [0.0; 3], 1e-12), "{reading:?}");
+    }
+
+    /// On a circle of 0.5 m at 2 rad/s: 0.5 · 2² = 2 m/s² to the centre, 9.8 up, and nothing along.
+    #[test]
+    fn on_a_turntable_it_feels_the_centre() {
+        let mut imu = imu(OrientationReference::START);
+        let at = |time_s: f64| {
+            let yaw = Rpy { roll: 0.0, pitch: 0.0, yaw: 2.0 * time_s };
+            let link = periplus_physics::LinkState {
+                world_from_link: Pose::from_xyz_rpy([3.0, 1.0, 0.0], yaw),
+                linear_m_s: DVec3::ZERO,
+                angular_rad_s: DVec3::Z * 2.0,
+            };
+            Motion::on_link(&link, Pose::from_xyz(0.5, 0.0, 0.0))
+        };
+        imu.pass(0, &at(0.0));
+        for tick in 1..200 {
+            let time_s = f64::from(tick) * 0.01;
+            let now_ns = i64::from(tick) * 10_000_000;
+            let reading = imu.measure(now_ns, &at(time_s), GRAVITY, &mut stream());
+            assert!(near(reading.linear_acceleration_m_s2, [-2.0, 0.0, 9.8], 1e-4), "{reading:?}");
+            assert!(near(reading.angular_velocity_rad_s, [0.0, 0.0, 2.0], 1e-12));
+        }
+    }
+
+    #[test]
+    fn orientations_are_against_the_start_or_the_world() {
+        let yaw = |yaw| Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch: 0.0, yaw });
+        let last = |reference| {
+            let mut imu = imu(reference);
+            imu.pass(0, &Motion::at_rest(yaw(0.5)));
+            let reading = imu.measure(1, &Motion::at_rest(yaw(0.7)), GRAVITY, &mut stream());
+            Pose { rotation: reading.orientation.unwrap(), ..Pose::IDENTITY }.rpy().yaw
+        };
+        assert!((last(OrientationReference::START) - 0.2).abs() < 1e-12);
+        assert!((last(OrientationReference::WORLD) - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn noise_comes_on_top_of_every_axis() {
+        let noise = Noise { kind: NoiseKind::Gaussian, mean: 1.0, stddev: 0.5, ..Noise::default() };
+        let spec = periplus_scene::Imu { angular_velocity: [noise; 3], ..silent() };
+        let streams = Streams::new(1, "imu");
+        let mut imu = Imu::new(&spec, None, &streams);
+        let mut sum = DVec3::ZERO;
+        for tick in 0..10_000_u64 {
+            let motion = Motion::at_rest(Pose::IDENTITY);
+            let reading = imu.measure(tick as i64, &motion, GRAVITY, &mut streams.tick(tick));
+            assert_eq!(reading.orientation, None);
+            sum += reading.angular_velocity_rad_s;
+        }
+        assert!(near(sum / 1e4, [1.0; 3], 0.03), "{sum}");
+        assert_eq!(imu.variances(), [[0.25; 3], [0.0; 3]]);
+    }
+}

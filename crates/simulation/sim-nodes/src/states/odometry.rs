@@ -1,0 +1,122 @@
+//! Odometry as messages: the topic and the transform.
+
+use periplus_diagnostics::Diagnostics;
+use periplus_geometry::Pose;
+use periplus_graph::{Node, Publisher, Qos};
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::{geometry_msgs, nav_msgs, tf2_msgs};
+
+use super::geometry;
+use crate::drives::Order;
+use crate::publisher_qos;
+
+/// What Gazebo's plugins say of what they do not know: height, roll and pitch.
+const UNKNOWN: f64 = 1e12;
+
+/// Transforms go out as `tf2_ros` sends them.
+pub(crate) const TF_QOS: Qos = Qos::reliable(100);
+
+/// Variances on the diagonal of a covariance: x, y, z, roll, pitch, yaw.
+pub(crate) fn diagonal(variances: [f64; 6]) -> [f64; 36] {
+    let mut covariance = [0.0; 36];
+    for (index, variance) in variances.into_iter().enumerate() {
+        covariance[index * 7] = variance;
+    }
+    covariance
+}
+
+/// The covariance of a robot on the plane.
+pub(crate) fn planar_covariance(x_m2: f64, y_m2: f64, yaw_rad2: f64) -> [f64; 36] {
+    diagonal([x_m2, y_m2, UNKNOWN, UNKNOWN, UNKNOWN, yaw_rad2])
+}
+
+/// Tells where a robot is, from one frame to another.
+pub(crate) struct Teller {
+    pub(crate) parent_frame: String,
+    pub(crate) child_frame: String,
+    pub(crate) pose_covariance: [f64; 36],
+    pub(crate) twist_covariance: [f64; 36],
+    pub(crate) odometry: Option<Publisher<nav_msgs::Odometry>>,
+    pub(crate) tf: Option<Publisher<tf2_msgs::TFMessage>>,
+}
+
+impl Teller {
+    /// Without covariances and topics.
+    pub(crate) fn between(parent_frame: String, child_frame: String) -> Self {
+        Self {
+            parent_frame,
+            child_frame,
+            pose_covariance: [0.0; 36],
+            twist_covariance: [0.0; 36],
+            odometry: None,
+            tf: None,
+        }
+    }
+
+    /// With a topic of odometry.
+    pub(crate) fn on(
+        mut self,
+        order: &Order<'_>,
+        node: &Node,
+        topic: &str,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
+        let qos = publisher_qos(&order.plugin.ros, topic, Qos::reliable(1));
+        self.odometry = Some(order.accept(node.publisher(topic, qos), diagnostics)?);
+        Some(self)
+    }
+
+    /// With a topic of transforms.
+    pub(crate) fn with_tf(
+        mut self,
+        order: &Order<'_>,
+        node: &Node,
+        topic: &str,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
+        self.tf = Some(order.accept(node.publisher(topic, TF_QOS), diagnostics)?);
+        Some(self)
+    }
+
+    /// Whether anybody wants to know.
+    pub(crate) fn is_heard(&self) -> bool {
+        self.odometry.as_ref().is_some_and(Publisher::is_heard)
+            || self.tf.as_ref().is_some_and(Publisher::is_heard)
+    }
+
+    /// Tells where the child frame is in the parent frame, and how it moves, in its own axes.
+    pub(crate) fn tell(&self, time_ns: i64, parent_from_child: Pose, twist: geometry_msgs::Twist) {
+        if let Some(tf) = self.tf.as_ref().filter(|tf| tf.is_heard()) {
+            let (parent, child) = (&self.parent_frame, &self.child_frame);
+            let transform = geometry::transform(time_ns, parent, child, parent_from_child);
+            tf.publish(tf2_msgs::TFMessage { transforms: vec![transform] });
+        }
+        if let Some(odometry) = self.odometry.as_ref().filter(|odometry| odometry.is_heard()) {
+            odometry.publish(nav_msgs::Odometry {
+                header: Header::at(time_ns, &self.parent_frame),
+                child_frame_id: self.child_frame.clone(),
+                pose: geometry_msgs::PoseWithCovariance {
+                    pose: geometry::pose(parent_from_child),
+                    covariance: self.pose_covariance,
+                },
+                twist: geometry_msgs::TwistWithCovariance {
+                    twist,
+                    covariance: self.twist_covariance,
+                },
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_entries_of_a_covariance() {
+        let covariance = planar_covariance(1.0, 2.0, 3.0);
+        let entries: Vec<(usize, f64)> =
+            covariance.into_iter().enumerate().filter(|(_, value)| *value != 0.0).collect();
+        assert_eq!(entries, [(0, 1.0), (7, 2.0), (14, 1e12), (21, 1e12), (28, 1e12), (35, 3.0)]);
+    }
+}

@@ -1,0 +1,305 @@
+//! Driving without a person: a script or a recording, played on the graph.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::File;
+use std::path::Path;
+
+use periplus_bags::Reader;
+use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_graph::{Graph, GraphError, Node, NodeSettings, Publisher, Qos};
+use periplus_msgs::Message as _;
+use periplus_msgs::builtin_interfaces::Time;
+use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+use periplus_os::Machine;
+use periplus_resources::Host as _;
+use periplus_script::{Body, Pilot, Script};
+
+use crate::Simulation;
+
+/// Time between velocities towards a goal \[ns\].
+const STEER_NS: i64 = 50_000_000;
+
+/// Plays a script. Without one it does nothing.
+#[derive(Default)]
+pub struct Driver {
+    script: Script,
+    /// The next of the script's commands.
+    next: usize,
+    pilot: Option<Pilot>,
+    steer_ns: i64,
+    /// By topic as the script has it; none is that of the robot.
+    outlets: BTreeMap<Option<String>, Outlet>,
+}
+
+/// A reason for which a script cannot be driven.
+#[derive(Debug)]
+pub enum DriveError {
+    /// The script names no topic, and the robots listen on none or on several.
+    NoTopic(String),
+    /// A name is not valid, or a topic has another type.
+    Graph(GraphError),
+}
+
+impl fmt::Display for DriveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTopic(words) => f.write_str(words),
+            Self::Graph(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for DriveError {}
+
+impl From<GraphError> for DriveError {
+    fn from(error: GraphError) -> Self {
+        Self::Graph(error)
+    }
+}
+
+/// What a script's file gave beside the driver.
+#[derive(Debug, Default)]
+pub struct ScriptFindings {
+    /// The text.
+    pub sources: SourceMap,
+    /// What is wrong with it.
+    pub diagnostics: Diagnostics,
+}
+
+enum Outlet {
+    Twist(Publisher<Twist>),
+    Stamped(Publisher<TwistStamped>),
+}
+
+impl Driver {
+    /// Reads a script (YAML), or takes the commands of a recording (`.mcap`).
+    #[must_use]
+    pub fn read(path: &Path) -> (Self, ScriptFindings) {
+        let mut findings = ScriptFindings::default();
+        let is_bag = path.extension().is_some_and(|extension| extension == "mcap");
+        let script =
+            if is_bag { replayed(path, &mut findings) } else { written(path, &mut findings) };
+        (Self::new(script), findings)
+    }
+
+    /// Plays a script from its start.
+    #[must_use]
+    pub fn new(script: Script) -> Self {
+        let pilot = (!script.goals.is_empty()).then(|| Pilot::new(script.goals.clone()));
+        Self { script, pilot, ..Self::default() }
+    }
+
+    /// Makes the publishers of the script's topics. Commands without a topic go to the one on which
+    /// the robot listens. Warns about topics on which nobody does.
+    ///
+    /// # Errors
+    /// When no topic can be chosen, a name is not valid, or a topic has another type.
+    pub fn join(&mut self, simulation: &Simulation) -> Result<Diagnostics, DriveError> {
+        let mut warnings = Diagnostics::new();
+        let mut wanted: Vec<(Option<String>, bool)> = Vec::new();
+        for command in &self.script.commands {
+            if wanted.iter().all(|(topic, _)| *topic != command.topic) {
+                wanted.push((command.topic.clone(), matches!(command.body, Body::TwistStamped(_))));
+            }
+        }
+        let goal_topic = &self.script.goal_topic;
+        if self.pilot.is_some() && wanted.iter().all(|(topic, _)| topic != goal_topic) {
+            wanted.push((goal_topic.clone(), self.script.goals_are_stamped));
+        }
+        if wanted.is_empty() {
+            return Ok(warnings);
+        }
+        let listeners = velocity_topics(simulation.graph());
+        let mut settings = NodeSettings::new("script");
+        for rule in simulation.remaps() {
+            settings = settings.rule(rule);
+        }
+        let node = simulation.graph().node(settings)?;
+        for (topic, is_stamped) in wanted {
+            let (name, is_stamped) = match &topic {
+                None => chosen(&listeners)?,
+                Some(name) => {
+                    let full_name = node.names().topic(name)?;
+                    if listeners.iter().all(|listener| listener.name != full_name) {
+                        warnings.push(unheard(&full_name, &listeners));
+                    }
+                    (name.clone(), is_stamped)
+                }
+            };
+            self.outlets.insert(topic, outlet(&node, &name, is_stamped)?);
+        }
+        Ok(warnings)
+    }
+
+    /// Begins again, after time went back.
+    pub fn restart(&mut self) {
+        self.next = 0;
+        self.steer_ns = 0;
+        self.pilot = self.pilot.is_some().then(|| Pilot::new(self.script.goals.clone()));
+    }
+
+    /// Publishes what is due.
+    pub fn play(&mut self, simulation: &Simulation) {
+        let now_ns = simulation.time_ns();
+        while let Some(command) = self.script.commands.get(self.next) {
+            if command.time_ns > now_ns {
+                break;
+            }
+            self.send(command.topic.as_deref(), command.time_ns, command.body.clone());
+            self.next += 1;
+        }
+        if now_ns >= self.steer_ns
+            && let Some(pilot) = &mut self.pilot
+        {
+            self.steer_ns = now_ns + STEER_NS;
+            let pose = simulation.robot_pose().unwrap_or_default();
+            let velocity = pilot.steer(now_ns, pose);
+            let twist = velocity.unwrap_or_default().into();
+            let body = self.script.goal_body(&twist, now_ns);
+            self.send(self.script.goal_topic.as_deref(), now_ns, body);
+            // The last word was to stand.
+            if velocity.is_none() {
+                self.pilot = None;
+            }
+        }
+    }
+
+    /// When it next has something to say \[ns\].
+    #[must_use]
+    pub fn next_ns(&self) -> Option<i64> {
+        let command = self.script.commands.get(self.next).map(|command| command.time_ns);
+        let steer = self.pilot.is_some().then_some(self.steer_ns);
+        [command, steer].into_iter().flatten().min()
+    }
+
+    fn send(&self, topic: Option<&str>, time_ns: i64, body: Body) {
+        let outlet = self.outlets.iter().find(|(name, _)| name.as_deref() == topic);
+        match (outlet.map(|(_, outlet)| outlet), body) {
+            (Some(Outlet::Twist(publisher)), Body::Twist(twist)) => publisher.publish(twist),
+            (Some(Outlet::Stamped(publisher)), Body::TwistStamped(twist)) => {
+                publisher.publish(twist);
+            }
+            // The robot's own topic has the type that the robot has.
+            (Some(Outlet::Twist(publisher)), Body::TwistStamped(stamped)) if topic.is_none() => {
+                publisher.publish(stamped.twist);
+            }
+            (Some(Outlet::Stamped(publisher)), Body::Twist(twist)) if topic.is_none() => {
+                let mut stamped = TwistStamped { twist, ..TwistStamped::default() };
+                stamped.header.stamp = Time::of_ns(time_ns);
+                publisher.publish(stamped);
+            }
+            // A script that has both types on one topic: the first decided, the rest cannot be sent.
+            _ => {}
+        }
+    }
+}
+
+/// A topic on which a robot takes velocities.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VelocityTopic {
+    /// Its full name.
+    pub name: String,
+    /// Whether its messages are `TwistStamped`, not `Twist`.
+    pub is_stamped: bool,
+}
+
+/// The topics of a graph on which nodes take velocities, by name.
+#[must_use]
+pub fn velocity_topics(graph: &Graph) -> Vec<VelocityTopic> {
+    let topics = graph.topics().into_iter().filter(|topic| !topic.subscriptions.is_empty());
+    let topics = topics.filter_map(|topic| {
+        let is_stamped = topic.type_name == TwistStamped::TYPE_NAME;
+        (is_stamped || topic.type_name == Twist::TYPE_NAME)
+            .then_some(VelocityTopic { name: topic.name, is_stamped })
+    });
+    topics.collect()
+}
+
+/// The usual name of a topic with velocities.
+const USUAL: &str = "/cmd_vel";
+
+/// The topic of commands that name none.
+fn chosen(listeners: &[VelocityTopic]) -> Result<(String, bool), DriveError> {
+    let usual = listeners.iter().find(|listener| listener.name == USUAL);
+    match (usual, listeners) {
+        (Some(one), _) | (None, [one]) => Ok((one.name.clone(), one.is_stamped)),
+        (None, []) => Err(DriveError::NoTopic(
+            "no robot of this world takes velocities; add one with `--robot FILE`, or write `topic: \
+             NAME` where one that comes later listens"
+                .into(),
+        )),
+        (None, several) => Err(DriveError::NoTopic(format!(
+            "the commands name no topic, and robots listen on {}; add `topic: NAME` to them",
+            names(several)
+        ))),
+    }
+}
+
+fn unheard(topic: &str, listeners: &[VelocityTopic]) -> Diagnostic {
+    let warning = Diagnostic::warning(
+        "unheard-commands",
+        format!(
+            "nobody listens on `{topic}`, where the \
+             script sends velocities"
+        ),
+    );
+    match listeners {
+        [] => warning.help("no robot of this world takes velocities"),
+        listeners => warning.help(format!(
+            "robots listen on {}; commands without `topic:` go there",
+            names(listeners)
+        )),
+    }
+}
+
+fn names(topics: &[VelocityTopic]) -> String {
+    let names: Vec<String> = topics.iter().map(|topic| format!("`{}`", topic.name)).collect();
+    names.join(", ")
+}
+
+fn outlet(node: &Node, topic: &str, is_stamped: bool) -> Result<Outlet, GraphError> {
+    let qos = Qos::reliable(10);
+    Ok(if is_stamped {
+        Outlet::Stamped(node.publisher(topic, qos)?)
+    } else {
+        Outlet::Twist(node.publisher(topic, qos)?)
+    })
+}
+
+fn written(path: &Path, findings: &mut ScriptFindings) -> Script {
+    match Machine.read(path) {
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes).into_owned();
+            let file = findings.sources.add(path.display().to_string(), text);
+            periplus_script::read(file, &findings.sources, &mut findings.diagnostics)
+        }
+        Err(error) => {
+            findings.diagnostics.push(unreadable(path, &error.to_string()));
+            Script::default()
+        }
+    }
+}
+
+#[allow(clippy::disallowed_methods, reason = "recordings are read in pieces, not as a whole")]
+fn replayed(path: &Path, findings: &mut ScriptFindings) -> Script {
+    let commands = File::open(path)
+        .map_err(|error| error.to_string())
+        .and_then(|file| Reader::open(file).map_err(|error| error.to_string()))
+        .and_then(|mut bag| {
+            periplus_script::replay(&mut bag, &mut findings.diagnostics)
+                .map_err(|error| error.to_string())
+        });
+    match commands {
+        Ok(commands) => Script { commands, ..Script::default() },
+        Err(error) => {
+            findings.diagnostics.push(unreadable(path, &error));
+            Script::default()
+        }
+    }
+}
+
+fn unreadable(path: &Path, why: &str) -> Diagnostic {
+    Diagnostic::error("unreadable-file", format!("`{}` cannot be read: {why}", path.display()))
+        .help("give a script (YAML) or a recording (.mcap)")
+}

@@ -1,0 +1,63 @@
+//! Shapes from files, each read once.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use periplus_diagnostics::Origin;
+use periplus_geometry::DVec3;
+use periplus_loader::read_mesh;
+use periplus_os::Machine;
+use periplus_physics::{Heights, Meshes, Triangles};
+use periplus_rendering::{Shapes, ground, select};
+use periplus_resources::Host;
+use periplus_scene::{Heightmap, Mesh};
+
+/// Reads the files that a scene was found to name, for those who touch and those who see.
+#[derive(Debug, Default)]
+pub struct ShapeFiles {
+    meshes: Mutex<BTreeMap<PathBuf, Option<Arc<periplus_meshes::Mesh>>>>,
+}
+
+impl Shapes for ShapeFiles {
+    fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+        let path = mesh.path.as_ref()?;
+        let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = meshes.get(path) {
+            return known.clone();
+        }
+        let read = Machine.read(path).ok().and_then(|bytes| read_mesh(path, &bytes, &Machine));
+        let read = read.map(Arc::new);
+        meshes.insert(path.clone(), read.clone());
+        read
+    }
+
+    fn image(&self, uri: &str, _: Origin) -> Option<Arc<[u8]>> {
+        // The URIs of images are paths since the composition.
+        Machine.read(Path::new(uri)).ok().map(Arc::from)
+    }
+
+    fn texture(&self, mesh: &Mesh, name: &str) -> Option<Arc<[u8]>> {
+        let path = mesh.path.as_ref()?;
+        periplus_loader::read_beside(path, name, &Machine).map(Arc::from)
+    }
+}
+
+impl Meshes for ShapeFiles {
+    fn triangles(&self, mesh: &Mesh) -> Option<Triangles> {
+        let selected = select(mesh, &*Shapes::mesh(self, mesh)?);
+        let points_m = selected.positions_m.into_iter().map(DVec3::from_array).collect();
+        Some(Triangles { points_m, triangles: selected.triangles })
+    }
+
+    fn heights(&self, heightmap: &Heightmap) -> Option<Heights> {
+        // What is wrong with it is told by those who see it.
+        let ground = ground(heightmap, self).ok()?;
+        Some(Heights {
+            columns: ground.columns,
+            rows: ground.rows,
+            heights_m: ground.heights_m,
+            size_m: ground.size_m,
+        })
+    }
+}

@@ -1,0 +1,96 @@
+//! Ground, sun, and how a robot stands on it.
+
+use periplus_geometry::{DVec3, Pose, Rpy};
+use periplus_scene::{Model, Shape};
+
+/// A robot stands this far above the ground that it should touch \[m\]: solvers like a drop better
+/// than a push.
+const CLEARANCE_M: f64 = 1e-4;
+
+/// The pose of a model that touches the plane z = 0 with its lowest collision, at x, y \[m\] and
+/// yaw \[rad\].
+pub(crate) fn standing(model: &Model, x_m: f64, y_m: f64, yaw_rad: f64) -> Pose {
+    let lowest = lowest_m(model, Pose::IDENTITY).filter(|lowest| lowest.is_finite());
+    let z_m = CLEARANCE_M - lowest.unwrap_or(CLEARANCE_M);
+    Pose::from_xyz_rpy([x_m, y_m, z_m], Rpy { roll: 0.0, pitch: 0.0, yaw: yaw_rad })
+}
+
+/// The lowest point of all collisions of a model, in the frame that `up_from_model` leads to.
+/// Shapes from files are passed over: robots touch the ground with wheels.
+fn lowest_m(model: &Model, up_from_model: Pose) -> Option<f64> {
+    let own = model.links.iter().flat_map(|link| {
+        link.collisions.iter().filter_map(move |collision| {
+            let up_from_shape =
+                up_from_model * link.model_from_link * collision.link_from_collision;
+            let reach = reach_down_m(&collision.shape, up_from_shape)?;
+            Some(up_from_shape.translation.z - reach)
+        })
+    });
+    let nested = model
+        .models
+        .iter()
+        .filter_map(|inner| lowest_m(inner, up_from_model * inner.parent_from_model));
+    own.chain(nested).reduce(f64::min)
+}
+
+/// The radius of the smallest circle around a model's frame that all its collisions are in, seen from
+/// above \[m\]; each collision counts with its bounding sphere. Shapes from files are passed over.
+pub(crate) fn radius_m(model: &Model, base_from_model: Pose) -> Option<f64> {
+    let own = model.links.iter().flat_map(|link| {
+        link.collisions.iter().filter_map(move |collision| {
+            let base_from_shape =
+                base_from_model * link.model_from_link * collision.link_from_collision;
+            let middle = base_from_shape.translation;
+            Some(
+                libm::hypot(middle.x, middle.y) + reach_aside_m(&collision.shape, base_from_shape)?,
+            )
+        })
+    });
+    let nested = model
+        .models
+        .iter()
+        .filter_map(|inner| radius_m(inner, base_from_model * inner.parent_from_model));
+    own.chain(nested).filter(|radius_m| radius_m.is_finite()).reduce(f64::max)
+}
+
+/// How far a shape reaches to the side from its middle, at most \[m\].
+fn reach_aside_m(shape: &Shape, base_from_shape: Pose) -> Option<f64> {
+    let reach_along = |axis: DVec3| {
+        let axis_of_shape = base_from_shape.rotation.conjugate() * axis;
+        let up_from_shape = Pose { rotation: turn_up(axis_of_shape), ..Pose::IDENTITY };
+        reach_down_m(shape, up_from_shape)
+    };
+    Some(libm::hypot(reach_along(DVec3::X)?, reach_along(DVec3::Y)?))
+}
+
+/// A rotation that takes an axis of a shape up.
+fn turn_up(axis: DVec3) -> periplus_geometry::DQuat {
+    periplus_geometry::DQuat::from_rotation_arc(axis.normalize_or(DVec3::Z), DVec3::Z)
+}
+
+/// How far a shape reaches down from its middle \[m\].
+fn reach_down_m(shape: &Shape, up_from_shape: Pose) -> Option<f64> {
+    // The up axis as the shape sees it.
+    let up = up_from_shape.rotation.conjugate() * DVec3::Z;
+    let round = (1.0 - up.z * up.z).max(0.0).sqrt();
+    match *shape {
+        Shape::Box { size_m } => Some((up.abs() * size_m * 0.5).element_sum()),
+        Shape::Sphere { radius_m } => Some(radius_m),
+        Shape::Cylinder { radius_m, length_m } | Shape::Cone { radius_m, length_m } => {
+            Some(up.z.abs() * length_m * 0.5 + round * radius_m)
+        }
+        Shape::Capsule { radius_m, length_m } => Some(up.z.abs() * length_m * 0.5 + radius_m),
+        Shape::Ellipsoid { radii_m } => Some((up * radii_m).length()),
+        _ => None,
+    }
+}
+
+/// A plane in the sun, as text: where robots stand that come without a world.
+pub(crate) const PLAIN_WORLD: &str = r#"<?xml version="1.0"?>
+<sdf version="1.9">
+  <world name="default">
+    <include><uri>model://sun</uri></include>
+    <include><uri>model://ground_plane</uri></include>
+  </world>
+</sdf>
+"#;

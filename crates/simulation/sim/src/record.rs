@@ -1,0 +1,254 @@
+//! Into a bag.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use periplus_bags::{
+    BagInfo, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer,
+};
+use periplus_diagnostics::plain_words;
+use periplus_graph::{
+    Durability, History, Liveliness, Qos, Reliability, Sample, Sink, TapId, TopicInfo,
+};
+use periplus_msgs::TypeRegistry;
+use periplus_os::Stopwatch;
+
+use crate::Simulation;
+use crate::shares::Work;
+
+/// Which topics are recorded, by their full names.
+pub type Wanted = Box<dyn Fn(&str) -> bool + Send + Sync>;
+
+/// Writes what is published into a bag.
+pub struct Recorder {
+    path: PathBuf,
+    /// The folder to which a `metadata.yaml` belongs.
+    folder: Option<PathBuf>,
+    tap: TapId,
+    shared: Arc<Shared>,
+}
+
+/// What was recorded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recording {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// How many messages.
+    pub messages: u64,
+    /// How many topics.
+    pub topics: usize,
+    /// Size of the file.
+    pub bytes: u64,
+}
+
+/// Why a bag is not there, or not whole.
+#[derive(Debug)]
+pub enum RecordError {
+    /// A file or folder cannot be made.
+    File(PathBuf, io::Error),
+    /// Something is there already.
+    Exists(PathBuf),
+    /// A message cannot be kept.
+    Write(WriteError),
+}
+
+impl fmt::Display for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(path, error) => {
+                write!(f, "`{}` cannot be made: {}", path.display(), plain_words(error))
+            }
+            Self::Exists(path) => write!(
+                f,
+                "the folder `{}` is there already; take it away or name another",
+                path.display()
+            ),
+            Self::Write(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RecordError {}
+
+struct Shared {
+    wanted: Wanted,
+    state: Mutex<State>,
+}
+
+struct State {
+    /// None once it has ended or failed.
+    writer: Option<Writer<File>>,
+    topics: BTreeMap<String, TopicId>,
+    failure: Option<WriteError>,
+    spent: Duration,
+}
+
+struct BagSink(Arc<Shared>);
+
+impl Recorder {
+    /// Begins a bag: a file when the path ends in `.mcap` (an old one is replaced), otherwise a new
+    /// folder with a file and its `metadata.yaml`, as `ros2 bag` makes it.
+    ///
+    /// # Errors
+    /// When the file cannot be made, or the folder is there.
+    pub fn start(
+        simulation: &Simulation,
+        path: &Path,
+        wanted: Wanted,
+    ) -> Result<Self, RecordError> {
+        let is_file = path.extension().is_some_and(|extension| extension == "mcap");
+        let folder = (!is_file).then(|| path.to_owned());
+        let file = match &folder {
+            None => path.to_owned(),
+            Some(folder) => {
+                if folder.exists() {
+                    return Err(RecordError::Exists(folder.clone()));
+                }
+                fs::create_dir_all(folder)
+                    .map_err(|error| RecordError::File(folder.clone(), error))?;
+                let name = folder.file_name().map(|name| name.to_string_lossy().into_owned());
+                folder.join(format!("{}_0.mcap", name.unwrap_or_default()))
+            }
+        };
+        let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
+        let sink = File::create(&file).map_err(|error| RecordError::File(file.clone(), error))?;
+        let writer = Writer::new(sink, Settings::new(name.unwrap_or_default()))
+            .map_err(RecordError::Write)?;
+        let state = State {
+            writer: Some(writer),
+            topics: BTreeMap::new(),
+            failure: None,
+            spent: Duration::ZERO,
+        };
+        let shared = Arc::new(Shared { wanted, state: Mutex::new(state) });
+        let tap = simulation.graph().tap(Box::new(BagSink(Arc::clone(&shared))));
+        Ok(Self { path: file, folder, tap, shared })
+    }
+
+    /// The file whose recording has failed, and why; none as long as all is written.
+    #[must_use]
+    pub fn failure(&self) -> Option<(PathBuf, String)> {
+        let state = self.shared.lock();
+        state.failure.as_ref().map(|failure| (self.path.clone(), failure.to_string()))
+    }
+
+    /// Ends the bag.
+    ///
+    /// # Errors
+    /// When a message could not be kept, or the end cannot be written.
+    pub fn finish(self, simulation: &mut Simulation) -> Result<Recording, RecordError> {
+        simulation.graph().untap(self.tap);
+        let mut state = self.shared.lock();
+        simulation.shares_mut().shift(Work::Sensing, Work::Recording, state.spent);
+        if let Some(failure) = state.failure.take() {
+            return Err(RecordError::Write(failure));
+        }
+        let Some(writer) = state.writer.take() else {
+            return Ok(Recording { path: self.path.clone(), messages: 0, topics: 0, bytes: 0 });
+        };
+        let stopwatch = Stopwatch::start();
+        let (file, info) = writer.finish().map_err(RecordError::Write)?;
+        let bytes = file.metadata().map(|metadata| metadata.len()).unwrap_or_default();
+        if let Some(folder) = &self.folder {
+            write_metadata(folder, &info)?;
+        }
+        simulation.shares_mut().add(Work::Recording, stopwatch.elapsed());
+        let path = self.folder.clone().unwrap_or_else(|| self.path.clone());
+        Ok(Recording { path, messages: info.messages(), topics: info.topics.len(), bytes })
+    }
+}
+
+fn write_metadata(folder: &Path, info: &BagInfo) -> Result<(), RecordError> {
+    let path = folder.join("metadata.yaml");
+    fs::write(&path, info.to_yaml(Style::default())).map_err(|error| RecordError::File(path, error))
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Sink for BagSink {
+    fn wants(&self, topic: &TopicInfo) -> bool {
+        (self.0.wanted)(&topic.name)
+    }
+
+    fn take(&self, topic: &TopicInfo, sample: &Sample) {
+        let stopwatch = Stopwatch::start();
+        let mut state = self.0.lock();
+        state.take(topic, sample);
+        state.spent += stopwatch.elapsed();
+    }
+}
+
+impl State {
+    /// After a failure nothing more is taken; it is told at the end.
+    fn take(&mut self, topic: &TopicInfo, sample: &Sample) {
+        let Some(writer) = &mut self.writer else { return };
+        if let Err(failure) = write(writer, &mut self.topics, topic, sample) {
+            self.failure = Some(failure);
+            self.writer = None;
+        }
+    }
+}
+
+fn write(
+    writer: &mut Writer<File>,
+    topics: &mut BTreeMap<String, TopicId>,
+    topic: &TopicInfo,
+    sample: &Sample,
+) -> Result<(), WriteError> {
+    let id = match topics.get(&topic.name) {
+        Some(id) => *id,
+        None => {
+            let id = writer.topic(description(topic))?;
+            topics.insert(topic.name.clone(), id);
+            id
+        }
+    };
+    let bytes = sample.cdr().map_err(|_| WriteError::TooLong(topic.name.clone()))?;
+    writer.write(id, Stamp::at(sample.time_ns), bytes)
+}
+
+fn description(topic: &TopicInfo) -> Topic {
+    let text = TypeRegistry::builtin().schema_text(&topic.type_name).unwrap_or_default();
+    Topic {
+        name: topic.name.clone(),
+        type_name: topic.type_name.clone(),
+        schema_text: text.to_owned(),
+        type_hash: topic.type_hash.clone().unwrap_or_default(),
+        qos: topic.publishers.iter().map(|publisher| profile(&publisher.qos)).collect(),
+    }
+}
+
+fn profile(qos: &Qos) -> QosProfile {
+    let span = |ns: Option<i64>| ns.and_then(|ns| u64::try_from(ns).ok());
+    QosProfile {
+        history: match qos.history {
+            History::KeepLast => periplus_bags::History::KeepLast,
+            History::KeepAll => periplus_bags::History::KeepAll,
+        },
+        depth: qos.depth as u64,
+        reliability: match qos.reliability {
+            Reliability::Reliable => periplus_bags::Reliability::Reliable,
+            Reliability::BestEffort => periplus_bags::Reliability::BestEffort,
+        },
+        durability: match qos.durability {
+            Durability::TransientLocal => periplus_bags::Durability::TransientLocal,
+            Durability::Volatile => periplus_bags::Durability::Volatile,
+        },
+        deadline_ns: span(qos.deadline_ns),
+        lifespan_ns: span(qos.lifespan_ns),
+        liveliness: match qos.liveliness {
+            Liveliness::Automatic => periplus_bags::Liveliness::Automatic,
+            Liveliness::ManualByTopic => periplus_bags::Liveliness::ManualByTopic,
+        },
+        lease_ns: span(qos.lease_ns),
+    }
+}

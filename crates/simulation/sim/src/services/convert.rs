@@ -1,0 +1,50 @@
+//! Poses, velocities and colours in messages.
+
+use periplus_geometry::{DQuat, DVec3, Pose};
+use periplus_msgs::geometry_msgs::{self, Point, Quaternion, Twist, Vector3};
+use periplus_msgs::std_msgs::ColorRGBA;
+use periplus_physics::limits::is_pose;
+use periplus_scene::Colour;
+
+/// Refusal of a pose that [`pose`] does not take.
+pub(super) const BAD_POSE: &str =
+    "the pose holds a number that is none (NaN or infinite), or a position beyond 1e7 m";
+
+/// None if a number is none, or beyond [`MAX_POSITION_M`](periplus_physics::limits). A rotation of no length is none at all, as in Gazebo.
+pub(super) fn pose(message: &geometry_msgs::Pose) -> Option<Pose> {
+    let (at, turned) = (&message.position, &message.orientation);
+    let turned = DQuat::from_xyzw(turned.x, turned.y, turned.z, turned.w);
+    let turned = if turned.length_squared() == 0.0 { DQuat::IDENTITY } else { turned };
+    let pose = Pose::from_xyz_quaternion([at.x, at.y, at.z], turned);
+    is_pose(pose).then_some(pose)
+}
+
+pub(super) fn pose_message(pose: Pose) -> geometry_msgs::Pose {
+    let (at, turned) = (pose.translation, pose.rotation);
+    geometry_msgs::Pose {
+        position: Point { x: at.x, y: at.y, z: at.z },
+        orientation: Quaternion { x: turned.x, y: turned.y, z: turned.z, w: turned.w },
+    }
+}
+
+pub(super) fn vector(message: &Vector3) -> DVec3 {
+    DVec3::new(message.x, message.y, message.z)
+}
+
+pub(super) fn vector_message(vector: DVec3) -> Vector3 {
+    Vector3 { x: vector.x, y: vector.y, z: vector.z }
+}
+
+/// From velocities \[m/s, rad/s\].
+pub(super) fn twist_message(linear_m_s: DVec3, angular_rad_s: DVec3) -> Twist {
+    Twist { linear: vector_message(linear_m_s), angular: vector_message(angular_rad_s) }
+}
+
+pub(super) fn colour(message: &ColorRGBA) -> Colour {
+    Colour([message.r, message.g, message.b, message.a].map(f64::from))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "messages carry colours in single precision")]
+pub(super) fn colour_message(Colour([r, g, b, a]): Colour) -> ColorRGBA {
+    ColorRGBA { r: r as f32, g: g as f32, b: b as f32, a: a as f32 }
+}

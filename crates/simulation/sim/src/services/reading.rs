@@ -1,0 +1,169 @@
+//! Models and lights that come as text.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use periplus_diagnostics::{Diagnostics, Origin, Severity, SourceMap, Style, render};
+use periplus_loader::{Loaded, Setting, load, load_bytes, settle_images};
+use periplus_os::Overlay;
+use periplus_resources::Resolver;
+use periplus_scene::{Light, Model, Plugin};
+
+use crate::compose::{description_of, models_of};
+
+/// Where things are looked for that a spawned text mentions.
+#[derive(Clone, Debug, Default)]
+pub struct Search {
+    /// Folders beside those of the environment.
+    pub folders: Vec<PathBuf>,
+    /// The folder that relative paths are taken from.
+    pub working_folder: PathBuf,
+    /// Variables of the environment that differ from those of this process; none for a removed one.
+    pub variables: BTreeMap<String, Option<String>>,
+    /// What to do about a thing that cannot be found, from those who know where the variables come
+    /// from.
+    pub advice: Option<String>,
+}
+
+/// What a text or file brings.
+pub(super) enum Source<'a> {
+    /// A text, and its name in findings; empty for the usual one.
+    Text(&'a str, &'a str),
+    File(&'a str),
+}
+
+/// What was read.
+pub(super) struct Reading {
+    pub(super) found: Found,
+    pub(super) findings: Diagnostics,
+    pub(super) sources: SourceMap,
+}
+
+/// The first model of a text, or else its first light.
+pub(super) enum Found {
+    Model {
+        model: Box<Model>,
+        /// The URDF that it came as.
+        description: Option<String>,
+    },
+    Light(Box<Light>),
+}
+
+impl Search {
+    /// The machine with the variables of the search.
+    #[must_use]
+    pub fn host(&self) -> Overlay {
+        Overlay { variables: self.variables.clone() }
+    }
+
+    /// A resolver over the folders of the search.
+    #[must_use]
+    pub fn resolver<'h>(&self, host: &'h Overlay) -> Resolver<'h> {
+        Resolver::new(host, &self.folders).advising(self.advice.clone())
+    }
+
+    /// The setting that files are read with.
+    #[must_use]
+    pub fn setting<'a>(
+        &self,
+        host: &'a Overlay,
+        resolver: &'a Resolver<'a>,
+        open_meshes: bool,
+    ) -> Setting<'a> {
+        let working_folder = self.working_folder.clone();
+        Setting { host, resolver, working_folder, arguments: Vec::new(), open_meshes }
+    }
+
+    /// Reads a model or light.
+    ///
+    /// # Errors
+    /// What is wrong with it, with its places.
+    pub(super) fn read(&self, source: &Source<'_>) -> Result<Reading, String> {
+        let host = self.host();
+        let resolver = self.resolver(&host);
+        let setting = Setting {
+            host: &host,
+            resolver: &resolver,
+            working_folder: self.working_folder.clone(),
+            arguments: Vec::new(),
+            open_meshes: true,
+        };
+        let mut loaded = match source {
+            Source::Text(text, _) if text.trim().is_empty() => {
+                return Err("the text is empty; give a URDF or SDF".into());
+            }
+            Source::Text(text, called) => load_bytes(&file_of(called), text.as_bytes(), &setting),
+            Source::File(uri) => {
+                let from = self.working_folder.join(SPAWNED);
+                let path = resolver.resolve(uri, &from).map_err(|miss| {
+                    let finding = miss.into_diagnostic(Origin::default());
+                    render(&finding, &SourceMap::new(), Style::Plain)
+                })?;
+                load(&path, &setting)
+            }
+        };
+        if let Some(scene) = &mut loaded.scene {
+            settle_images(scene, &loaded.sources, &setting, &mut loaded.diagnostics);
+        }
+        let scene = loaded.scene.take().unwrap_or_default();
+        let description = description_of(&loaded);
+        let Loaded { diagnostics: findings, sources, .. } = loaded;
+        let mut lights = scene.worlds.iter().flat_map(|world| &world.lights).chain(&scene.lights);
+        let light = lights.next().cloned();
+        let found = match (models_of(scene).into_iter().next(), light) {
+            _ if findings.has_errors() => return Err(told(&findings, &sources)),
+            (Some(model), _) => Found::Model { model: Box::new(model), description },
+            (None, Some(light)) => Found::Light(Box::new(light)),
+            (None, None) => {
+                let notes = told(&findings, &sources);
+                return Err(format!("there is neither a model nor a light in it\n{notes}"));
+            }
+        };
+        Ok(Reading { found, findings, sources })
+    }
+}
+
+/// Name of a text in findings where nobody names it.
+const SPAWNED: &str = "spawned.xml";
+
+/// The file that a text is in findings, in the working folder: `robot_description.xml` for what came on
+/// `/robot_description`.
+fn file_of(called: &str) -> PathBuf {
+    let name = called.trim_matches('/').replace(['/', '\\'], "_");
+    if name.is_empty() { SPAWNED.into() } else { format!("{name}.xml").into() }
+}
+
+/// Findings with their places; hints are kept to those who write the file.
+pub(super) fn told(findings: &Diagnostics, sources: &SourceMap) -> String {
+    let mut text = String::new();
+    for finding in findings.iter().filter(|one| one.severity != Severity::Hint) {
+        text.push_str(render(finding, sources, Style::Plain).trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// Takes their own namespaces from all plugins of a model: Gazebo puts that of a spawned robot in
+/// their place.
+pub(super) fn drop_namespaces(model: &mut Model) {
+    // A list instead of recursion: models may be nested deeper than the stack.
+    let mut open = vec![model];
+    while let Some(model) = open.pop() {
+        model.plugins.iter_mut().for_each(drop_namespace);
+        for link in &mut model.links {
+            link.sensors.iter_mut().flat_map(|sensor| &mut sensor.plugins).for_each(drop_namespace);
+            link.visuals.iter_mut().flat_map(|visual| &mut visual.plugins).for_each(drop_namespace);
+        }
+        open.extend(&mut model.models);
+    }
+}
+
+fn drop_namespace(plugin: &mut Plugin) {
+    plugin.content.retain(|element| element.name != "robotNamespace");
+    for ros in plugin.content.iter_mut().filter(|element| element.name == "ros") {
+        let is_namespace = |node: &periplus_xml::Node| {
+            node.as_element().is_some_and(|element| element.name == "namespace")
+        };
+        ros.children.retain(|node| !is_namespace(node));
+    }
+}

@@ -1,0 +1,141 @@
+//! The world for who draws it: what is in it, where everything is, what could be put into it.
+//!
+//! | name | type | what |
+//! |---|---|---|
+//! | `/world/<world>/scene` | `visualization_msgs/MarkerArray`, latched | every visual, after a marker that deletes all |
+//! | `/world/<world>/poses` | `tf2_msgs/TFMessage` | models and links in the frame `world`, 30 times a second |
+//! | `/world/<world>/sensors` | `tf2_msgs/TFMessage`, latched | mounting poses of the sensors, by topic and by frame |
+//! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | how well maps agree with the world, now and then |
+//! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
+//! | `/world/<world>/library` | `std_srvs/Trigger` | models that could be put into it, as JSON |
+//!
+//! They are there when somebody asks for them ([`super::Services::show`]): a bag of everything is not
+//! to hold what nobody asked for.
+
+mod library;
+mod markers;
+pub(super) mod save;
+mod truth;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use periplus_geometry::Pose;
+use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_msgs::geometry_msgs::{Transform, TransformStamped};
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::MarkerArray;
+use periplus_os::Stopwatch;
+
+use self::truth::Truth;
+use super::convert::{pose_message, vector_message};
+use super::harmonic::name_of;
+use super::offer::Offer;
+use crate::Simulation;
+
+/// Wall time between two messages about where things are: what an eye takes for motion.
+const PERIOD: Duration = Duration::from_millis(33);
+
+/// The frame that is the world itself.
+const WORLD: &str = "world";
+
+/// The world for who draws it.
+pub(super) struct Stage {
+    scene: Publisher<MarkerArray>,
+    poses: Publisher<TFMessage>,
+    sensors: Publisher<TFMessage>,
+    truth: Truth,
+    save: Offer<Trigger>,
+    library: Offer<Trigger>,
+    /// Where models are looked for that could be put into it.
+    folders: Vec<PathBuf>,
+    /// Which state of the world was told.
+    told: Option<u64>,
+    since: Option<Stopwatch>,
+}
+
+impl Stage {
+    pub(super) fn new(node: &Node, world: &str, folders: Vec<PathBuf>) -> Result<Self, GraphError> {
+        let name = |what| name_of(world, what);
+        Ok(Self {
+            scene: node.publisher(&name("scene"), Qos::latched(1))?,
+            poses: node.publisher(&name("poses"), Qos::best_effort(1))?,
+            sensors: node.publisher(&name("sensors"), Qos::latched(1))?,
+            truth: Truth::new(node, &name("truth"))?,
+            save: Offer::new(node, [name("save").as_str()])?,
+            library: Offer::new(node, [name("library").as_str()])?,
+            folders,
+            told: None,
+            since: None,
+        })
+    }
+
+    /// Answers, and publishes what is due.
+    pub(super) fn serve(&mut self, simulation: &mut Simulation) -> Result<(), GraphError> {
+        self.save.answer(|_| match save::text(simulation) {
+            Ok(message) => TriggerResponse { success: true, message },
+            Err(message) => TriggerResponse { success: false, message },
+        });
+        self.library.answer(|_| {
+            let message = library::models(&self.folders);
+            TriggerResponse { success: true, message }
+        });
+        let changes = simulation.changes();
+        if self.told.replace(changes) != Some(changes) {
+            self.scene.publish(markers::of(simulation));
+            self.sensors.publish(sensors(simulation));
+        }
+        let is_due = self.since.as_ref().is_none_or(|since| since.elapsed() >= PERIOD);
+        if is_due && self.poses.is_heard() {
+            self.since = Some(Stopwatch::start());
+            self.poses.publish(poses(simulation));
+        }
+        self.truth.serve(simulation)
+    }
+}
+
+fn transform(header: &Header, child_frame_id: String, pose: Pose) -> TransformStamped {
+    let translation = vector_message(pose.translation);
+    let rotation = pose_message(pose).orientation;
+    let transform = Transform { translation, rotation };
+    TransformStamped { header: header.clone(), child_frame_id, transform }
+}
+
+/// Mounting poses of the sensors' data in `<model>/<link>`. Each is there by its topic, and by the
+/// frame of its messages, for bridges that publish them under another name; of two with one frame the
+/// first counts.
+fn sensors(simulation: &Simulation) -> TFMessage {
+    let mut transforms: Vec<TransformStamped> = Vec::new();
+    for (model, mount) in simulation.sensor_mounts() {
+        let Some(link) = simulation.motion.link_name(mount.link) else { continue };
+        let header = Header::at(simulation.time_ns(), &format!("{model}/{link}"));
+        let is_known = transforms.iter().any(|one| one.child_frame_id == mount.frame_id);
+        transforms.push(transform(&header, mount.topic, mount.link_from_data));
+        if !is_known {
+            transforms.push(transform(&header, mount.frame_id, mount.link_from_data));
+        }
+    }
+    TFMessage { transforms }
+}
+
+/// Where all models and links are.
+fn poses(simulation: &Simulation) -> TFMessage {
+    let header = Header::at(simulation.time_ns(), WORLD);
+    let mut transforms = Vec::new();
+    let mut put = |child: String, pose: Pose| transforms.push(transform(&header, child, pose));
+    let motion = &simulation.motion;
+    for running in &simulation.running {
+        let name = &running.member.name;
+        if let Some(pose) = motion.model_pose(running.model) {
+            put(name.clone(), pose);
+        }
+        for link in motion.links(running.model) {
+            if let (Some(own), Some(state)) = (motion.link_name(link), motion.link_state(link)) {
+                put(format!("{name}/{own}"), state.world_from_link);
+            }
+        }
+    }
+    TFMessage { transforms }
+}

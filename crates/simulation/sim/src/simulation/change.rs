@@ -1,0 +1,147 @@
+//! What others may change in a world that runs.
+
+use periplus_diagnostics::Diagnostics;
+use periplus_geometry::{DVec3, Pose};
+use periplus_scene as scene;
+
+use super::{Simulation, all};
+use crate::services::Entity;
+
+impl Simulation {
+    /// Puts a model or link down somewhere, at rest.
+    pub(crate) fn place(&mut self, entity: Entity, world_from_entity: Pose) {
+        match entity {
+            Entity::Model(model) => self.motion.set_pose(model, world_from_entity),
+            Entity::Link(link) => self.motion.set_link_pose(link, world_from_entity),
+        };
+        self.views.moved();
+    }
+
+    /// Time back to zero; models stay where they are.
+    pub(crate) fn reset_time(&mut self) {
+        self.time_ns = 0;
+        self.graph.jump_to(0);
+        self.views.moved();
+        self.restart_devices();
+    }
+
+    /// Devices begin again now. With another seed they are made anew: noise is drawn from streams
+    /// that they got when they were made.
+    pub(super) fn restart_devices(&mut self) {
+        if std::mem::take(&mut self.has_new_seed) {
+            self.remake_devices();
+        }
+        let time_ns = self.time_ns;
+        all(&mut self.world_devices, &mut self.running).for_each(|device| device.reset(time_ns));
+    }
+
+    /// Another seed for all noise, from the next reset on.
+    pub(crate) fn set_seed(&mut self, seed: u64) {
+        self.has_new_seed |= self.options.seed != seed;
+        self.options.seed = seed;
+    }
+
+    fn remake_devices(&mut self) {
+        let mut running = std::mem::take(&mut self.running);
+        // Their nodes go first, so that their names are free.
+        running.iter_mut().for_each(|running| running.devices.clear());
+        for running in &mut running {
+            // What is wrong with them was told when they were first made.
+            let mut told = Diagnostics::new();
+            running.devices = self.devices_of(&running.member, running.model, &mut told);
+        }
+        self.running = running;
+    }
+
+    /// The step of the simulation \[s\].
+    #[expect(clippy::cast_precision_loss, reason = "a step is far below 2^53 ns")]
+    pub(crate) fn step_s(&self) -> f64 {
+        self.step_ns as f64 * 1e-9
+    }
+
+    /// Another gravity \[m/s²\].
+    pub(crate) fn set_gravity(&mut self, gravity_m_s2: DVec3) {
+        self.motion.set_gravity(gravity_m_s2);
+        self.scene.gravity_m_s2 = gravity_m_s2;
+    }
+
+    /// The settings that are in use.
+    pub(crate) fn physics(&self) -> scene::Physics {
+        let profiles = &self.scene.physics;
+        let used = profiles.iter().find(|physics| physics.default).or(profiles.first());
+        used.cloned().unwrap_or_default()
+    }
+
+    /// The settings that are in use, to be changed.
+    pub(crate) fn physics_mut(&mut self) -> &mut scene::Physics {
+        let profiles = &mut self.scene.physics;
+        if profiles.is_empty() {
+            profiles.push(scene::Physics::default());
+        }
+        let used = profiles.iter().position(|physics| physics.default).unwrap_or(0);
+        &mut profiles[used]
+    }
+
+    /// The middle of the mass of a link, `model::link`, in its frame \[m\]; its origin where that
+    /// is not known.
+    pub(crate) fn centre_of_mass(&self, link: &str) -> DVec3 {
+        let centre = link.split_once("::").and_then(|(model, link)| {
+            let member = &self.running[self.place_of(model)?].member;
+            Some(member.model.link(link)?.inertial.link_from_inertial.translation)
+        });
+        centre.unwrap_or(DVec3::ZERO)
+    }
+
+    /// Adds a light to the world.
+    pub(crate) fn add_light(&mut self, light: scene::Light) {
+        self.views.set_light(&light);
+        self.scene.lights.push(light);
+    }
+
+    /// Takes a light out of the world. False if there is none of that name.
+    pub(crate) fn delete_light(&mut self, name: &str) -> bool {
+        let lights = &mut self.scene.lights;
+        let Some(place) = lights.iter().position(|light| light.name == name) else { return false };
+        lights.remove(place);
+        self.views.remove_light(name);
+        true
+    }
+
+    /// Lets a light be seen as it is now: it was changed. One on a link is `model::link::light`.
+    pub(crate) fn show_light(&mut self, name: &str) {
+        if let Some(light) = self.scene.lights.iter().find(|light| light.name == name) {
+            self.views.set_light(light);
+            return;
+        }
+        let Some((model, rest)) = name.split_once("::") else { return };
+        let Some((link, name)) = rest.split_once("::") else { return };
+        let Some(place) = self.place_of(model) else { return };
+        let running = &self.running[place];
+        let Some(id) = self.motion.find_link(running.model, link) else { return };
+        let lights = running.member.model.lights();
+        let mut lights = lights.filter(|(on, light)| on.name == link && light.name == name);
+        if let Some((_, light)) = lights.next() {
+            self.views.set_light_on(id, light, &self.motion);
+        }
+    }
+
+    /// All lights that are lit, with `world_from_light`, as they are now: those of the world, and
+    /// those that links carry.
+    #[must_use]
+    pub fn lights(&self) -> Vec<(Pose, scene::Light)> {
+        let of_world = self.scene.lights.iter();
+        let mut lights: Vec<(Pose, scene::Light)> =
+            of_world.map(|light| (light.parent_from_light, light.clone())).collect();
+        for running in &self.running {
+            for (link, light) in running.member.model.lights() {
+                let link = self.motion.find_link(running.model, &link.name);
+                let Some(state) = link.and_then(|link| self.motion.link_state(link)) else {
+                    continue;
+                };
+                lights.push((state.world_from_link * light.parent_from_light, light.clone()));
+            }
+        }
+        lights.retain(|(_, light)| light.is_on);
+        lights
+    }
+}

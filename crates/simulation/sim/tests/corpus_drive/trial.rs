@@ -1,0 +1,238 @@
+//! One file: spawned, driven, listened to.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use periplus_diagnostics::{Diagnostics, Severity, Style, render};
+use periplus_geometry::{DVec3, Pose};
+use periplus_graph::{Node, NodeSettings, Publisher, Qos};
+use periplus_loader::Setting;
+use periplus_msgs::Message as _;
+use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+use periplus_plugin_specs::{Role, interpret, model_sites};
+use periplus_scene::{Model, World};
+use periplus_sim::{
+    Composition, Member, Mode, Options, Placement, ShapeFiles, Simulation, compose,
+};
+
+use crate::ears::Ears;
+
+const SPEED_M_S: f64 = 0.3;
+const TURN_RAD_S: f64 = 0.3;
+/// Commands come as from a joystick \[ns\].
+const COMMAND_NS: i64 = 100_000_000;
+
+/// Who went this far or turned this much has moved.
+const MOVED_M: f64 = 0.2;
+const MOVED_RAD: f64 = 0.2;
+/// A robot that sinks so much in the end falls \[m\].
+const FALLS_M: f64 = 0.1;
+const LATE_NS: i64 = 500_000_000;
+
+/// A robot with a drive, and how it fared.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial {
+    pub(crate) robot: String,
+    pub(crate) drives: Vec<&'static str>,
+    /// Topics of velocities in its world.
+    pub(crate) commands: usize,
+    pub(crate) sensors: usize,
+    /// Messages of its world.
+    pub(crate) messages: u64,
+    pub(crate) moved_m: f64,
+    pub(crate) turned_rad: f64,
+    /// What is not as it should be; nothing for a robot that drove.
+    pub(crate) faults: Vec<String>,
+}
+
+impl Trial {
+    /// A file that never came so far.
+    pub(crate) fn failed(name: &str, fault: String) -> Self {
+        Self {
+            robot: name.into(),
+            drives: Vec::new(),
+            commands: 0,
+            sensors: 0,
+            messages: 0,
+            moved_m: 0.0,
+            turned_rad: 0.0,
+            faults: vec![fault],
+        }
+    }
+}
+
+/// All that came of a file.
+#[derive(Debug, Default)]
+pub(crate) struct Report {
+    pub(crate) trials: Vec<Trial>,
+    /// Findings: code and message.
+    pub(crate) findings: Vec<(Severity, &'static str, String)>,
+}
+
+/// Drives every robot of a file that can be driven. Nothing for a file without one.
+pub(crate) fn drive(
+    path: &Path,
+    robots: &[Placement],
+    name: &str,
+    seconds: i64,
+    mode: Mode,
+    setting: &Setting<'_>,
+) -> Report {
+    let mut composition = compose(path, robots, setting);
+    let has_drive = |member: &Member| !drives(&composition.world, &member.model).is_empty();
+    if !composition.members.iter().any(has_drive) {
+        return Report::default();
+    }
+    let files = Arc::new(ShapeFiles::default());
+    let options = Options { mode, ..Options::default() };
+    let mut simulation = Simulation::new(&mut composition, files, options);
+    let node = simulation.graph().node(NodeSettings::new("trial")).unwrap();
+    let pedals = Pedals::of(&simulation, &node);
+    let mut ears = Ears::open(&simulation, &node);
+    let driven: Vec<(&Member, Vec<&'static str>)> = composition
+        .members
+        .iter()
+        .map(|member| (member, drives(&composition.world, &member.model)))
+        .filter(|(_, drives)| !drives.is_empty())
+        .collect();
+    let starts: Vec<Option<Pose>> =
+        driven.iter().map(|(member, _)| pose_of(&simulation, &member.name)).collect();
+    let mut broken = None;
+    let (end_ns, mut next_ns) = (seconds * 1_000_000_000, 0);
+    let mut late = Vec::new();
+    while simulation.time_ns() < end_ns && broken.is_none() {
+        if simulation.time_ns() >= next_ns {
+            pedals.press();
+            next_ns += COMMAND_NS;
+        }
+        if late.is_empty() && simulation.time_ns() >= end_ns - LATE_NS {
+            late.extend(driven.iter().map(|(member, _)| pose_of(&simulation, &member.name)));
+        }
+        broken = simulation.step().err().map(|diverged| diverged.to_string());
+        simulation.graph().settle();
+        ears.listen();
+    }
+    let (messages, wrong) = ears.close();
+    let mut report = Report::default();
+    for (index, (member, drives)) in driven.into_iter().enumerate() {
+        let mut faults: Vec<String> = broken.iter().cloned().collect();
+        faults.extend(wrong.iter().cloned());
+        let end = pose_of(&simulation, &member.name);
+        let late = late.get(index).copied().flatten();
+        let (moved_m, turned_rad) = match (starts[index], late.or(end), end) {
+            (Some(start), Some(late), Some(end)) => motion([start, late, end], &mut faults),
+            _ => {
+                faults.push("not in the world".into());
+                (0.0, 0.0)
+            }
+        };
+        if pedals.count() == 0 {
+            faults.push("listens to no velocity".into());
+        }
+        report.trials.push(Trial {
+            robot: format!("{name}::{} ({mode:?})", member.name),
+            drives,
+            commands: pedals.count(),
+            sensors: sensors(&member.model),
+            messages,
+            moved_m,
+            turned_rad,
+            faults,
+        });
+    }
+    report.findings = findings(&composition);
+    report
+}
+
+/// How far and how much; what it should not have done becomes a fault.
+fn motion([start, late, end]: [Pose; 3], faults: &mut Vec<String>) -> (f64, f64) {
+    let way = end.translation - start.translation;
+    let moved_m = way.truncate().length();
+    let ahead = |pose: Pose| pose.rotation * DVec3::X;
+    let (from, to) = (ahead(start), ahead(end));
+    let turned_rad = (from.x * to.y - from.y * to.x).atan2(from.x * to.x + from.y * to.y);
+    if !end.is_finite() {
+        faults.push("its pose is no number".into());
+    } else if late.translation.z - end.translation.z > FALLS_M {
+        faults.push(format!("falls, {:.2} m so far", -way.z));
+    } else if (start.rotation * DVec3::Z).dot(end.rotation * DVec3::Z) < 0.7 {
+        faults.push("tipped over".into());
+    } else if moved_m < MOVED_M && turned_rad.abs() < MOVED_RAD {
+        faults.push("stood".into());
+    } else if moved_m > 5.0 {
+        faults.push("flew off".into());
+    }
+    (moved_m, turned_rad)
+}
+
+fn pose_of(simulation: &Simulation, name: &str) -> Option<Pose> {
+    let motion = simulation.motion();
+    let (id, _) = motion.models().find(|(_, known)| *known == name)?;
+    motion.model_pose(id)
+}
+
+/// The drives among the plugins of a model.
+fn drives(world: &World, model: &Model) -> Vec<&'static str> {
+    let sites = model_sites(world, model);
+    let known = sites
+        .iter()
+        .filter_map(|site| interpret(site.plugin, &site.context, &mut Diagnostics::new()))
+        .map(|plugin| plugin.known);
+    known
+        .filter(|known| known.role == Role::Drive || known.id.contains("ros2_control"))
+        .map(|known| known.id)
+        .collect()
+}
+
+fn sensors(model: &Model) -> usize {
+    let own: usize = model.links.iter().map(|link| link.sensors.len()).sum();
+    own + model.models.iter().map(sensors).sum::<usize>()
+}
+
+/// What was found, code by code; each is told as a user sees it.
+fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> {
+    let mut found = Vec::new();
+    for file in &composition.files {
+        for finding in file.diagnostics.iter() {
+            let told = render(finding, &file.sources, Style::Plain);
+            assert!(told.contains(&finding.message), "{told}");
+            found.push((finding.severity, finding.code, finding.message.clone()));
+        }
+    }
+    found
+}
+
+/// Who gives velocities to everybody that wants some.
+struct Pedals {
+    plain: Vec<Publisher<Twist>>,
+    stamped: Vec<Publisher<TwistStamped>>,
+}
+
+impl Pedals {
+    fn of(simulation: &Simulation, node: &Node) -> Self {
+        let mut pedals = Self { plain: Vec::new(), stamped: Vec::new() };
+        let topics = simulation.graph().topics();
+        for topic in topics.iter().filter(|topic| !topic.subscriptions.is_empty()) {
+            let (name, qos) = (&topic.name, Qos::reliable(10));
+            if topic.type_name == Twist::TYPE_NAME {
+                pedals.plain.push(node.publisher(name, qos).unwrap());
+            } else if topic.type_name == TwistStamped::TYPE_NAME {
+                pedals.stamped.push(node.publisher(name, qos).unwrap());
+            }
+        }
+        pedals
+    }
+
+    fn count(&self) -> usize {
+        self.plain.len() + self.stamped.len()
+    }
+
+    fn press(&self) {
+        let mut twist = Twist::default();
+        twist.linear.x = SPEED_M_S;
+        twist.angular.z = TURN_RAD_S;
+        self.plain.iter().for_each(|pedal| pedal.publish(twist.clone()));
+        let stamped = TwistStamped { twist, ..TwistStamped::default() };
+        self.stamped.iter().for_each(|pedal| pedal.publish(stamped.clone()));
+    }
+}

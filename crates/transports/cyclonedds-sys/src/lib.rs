@@ -1,0 +1,87 @@
+//! DDS, the protocol under ROS 2, by Eclipse Cyclone DDS in C, built in.
+//!
+//! Samples are bytes that nobody here looks into. A [`Participant`] makes a [`Writer`] for what it
+//! sends and a [`Reader`] for what it takes; [`Discovery`] tells who else is there; a [`Waitset`]
+//! lets a thread sleep until something happens.
+//!
+//! ```no_run
+//! use periplus_cyclonedds_sys::{Config, Participant, Qos};
+//!
+//! let participant = Participant::open(&Config::default(), b"")?;
+//! let writer =
+//!     participant.writer("rt/chatter", "std_msgs::msg::dds_::String_", &Qos::default(), b"")?;
+//! writer.write(vec![0, 1, 0, 0, 3, 0, 0, 0, b'h', b'i', 0], None)?;
+//! # Ok::<(), periplus_cyclonedds_sys::Error>(())
+//! ```
+//!
+//! C keeps what depends on Cyclone's own
+//! structures (`c/shim.c`, `c/blob.c`); what crosses over is in `ffi.rs`. Cyclone's entities are
+//! numbers that it checks, so that a stale one is an error and nothing worse.
+
+#![allow(unsafe_code, reason = "calls of C; each says why it is sound")]
+
+mod config;
+mod discovery;
+mod error;
+mod ffi;
+mod log;
+mod participant;
+mod qos;
+mod reader;
+mod waitset;
+mod writer;
+
+pub use config::{Config, Network};
+pub use discovery::{Discovery, Found, Kind};
+pub use error::Error;
+pub use log::{LogLine, take_log};
+pub use participant::Participant;
+pub use qos::{Durability, Liveliness, Qos};
+pub use reader::{Reader, Sample};
+pub use waitset::{Token, Waitset, Waker};
+pub use writer::{Bytes, Writer};
+
+/// Names a participant, writer or reader in the whole network, in the order of bytes on the wire.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Guid(pub [u8; 16]);
+
+impl std::fmt::Display for Guid {
+    /// Pairs of digits with dots between, as `ros2 topic info -v` prints them.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (place, byte) in self.0.iter().enumerate() {
+            let dot = if place == 0 { "" } else { "." };
+            write!(f, "{dot}{byte:02x}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Guid {
+    /// The participant that it belongs to.
+    #[must_use]
+    pub fn participant(self) -> Self {
+        let mut guid = self.0;
+        guid[12..].copy_from_slice(&[0, 0, 1, 0xc1]);
+        Self(guid)
+    }
+}
+
+/// Names one sample: who wrote it, and its number there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Identity {
+    /// The writer.
+    pub writer: Guid,
+    /// The number.
+    pub sequence: i64,
+}
+
+/// Who made the DDS of a participant, as its packets say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Vendor(pub [u8; 2]);
+
+impl Vendor {
+    /// Eclipse Cyclone DDS.
+    pub const CYCLONE: Self = Self([1, 0x10]);
+    /// eProsima Fast DDS.
+    pub const FAST: Self = Self([1, 0x0f]);
+}

@@ -1,0 +1,80 @@
+//! Quality of service, from graphs to DDS and back.
+
+use periplus_cyclonedds_sys as dds;
+use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
+
+/// How long a writer may wait for room at once \[ns\]: others wait for their turn meanwhile, and it
+/// tries again.
+const BLOCKING_NS: i64 = 3_000_000;
+
+/// What is kept of a history without end: DDS would keep all until memory is gone.
+pub(crate) const MOST_KEPT: usize = 10_000;
+
+pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
+    let depth = match qos.history {
+        History::KeepLast => qos.depth.clamp(1, MOST_KEPT),
+        History::KeepAll => MOST_KEPT,
+    };
+    dds::Qos {
+        is_reliable: qos.reliability == Reliability::Reliable,
+        durability: match qos.durability {
+            Durability::Volatile => dds::Durability::Volatile,
+            Durability::TransientLocal => dds::Durability::TransientLocal,
+        },
+        depth: Some(depth),
+        deadline_ns: qos.deadline_ns,
+        lifespan_ns: qos.lifespan_ns,
+        liveliness: match qos.liveliness {
+            Liveliness::Automatic => dds::Liveliness::Automatic,
+            Liveliness::ManualByTopic => dds::Liveliness::ManualByTopic,
+        },
+        lease_ns: qos.lease_ns,
+        blocking_ns: Some(BLOCKING_NS),
+    }
+}
+
+/// What is weaker or stronger in DDS than ROS has a word for counts as what ROS has next below.
+pub(crate) fn from_dds(qos: &dds::Qos) -> Qos {
+    let reliability = if qos.is_reliable { Reliability::Reliable } else { Reliability::BestEffort };
+    let (history, depth) = match qos.depth {
+        Some(depth) => (History::KeepLast, depth),
+        None => (History::KeepAll, 0),
+    };
+    Qos {
+        reliability,
+        durability: match qos.durability {
+            dds::Durability::Volatile => Durability::Volatile,
+            _ => Durability::TransientLocal,
+        },
+        history,
+        depth,
+        deadline_ns: qos.deadline_ns,
+        lifespan_ns: qos.lifespan_ns,
+        liveliness: match qos.liveliness {
+            dds::Liveliness::ManualByTopic => Liveliness::ManualByTopic,
+            _ => Liveliness::Automatic,
+        },
+        lease_ns: qos.lease_ns,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_policy_goes_there_and_back() {
+        let full = Qos {
+            deadline_ns: Some(100),
+            lifespan_ns: Some(200),
+            lease_ns: Some(300),
+            liveliness: Liveliness::ManualByTopic,
+            ..Qos::latched(3)
+        };
+        for qos in [full, Qos::sensor_data(), Qos::default(), Qos::latched(1), Qos::clock()] {
+            assert_eq!(from_dds(&to_dds(&qos)), qos);
+        }
+        // A history without end gets one.
+        assert_eq!(to_dds(&Qos::default().keep_all()).depth, Some(MOST_KEPT));
+    }
+}

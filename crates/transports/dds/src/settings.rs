@@ -1,0 +1,186 @@
+//! Which network a wire is on, and what the environment says about that.
+
+use periplus_cyclonedds_sys as dds;
+use periplus_diagnostics::{Diagnostics, closest};
+use periplus_resources::Host;
+use periplus_transport::environment::{self, not_used};
+
+/// Tag of participants that nobody shall find.
+const OFF_TAG: &str = "periplus_discovery_off";
+
+/// How far discovery reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Range {
+    /// Nobody is found, and nobody finds us, static peers included: as `rmw_fastrtps` has it.
+    Off,
+    /// This machine.
+    #[default]
+    Localhost,
+    /// Machines that multicast reaches.
+    Subnet,
+    /// As DDS does by itself.
+    SystemDefault,
+}
+
+impl Range {
+    const NAMES: [(&'static str, Self); 4] = [
+        ("OFF", Self::Off),
+        ("LOCALHOST", Self::Localhost),
+        ("SUBNET", Self::Subnet),
+        ("SYSTEM_DEFAULT", Self::SystemDefault),
+    ];
+}
+
+/// Which network a wire is on. The default is domain 0 on this machine only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// `ROS_DOMAIN_ID`: who has another is not heard.
+    pub domain_id: u32,
+    /// `ROS_AUTOMATIC_DISCOVERY_RANGE`, or `ROS_LOCALHOST_ONLY`.
+    pub range: Range,
+    /// `ROS_STATIC_PEERS`: machines to look at, wherever they are.
+    pub peers: Vec<String>,
+    /// Whether others may be found by multicast.
+    pub multicast: bool,
+    /// The security enclave that others are told.
+    pub enclave: String,
+    /// `CYCLONEDDS_URI`: settings of Cyclone DDS, as XML or URI of a file, which win over ours.
+    pub cyclone: String,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            domain_id: 0,
+            range: Range::default(),
+            peers: Vec::new(),
+            multicast: true,
+            enclave: "/".to_owned(),
+            cyclone: String::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// What the environment says; what it does not say is as in [`Settings::default`].
+    #[must_use]
+    pub fn from_environment(host: &dyn Host) -> (Self, Diagnostics) {
+        let mut settings = Self::default();
+        let mut findings = Diagnostics::default();
+        let variable = |name| environment::variable(host, name);
+        settings.domain_id = environment::domain_id(host, &mut findings);
+        if let Some(value) = variable("ROS_AUTOMATIC_DISCOVERY_RANGE") {
+            let asked = value.trim().to_uppercase();
+            match Range::NAMES.iter().find(|(name, _)| *name == asked) {
+                Some((_, range)) => settings.range = *range,
+                None => {
+                    let names = Range::NAMES.map(|(name, _)| name);
+                    let near = closest(&asked, names);
+                    let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                    findings.push(not_used("ROS_AUTOMATIC_DISCOVERY_RANGE", &value).help(format!(
+                        "{near}it has to be one of {}; LOCALHOST is used",
+                        names.join(", ")
+                    )));
+                }
+            }
+        }
+        if let Some(value) = variable("ROS_LOCALHOST_ONLY") {
+            match value.trim() {
+                "1" => settings.range = Range::Localhost,
+                "0" => {}
+                _ => findings
+                    .push(not_used("ROS_LOCALHOST_ONLY", &value).help("it has to be 0 or 1")),
+            }
+        }
+        if let Some(value) = variable("ROS_STATIC_PEERS") {
+            let peers = value.split(';').map(str::trim).filter(|peer| !peer.is_empty());
+            settings.peers = peers.map(str::to_owned).collect();
+        }
+        settings.cyclone = variable("CYCLONEDDS_URI").unwrap_or_default();
+        (settings, findings)
+    }
+
+    pub(crate) fn config(&self) -> dds::Config {
+        let here = "127.0.0.1".to_owned();
+        let (network, multicast, mut peers) = match self.range {
+            Range::Off => (dds::Network::Loopback, false, Vec::new()),
+            // Others that were named must be reached too.
+            Range::Localhost if !self.peers.is_empty() => (dds::Network::Any, false, vec![here]),
+            Range::Localhost => (dds::Network::Loopback, self.multicast, vec![here]),
+            // Nodes of ROS 2 in the range LOCALHOST hear no multicast.
+            Range::Subnet | Range::SystemDefault => (dds::Network::Any, self.multicast, vec![here]),
+        };
+        if self.range != Range::Off {
+            peers.extend(self.peers.iter().cloned());
+        }
+        // No announcement is sent; the tag ignores those of others that come all the same.
+        let tag = if self.range == Range::Off { OFF_TAG.to_owned() } else { String::new() };
+        let more = self.cyclone.clone();
+        dds::Config { domain_id: self.domain_id, network, multicast, peers, tag, more }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use expect_test::{Expect, expect};
+    use periplus_resources::MemoryHost;
+
+    fn check(variables: &[(&str, &str)], expected: Settings, findings: Expect) {
+        let host = variables
+            .iter()
+            .fold(MemoryHost::default(), |host, (name, value)| host.with_variable(name, value));
+        let (settings, found) = Settings::from_environment(&host);
+        assert_eq!(settings, expected);
+        let lines = found.iter().map(|one| format!("{}: {}\n", one.message, one.help.join(" ")));
+        findings.assert_eq(&lines.collect::<String>());
+    }
+
+    #[test]
+    fn the_environment_is_read() {
+        check(&[], Settings::default(), expect![""]);
+        check(
+            &[
+                ("ROS_DOMAIN_ID", " 42 "),
+                ("ROS_AUTOMATIC_DISCOVERY_RANGE", "subnet"),
+                ("ROS_STATIC_PEERS", "192.168.1.5; robot.local;"),
+                ("CYCLONEDDS_URI", "file:///c.xml"),
+            ],
+            Settings {
+                domain_id: 42,
+                range: Range::Subnet,
+                peers: vec!["192.168.1.5".into(), "robot.local".into()],
+                cyclone: "file:///c.xml".into(),
+                ..Settings::default()
+            },
+            expect![""],
+        );
+    }
+
+    #[test]
+    fn what_it_says_wrong_is_told() {
+        check(
+            &[
+                ("ROS_DOMAIN_ID", "233"),
+                ("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNETT"),
+                ("ROS_LOCALHOST_ONLY", "yes"),
+            ],
+            Settings::default(),
+            expect![[r#"
+                the environment variable ROS_DOMAIN_ID is `233` and is not used: it has to be a number from 0 to 232; domain 0 is used
+                the environment variable ROS_AUTOMATIC_DISCOVERY_RANGE is `SUBNETT` and is not used: did you mean SUBNET? it has to be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT; LOCALHOST is used
+                the environment variable ROS_LOCALHOST_ONLY is `yes` and is not used: it has to be 0 or 1
+            "#]],
+        );
+    }
+
+    #[test]
+    fn peers_elsewhere_need_a_network() {
+        let settings = Settings { peers: vec!["10.0.0.7".into()], ..Settings::default() };
+        let config = settings.config();
+        assert_eq!((config.network, config.multicast), (dds::Network::Any, false));
+        assert_eq!(config.peers, ["127.0.0.1", "10.0.0.7"]);
+        let config = Settings::default().config();
+        assert_eq!((config.network, config.multicast), (dds::Network::Loopback, true));
+    }
+}

@@ -1,0 +1,184 @@
+//! The handle of a wire.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use periplus_cyclonedds_sys::{self as dds, Participant, Waker};
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_graph::{Graph, Node};
+use periplus_transport::{Since, lock, stand_in};
+
+use crate::link::Link;
+use crate::outgoing::{Lanes, Outgoing};
+use crate::peers::Peers;
+use crate::remote::{Progress, Remote};
+use crate::{Guid, Settings, WireError, user_data};
+
+/// How often a flush looks again.
+const LOOK_AGAIN: Duration = Duration::from_millis(5);
+
+/// What is left when a wire is dropped gets so long to go.
+const LAST_CHANCE: Duration = Duration::from_millis(300);
+
+/// A place in the network. It is left when this is dropped.
+pub struct Wire {
+    shared: Arc<Shared>,
+    waker: Waker,
+    participant: Participant,
+    threads: Vec<JoinHandle<()>>,
+}
+
+/// What the threads of a wire and its handle have in common.
+pub(crate) struct Shared {
+    pub(crate) peers: Mutex<Peers>,
+    /// Rung when the peers have changed.
+    pub(crate) changed: Condvar,
+    pub(crate) findings: Mutex<Diagnostics>,
+    /// A graph to take part, with the node that stands in it for all others.
+    pub(crate) joining: Mutex<Option<(Graph, Node)>>,
+    pub(crate) lanes: Arc<Lanes>,
+    /// All that are there, to be waited for.
+    pub(crate) writers: Mutex<Vec<Arc<Outgoing>>>,
+    pub(crate) is_closing: AtomicBool,
+    is_attached: AtomicBool,
+}
+
+impl Shared {
+    pub(crate) fn report(&self, finding: Diagnostic) {
+        lock(&self.findings).push(finding);
+    }
+}
+
+impl Wire {
+    /// Joins the network.
+    ///
+    /// # Errors
+    /// When there is no such network, or DDS refuses its settings.
+    pub fn open(settings: &Settings) -> Result<Self, WireError> {
+        let network = |error: dds::Error| WireError::Network {
+            domain_id: settings.domain_id,
+            why: error.why,
+        };
+        let said = user_data::enclave(&settings.enclave);
+        let participant = Participant::open(&settings.config(), &said).map_err(network)?;
+        let (lanes, mut threads) = Lanes::start();
+        let shared = Arc::new(Shared {
+            peers: Mutex::new(Peers::new(participant.guid())),
+            changed: Condvar::new(),
+            findings: Mutex::default(),
+            joining: Mutex::default(),
+            lanes,
+            writers: Mutex::default(),
+            is_closing: AtomicBool::new(false),
+            is_attached: AtomicBool::new(false),
+        });
+        let link = Link::new(&participant, shared.clone()).map_err(network)?;
+        let waker = link.waker();
+        let thread = std::thread::Builder::new().name("wire".to_owned());
+        threads.push(thread.spawn(move || link.run()).expect("the system gives a thread"));
+        Ok(Self { shared, waker, participant, threads })
+    }
+
+    /// Lets a graph take part, as long as the wire is there: its nodes are seen elsewhere, and what
+    /// is elsewhere comes to it. In the graph one node whose name begins with `_wire` stands for
+    /// all others.
+    ///
+    /// # Errors
+    /// When the wire has a graph already.
+    pub fn attach(&self, graph: &Graph) -> Result<(), WireError> {
+        if self.shared.is_attached.swap(true, Ordering::AcqRel) {
+            return Err(WireError::Attached);
+        }
+        let node = stand_in(graph, &self.participant.guid().0[2..12])?;
+        *lock(&self.shared.joining) = Some((graph.clone(), node));
+        self.waker.wake();
+        Ok(())
+    }
+
+    /// Who else is there now. Others need a moment to be found: see [`Wire::wait_for`].
+    #[must_use]
+    pub fn remote(&self) -> Remote {
+        lock(&self.shared.peers).view()
+    }
+
+    /// How far discovery has come. Costs less than [`Wire::remote`].
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        lock(&self.shared.peers).progress()
+    }
+
+    /// Waits until the others are as wanted, at most so long; whether they are.
+    pub fn wait_for(&self, timeout: Duration, mut wanted: impl FnMut(&Remote) -> bool) -> bool {
+        let peers = lock(&self.shared.peers);
+        let mut seen = None;
+        let waited = self.shared.changed.wait_timeout_while(peers, timeout, |peers| {
+            // Not looked at twice as long as nothing has changed.
+            if seen.replace(peers.changes()) == Some(peers.changes()) {
+                return true;
+            }
+            !wanted(&peers.view())
+        });
+        !waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
+    }
+
+    /// Waits until everything published so far has arrived at all who are known to listen, at most
+    /// so long; whether it has. Best effort is not waited for.
+    #[must_use]
+    pub fn flush(&self, timeout: Duration) -> bool {
+        let start = Since::now();
+        loop {
+            let writers = lock(&self.shared.writers).clone();
+            let is_sent = self.shared.lanes.waiting() == 0;
+            if is_sent && writers.iter().all(|one| one.writer.wait_acknowledged(0)) {
+                return true;
+            }
+            if start.elapsed() >= timeout {
+                return false;
+            }
+            std::thread::sleep(LOOK_AGAIN);
+        }
+    }
+
+    /// What was wrong since the last call: types and QoS that do not fit, samples that are none,
+    /// what DDS complains of.
+    #[must_use]
+    pub fn take_findings(&self) -> Diagnostics {
+        let mut findings = std::mem::take(&mut *lock(&self.shared.findings));
+        for line in dds::take_log() {
+            let text = format!("DDS: {}", line.text);
+            findings.push(if line.is_error {
+                Diagnostic::error("dds", text)
+            } else {
+                Diagnostic::warning("dds", text)
+            });
+        }
+        findings
+    }
+
+    /// Its participant's name in DDS.
+    #[must_use]
+    pub fn guid(&self) -> Guid {
+        self.participant.guid()
+    }
+}
+
+impl Drop for Wire {
+    fn drop(&mut self) {
+        let _ = self.flush(LAST_CHANCE);
+        self.shared.is_closing.store(true, Ordering::Release);
+        self.waker.wake();
+        self.shared.lanes.close();
+        for thread in self.threads.drain(..) {
+            let _ = thread.join();
+        }
+        lock(&self.shared.writers).clear();
+    }
+}
+
+impl std::fmt::Debug for Wire {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Wire").field("guid", &self.guid()).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,39 @@
+//! Gazebo Transport: what `gz topic`, `gz service` and Gazebo's own programs speak, without any of
+//! them.
+//!
+//! A [`Transport`] is a place in that network. It finds others by multicast, and they find it; topics
+//! and services go over TCP as ZeroMQ frames them.
+//! A [`Link`] keeps topics of a graph there.
+//!
+//! ```no_run
+//! use periplus_gz_msgs::{Boolean, Message};
+//! use periplus_resources::MemoryHost;
+//! use periplus_gz_transport::{Settings, Transport};
+//!
+//! let (settings, _) = Settings::from_environment(&MemoryHost::default());
+//! let transport = Transport::open(&settings)?;
+//! let publisher = transport.advertise("/lamp", "gz.msgs.Boolean")?;
+//! publisher.publish(Boolean::from(true).encode());
+//! # Ok::<(), periplus_gz_transport::WireError>(())
+//! ```
+//!
+//! Source: the wire protocol of `gz-transport` 11 to 14, discovery version 10, and ZMTP 3.0
+//! (`rfc.zeromq.org/spec/23`).
+
+mod convert;
+mod error;
+mod link;
+mod names;
+mod outgoing;
+mod settings;
+mod transport;
+
+pub use convert::{gazebo_types, ros_types};
+pub use error::{CallError, WireError};
+pub use link::{Direction, Link, Pair, PairError};
+pub use names::{MOST_NAME, Name};
+pub use settings::{Reach, Settings};
+pub use transport::{
+    Answer, Arrival, Call, Offered, Publisher, Server, Subscription, Transport, fuzz_discovery,
+    fuzz_frames,
+};

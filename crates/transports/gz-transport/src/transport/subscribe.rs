@@ -1,0 +1,255 @@
+//! Topics on their way in.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::net::{Shutdown, TcpStream};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use periplus_gz_msgs::{DiscoveryKind, DiscoveryPublisher, DiscoverySubscriber};
+use periplus_transport::lock;
+
+use super::discovery::subscriber;
+use super::shared::{Kind, Shared, thread};
+use super::{listener, sockets, zmtp};
+use crate::Name;
+
+/// The largest message \[B\]: a cloud of 8 million points.
+const LARGEST: usize = 256 << 20;
+
+/// How long a connection may take to be made, and how long one that broke is left alone.
+const CONNECT: Duration = Duration::from_secs(2);
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// What is asked for is heard from then on; a program that sends one message and ends sends it as soon as
+/// it knows that somebody hears.
+const GRACE: Duration = Duration::from_millis(10);
+
+/// A message that came.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival<'a> {
+    /// The full name of its type, as who published it says.
+    pub type_name: &'a str,
+    /// The message.
+    pub bytes: &'a [u8],
+}
+
+/// What is done with a message.
+pub(super) type Take = Box<dyn Fn(Arrival<'_>) + Send + Sync>;
+
+/// Hears a topic as long as it is there.
+pub struct Subscription {
+    shared: Arc<Shared>,
+    ear: Arc<Ear>,
+}
+
+pub(super) struct Ear {
+    id: u64,
+    name: Name,
+    type_name: String,
+    take: Take,
+}
+
+#[derive(Default)]
+pub(super) struct Ears {
+    all: Mutex<BTreeMap<u64, Arc<Ear>>>,
+    /// Connections to those who publish, by their addresses.
+    lines: Mutex<BTreeMap<String, Arc<Line>>>,
+}
+
+impl Ears {
+    /// All topics that are heard, with the types that are meant.
+    pub(super) fn all(&self) -> Vec<(Name, String)> {
+        lock(&self.all).values().map(|ear| (ear.name.clone(), ear.type_name.clone())).collect()
+    }
+
+    fn of(&self, name: &[u8]) -> Vec<Arc<Ear>> {
+        let all = lock(&self.all);
+        all.values().filter(|ear| ear.name.full().as_bytes() == name).cloned().collect()
+    }
+}
+
+pub(super) fn subscribe(
+    shared: &Arc<Shared>,
+    name: Name,
+    type_name: &str,
+    take: Take,
+) -> Subscription {
+    let id = shared.next_id();
+    let topic = name.full().to_owned();
+    let ear = Arc::new(Ear { id, name, type_name: type_name.to_owned(), take });
+    lock(&shared.ears.all).insert(id, ear.clone());
+    shared.tell(Kind::Topics, DiscoveryKind::SUBSCRIBE, |told| {
+        told.sub = Some(DiscoverySubscriber { topic });
+    });
+    follow(shared);
+    Subscription { shared: shared.clone(), ear }
+}
+
+impl Subscription {
+    /// How many publish the topic.
+    #[must_use]
+    pub fn publishers(&self) -> usize {
+        self.shared.remote(Kind::Topics).of(&self.ear.name).len()
+    }
+
+    /// The topic.
+    #[must_use]
+    pub fn topic(&self) -> &str {
+        self.ear.name.topic()
+    }
+}
+
+impl Drop for Subscription {
+    fn drop(&mut self) {
+        lock(&self.shared.ears.all).remove(&self.ear.id);
+        follow(&self.shared);
+    }
+}
+
+impl std::fmt::Debug for Subscription {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Subscription").field(&self.ear.name.topic()).finish()
+    }
+}
+
+/// A connection to one who publishes.
+#[derive(Default)]
+struct Line(Mutex<Wish>);
+
+#[derive(Default)]
+struct Wish {
+    /// What is asked for, with the offers that it is asked for by.
+    topics: BTreeMap<Name, DiscoveryPublisher>,
+    stream: Option<TcpStream>,
+    is_closed: bool,
+}
+
+impl Line {
+    /// Asks for these topics and no others.
+    fn want(&self, shared: &Shared, topics: BTreeMap<Name, DiscoveryPublisher>) {
+        let mut wish = lock(&self.0);
+        let before = std::mem::replace(&mut wish.topics, topics);
+        let gone = before.iter().filter(|(name, _)| !wish.topics.contains_key(name));
+        let gone: Vec<_> = gone.collect();
+        let come = wish.topics.iter().filter(|(name, _)| !before.contains_key(name));
+        if let Some(mut stream) = wish.stream.as_ref() {
+            // That it is gone is noticed by who reads.
+            for (name, _) in &gone {
+                let _ = stream.write_all(&zmtp::subscription(false, name.full()));
+            }
+            for (name, offer) in come {
+                let _ = stream.write_all(&zmtp::subscription(true, name.full()));
+                tell(shared, DiscoveryKind::NEW_CONNECTION, name, offer);
+            }
+        }
+        for (name, offer) in gone {
+            tell(shared, DiscoveryKind::END_CONNECTION, name, offer);
+        }
+        wish.is_closed = wish.topics.is_empty();
+        if wish.is_closed
+            && let Some(stream) = &wish.stream
+        {
+            let _ = stream.shutdown(Shutdown::Both);
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        lock(&self.0).is_closed
+    }
+
+    /// From now on there is a connection: asks for all that is wanted.
+    fn connected(&self, shared: &Shared, stream: &TcpStream) -> std::io::Result<()> {
+        let mut writing = stream.try_clone()?;
+        let mut wish = lock(&self.0);
+        for name in wish.topics.keys() {
+            writing.write_all(&zmtp::subscription(true, name.full()))?;
+        }
+        std::thread::sleep(GRACE);
+        for (name, offer) in &wish.topics {
+            tell(shared, DiscoveryKind::NEW_CONNECTION, name, offer);
+        }
+        wish.stream = Some(writing);
+        Ok(())
+    }
+}
+
+/// Tells who publishes that it is heard, or no more: programs of Gazebo send nothing otherwise.
+fn tell(shared: &Shared, what: DiscoveryKind, name: &Name, offer: &DiscoveryPublisher) {
+    let type_name = offer.msg_pub.as_ref().map(|it| it.msg_type.clone()).unwrap_or_default();
+    let ear = subscriber(shared, name, type_name, offer.process_uuid.clone());
+    shared.tell(Kind::Topics, what, |told| told.r#pub = Some(ear));
+}
+
+/// Keeps connections as those who hear and those who publish are now.
+pub(super) fn follow(shared: &Arc<Shared>) {
+    let mut lines = lock(&shared.ears.lines);
+    let mut wanted: BTreeMap<String, BTreeMap<Name, DiscoveryPublisher>> = BTreeMap::new();
+    let heard = shared.ears.all();
+    let remote = shared.remote(Kind::Topics);
+    for (name, _) in heard {
+        for offer in remote.of(&name) {
+            let topics = wanted.entry(offer.address.clone()).or_default();
+            topics.insert(name.clone(), offer.clone());
+        }
+    }
+    drop(remote);
+    lines.retain(|address, line| {
+        let stays = wanted.contains_key(address);
+        if !stays {
+            line.want(shared, BTreeMap::new());
+        }
+        stays
+    });
+    for (address, topics) in wanted {
+        let line = lines.entry(address.clone()).or_insert_with(|| {
+            let line = Arc::new(Line::default());
+            start(shared, &address, line.clone());
+            line
+        });
+        line.want(shared, topics);
+    }
+}
+
+fn start(shared: &Arc<Shared>, address: &str, line: Arc<Line>) {
+    let Some(to) = sockets::address(address).filter(|to| shared.ways.is_for(*to)) else { return };
+    let shared = shared.clone();
+    thread("gz-subscribe", move || {
+        while !shared.is_closing() && !line.is_closed() {
+            if let Ok(stream) = TcpStream::connect_timeout(&to, CONNECT)
+                && let Some(admitted) = shared.admit(&stream)
+            {
+                // When it ends it is made again as long as somebody wants it.
+                let _ = listen(&shared, &line, stream);
+                lock(&line.0).stream = None;
+                drop(admitted);
+            }
+            if !line.is_closed() {
+                std::thread::sleep(PAUSE);
+            }
+        }
+    });
+}
+
+fn listen(shared: &Shared, line: &Line, mut stream: TcpStream) -> std::io::Result<()> {
+    listener::greet(&mut stream, zmtp::Kind::Sub, "")?;
+    line.connected(shared, &stream)?;
+    loop {
+        match zmtp::read(&mut stream, LARGEST)? {
+            zmtp::Event::Message(parts) => {
+                // Topic, address, message, type; who counts messages adds one.
+                let [topic, _, bytes, type_name, ..] = parts.as_slice() else { continue };
+                let Ok(type_name) = std::str::from_utf8(type_name) else { continue };
+                for ear in shared.ears.of(topic) {
+                    (ear.take)(Arrival { type_name, bytes });
+                }
+            }
+            zmtp::Event::Ping(context) => {
+                if let Some(stream) = &mut lock(&line.0).stream {
+                    stream.write_all(&zmtp::pong(&context))?;
+                }
+            }
+            zmtp::Event::Subscribe(..) => {}
+        }
+    }
+}

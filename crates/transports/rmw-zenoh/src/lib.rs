@@ -1,0 +1,43 @@
+//! A graph on Zenoh, as ROS 2 speaks it with `rmw_zenoh`: other programs see our nodes, topics and
+//! services as they see any others, and we see theirs. No ROS is needed, but a router is, as for them.
+//!
+//! Zenoh itself is some 200 crates, so it is built in only with the feature `zenoh`; what this crate
+//! has without it are the names: keys, tokens, attachments.
+//!
+#![cfg_attr(feature = "zenoh", doc = "```no_run")]
+#![cfg_attr(not(feature = "zenoh"), doc = "```ignore")]
+//! use std::time::Duration;
+//!
+//! use periplus_graph::{Graph, NodeSettings, Qos};
+//! use periplus_rmw_zenoh::{Settings, Wire};
+//!
+//! let wire = Wire::open(&Settings::default())?;
+//! let graph = Graph::live();
+//! wire.attach(&graph)?;
+//! let node = graph.node(NodeSettings::new("listener"))?;
+//! let hash = "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828";
+//! let of = "sensor_msgs/msg/LaserScan";
+//! let scans = node.raw_mailbox("/scan", of, Some(hash), Qos::sensor_data())?;
+//! wire.wait_for(Duration::from_secs(2), |others| !others.is_empty());
+//! println!("{} scans", scans.drain().len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod attachment;
+mod error;
+pub mod qos;
+mod settings;
+pub mod token;
+
+#[cfg(feature = "zenoh")]
+mod link;
+#[cfg(feature = "zenoh")]
+mod outgoing;
+#[cfg(feature = "zenoh")]
+mod wire;
+
+pub use error::WireError;
+pub use settings::Settings;
+pub use token::{End, Kind, Token};
+#[cfg(feature = "zenoh")]
+pub use wire::Wire;

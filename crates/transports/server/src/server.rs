@@ -1,0 +1,158 @@
+//! The port.
+
+use std::io;
+use std::net::{Ipv6Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use periplus_wire_live::Hub;
+
+use crate::admit::Door;
+use crate::guesses::Guesses;
+use crate::socket;
+use crate::token::{MIN_TOKEN_CHARACTERS, encoded};
+
+/// Connections at one time: each has a thread.
+const MOST_CONNECTIONS: usize = 256;
+
+/// What a server is told.
+#[derive(Clone, Debug)]
+pub struct ServerSettings {
+    /// Where it listens; port 0 is any that is free.
+    pub address: SocketAddr,
+    /// What opens it to others. Where others reach it, it needs one.
+    pub token: Option<String>,
+}
+
+/// A port with the page and the socket behind it, open as long as this is there.
+#[derive(Debug)]
+pub struct Server {
+    address: SocketAddr,
+    token: Option<String>,
+    room: Arc<Room>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What all connections have in common.
+#[derive(Debug)]
+pub(crate) struct Room {
+    pub(crate) hub: Arc<Hub>,
+    pub(crate) door: Door,
+    pub(crate) guesses: Guesses,
+    pub(crate) is_closing: AtomicBool,
+    connections: AtomicUsize,
+}
+
+impl Server {
+    /// Begins to listen.
+    ///
+    /// # Errors
+    /// When the port is taken, or the address is one that others reach and there is no token, or one
+    /// that could be guessed.
+    pub fn open(hub: Arc<Hub>, settings: ServerSettings) -> io::Result<Self> {
+        let ServerSettings { address, token } = settings;
+        let is_loopback = address.ip().is_loopback();
+        if !is_loopback && token.as_ref().is_none_or(String::is_empty) {
+            let why = format!("{address} is reached from other machines, which needs a token");
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+        }
+        if !is_loopback && token.as_ref().is_some_and(|token| is_short(token)) {
+            let why = format!(
+                "the token is too short for {address}, which other machines reach: it needs \
+                 {MIN_TOKEN_CHARACTERS} characters or more; without `--token` one is made"
+            );
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+        }
+        let listener = TcpListener::bind(address)?;
+        let address = listener.local_addr()?;
+        let door = Door { is_loopback, token: token.clone() };
+        let room = Arc::new(Room {
+            hub,
+            door,
+            guesses: Guesses::default(),
+            is_closing: AtomicBool::new(false),
+            connections: AtomicUsize::new(0),
+        });
+        let own = room.clone();
+        let builder = std::thread::Builder::new().name("server".to_owned());
+        let thread = builder.spawn(move || accept(&listener, &own))?;
+        Ok(Self { address, token, room, thread: Some(thread) })
+    }
+
+    /// Where it listens.
+    #[must_use]
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// What to type into a browser.
+    #[must_use]
+    pub fn url(&self) -> String {
+        let (ip, port) = (self.address.ip(), self.address.port());
+        let host = match ip {
+            _ if ip.is_unspecified() => "127.0.0.1".to_owned(),
+            std::net::IpAddr::V6(ip) => format!("[{ip}]"),
+            std::net::IpAddr::V4(ip) => ip.to_string(),
+        };
+        match &self.token {
+            Some(token) if !ip.is_loopback() => {
+                format!("http://{host}:{port}/?token={}", encoded(token))
+            }
+            _ => format!("http://{host}:{port}/"),
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.room.is_closing.store(true, Ordering::Release);
+        // Somebody comes, so that the one who waits for somebody looks up.
+        let own = match self.address {
+            SocketAddr::V4(_) => SocketAddr::from(([127, 0, 0, 1], self.address.port())),
+            SocketAddr::V6(_) => SocketAddr::from((Ipv6Addr::LOCALHOST, self.address.port())),
+        };
+        let knock = if self.address.ip().is_unspecified() { own } else { self.address };
+        let came = TcpStream::connect_timeout(&knock, Duration::from_secs(1));
+        if let (Ok(_), Some(thread)) = (came, self.thread.take()) {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn is_short(token: &str) -> bool {
+    token.chars().count() < MIN_TOKEN_CHARACTERS
+}
+
+/// Who is let in counts as long as this is there.
+struct Place(Arc<Room>);
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.0.connections.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
+fn accept(listener: &TcpListener, room: &Arc<Room>) {
+    loop {
+        let came = listener.accept();
+        if room.is_closing.load(Ordering::Acquire) {
+            return;
+        }
+        let Ok((stream, _)) = came else {
+            // Too many files are open, or the caller went away again.
+            periplus_os::sleep(Duration::from_millis(20));
+            continue;
+        };
+        let before = room.connections.fetch_add(1, Ordering::AcqRel);
+        let place = Place(room.clone());
+        if before >= MOST_CONNECTIONS {
+            continue;
+        }
+        let builder = std::thread::Builder::new().name("connection".to_owned());
+        let _ = builder.spawn(move || {
+            let _ = socket::serve(stream, &place.0);
+        });
+    }
+}

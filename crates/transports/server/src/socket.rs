@@ -1,0 +1,288 @@
+//! One connection: requests for files, or a WebSocket.
+
+use std::io::{self, IoSlice, Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use periplus_os::{Stopwatch, sleep};
+use periplus_wire_live::{Frame, Outbox, Session, Taken, protocol};
+use tungstenite::error::Error;
+use tungstenite::handshake::derive_accept_key;
+use tungstenite::protocol::{Role, WebSocketConfig};
+use tungstenite::{Message, WebSocket};
+
+use crate::admit::Refused;
+use crate::frame;
+use crate::http::{Answer, Head, HeadError, LONGEST_HEAD};
+use crate::page;
+use crate::patient::Patient;
+use crate::server::Room;
+
+/// How long a request may take to come, and a connection stay open without one.
+const PATIENCE: Duration = Duration::from_secs(15);
+
+/// A client that hears nothing is asked so often whether it still lives.
+const PING: Duration = Duration::from_secs(15);
+
+/// How often one who writes looks whether all is over.
+const LOOK: Duration = Duration::from_millis(200);
+
+/// Requests on one connection.
+const MOST_REQUESTS: usize = 1000;
+
+/// Serves a connection until it ends.
+pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    stream.set_read_timeout(Some(PATIENCE))?;
+    let mut came = Vec::new();
+    for _ in 0..MOST_REQUESTS {
+        let head = match next_head(&mut stream, &mut came)? {
+            Ok(Some(head)) => head,
+            Ok(None) => return Ok(()),
+            Err(error) => {
+                let answer = Answer::words("400 Bad Request", &error.to_string());
+                return patient(&stream, room)?.write_all(&answer.bytes(false, false));
+            }
+        };
+        if head.is_upgrade() {
+            return upgrade(stream, came, &head, room);
+        }
+        let is_head = head.method == "HEAD";
+        let stays = !head.lists("connection", "close") && !has_body(&head);
+        let answer = if is_head || head.method == "GET" {
+            page::answer(&head)
+        } else {
+            Answer::words("405 Method Not Allowed", "only GET and HEAD are known here")
+        };
+        patient(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
+        if !stays {
+            return Ok(());
+        }
+    }
+    Ok(())
+}
+
+fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<Patient<'a>> {
+    Patient::new(stream, room.hub.settings().limits.stalled)
+}
+
+/// Nobody here wants one; what follows it could not be told from it.
+fn has_body(head: &Head) -> bool {
+    head.header("content-length").is_some() || head.header("transfer-encoding").is_some()
+}
+
+/// The next request; none where no more comes. What came after it stays in `came`.
+fn next_head(
+    stream: &mut TcpStream,
+    came: &mut Vec<u8>,
+) -> io::Result<Result<Option<Head>, HeadError>> {
+    let since = Stopwatch::start();
+    loop {
+        match Head::read(came) {
+            Ok(Some((head, length))) => {
+                came.drain(..length);
+                return Ok(Ok(Some(head)));
+            }
+            Ok(None) => {}
+            Err(error) => return Ok(Err(error)),
+        }
+        if since.elapsed() > PATIENCE {
+            return Ok(Ok(None));
+        }
+        let mut some = [0; 2048];
+        let room = LONGEST_HEAD.saturating_sub(came.len()).clamp(1, some.len());
+        let count = stream.read(&mut some[..room])?;
+        if count == 0 {
+            return Ok(Ok(None));
+        }
+        came.extend(&some[..count]);
+    }
+}
+
+/// From here on it is a WebSocket, if who asks may have one.
+fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
+    let refuse = |status, why: &str| {
+        patient(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
+    };
+    let address = stream.peer_addr()?.ip();
+    if head.query("token").is_some() && room.guesses.are_too_many(address) {
+        let why = "too many wrong tokens came from this address; wait a minute";
+        return refuse("429 Too Many Requests", why);
+    }
+    if let Err(refused) = room.door.admit(head) {
+        if refused == Refused::WrongToken {
+            room.guesses.add(address);
+        }
+        return refuse("403 Forbidden", &refused.to_string());
+    }
+    let known = |name: &&&str| head.lists("sec-websocket-protocol", name);
+    let Some(subprotocol) = protocol::SUBPROTOCOLS.iter().find(known) else {
+        let why = format!(
+            "a WebSocket here speaks the subprotocol {}",
+            protocol::SUBPROTOCOLS.join(" or ")
+        );
+        return refuse("400 Bad Request", &why);
+    };
+    let version = head.header("sec-websocket-version");
+    let (Some(key), Some("13"), "GET") =
+        (head.header("sec-websocket-key"), version, head.method.as_str())
+    else {
+        return refuse("426 Upgrade Required", "a WebSocket here is one of version 13");
+    };
+    let Some(session) = room.hub.join() else {
+        return refuse("503 Service Unavailable", "too many viewers are here already");
+    };
+    let key = derive_accept_key(key.as_bytes());
+    let answer = format!(
+        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Accept: {key}\r\nSec-WebSocket-Protocol: {subprotocol}\r\n\r\n"
+    );
+    patient(&stream, room)?.write_all(answer.as_bytes())?;
+    stream.set_read_timeout(None)?;
+    let outbox = session.outbox().clone();
+    let writing = stream.try_clone()?;
+    let builder = std::thread::Builder::new().name("viewer".to_owned());
+    std::thread::scope(|scope| {
+        let outlet = outbox.clone();
+        let writer = builder.spawn_scoped(scope, move || {
+            let _ = write(&writing, &outlet, room);
+            // Whoever reads is woken.
+            let _ = writing.shutdown(Shutdown::Both);
+        })?;
+        hear(stream, came, session, room);
+        let _ = writer.join();
+        Ok(())
+    })
+}
+
+/// Hears a client until it goes.
+fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
+    let outbox = session.outbox().clone();
+    let limits = room.hub.settings().limits;
+    let config = WebSocketConfig::default()
+        .max_message_size(Some(limits.message))
+        .max_frame_size(Some(limits.message));
+    let line = Line { stream, outbox: outbox.clone() };
+    let mut socket = WebSocket::from_partially_read(line, came, Role::Server, Some(config));
+    let mut allowance = Allowance::new(limits.rate_hz);
+    let why = loop {
+        match socket.read() {
+            Ok(Message::Text(text)) => session.text(&text),
+            Ok(Message::Binary(bytes)) => session.binary(&bytes),
+            Ok(_) => {}
+            Err(error) => break error,
+        }
+        allowance.spend();
+    };
+    let close = match why {
+        Error::ConnectionClosed | Error::AlreadyClosed | Error::Io(_) => None,
+        Error::Capacity(error) => Some((1009, error.to_string())),
+        Error::Utf8(_) => Some((1007, "a text is not UTF-8".to_owned())),
+        other => Some((1002, other.to_string())),
+    };
+    if let Some((code, why)) = close {
+        outbox.push(Frame::raw(frame::close(code, &why)));
+    }
+    outbox.end("");
+    drop(session);
+}
+
+/// Sends what waits for a client until there is no more.
+fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
+    let mut stream = patient(stream, room)?;
+    let mut idle = Stopwatch::start();
+    loop {
+        if room.is_closing.load(Ordering::Acquire) {
+            outbox.end("the server goes away");
+        }
+        match outbox.take(LOOK) {
+            Taken::Frame(frame) => {
+                send(&mut stream, &frame)?;
+                idle = Stopwatch::start();
+            }
+            Taken::Nothing if idle.elapsed() >= PING => {
+                stream.write_all(&frame::ping())?;
+                idle = Stopwatch::start();
+            }
+            Taken::Nothing => {}
+            Taken::End(why) => {
+                // Who went by itself is told nothing.
+                return if why.is_empty() {
+                    Ok(())
+                } else {
+                    stream.write_all(&frame::close(1001, &why))
+                };
+            }
+        }
+    }
+}
+
+/// Sends a message without putting its parts together first.
+fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
+    use periplus_wire_live::Kind;
+    let [head, body] = frame.parts();
+    let before = match frame.kind() {
+        Kind::Raw => Vec::new(),
+        kind => frame::header(kind == Kind::Text, head.len() + body.len()),
+    };
+    let mut parts = [IoSlice::new(&before), IoSlice::new(head), IoSlice::new(body)];
+    let mut parts = &mut parts[..];
+    IoSlice::advance_slices(&mut parts, 0);
+    while !parts.is_empty() {
+        match stream.write_vectored(parts) {
+            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+            Ok(count) => IoSlice::advance_slices(&mut parts, count),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// The socket as who hears sees it: what the WebSocket says by itself while it reads, answers to pings
+/// and the last word, goes the way of all that is sent, so that nothing comes between two parts of it.
+struct Line {
+    stream: TcpStream,
+    outbox: Arc<Outbox>,
+}
+
+impl Read for Line {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.stream.read(buffer)
+    }
+}
+
+impl Write for Line {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.outbox.push(Frame::raw(bytes.to_vec()));
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// How much a client may say: so many messages per second in the long run, and twice as many at once.
+/// Who says more is not heard until it may.
+struct Allowance {
+    rate_hz: f64,
+    left: f64,
+    since: Stopwatch,
+}
+
+impl Allowance {
+    fn new(rate_hz: f64) -> Self {
+        Self { rate_hz, left: 2.0 * rate_hz, since: Stopwatch::start() }
+    }
+
+    fn spend(&mut self) {
+        let earned = self.since.lap().as_secs_f64() * self.rate_hz;
+        self.left = (self.left + earned).min(2.0 * self.rate_hz) - 1.0;
+        if self.left < 0.0 {
+            sleep(Duration::from_secs_f64(-self.left / self.rate_hz));
+        }
+    }
+}

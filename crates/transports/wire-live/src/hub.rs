@@ -1,0 +1,141 @@
+//! What stands between a graph and all clients.
+
+mod calls;
+mod channels;
+mod clients;
+mod connections;
+mod mismatches;
+mod parameters;
+mod services;
+mod state;
+
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use periplus_graph::{Graph, GraphError, Node, NodeSettings};
+use periplus_transport::lock;
+
+use crate::far::Far;
+use crate::outbox::Outbox;
+use crate::protocol::AssetAnswer;
+use crate::session::Session;
+use crate::settings::Settings;
+
+use parameters::News;
+pub(crate) use state::State;
+
+/// How often the graph is looked at for what came and went, and clients are told the time.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Gives files by their URI.
+pub(crate) type Assets = Arc<dyn Fn(&str) -> AssetAnswer + Send + Sync>;
+
+/// Lets clients take part in a graph as long as it is there: they see its topics, services and
+/// parameters, hear, publish and call. In the graph one node stands for all of them.
+pub struct Hub {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What the thread of a hub and its sessions have in common.
+pub(crate) struct Shared {
+    pub(crate) graph: Graph,
+    /// The node that stands for all clients.
+    pub(crate) node: Node,
+    pub(crate) settings: Settings,
+    pub(crate) state: Mutex<State>,
+    pub(crate) assets: Mutex<Option<Assets>>,
+    /// What nodes answered about parameters, with the wish that it is for.
+    news: Arc<Mutex<Vec<(u64, News)>>>,
+    is_closing: Mutex<bool>,
+    closing: Condvar,
+}
+
+impl Hub {
+    /// Stands before a graph.
+    ///
+    /// # Errors
+    /// When the graph has a node `/viewers` already.
+    pub fn open(graph: &Graph, settings: Settings) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new("viewers").bare().keep_names())?;
+        let shared = Arc::new(Shared {
+            graph: graph.clone(),
+            node,
+            settings,
+            state: Mutex::default(),
+            assets: Mutex::default(),
+            news: Arc::default(),
+            is_closing: Mutex::new(false),
+            closing: Condvar::new(),
+        });
+        lock(&shared.state).look(&shared);
+        let (looking, builder) = (shared.clone(), std::thread::Builder::new());
+        let run = move || looking.run();
+        let thread = builder.name("viewers".to_owned()).spawn(run);
+        Ok(Self { shared, thread: Some(thread.expect("the system gives a thread")) })
+    }
+
+    /// Where files come from that clients ask for by URI. Whoever gives them decides which may be had.
+    pub fn serve_assets(&self, fetch: impl Fn(&str) -> AssetAnswer + Send + Sync + 'static) {
+        *lock(&self.shared.assets) = Some(Arc::new(fetch));
+    }
+
+    /// What others have on a network that the graph is on. Tell it when it has changed.
+    pub fn set_far(&self, far: Far) {
+        lock(&self.shared.state).set_far(&self.shared, far);
+    }
+
+    /// A client comes. None when there are too many.
+    #[must_use]
+    pub fn join(&self) -> Option<Session> {
+        let outbox = Arc::new(Outbox::new(self.shared.settings.limits.waiting));
+        let id = lock(&self.shared.state).join(&self.shared, &outbox)?;
+        Some(Session::new(id, self.shared.clone(), outbox))
+    }
+
+    /// How many clients there are.
+    #[must_use]
+    pub fn clients(&self) -> usize {
+        lock(&self.shared.state).clients.len()
+    }
+
+    /// What it was told.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.shared.settings
+    }
+}
+
+impl Drop for Hub {
+    fn drop(&mut self) {
+        *lock(&self.shared.is_closing) = true;
+        self.shared.closing.notify_all();
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        lock(&self.shared.state).end(&self.shared.graph);
+    }
+}
+
+impl Shared {
+    fn run(&self) {
+        let mut is_closing = lock(&self.is_closing);
+        while !*is_closing {
+            drop(is_closing);
+            let mut state = lock(&self.state);
+            state.look(self);
+            state.go_on(self);
+            state.tell_time(self.graph.now_ns());
+            drop(state);
+            let waited = self.closing.wait_timeout(lock(&self.is_closing), LOOK);
+            is_closing = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl std::fmt::Debug for Hub {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Hub").finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,239 @@
+//! What waits for one client.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+use periplus_graph::Sample;
+use periplus_msgs::Message as _;
+use periplus_msgs::map_msgs::OccupancyGridUpdate;
+use periplus_msgs::nav_msgs::OccupancyGrid;
+use periplus_transport::lock;
+
+use crate::frame::Frame;
+use crate::grid::{Difference, difference};
+use crate::protocol;
+
+/// Messages of one subscription that wait: as many as fit here by the size of the last one, but one
+/// at least \[bytes\].
+const MOST_WAITING: usize = 256 << 10;
+
+/// What waits for one client, until somebody takes it for the client's socket.
+///
+/// - Answers and announcements come first and are never lost; a client for which too many wait is
+///   sent away.
+/// - Of latched topics the last messages wait, as many as each publisher keeps.
+/// - Of other topics the newest wait: as many as their publisher would keep, but not more than a few
+///   hundred kilobytes, and one where messages may get lost anyhow. Older ones are let fall.
+/// - Of a map whose updates the client hears too, it gets all once and then what is new in it, measured
+///   against what it has.
+/// - Subscriptions take turns, so that a camera does not hold up a scan.
+pub struct Outbox {
+    waiting: Mutex<Waiting>,
+    filled: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    urgent: VecDeque<Frame>,
+    urgent_bytes: usize,
+    most_urgent_bytes: usize,
+    time_ns: Option<i64>,
+    lanes: BTreeMap<u32, Lane>,
+    /// The subscription that was last served.
+    served: u32,
+    end: Option<String>,
+}
+
+/// One subscription.
+#[derive(Default)]
+struct Lane {
+    samples: VecDeque<(Sample, Rule)>,
+    /// How large the last message was \[bytes\].
+    size: usize,
+    dropped: u64,
+    /// The subscription that gets what is new in this map, where there is one.
+    updates: Option<u32>,
+    /// The map as the client has it.
+    told: Option<Arc<OccupancyGrid>>,
+}
+
+/// How messages of a publisher wait.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Rule {
+    /// How many of this publisher.
+    pub(crate) depth: usize,
+    /// Whether they are for whoever comes later too.
+    pub(crate) is_latched: bool,
+}
+
+/// What was taken out of an outbox.
+#[derive(Debug)]
+pub enum Taken {
+    /// Something to send.
+    Frame(Frame),
+    /// Nothing came in time.
+    Nothing,
+    /// Nothing will come any more: why, if there is a reason to tell.
+    End(String),
+}
+
+impl Outbox {
+    pub(crate) fn new(most_urgent_bytes: usize) -> Self {
+        let waiting = Waiting { most_urgent_bytes, ..Waiting::default() };
+        Self { waiting: Mutex::new(waiting), filled: Condvar::new() }
+    }
+
+    /// Something that may not get lost.
+    pub fn push(&self, frame: Frame) {
+        let mut waiting = lock(&self.waiting);
+        if waiting.end.is_some() {
+            return;
+        }
+        waiting.urgent_bytes += frame.len();
+        waiting.urgent.push_back(frame);
+        if waiting.urgent_bytes > waiting.most_urgent_bytes {
+            waiting.urgent.clear();
+            waiting.lanes.clear();
+            waiting.end = Some("too much waits for this client".to_owned());
+        }
+        drop(waiting);
+        self.filled.notify_one();
+    }
+
+    /// The time; a newer one takes its place.
+    pub(crate) fn tell_time(&self, time_ns: i64) {
+        lock(&self.waiting).time_ns = Some(time_ns);
+        self.filled.notify_one();
+    }
+
+    /// A subscription begins.
+    pub(crate) fn open(&self, subscription_id: u32) {
+        lock(&self.waiting).lanes.insert(subscription_id, Lane::default());
+    }
+
+    /// What is new in the map that a subscription hears goes to another one from now on.
+    pub(crate) fn pair(&self, subscription_id: u32, updates: Option<u32>) {
+        if let Some(lane) = lock(&self.waiting).lanes.get_mut(&subscription_id)
+            && lane.updates != updates
+        {
+            lane.updates = updates;
+            lane.told = None;
+        }
+    }
+
+    /// A subscription ends: what waits for it is let fall.
+    pub(crate) fn shut(&self, subscription_id: u32) {
+        lock(&self.waiting).lanes.remove(&subscription_id);
+    }
+
+    /// A message for a subscription.
+    pub(crate) fn offer(&self, subscription_id: u32, sample: &Sample, rule: Rule) {
+        let mut waiting = lock(&self.waiting);
+        let Some(lane) = waiting.lanes.get_mut(&subscription_id) else { return };
+        lane.offer(sample, rule);
+        drop(waiting);
+        self.filled.notify_one();
+    }
+
+    /// Nothing more is to be sent, and why.
+    pub fn end(&self, why: &str) {
+        lock(&self.waiting).end.get_or_insert_with(|| why.to_owned());
+        self.filled.notify_all();
+    }
+
+    /// How many messages were let fall.
+    #[must_use]
+    pub fn dropped(&self) -> u64 {
+        lock(&self.waiting).lanes.values().map(|lane| lane.dropped).sum()
+    }
+
+    /// What is to be sent next, when it comes within `patience`.
+    #[must_use]
+    pub fn take(&self, patience: Duration) -> Taken {
+        let waiting = lock(&self.waiting);
+        let is_idle = |waiting: &mut Waiting| !waiting.has_any() && waiting.end.is_none();
+        let waited = self.filled.wait_timeout_while(waiting, patience, is_idle);
+        let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
+        if let Some(frame) = waiting.urgent.pop_front() {
+            waiting.urgent_bytes -= frame.len();
+            return Taken::Frame(frame);
+        }
+        if let Some(why) = &waiting.end {
+            return Taken::End(why.clone());
+        }
+        if let Some(time_ns) = waiting.time_ns.take() {
+            return Taken::Frame(protocol::time(time_ns));
+        }
+        let Some((id, sample)) = waiting.next_sample() else { return Taken::Nothing };
+        let lane = waiting.lanes.get_mut(&id);
+        let (updates, told) = lane.map_or((None, None), |lane| (lane.updates, lane.told.take()));
+        drop(waiting);
+        // Not under the lock: this may be the one who encodes it.
+        if let Some(updates) = updates
+            && let Ok(map) = sample.message::<OccupancyGrid>()
+        {
+            let new = told.as_ref().map_or(Difference::All, |told| difference(told, &map));
+            if let Some(lane) = lock(&self.waiting).lanes.get_mut(&id) {
+                lane.told = Some(map);
+            }
+            match new {
+                Difference::All => {}
+                Difference::None => return Taken::Nothing,
+                Difference::Part(part) => return update(updates, sample.time_ns, &part),
+            }
+        }
+        let Some(frame) = Frame::sample(protocol::message_head(id, sample.time_ns), sample) else {
+            return Taken::Nothing;
+        };
+        if let Some(lane) = lock(&self.waiting).lanes.get_mut(&id) {
+            lane.size = frame.len();
+        }
+        Taken::Frame(frame)
+    }
+}
+
+fn update(subscription_id: u32, time_ns: i64, part: &OccupancyGridUpdate) -> Taken {
+    let Ok(cdr) = part.to_cdr() else { return Taken::Nothing };
+    let mut bytes = protocol::message_head(subscription_id, time_ns);
+    bytes.extend(cdr);
+    Taken::Frame(Frame::binary(bytes))
+}
+
+impl Waiting {
+    fn has_any(&self) -> bool {
+        !self.urgent.is_empty()
+            || self.time_ns.is_some()
+            || self.lanes.values().any(|lane| !lane.samples.is_empty())
+    }
+
+    /// The oldest message of the subscription whose turn it is.
+    fn next_sample(&mut self) -> Option<(u32, Sample)> {
+        let has = |(id, lane): (&u32, &Lane)| (!lane.samples.is_empty()).then_some(*id);
+        let after = self.lanes.range(self.served.saturating_add(1)..).find_map(has);
+        let id = after.or_else(|| self.lanes.iter().find_map(has))?;
+        self.served = id;
+        let (sample, _) = self.lanes.get_mut(&id)?.samples.pop_front()?;
+        Some((id, sample))
+    }
+}
+
+impl Lane {
+    fn offer(&mut self, sample: &Sample, rule: Rule) {
+        let fitting = if rule.is_latched { rule.depth } else { MOST_WAITING / self.size.max(1) };
+        let most = rule.depth.min(fitting).max(1);
+        let of_same = |(one, _): &(Sample, Rule)| one.publisher == sample.publisher;
+        while self.samples.iter().filter(|one| of_same(one)).count() >= most {
+            let Some(oldest) = self.samples.iter().position(of_same) else { break };
+            self.samples.remove(oldest);
+            self.dropped += 1;
+        }
+        self.samples.push_back((sample.clone(), rule));
+    }
+}
+
+impl std::fmt::Debug for Outbox {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Outbox").finish_non_exhaustive()
+    }
+}

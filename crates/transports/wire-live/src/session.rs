@@ -1,0 +1,196 @@
+//! One client, as the hub sees it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use periplus_graph::{Qos, RawPublisher};
+use periplus_transport::lock;
+
+use crate::frame::Frame;
+use crate::hub::Shared;
+use crate::outbox::Outbox;
+use crate::protocol::{self, ClientBinary, ClientChannel, ClientText, Level, Malformed};
+
+/// One client. It leaves when this is dropped.
+pub struct Session {
+    id: u64,
+    shared: Arc<Shared>,
+    outbox: Arc<Outbox>,
+    /// What it publishes, by its own numbers.
+    publishing: BTreeMap<u32, RawPublisher>,
+    /// Calls that wait for their answers.
+    calls: Arc<AtomicUsize>,
+}
+
+impl Session {
+    pub(crate) fn new(id: u64, shared: Arc<Shared>, outbox: Arc<Outbox>) -> Self {
+        Self { id, shared, outbox, publishing: BTreeMap::new(), calls: Arc::default() }
+    }
+
+    /// What waits for this client.
+    #[must_use]
+    pub fn outbox(&self) -> &Arc<Outbox> {
+        &self.outbox
+    }
+
+    /// It says something in JSON. What is wrong with it is told to it.
+    pub fn text(&mut self, text: &str) {
+        match ClientText::read(text) {
+            Ok(said) => self.hear(said),
+            Err(Malformed(why)) => self.refuse(&why),
+        }
+    }
+
+    /// It says something in bytes. What is wrong with it is told to it.
+    pub fn binary(&mut self, bytes: &[u8]) {
+        match ClientBinary::read(bytes) {
+            Ok(ClientBinary::Message { channel_id, payload }) => self.publish(channel_id, payload),
+            Ok(ClientBinary::Call { service_id, call_id, encoding, payload }) => {
+                self.call(service_id, call_id, encoding, payload);
+            }
+            Err(Malformed(why)) => self.refuse(&why),
+        }
+    }
+
+    fn refuse(&self, why: &str) {
+        self.outbox.push(protocol::status(Level::Error, why, None));
+    }
+
+    fn say(&self, frame: Frame) {
+        self.outbox.push(frame);
+    }
+
+    fn hear(&mut self, said: ClientText) {
+        match said {
+            ClientText::Subscribe { subscriptions } => {
+                let mut state = lock(&self.shared.state);
+                let refused = state.subscribe(&self.shared, self.id, &subscriptions);
+                drop(state);
+                refused.iter().for_each(|why| self.refuse(why));
+            }
+            ClientText::Unsubscribe { subscription_ids } => {
+                lock(&self.shared.state).unsubscribe(&self.shared, self.id, &subscription_ids);
+            }
+            ClientText::Advertise { channels } => {
+                channels.iter().for_each(|channel| self.advertise(channel));
+            }
+            ClientText::Unadvertise { channel_ids } => {
+                self.publishing.retain(|id, _| !channel_ids.contains(id));
+            }
+            ClientText::FetchAsset { uri, request_id } => self.fetch(&uri, request_id),
+            ClientText::RepairQos { id, topic, publisher, subscription } => {
+                let mut state = lock(&self.shared.state);
+                let outcome = state.repair(&self.shared, &topic, &publisher, &subscription);
+                drop(state);
+                self.say(protocol::repair_result(id, &outcome));
+            }
+            ClientText::GetParameters { parameter_names, id } => {
+                let mut state = lock(&self.shared.state);
+                state.get_parameters(&self.shared, self.id, &parameter_names, id);
+            }
+            ClientText::SetParameters { parameters, id } => {
+                lock(&self.shared.state).set_parameters(&self.shared, self.id, parameters, id);
+            }
+            ClientText::SubscribeParameterUpdates { parameter_names } => {
+                let mut state = lock(&self.shared.state);
+                state.follow_parameters(&self.shared, self.id, parameter_names);
+            }
+            ClientText::UnsubscribeParameterUpdates { parameter_names } => {
+                lock(&self.shared.state).unfollow_parameters(self.id, &parameter_names);
+            }
+            ClientText::SubscribeConnectionGraph => self.want_connections(true),
+            ClientText::UnsubscribeConnectionGraph => self.want_connections(false),
+        }
+    }
+
+    fn want_connections(&self, wants: bool) {
+        lock(&self.shared.state).want_connections(&self.shared, self.id, wants);
+    }
+
+    fn advertise(&mut self, channel: &ClientChannel) {
+        let ClientChannel { id, topic, encoding, schema_name } = channel;
+        if encoding != "cdr" {
+            return self.refuse(&format!(
+                "messages for `{topic}` would come as {encoding}; only cdr is understood"
+            ));
+        }
+        if self.publishing.contains_key(id) {
+            return self.refuse(&format!("channel {id} is in use"));
+        }
+        if self.publishing.len() >= self.shared.settings.limits.entries {
+            return self.refuse("there are too many channels");
+        }
+        let type_name = full_type(schema_name);
+        let hash = periplus_msgs::TypeRegistry::builtin().hash(&type_name);
+        let made =
+            self.shared.node.raw_publisher(topic, &type_name, hash.as_deref(), Qos::reliable(10));
+        match made {
+            Ok(publisher) => {
+                self.publishing.insert(*id, publisher);
+            }
+            Err(error) => self.refuse(&error.to_string()),
+        }
+    }
+
+    fn publish(&self, channel_id: u32, payload: &[u8]) {
+        match self.publishing.get(&channel_id) {
+            Some(publisher) => publisher.publish(payload.to_vec()),
+            None => self.refuse(&format!("channel {channel_id} was not announced")),
+        }
+    }
+
+    fn call(&self, service_id: u32, call_id: u32, encoding: &str, payload: &[u8]) {
+        let fail = |why: &str| self.say(protocol::service_failure(service_id, call_id, why));
+        if encoding != "cdr" {
+            return fail(&format!("the question comes as {encoding}; only cdr is understood"));
+        }
+        if self.calls.load(Ordering::Relaxed) >= self.shared.settings.limits.entries {
+            return fail("too many calls wait for their answers");
+        }
+        let mut state = lock(&self.shared.state);
+        let Some(name) = state.service(service_id) else {
+            return fail(&format!("there is no service {service_id}"));
+        };
+        self.calls.fetch_add(1, Ordering::Relaxed);
+        let (outbox, calls) = (self.outbox.clone(), self.calls.clone());
+        let answered = move |answer: Result<&[u8], String>| {
+            calls.fetch_sub(1, Ordering::Relaxed);
+            outbox.push(match answer {
+                Ok(cdr) => protocol::service_answer(service_id, call_id, cdr),
+                Err(why) => protocol::service_failure(service_id, call_id, &why),
+            });
+        };
+        state.call(&self.shared, &name, payload.to_vec(), Box::new(answered));
+    }
+
+    fn fetch(&self, uri: &str, request_id: u32) {
+        let assets = lock(&self.shared.assets).clone();
+        let answer = match assets {
+            Some(assets) => assets(uri),
+            None => Err("there are no files here".to_owned()),
+        };
+        self.say(protocol::asset(request_id, &answer));
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.outbox.end("");
+        lock(&self.shared.state).leave(&self.shared, self.id);
+    }
+}
+
+impl std::fmt::Debug for Session {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Session").field("id", &self.id).finish_non_exhaustive()
+    }
+}
+
+/// `pkg/msg/T` for the short form `pkg/T`.
+fn full_type(name: &str) -> String {
+    match name.split('/').collect::<Vec<_>>().as_slice() {
+        [package, name] => format!("{package}/msg/{name}"),
+        _ => name.to_owned(),
+    }
+}
