@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use periplus_maps::Distro;
-use periplus_slam_nodes::Program;
+use periplus_nav_nodes::slam_toolbox::Program;
 
 /// What a program becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,12 +1,12 @@
 //! The servers of Nav2 whose costmaps are here and whose algorithms are not.
 
 use periplus_costmap::Config;
-use periplus_costmap_nodes::CostmapNode;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
     Actor, Graph, GraphError, Level, Lifecycle, LifecycleState, Node, NodeSettings, Step,
     StepOutcome, Transition,
 };
+use periplus_nav_nodes::costmap_2d::CostmapNode;
 
 use crate::make::{self, Written};
 use crate::parts::Ask;

@@ -4,13 +4,14 @@ use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
-use periplus_costmap_nodes::{VoxelCloud, VoxelMarkers};
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
-use periplus_fusion_nodes::EkfNode;
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, parameters_to_yaml};
-use periplus_localization_nodes::AmclNode;
-use periplus_map_nodes::{MapSaver, MapServer, MapServerSettings};
 use periplus_maps::Distro;
+use periplus_nav_nodes::amcl::AmclNode;
+use periplus_nav_nodes::costmap_2d::{VoxelCloud, VoxelMarkers};
+use periplus_nav_nodes::ekf_node::EkfNode;
+use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
+use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_os::Machine;
 use periplus_params::Given;
 use periplus_resources::Host as _;
@@ -19,7 +20,6 @@ use periplus_sim_nodes::states::{
     JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource, RobotStateOptions,
     RobotStatePublisher,
 };
-use periplus_slam_nodes::{Pace, Program, SlamNode};
 use serde_json::Value;
 
 use crate::bridge::{self, Direction};
@@ -154,7 +154,7 @@ pub(crate) fn make(
             let name = node.names().name().to_owned();
             let written = Written::new(&named, &full_name)?;
             let values = written.read(&mut made.notes, |tree, found| {
-                periplus_localization_nodes::read(tree, &name, &[], found)
+                periplus_nav_nodes::amcl::read(tree, &name, &[], found)
             });
             let amcl = AmclNode::at(node, values, Arc::new(Machine)).map_err(failed)?;
             if !ask.is_managed {
@@ -335,7 +335,7 @@ fn slam(
 ) -> Result<(), String> {
     let written = Written::new(named, node.full_name())?;
     let values = written.read(&mut made.notes, |tree, found| match tree {
-        Some(tree) => periplus_slam_nodes::read(tree, Some(program), found).1,
+        Some(tree) => periplus_nav_nodes::slam_toolbox::read(tree, Some(program), found).1,
         None => program.table().check([], None, found),
     });
     let pace = if settings.is_paced { Pace::Sliced } else { Pace::Whole };

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use periplus_costmap::{Compat, cost};
-use periplus_costmap_nodes::{CostmapNode, VoxelMarkers};
 use periplus_graph::Graph;
 use periplus_images::{Layout, write_png};
 use periplus_maps::palette::{Scheme, paint};
+use periplus_nav_nodes::costmap_2d::{CostmapNode, VoxelMarkers};
 
 use crate::terminal;
 use file::{File, read, read_text};

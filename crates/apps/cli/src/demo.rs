@@ -14,9 +14,9 @@ use std::sync::Arc;
 use clap::Args;
 use periplus_geometry::Pose2;
 use periplus_graph::NodeSettings;
+use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::Stopwatch;
 use periplus_sim::{Driver, Options, Recorder, Run, Search, Services, ShapeFiles, Simulation};
-use periplus_slam_nodes::Pace;
 
 use crate::costmap::Costmaps;
 use crate::mapping::Mapping;

@@ -10,10 +10,10 @@ use periplus_graph::{Graph, GraphError, Node, NodeSettings, TopicInfo};
 use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
+use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_os::Machine;
 use periplus_params::{Value, Values};
 use periplus_slam::{MapContradiction, Slam};
-use periplus_slam_nodes::{Pace, Program, SlamNode};
 
 use crate::sim::stack::RobotProfile;
 use crate::{picture, terminal};
@@ -92,7 +92,9 @@ pub(crate) fn parameters(
             ));
             return Ok(None);
         }
-        Ok(Some(tree)) => Some(periplus_slam_nodes::read(&tree, wanted, &mut diagnostics)),
+        Ok(Some(tree)) => {
+            Some(periplus_nav_nodes::slam_toolbox::read(&tree, wanted, &mut diagnostics))
+        }
         Ok(None) => {
             let program = wanted.unwrap_or(Program::Async);
             Some((program, program.table().check([], None, &mut diagnostics)))

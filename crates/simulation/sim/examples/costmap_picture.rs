@@ -7,8 +7,8 @@
 mod tutorial;
 
 use periplus_costmap::cost::occupancy_of;
-use periplus_costmap_nodes::CostmapNode;
 use periplus_maps::palette::{Scheme, paint};
+use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_sim::Mode;
 
 use tutorial::Run;

@@ -7,10 +7,10 @@
 mod tutorial;
 
 use periplus_costmap::cost::LETHAL;
-use periplus_costmap_nodes::CostmapNode;
 use periplus_geometry::Pose;
 use periplus_graph::Qos;
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
+use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_sim::Mode;
 
 use tutorial::Run;

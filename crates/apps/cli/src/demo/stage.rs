@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostics;
 use periplus_loader::Setting;
+use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_params::{Value, Values};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{Composition, Placement, Standing, compose};
-use periplus_slam_nodes::Program;
 
 /// The name of the room.
 pub(super) const WORLD_NAME: &str = "demo_room";

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use periplus_graph::{Graph, NodeSettings};
-use periplus_localization_nodes::AmclNode;
-use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_nav_nodes::amcl::AmclNode;
+use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
 use periplus_os::Machine;
 use periplus_params::Values;
 use periplus_yaml::Node;

@@ -7,8 +7,8 @@ use clap::Args;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_localization_nodes::read;
 use periplus_maps::{Distro, load};
+use periplus_nav_nodes::amcl::read;
 use periplus_params::Values;
 use periplus_yaml::Node;
 

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
 use periplus_graph::NodeSettings;
-use periplus_map_nodes::{MapServer, MapServerSettings};
+use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
 use periplus_os::{Machine, sleep};
 
 use super::options::{SaveOptions, ServeOptions};

@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_ekf::Settings;
-use periplus_fusion_nodes::EkfNode;
 use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos, TopicInfo};
 use periplus_msgs::Message;
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::{Imu, LaserScan};
 use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_params::{Given, Value, Values};
 use periplus_sim::{Diverged, Simulation};
 

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
 use periplus_graph::NodeSettings;
+use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::sleep;
-use periplus_slam_nodes::Pace;
 
 use super::options::SlamOptions;
 use crate::arguments;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
+use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_slam::Method;
-use periplus_slam_nodes::Program;
 
 use crate::log::LogOptions;
 

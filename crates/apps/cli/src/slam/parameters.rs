@@ -2,9 +2,9 @@
 //! from the command line.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
+use periplus_nav_nodes::slam_toolbox::{Written, in_file};
 use periplus_params::{Given, Values};
 use periplus_slam::{Method, tables};
-use periplus_slam_nodes::{Written, in_file};
 
 use super::options::SlamOptions;
 use crate::log::LogOptions;

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use periplus_costmap::Config;
-use periplus_costmap_nodes::CostmapNode;
 use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_nav_nodes::costmap_2d::CostmapNode;
 
 use periplus_graph::{Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_loader::Setting;

@@ -1,0 +1,478 @@
+//! The node.
+
+use periplus_costmap::{Advice, CellReport, Config, Footprint, LayerConfig, LayeredCostmap};
+use periplus_diagnostics::{Diagnostic, SourceMap};
+use periplus_geometry::Pose2;
+use periplus_graph::{
+    Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
+};
+use periplus_msgs::geometry_msgs;
+use periplus_params::Values;
+
+use crate::costmap_2d::frames::Listener;
+use crate::costmap_2d::health::{EVERY_NS, Health, Patient};
+use crate::costmap_2d::inputs::{Inputs, Scene};
+use crate::costmap_2d::outputs::Outputs;
+use crate::costmap_2d::parameters::{node_values, split};
+use crate::costmap_2d::services;
+
+/// The same thing is not said again for so long \[ns\].
+const QUIET_NS: i64 = 5_000_000_000;
+
+/// A costmap as a managed node.
+pub struct CostmapNode {
+    actor: Actor<State>,
+    life: Lifecycle,
+}
+
+/// What a costmap lives on, for those who look for what is wrong.
+#[derive(Clone, Debug)]
+pub struct CostmapStatus {
+    /// The node.
+    pub node: String,
+    /// Updates made.
+    pub updates: u64,
+    /// Whether all layers have what they need.
+    pub is_current: bool,
+    /// Cells, columns and rows.
+    pub size: (usize, usize),
+    /// Why there was no update the last time, if so.
+    pub trouble: Option<String>,
+    /// Sources: layer and name, topic, messages that came, and how long ago the last one that could
+    /// be used \[s\].
+    pub sources: Vec<(String, String, u64, Option<f64>)>,
+    /// What happens to points that get lost.
+    pub advice: Vec<Advice>,
+}
+
+pub(crate) struct State {
+    config: Config,
+    /// Of all layers, as one table.
+    pub(crate) costmap: Option<LayeredCostmap>,
+    pub(crate) tf: Listener,
+    inputs: Inputs,
+    pub(crate) outputs: Option<Outputs>,
+    outlines: Outlines,
+    health: Health,
+    is_active: bool,
+    updates: u64,
+    trouble: Option<String>,
+    told: Vec<(String, i64)>,
+    /// Where the parameters were written, to name the lines.
+    files: SourceMap,
+    published_ns: Option<i64>,
+    pub(crate) robot: Option<Pose2>,
+}
+
+/// Where another outline may come from.
+enum Outlines {
+    Plain(Mailbox<geometry_msgs::Polygon>),
+    Stamped(Mailbox<geometry_msgs::PolygonStamped>),
+}
+
+impl Outlines {
+    fn new(node: &Node, is_stamped: bool) -> Result<Self, GraphError> {
+        Ok(if is_stamped {
+            Self::Stamped(node.mailbox("footprint", Qos::reliable(10))?)
+        } else {
+            Self::Plain(node.mailbox("footprint", Qos::reliable(10))?)
+        })
+    }
+
+    fn latest(&self) -> Option<Vec<[f64; 2]>> {
+        let points = |polygon: &geometry_msgs::Polygon| {
+            polygon.points.iter().map(|point| [point.x.into(), point.y.into()]).collect()
+        };
+        match self {
+            Self::Plain(plain) => plain.latest().map(|polygon| points(&polygon)),
+            Self::Stamped(stamped) => stamped.latest().map(|stamped| points(&stamped.polygon)),
+        }
+    }
+}
+
+impl CostmapNode {
+    /// A costmap `name` in a namespace of its own name, as Nav2 has it: `/local_costmap/local_costmap`.
+    /// `settings` may put both into another namespace and remap.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type.
+    pub fn new(graph: &Graph, name: &str, config: Config) -> Result<Self, GraphError> {
+        Self::at(graph.node(NodeSettings::new(name).namespace(&format!("/{name}")))?, config)
+    }
+
+    /// A costmap as this node.
+    ///
+    /// # Errors
+    /// When a topic of that name has another type.
+    pub fn at(node: Node, config: Config) -> Result<Self, GraphError> {
+        let name = node.names().name().to_owned();
+        let hertz = config.node.number("update_frequency").unwrap_or_default();
+        let forms = config.forms;
+        let is_stamped = config.node.flag("subscribe_to_stamped_footprint").unwrap_or_default();
+        let values = node_values(&config);
+        let names =
+            |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
+        let (layers, filters): (Vec<_>, Vec<_>) = (names(&config.layers), names(&config.filters));
+        let state = State {
+            config,
+            costmap: None,
+            tf: Listener::new(&node)?,
+            inputs: Inputs::default(),
+            outputs: None,
+            outlines: Outlines::new(&node, is_stamped)?,
+            health: Health::new(&node)?,
+            is_active: false,
+            updates: 0,
+            trouble: None,
+            told: Vec::new(),
+            files: SourceMap::new(),
+            published_ns: None,
+            robot: None,
+        };
+        let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        // What arguments of the program say goes before the file.
+        let given = parameters.values();
+        actor.with(|state| state.adopt(&given));
+        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
+        services::serve(&mut actor, &name, &layers, &filters, forms)?;
+        if hertz > 0.0 {
+            let period_ns = ((1e9 / hertz) as i64).max(1);
+            actor.timer(period_ns, |state, io| state.update(io.now_ns(), io.node()))?;
+        }
+        actor.timer(EVERY_NS, |state, io| state.report(io.now_ns(), io.node()))?;
+        actor.on_jump(|state, io| state.jump(io.now_ns(), io.node()));
+        Ok(Self { actor, life })
+    }
+
+    /// The files from which its parameters were read: what it tells names their lines then.
+    pub fn name_lines_of(&self, files: SourceMap) {
+        self.actor.with(|state| state.files = files);
+    }
+
+    /// Configures and activates it, as a lifecycle manager would.
+    pub fn start(&self) {
+        self.life.start();
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+
+    /// Its life.
+    #[must_use]
+    pub fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+
+    /// Whether its parameters say that time is that of `/clock`.
+    #[must_use]
+    pub fn uses_simulated_time(&self) -> bool {
+        self.actor.with(|state| state.config.node.flag("use_sim_time").unwrap_or_default())
+    }
+
+    /// Looks at the costmap, once it is configured.
+    pub fn look<R>(&self, look: impl FnOnce(&LayeredCostmap) -> R) -> Option<R> {
+        self.actor.with(|state| state.costmap.as_ref().map(look))
+    }
+
+    /// All that is known of the cell at a point of the global frame \[m\].
+    #[must_use]
+    pub fn inspect(&self, x_m: f64, y_m: f64) -> Option<CellReport> {
+        self.look(|costmap| costmap.inspect(costmap.cell_of(x_m, y_m)?)).flatten()
+    }
+
+    /// What it lives on.
+    #[must_use]
+    pub fn status(&self) -> CostmapStatus {
+        let node = self.node().clone();
+        self.actor.with(|state| state.status(&node))
+    }
+}
+
+impl State {
+    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
+        match step {
+            Step::Configure => match Outputs::new(node, &self.config) {
+                Ok(outputs) => {
+                    let (inputs, errors) = Inputs::new(node, &self.config);
+                    for error in errors {
+                        node.log(Level::Error, error);
+                    }
+                    self.inputs = inputs;
+                    self.outputs = Some(outputs);
+                    self.costmap = Some(self.config.build());
+                    StepOutcome::Success
+                }
+                Err(error) => {
+                    node.log(Level::Error, error);
+                    StepOutcome::Failure
+                }
+            },
+            Step::Activate => {
+                self.is_active = true;
+                let now_ns = node.now_ns();
+                for layer in self.costmap.iter_mut().flat_map(LayeredCostmap::all_mut) {
+                    for source in layer.sources_mut() {
+                        source.restart(now_ns);
+                    }
+                }
+                StepOutcome::Success
+            }
+            Step::Deactivate => {
+                self.is_active = false;
+                StepOutcome::Success
+            }
+            Step::Cleanup | Step::Shutdown | Step::Error => {
+                self.is_active = false;
+                self.costmap = None;
+                self.outputs = None;
+                self.inputs = Inputs::default();
+                self.published_ns = None;
+                StepOutcome::Success
+            }
+        }
+    }
+
+    fn update(&mut self, now_ns: i64, node: &Node) {
+        self.tf.listen();
+        if !self.is_active {
+            return;
+        }
+        let (Some(costmap), Some(outputs)) = (&mut self.costmap, &mut self.outputs) else { return };
+        let global_frame = costmap.frame().global_frame.clone();
+        let scene = Scene { tf: &self.tf, global_frame: &global_frame, now_ns };
+        let mut complaints = self.inputs.take(costmap, &scene, node, self.config.compat);
+        if let Some(points) = self.outlines.latest() {
+            let padding_m = self.config.node.number("footprint_padding").unwrap_or_default();
+            if points.len() >= 3 {
+                costmap.set_footprint(Footprint::new(points).padded(padding_m));
+            } else {
+                complaints.push(Diagnostic::error(
+                    "bad-footprint",
+                    format!("a footprint with {} corners is refused; it needs three", points.len()),
+                ));
+            }
+        }
+        // A map that has come sets the size even before anybody knows where the robot is.
+        costmap.settle_size();
+        match robot(&self.tf, &self.config.node, now_ns) {
+            Ok(robot) => {
+                self.trouble = None;
+                self.robot = Some(robot);
+                outputs.prepare(costmap);
+                if let Some(window) = costmap.update(now_ns, robot, &self.tf) {
+                    outputs.changed(window);
+                }
+                self.updates += 1;
+                complaints.extend(costmap.complaints().iter().cloned());
+                outputs.publish_each(costmap, now_ns);
+                let hertz = self.config.node.number("publish_frequency").unwrap_or_default();
+                let is_due = self
+                    .published_ns
+                    .is_none_or(|last_ns| (now_ns - last_ns) as f64 * hertz >= 1e9 - 1.0);
+                if hertz > 0.0 && is_due {
+                    self.published_ns = Some(now_ns);
+                    let outline = costmap.footprint().placed(robot);
+                    outputs.publish_grids(costmap, &self.config, &outline, now_ns);
+                }
+            }
+            Err(trouble) => {
+                self.trouble = Some(trouble.message.clone());
+                complaints.push(*trouble);
+            }
+        }
+        for complaint in complaints {
+            self.tell(&complaint, now_ns, node);
+        }
+    }
+
+    /// The clock jumped: transforms and messages of before are of another time. What is marked stays
+    /// until it is cleared, as in Nav2.
+    fn jump(&mut self, now_ns: i64, node: &Node) {
+        self.tf.forget();
+        self.inputs.forget();
+        self.published_ns = None;
+        self.told.clear();
+        for layer in self.costmap.iter_mut().flat_map(LayeredCostmap::all_mut) {
+            for source in layer.sources_mut() {
+                source.forget(now_ns);
+            }
+        }
+        node.log(
+            Level::Warn,
+            "the clock jumped: transforms and observations of before are dropped",
+        );
+    }
+
+    /// Tells how it is.
+    fn report(&mut self, now_ns: i64, node: &Node) {
+        let patient = Patient {
+            node: node.full_name(),
+            costmap: self.costmap.as_ref(),
+            inputs: &self.inputs,
+            is_active: self.is_active,
+            updates: self.updates,
+            trouble: self.trouble.as_deref(),
+        };
+        self.health.publish(&patient, now_ns);
+    }
+
+    /// Says something, unless it has been said a moment ago.
+    fn tell(&mut self, complaint: &Diagnostic, now_ns: i64, node: &Node) {
+        self.told.retain(|(_, told_ns)| (0..QUIET_NS).contains(&(now_ns - told_ns)));
+        if self.told.iter().all(|(told, _)| *told != complaint.message) {
+            self.told.push((complaint.message.clone(), now_ns));
+            node.log_finding(&self.with_line(complaint));
+        }
+    }
+
+    /// The same with the file and the line that it is about, if somebody has told them.
+    fn with_line(&self, complaint: &Diagnostic) -> Diagnostic {
+        let mut placed = complaint.clone();
+        if let Some(span) = complaint.span.filter(|span| self.files.holds(*span)) {
+            let (file, position) = self.files.locate(span);
+            placed.message = format!("{} ({file}:{})", complaint.message, position.line);
+        }
+        placed
+    }
+
+    /// Takes other parameters while it runs.
+    fn change(&mut self, all: &Values) -> Result<(), String> {
+        let node = split(all, "", &self.config.node);
+        let tf = &self.tf;
+        let frames = |target: &str, source: &str| Some(tf.at(target, source, 0).ok()?.0);
+        match &mut self.costmap {
+            Some(costmap) => {
+                for layer in self.config.layers.iter().chain(&self.config.filters) {
+                    change_layer(costmap, layer, all)?;
+                }
+                self.config.change(costmap, node, &frames)?;
+            }
+            None => self.config.node = node,
+        }
+        self.adopt(all);
+        Ok(())
+    }
+
+    /// Puts parameters into the configuration.
+    fn adopt(&mut self, all: &Values) {
+        fn layers(list: &mut [LayerConfig], all: &Values) {
+            for layer in list {
+                layer.values = split(all, &format!("{}.", layer.name), &layer.values);
+                for source in &mut layer.sources {
+                    let prefix = format!("{}.{}.", layer.name, source.name);
+                    source.values = split(all, &prefix, &source.values);
+                }
+                layers(&mut layer.children, all);
+            }
+        }
+        self.config.node = split(all, "", &self.config.node);
+        layers(&mut self.config.layers, all);
+        layers(&mut self.config.filters, all);
+    }
+
+    fn status(&self, node: &Node) -> CostmapStatus {
+        let now_ns = node.now_ns();
+        let mut sources = Vec::new();
+        for (layer, name, topic) in self.inputs.topics() {
+            let found = self.costmap.iter().flat_map(LayeredCostmap::all);
+            let mut found = found.filter(|one| one.name() == layer).flat_map(|one| one.sources());
+            if let Some(source) = found.find(|source| source.name == name) {
+                let is_heard = source.counters.clouds > 0;
+                let age_s = source
+                    .last_ns()
+                    .filter(|_| is_heard)
+                    .map(|last_ns| (now_ns - last_ns) as f64 / 1e9);
+                let count = source.counters.messages();
+                sources.push((format!("{layer}.{name}"), topic.to_owned(), count, age_s));
+            }
+        }
+        let costmap = self.costmap.as_ref();
+        let size = costmap.map_or((0, 0), |costmap| {
+            let lattice = costmap.costmap().lattice();
+            (lattice.width, lattice.height)
+        });
+        CostmapStatus {
+            node: node.full_name().to_owned(),
+            updates: self.updates,
+            is_current: costmap.is_some_and(|costmap| costmap.is_current(now_ns)),
+            size,
+            trouble: self.trouble.clone(),
+            sources,
+            advice: costmap.map(LayeredCostmap::advice).unwrap_or_default(),
+        }
+    }
+}
+
+fn change_layer(
+    costmap: &mut LayeredCostmap,
+    layer: &LayerConfig,
+    all: &Values,
+) -> Result<(), String> {
+    if let Some(running) = costmap.find_mut(&layer.name)
+        && let Some(usual) = running.values().cloned()
+    {
+        let wanted = split(all, &format!("{}.", layer.name), &usual);
+        if wanted != usual {
+            running.configure(wanted)?;
+        }
+        for source in running.sources_mut() {
+            let prefix = format!("{}.{}.", layer.name, source.name);
+            let wanted = split(all, &prefix, &source.values);
+            if wanted != source.values {
+                source.configure(wanted);
+            }
+        }
+    }
+    for child in &layer.children {
+        change_layer(costmap, child, all)?;
+    }
+    Ok(())
+}
+
+/// `global_from_base` now.
+fn robot(tf: &Listener, node: &Values, now_ns: i64) -> Result<Pose2, Box<Diagnostic>> {
+    let text = |name: &str| node.text(name).unwrap_or_default();
+    let (global, base) = (text("global_frame"), text("robot_base_frame"));
+    let (pose, time_ns) = tf.at(&global, &base, 0).map_err(|why| {
+        let missing = if tf.has(&base) { &global } else { &base };
+        let parameter = if tf.has(&base) { "global_frame" } else { "robot_base_frame" };
+        let missing_pose = Diagnostic::error(
+            "no-robot-pose",
+            format!("waiting for the transform from `{base}` to `{global}`: {why}"),
+        );
+        Box::new(
+            missing_pose
+                .at(node.origin(parameter))
+                .help(match (tf.has(missing), missing.as_str()) {
+                (true, _) => "both frames are there, but nothing connects them".to_owned(),
+                (false, "map") => {
+                    "nobody publishes `map`: start SLAM or localization, and set an initial pose"
+                        .to_owned()
+                }
+                (false, _) => format!("nobody publishes `{missing}`; check `{parameter}`"),
+            }),
+        )
+    })?;
+    let tolerance_s = node.number("transform_tolerance").unwrap_or_default();
+    let age_s = (now_ns - time_ns) as f64 / 1e9;
+    // Time zero is that of frames that never move.
+    if time_ns != 0 && age_s > tolerance_s {
+        let old_pose = Diagnostic::error(
+            "old-robot-pose",
+            format!(
+                "the transform from `{base}` to `{global}` is {age_s:.2} s old; \
+                 at most {tolerance_s} s are allowed"
+            ),
+        );
+        return Err(Box::new(
+            old_pose
+                .at(node.origin("transform_tolerance"))
+                .help("raise `transform_tolerance`, or publish the transform more often"),
+        ));
+    }
+    Ok(Pose2::from(pose))
+}

@@ -1,0 +1,243 @@
+//! What others hear of a costmap.
+
+use std::collections::BTreeMap;
+
+use periplus_costmap::filters::{BinaryFilter, SpeedFilter};
+use periplus_costmap::layers::VoxelLayer;
+use periplus_costmap::{Config, Costmap, LayerKind, LayeredCostmap, Outgoing, Publication, Window};
+use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_msgs::std_msgs::Header;
+use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs, sensor_msgs, std_msgs};
+
+use crate::costmap_2d::clouds::cloud;
+use crate::costmap_2d::messages::{occupancy_grid, occupancy_update, polygon, raw, raw_update};
+use crate::costmap_2d::topics::resolve;
+
+/// As Nav2 publishes grids.
+const GRID_QOS: Qos = Qos::latched(1);
+
+/// The four topics of a grid.
+struct GridPort {
+    publication: Publication,
+    full: Publisher<nav_msgs::OccupancyGrid>,
+    full_raw: Publisher<nav2_msgs::Costmap>,
+    updates: Publisher<map_msgs::OccupancyGridUpdate>,
+    updates_raw: Publisher<nav2_msgs::CostmapUpdate>,
+    /// Who has heard nothing since the last full grid needs another one.
+    is_behind: bool,
+}
+
+impl GridPort {
+    fn new(node: &Node, topic: &str) -> Result<Self, GraphError> {
+        Ok(Self {
+            publication: Publication::new(),
+            full: node.publisher(topic, GRID_QOS)?,
+            full_raw: node.publisher(&format!("{topic}_raw"), GRID_QOS)?,
+            updates: node.publisher(&format!("{topic}_updates"), GRID_QOS)?,
+            updates_raw: node.publisher(&format!("{topic}_raw_updates"), GRID_QOS)?,
+            is_behind: false,
+        })
+    }
+
+    fn publish(&mut self, costmap: &Costmap, layer: &str, about: &About<'_>) {
+        let is_heard = self.full.is_heard() || self.full_raw.is_heard();
+        if is_heard && self.is_behind {
+            self.publication.start_over();
+        }
+        let About { frame, now_ns, .. } = *about;
+        match self.publication.next(costmap.lattice(), about.always_full) {
+            Outgoing::Nothing => {}
+            Outgoing::Full => {
+                // The first one is kept for whoever comes later.
+                self.full.publish(occupancy_grid(costmap, frame, now_ns, about.z_m));
+                self.full_raw.publish(raw(costmap, frame, now_ns, layer));
+                self.is_behind = false;
+            }
+            Outgoing::Update(window) => {
+                if self.updates.is_heard() {
+                    self.updates.publish(occupancy_update(costmap, &window, frame, now_ns));
+                }
+                if self.updates_raw.is_heard() {
+                    self.updates_raw.publish(raw_update(costmap, &window, frame, now_ns));
+                }
+                self.is_behind |= !is_heard;
+            }
+        }
+    }
+}
+
+/// What holds for all messages of an update.
+struct About<'a> {
+    frame: &'a str,
+    now_ns: i64,
+    always_full: bool,
+    z_m: f64,
+}
+
+/// Publishers of a costmap.
+pub(crate) struct Outputs {
+    master: GridPort,
+    layers: BTreeMap<String, GridPort>,
+    footprint: Publisher<geometry_msgs::PolygonStamped>,
+    voxels: BTreeMap<String, Publisher<nav2_msgs::VoxelGrid>>,
+    ends: BTreeMap<String, Publisher<sensor_msgs::PointCloud2>>,
+    limits: BTreeMap<String, Publisher<nav2_msgs::SpeedLimit>>,
+    states: BTreeMap<String, Publisher<std_msgs::Bool>>,
+}
+
+impl Outputs {
+    /// Publishes whole grids the next time: cells have changed outside of an update.
+    pub(crate) fn start_over(&mut self) {
+        self.master.publication.start_over();
+        for layer in self.layers.values_mut() {
+            layer.publication.start_over();
+        }
+    }
+
+    pub(crate) fn new(node: &Node, config: &Config) -> Result<Self, GraphError> {
+        let namespace = node.names().namespace().to_owned();
+        let mut outputs = Self {
+            master: GridPort::new(node, "costmap")?,
+            layers: BTreeMap::new(),
+            footprint: node.publisher("published_footprint", Qos::reliable(10))?,
+            voxels: BTreeMap::new(),
+            ends: BTreeMap::new(),
+            limits: BTreeMap::new(),
+            states: BTreeMap::new(),
+        };
+        for layer in config.layers.iter().chain(&config.filters) {
+            let name = layer.name.clone();
+            let topic = |parameter: &str| {
+                let topic = layer.values.text(parameter).unwrap_or_default();
+                resolve(&topic, &namespace, config.compat)
+            };
+            let has_grid = matches!(
+                layer.kind,
+                LayerKind::Static
+                    | LayerKind::Obstacle
+                    | LayerKind::Voxel
+                    | LayerKind::Range
+                    | LayerKind::Container
+            );
+            if has_grid && config.compat.publishes_layers() {
+                outputs.layers.insert(name.clone(), GridPort::new(node, &name)?);
+            }
+            match layer.kind {
+                LayerKind::Voxel => {
+                    if layer.values.flag("publish_voxel_map").unwrap_or_default() {
+                        let voxels = node.publisher("voxel_grid", Qos::latched(1))?;
+                        outputs.voxels.insert(name.clone(), voxels);
+                    }
+                    let ends = node.publisher("clearing_endpoints", Qos::latched(1))?;
+                    outputs.ends.insert(name, ends);
+                }
+                LayerKind::Speed => {
+                    let limits = node.publisher(&topic("speed_limit_topic"), Qos::reliable(10))?;
+                    outputs.limits.insert(name, limits);
+                }
+                LayerKind::Binary => {
+                    let states = node.publisher(&topic("binary_state_topic"), Qos::reliable(10))?;
+                    outputs.states.insert(name, states);
+                }
+                _ => {}
+            }
+        }
+        Ok(outputs)
+    }
+
+    /// Before an update: whether somebody wants to know where rays end.
+    pub(crate) fn prepare(&self, costmap: &mut LayeredCostmap) {
+        for (name, ends) in &self.ends {
+            if let Some(layer) = costmap.find_as::<VoxelLayer>(name) {
+                layer.keep_clearing_ends(ends.is_heard());
+            }
+        }
+    }
+
+    /// After an update: a window has changed.
+    pub(crate) fn changed(&mut self, window: Window) {
+        self.master.publication.changed(window);
+        for port in self.layers.values_mut() {
+            port.publication.changed(window);
+        }
+    }
+
+    /// What goes out after every update: voxels, limits, states.
+    pub(crate) fn publish_each(&mut self, costmap: &mut LayeredCostmap, now_ns: i64) {
+        let frame = costmap.frame().global_frame.clone();
+        for (name, voxels) in &self.voxels {
+            let Some(layer) = costmap.find_as::<VoxelLayer>(name) else { continue };
+            if voxels.is_heard() {
+                voxels.publish(voxel_grid(layer, &frame, now_ns));
+            }
+        }
+        for (name, ends) in &self.ends {
+            let Some(layer) = costmap.find_as::<VoxelLayer>(name) else { continue };
+            if ends.is_heard() {
+                ends.publish(cloud(layer.clearing_ends(), Header::at(now_ns, &frame)));
+            }
+        }
+        for (name, limits) in &self.limits {
+            let Some(filter) = costmap.find_as::<SpeedFilter>(name) else { continue };
+            if let Some(limit) = filter.take_limit() {
+                limits.publish(nav2_msgs::SpeedLimit {
+                    header: Header::at(now_ns, &frame),
+                    percentage: limit.is_percentage,
+                    speed_limit: limit.limit,
+                });
+            }
+        }
+        for (name, states) in &self.states {
+            let Some(filter) = costmap.find_as::<BinaryFilter>(name) else { continue };
+            if let Some(state) = filter.take_state() {
+                states.publish(std_msgs::Bool { data: state });
+            }
+        }
+    }
+
+    /// What goes out at the rate of publication: grids and the outline.
+    pub(crate) fn publish_grids(
+        &mut self,
+        costmap: &LayeredCostmap,
+        config: &Config,
+        outline: &[[f64; 2]],
+        now_ns: i64,
+    ) {
+        let about = About {
+            frame: &costmap.frame().global_frame,
+            now_ns,
+            always_full: config.node.flag("always_send_full_costmap").unwrap_or_default(),
+            z_m: config.node.number("map_vis_z").unwrap_or_default(),
+        };
+        self.footprint.publish(polygon(outline, about.frame, now_ns));
+        self.master.publish(costmap.costmap(), "master", &about);
+        for layer in costmap.layers().iter().filter(|layer| layer.is_enabled()) {
+            let Some(port) = self.layers.get_mut(layer.name()) else { continue };
+            if let Some(grid) = layer.grid().filter(|grid| !grid.lattice().is_empty()) {
+                port.publish(grid, layer.name(), &about);
+            }
+        }
+    }
+}
+
+fn voxel_grid(layer: &VoxelLayer, frame: &str, now_ns: i64) -> nav2_msgs::VoxelGrid {
+    let voxels = layer.voxels();
+    let lattice = voxels.lattice();
+    nav2_msgs::VoxelGrid {
+        header: Header::at(now_ns, frame),
+        data: voxels.columns().to_vec(),
+        origin: geometry_msgs::Point32 {
+            x: lattice.origin.x_m as f32,
+            y: lattice.origin.y_m as f32,
+            z: layer.origin_z_m() as f32,
+        },
+        resolutions: geometry_msgs::Vector3 {
+            x: lattice.resolution_m,
+            y: lattice.resolution_m,
+            z: layer.z_resolution_m(),
+        },
+        size_x: lattice.width as u32,
+        size_y: lattice.height as u32,
+        size_z: voxels.height(),
+    }
+}

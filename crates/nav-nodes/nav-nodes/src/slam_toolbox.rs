@@ -1,0 +1,27 @@
+//! Mapping as nodes on the graph.
+//!
+//! A [`SlamNode`] is what the nodes of `slam_toolbox` are in ROS 2 and `slam_gmapping` is in ROS 1
+//! ([`Program`]): a managed node with the same topics, services, parameters and transforms around the
+//! engines of [`periplus_slam`]. Here is only who is told, under which name, and in which message;
+//! beyond those it names the transform that is missing, and tells why loops were closed or not.
+//!
+//! Source of names and QoS: `slam_toolbox/src/slam_toolbox_common.cpp` and its siblings (humble to
+//! rolling, 2026), `gmapping/src/slam_gmapping.cpp` (noetic).
+
+mod correction;
+mod drawing;
+mod engine;
+mod file;
+mod health;
+mod inputs;
+mod markers;
+mod messages;
+mod node;
+mod outputs;
+mod program;
+mod services;
+mod values;
+
+pub use file::{InFile, Written, in_file, read};
+pub use node::{Pace, SlamNode, SlamStatus};
+pub use program::Program;

@@ -1,0 +1,187 @@
+//! The engine behind a node.
+
+use periplus_geometry::Pose2;
+use periplus_grid::OccupancyGrid;
+use periplus_params::Values;
+use periplus_scan_matching::Symmetric3;
+use periplus_slam::{
+    Gmapping, GmappingSettings, Localizer, Mapper, SessionError, Settings, Sketch, Slam, Update,
+};
+
+use crate::slam_toolbox::Program;
+use crate::slam_toolbox::values::{integer, is_given};
+
+/// Scans of its own that a robot on a stored graph remembers, when nobody says.
+const OWN_SCANS: usize = 3;
+
+/// What makes the map, or finds the robot on one.
+pub(crate) enum Engine {
+    Graph(Box<Slam>),
+    Localizer(Box<Localizer>),
+    Particles(Box<Gmapping>),
+}
+
+/// Where a robot begins on a stored graph.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Start {
+    /// Where the graph began.
+    First,
+    /// At a pose in the map.
+    At(Pose2),
+}
+
+/// What comes of a map that is to be drawn.
+pub(crate) enum Drawing {
+    /// It can be drawn elsewhere.
+    Sketch(Sketch),
+    /// It is drawn; none when it would be too large.
+    Map(Option<OccupancyGrid>),
+}
+
+/// How sure people are of where they start: variances \[m², rad²\].
+pub(crate) const SURE: Symmetric3 = Symmetric3::diagonal(0.25, 0.25, 0.07);
+
+/// The settings of the graph for a program of `slam_toolbox`.
+pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize) -> Settings {
+    Settings {
+        is_lifelong: program == Program::Lifelong,
+        slices_per_scan,
+        // A node may run for weeks.
+        keeps_each_pose: false,
+        audits_live: true,
+        ..Settings::of(values)
+    }
+}
+
+/// Particles have nobody who does their work between scans.
+const LEAST_SLICES: usize = 4;
+
+/// The settings of the particles for a node, which may run for weeks.
+fn gmapping_settings(values: &Values, slices_per_scan: usize) -> GmappingSettings {
+    GmappingSettings {
+        slices_per_scan: slices_per_scan.max(LEAST_SLICES),
+        keeps_each_pose: false,
+        ..GmappingSettings::of(values)
+    }
+}
+
+impl Engine {
+    /// An empty map; none for a program that needs a stored one.
+    pub(crate) fn empty(program: Program, values: &Values, slices: usize) -> Option<Self> {
+        match program {
+            Program::Localization => None,
+            Program::Gmapping => {
+                Some(Self::Particles(Box::new(Gmapping::new(gmapping_settings(values, slices)))))
+            }
+            Program::Async | Program::Sync | Program::Lifelong => {
+                Some(Self::Graph(Box::new(Slam::new(settings(program, values, slices)))))
+            }
+        }
+    }
+
+    /// A stored map, to go on with or to be found on.
+    pub(crate) fn stored(
+        bytes: &[u8],
+        settings: Settings,
+        own_scans: Option<usize>,
+        start: Start,
+    ) -> Result<Self, SessionError> {
+        let slam = Slam::resume(bytes, settings)?;
+        let pose = match start {
+            Start::First => slam.poses().first().copied().unwrap_or(Pose2::IDENTITY),
+            Start::At(pose) => pose,
+        };
+        let mut engine = match own_scans {
+            Some(own_scans) => Self::Localizer(Box::new(Localizer::new(slam, own_scans))),
+            None => Self::Graph(Box::new(slam)),
+        };
+        engine.place(pose, SURE);
+        Ok(engine)
+    }
+
+    /// Scans of its own that a robot on a stored graph remembers.
+    pub(crate) fn own_scans(values: &Values) -> usize {
+        let asked =
+            integer(values, "scan_buffer_size").filter(|_| is_given(values, "scan_buffer_size"));
+        asked.and_then(|size| usize::try_from(size).ok()).unwrap_or(OWN_SCANS)
+    }
+
+    pub(crate) fn mapper(&self) -> &dyn Mapper {
+        match self {
+            Self::Graph(slam) => &**slam,
+            Self::Localizer(localizer) => &**localizer,
+            Self::Particles(particles) => &**particles,
+        }
+    }
+
+    pub(crate) fn add_scan(&mut self, scan: &periplus_slam::Scan, odom_from_base: Pose2) -> Update {
+        let odom_from_base = Some(odom_from_base);
+        match self {
+            Self::Graph(slam) => slam.add_scan(scan, odom_from_base),
+            Self::Localizer(localizer) => localizer.add_scan(scan, odom_from_base),
+            Self::Particles(particles) => particles.add_scan(scan, odom_from_base),
+        }
+    }
+
+    /// The graph, if the map is one.
+    pub(crate) fn graph(&self) -> Option<&Slam> {
+        match self {
+            Self::Graph(slam) => Some(slam),
+            Self::Localizer(localizer) => Some(localizer.stored()),
+            Self::Particles(_) => None,
+        }
+    }
+
+    /// The graph, if it grows.
+    pub(crate) fn graph_mut(&mut self) -> Option<&mut Slam> {
+        match self {
+            Self::Graph(slam) => Some(slam),
+            Self::Localizer(_) | Self::Particles(_) => None,
+        }
+    }
+
+    /// Somebody says where the robot is; false when the engine cannot be told.
+    pub(crate) fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) -> bool {
+        match self {
+            Self::Graph(slam) => slam.place(map_from_base, covariance),
+            Self::Localizer(localizer) => localizer.place(map_from_base, covariance),
+            Self::Particles(_) => return false,
+        }
+        true
+    }
+
+    /// How uncertain the place of the robot is, along the axes of the map.
+    pub(crate) fn covariance(&self) -> Symmetric3 {
+        match self {
+            Self::Graph(slam) => slam.covariance(),
+            Self::Localizer(localizer) => localizer.covariance(),
+            Self::Particles(particles) => particles.covariance(),
+        }
+    }
+
+    /// How spread belief is over particles, if there are some.
+    pub(crate) fn entropy(&self) -> Option<f64> {
+        match self {
+            Self::Particles(particles) => Some(particles.entropy()),
+            Self::Graph(_) | Self::Localizer(_) => None,
+        }
+    }
+
+    /// What changes when the map does.
+    pub(crate) fn version(&self) -> (usize, usize) {
+        match self {
+            Self::Graph(slam) => (slam.counts().kept, slam.bends()),
+            // What is stored stays.
+            Self::Localizer(_) => (0, 0),
+            Self::Particles(particles) => (particles.counts().kept, 0),
+        }
+    }
+
+    pub(crate) fn drawing(&self) -> Drawing {
+        match self {
+            Self::Graph(slam) => Drawing::Sketch(slam.sketch()),
+            Self::Localizer(localizer) => Drawing::Sketch(localizer.sketch()),
+            Self::Particles(particles) => Drawing::Map(particles.map()),
+        }
+    }
+}

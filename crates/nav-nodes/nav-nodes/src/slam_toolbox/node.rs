@@ -1,0 +1,885 @@
+//! The node.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use periplus_diagnostics::Diagnostic;
+use periplus_geometry::Pose2;
+use periplus_graph::{
+    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Parameters, Qos, Step,
+    StepOutcome, Transition,
+};
+use periplus_grid::OccupancyGrid;
+use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
+use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
+use periplus_params::{Value, Values};
+use periplus_scan_matching::Symmetric3;
+use periplus_slam::{Closure, Counts, Cure, Remedy, Scan, Slam, Taken, Update, tables};
+use periplus_tf::Kind;
+use periplus_tf_ros::{Frames, Told, plain};
+
+use crate::Files;
+use crate::slam_toolbox::Program;
+use crate::slam_toolbox::correction::Anchor;
+use crate::slam_toolbox::drawing::Drawer;
+use crate::slam_toolbox::engine::{Engine, SURE, Start};
+use crate::slam_toolbox::health::{self, SET_RIGHT, SlamHealth};
+use crate::slam_toolbox::inputs::{Inputs, Names, Placed};
+use crate::slam_toolbox::markers;
+use crate::slam_toolbox::messages::{covariance, pose2, scan};
+use crate::slam_toolbox::outputs::Outputs;
+use crate::slam_toolbox::services;
+use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text};
+
+/// How often it is looked for what waits \[ns\]; transforms that come are a reason, too.
+const LOOK_NS: i64 = 20_000_000;
+/// Variances of the position \[m²\] and the heading \[rad²\] that are expected after a jump of the clock
+/// back: what odometry has drifted until then.
+const AFTER_RESET_VARIANCES: (f64, f64) = (0.25, 0.03);
+/// How often a slice of work in the background is done in live \[ns\]. A slice takes some
+/// milliseconds, and a scan waits for one at most.
+const SLICE_NS: i64 = 4_000_000;
+/// Names of the robot's own frame, the most telling first.
+const BASES: [&str; 2] = ["base_footprint", "base_link"];
+/// How long transforms are remembered \[s\].
+const BUFFER: &str = "tf_buffer_duration";
+/// Slices of work after each scan where a run is to keep a pace.
+const FEW_SLICES: usize = 4;
+
+/// How the work that follows a scan is divided in lockstep. In live it is done between the scans, on
+/// the node's own thread, whatever this says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pace {
+    /// All of it before the next scan: what comes of it is what `periplus slam` makes of a log.
+    #[default]
+    Whole,
+    /// A few milliseconds of it after each scan, so that no scan is late; the same every time, too.
+    Sliced,
+}
+
+/// A mapper as a managed node.
+pub struct SlamNode {
+    actor: Actor<State>,
+    life: Lifecycle,
+}
+
+/// What a mapper has come to, for those who look.
+#[derive(Clone, Debug)]
+pub struct SlamStatus {
+    /// The node.
+    pub node: String,
+    /// Whose part it plays.
+    pub program: Program,
+    /// Counts of what happened to scans.
+    pub counts: Counts,
+    /// Scans that were left out for newer ones.
+    pub left_out: u64,
+    /// Scans that were dropped because a transform was missing.
+    pub dropped: u64,
+    /// Scans of the graph, and what is known between them.
+    pub graph: (usize, usize),
+    /// What became of closures of loops.
+    pub closures: Vec<Closure>,
+    /// Where the robot is.
+    pub map_from_base: Pose2,
+    /// Bytes that the map holds, about.
+    pub size: usize,
+    /// What keeps it from its work.
+    pub trouble: Option<String>,
+    /// The fault of the data that is corrected.
+    pub correction: Option<Remedy>,
+}
+
+pub(crate) struct State {
+    pub(crate) program: Program,
+    pub(crate) values: Values,
+    /// For states that others read as parameters.
+    parameters: Option<Parameters>,
+    pub(crate) files: Arc<dyn Files>,
+    pub(crate) slices: usize,
+    is_live: bool,
+    pub(crate) engine: Option<Engine>,
+    frames: Frames,
+    pub(crate) inputs: Option<Inputs>,
+    pub(crate) outputs: Option<Outputs>,
+    pub(crate) told: Told,
+    pub(crate) health: SlamHealth,
+    pub(crate) is_active: bool,
+    pub(crate) is_paused: bool,
+    pub(crate) is_interactive: bool,
+    /// Kept scans that were moved by hand.
+    pub(crate) moved: BTreeMap<usize, Pose2>,
+    /// Number of the last news of handles.
+    pub(crate) handled: u64,
+    scans: u64,
+    /// Remarks of the engine that have been told.
+    remarked: usize,
+    /// A fault of the data that is undone before the engine gets it.
+    pub(crate) correction: Option<Correction>,
+    /// Whether the map continues a stored one.
+    pub(crate) is_continued: bool,
+    /// Whether it was logged that a fault stays.
+    is_refused: bool,
+    /// From where odometry tells the pose in the map.
+    anchor: Option<Anchor>,
+    /// A pose that a client set, for the next scan.
+    said: Option<Pose2>,
+    /// Stamp of the first scan of this map \[ns\].
+    pub(crate) began_ns: Option<i64>,
+    last: Option<Last>,
+    /// Whether the clock has gone back since the last scan.
+    is_back_in_time: bool,
+    drawer: Drawer,
+    /// The map as it was drawn last.
+    pub(crate) map: Option<OccupancyGrid>,
+    drawn: Option<(usize, usize)>,
+    published_ns: Option<i64>,
+}
+
+/// The last scan that was used.
+struct Last {
+    time_ns: i64,
+    odom_from_base: Pose2,
+    /// Odometry as the engine got it.
+    corrected: Pose2,
+}
+
+/// A fault of the data that is undone.
+pub(crate) struct Correction {
+    pub(crate) cure: Cure,
+    /// Since when \[ns\].
+    pub(crate) time_ns: i64,
+}
+
+impl SlamNode {
+    /// A node by the name that its launch files give it, `slam_toolbox` or `slam_gmapping`, with
+    /// parameters of [`Program::table`], see [`crate::slam_toolbox::read`]. Arguments of the graph go before them.
+    ///
+    /// # Errors
+    /// When a topic or service of that name has another type.
+    pub fn new(
+        graph: &Graph,
+        program: Program,
+        values: Values,
+        files: Arc<dyn Files>,
+        pace: Pace,
+    ) -> Result<Self, GraphError> {
+        let node = graph.node(NodeSettings::new(program.node_name()))?;
+        Self::at(node, program, values, files, pace)
+    }
+
+    /// As this node.
+    ///
+    /// # Errors
+    /// When a topic or service of that name has another type.
+    pub fn at(
+        node: Node,
+        program: Program,
+        values: Values,
+        files: Arc<dyn Files>,
+        pace: Pace,
+    ) -> Result<Self, GraphError> {
+        let is_live = node.graph().is_live();
+        let health = SlamHealth::new(&node)?;
+        let state = State {
+            program,
+            values: values.clone(),
+            parameters: None,
+            files,
+            slices: match (is_live, pace) {
+                (true, _) => 0,
+                (false, Pace::Whole) => usize::MAX,
+                (false, Pace::Sliced) => FEW_SLICES,
+            },
+            is_live,
+            engine: None,
+            frames: Frames::default(),
+            inputs: None,
+            outputs: None,
+            told: Told::default(),
+            health,
+            is_active: false,
+            is_paused: false,
+            is_interactive: false,
+            moved: BTreeMap::new(),
+            handled: 0,
+            scans: 0,
+            remarked: 0,
+            correction: None,
+            is_continued: false,
+            is_refused: false,
+            anchor: None,
+            said: None,
+            began_ns: None,
+            last: None,
+            is_back_in_time: false,
+            drawer: Drawer::new(is_live),
+            map: None,
+            drawn: None,
+            published_ns: None,
+        };
+        let mut actor = node.actor(state);
+        let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
+        for name in ["interactive_mode", "paused_processing"] {
+            // States: they begin as false, whatever a file has.
+            if flag(&parameters.values(), name) == Some(true) {
+                let _ = parameters.set(name, Value::Bool(false));
+            }
+        }
+        let values = parameters.values();
+        actor.with(|state| {
+            state.values = values.clone();
+            state.parameters = Some(parameters);
+            if let Some(span_s) = number(&values, BUFFER).filter(|_| program.is_toolbox()) {
+                state.frames = Frames::kept_for(seconds_ns(span_s));
+            }
+        });
+        actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
+            state.frames.take(&message, Kind::Fixed);
+        })?;
+        // Scans wait for transforms.
+        actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, io| {
+            state.frames.take(&message, Kind::Moving);
+            state.work(io.node());
+        })?;
+        actor.timer(LOOK_NS, |state, io| state.work(io.node()))?;
+        actor.timer(health::EVERY_NS, |state, io| state.publish_health(io.node()))?;
+        if is_live {
+            actor.timer(SLICE_NS, |state, _| {
+                if let Some(slam) = state.engine.as_mut().and_then(Engine::graph_mut) {
+                    slam.work_slices(1);
+                }
+            })?;
+        }
+        let period_ns = seconds_ns(number(&values, "transform_publish_period").unwrap_or(0.0));
+        if period_ns > 0 {
+            actor.timer(period_ns, |state, io| state.publish_transform(io.now_ns()))?;
+        }
+        actor.on_jump(|state, io| {
+            state.frames.forget();
+            let now_ns = io.now_ns();
+            if let Some(inputs) = &mut state.inputs {
+                inputs.forget(now_ns);
+            }
+            state.published_ns = None;
+            if state.last.as_ref().is_some_and(|last| now_ns < last.time_ns) {
+                state.is_back_in_time = true;
+                let words = "time went back: transforms and scans of before are dropped; the robot is \
+                             expected where odometry has it on this map";
+                io.node().log(Level::Warn, words);
+            }
+        });
+        // `slam_gmapping` does not listen to it; whoever tells it a pose should hear why that does nothing.
+        actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
+            state.set_pose(&message, io.node());
+        })?;
+        if program.is_toolbox() {
+            actor.subscribe("slam_toolbox/feedback", Qos::reliable(10), |state, message, io| {
+                state.drag(&message, io.node());
+            })?;
+        }
+        services::serve(&mut actor, program, &values)?;
+        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
+        Ok(Self { actor, life })
+    }
+
+    /// Configures and activates it, where no lifecycle manager does.
+    pub fn start(&self) {
+        self.life.change(Transition::Configure);
+        self.life.change(Transition::Activate);
+    }
+
+    /// Its node.
+    #[must_use]
+    pub fn node(&self) -> &Node {
+        self.actor.node()
+    }
+
+    /// Its life.
+    #[must_use]
+    pub fn life(&self) -> &Lifecycle {
+        &self.life
+    }
+
+    /// Looks at the graph, if there is one.
+    pub fn look<R>(&self, look: impl FnOnce(&Slam) -> R) -> Option<R> {
+        self.actor.with(|state| state.engine.as_ref().and_then(Engine::graph).map(look))
+    }
+
+    /// The map as it is now, drawn for this.
+    #[must_use]
+    pub fn map(&self) -> Option<OccupancyGrid> {
+        self.actor.with(|state| state.engine.as_ref().and_then(|engine| engine.mapper().map()))
+    }
+
+    /// What it has come to.
+    #[must_use]
+    pub fn status(&self) -> SlamStatus {
+        let node = self.node().full_name().to_owned();
+        self.actor.with(|state| state.status(node))
+    }
+}
+
+impl State {
+    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
+        match step {
+            Step::Configure => self.configure(node),
+            Step::Activate => {
+                self.is_active = true;
+                let now_ns = node.now_ns();
+                if let Some(inputs) = &mut self.inputs {
+                    inputs.forget(now_ns);
+                }
+                StepOutcome::Success
+            }
+            Step::Deactivate => {
+                self.is_active = false;
+                StepOutcome::Success
+            }
+            Step::Cleanup | Step::Shutdown | Step::Error => {
+                self.is_active = false;
+                self.inputs = None;
+                self.outputs = None;
+                self.begin(None);
+                self.correction = None;
+                self.told = Told::default();
+                StepOutcome::Success
+            }
+        }
+    }
+
+    fn configure(&mut self, node: &Node) -> StepOutcome {
+        let values = &self.values;
+        for finding in tables::conflicts(values) {
+            node.log_finding(&finding);
+        }
+        self.is_paused = flag(values, "paused_new_measurements").unwrap_or(false);
+        let topic = text(values, "scan_topic").unwrap_or_else(|| "scan".to_owned());
+        let is_newest_first = self.is_live && self.program != Program::Sync;
+        let ports = Inputs::new(node, &topic, values, is_newest_first)
+            .and_then(|it| Ok((it, Outputs::new(node, self.program, values)?)));
+        match ports {
+            Ok((inputs, outputs)) => {
+                self.inputs = Some(inputs);
+                self.outputs = Some(outputs);
+            }
+            Err(error) => {
+                self.told.tell(&Diagnostic::error("no-topics", error.to_string()), node);
+                return StepOutcome::Failure;
+            }
+        }
+        self.begin(Engine::empty(self.program, &self.values, self.slices));
+        let file = text(&self.values, "map_file_name").unwrap_or_default();
+        if !file.is_empty() {
+            let start = self.map_start(node);
+            if !self.load(&file, self.program == Program::Localization, start, node) {
+                return StepOutcome::Failure;
+            }
+        }
+        StepOutcome::Success
+    }
+
+    /// The robot's pose on the stored graph to begin with, as `slam_toolbox` decides it: a given pose
+    /// goes before the dock, and one that cannot be read is the origin.
+    fn map_start(&self, node: &Node) -> Start {
+        let dock = flag(&self.values, "map_start_at_dock");
+        match numbers(&self.values, "map_start_pose").as_slice() {
+            [x_m, y_m, yaw_rad] => {
+                if dock == Some(true) {
+                    let words = "`map_start_at_dock` has no effect beside `map_start_pose`: take one \
+                                 of them away";
+                    node.log(Level::Warn, words);
+                }
+                Start::At(Pose2::new(*x_m, *y_m, *yaw_rad))
+            }
+            [] if dock == Some(false) => Start::At(Pose2::IDENTITY),
+            [] => Start::First,
+            others => {
+                let words = format!(
+                    "`map_start_pose` has {} numbers and needs three, [x, y, yaw] in m and rad; the \
+                     robot starts at the origin of the map",
+                    others.len()
+                );
+                node.log(Level::Error, words);
+                Start::At(Pose2::IDENTITY)
+            }
+        }
+    }
+
+    /// Lets others read a state as a parameter.
+    pub(crate) fn show_state(&mut self, name: &'static str, is_so: bool) {
+        if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
+            && parameters.set(name, Value::Bool(is_so)).is_ok()
+        {
+            self.values = parameters.values();
+        }
+    }
+
+    /// Begins with another map, or none.
+    pub(crate) fn begin(&mut self, engine: Option<Engine>) {
+        self.engine = engine;
+        self.moved.clear();
+        self.remarked = 0;
+        self.is_continued = false;
+        self.is_refused = false;
+        self.anchor = None;
+        self.said = None;
+        self.began_ns = None;
+        self.health.forget();
+        self.last = None;
+        self.drawer.forget();
+        self.map = None;
+        self.drawn = None;
+        self.published_ns = None;
+    }
+
+    /// Names of the frames.
+    pub(crate) fn names(&self) -> Names {
+        let text = |name: &str| plain(&text(&self.values, name).unwrap_or_default()).to_owned();
+        let (odom, told) = (text("odom_frame"), text("base_frame"));
+        // Where nobody says, it is the one of the usual frames to which odometry leads.
+        let leads = |base: &str| self.frames.at(&odom, base, 0).is_ok();
+        let base = if is_given(&self.values, "base_frame") || leads(&told) {
+            told
+        } else {
+            BASES.into_iter().find(|base| leads(base)).map_or(told, str::to_owned)
+        };
+        Names { map: text("map_frame"), odom, base }
+    }
+
+    fn work(&mut self, node: &Node) {
+        let now_ns = node.now_ns();
+        let Some(inputs) = &mut self.inputs else { return };
+        if !self.is_active || self.is_paused {
+            inputs.forget(now_ns);
+        }
+        inputs.listen(now_ns);
+        if let Some(silence) = inputs.silence(node).filter(|_| self.is_active && !self.is_paused) {
+            self.told.tell(&silence, node);
+        }
+        // Scans wait meanwhile, as in `slam_toolbox`: what is moved by hand stays where it is put.
+        if self.is_interactive && self.program == Program::Sync {
+            return;
+        }
+        let names = self.names();
+        let mut complaints = Vec::new();
+        while let Some(placed) = self
+            .inputs
+            .as_mut()
+            .and_then(|inputs| inputs.next(&self.frames, &names, now_ns, &mut complaints))
+        {
+            self.take(&placed, &names, node);
+            if self.is_live {
+                // Others may have something to say in between.
+                break;
+            }
+        }
+        for complaint in complaints {
+            self.told.tell(&complaint, node);
+        }
+        if self.is_active {
+            self.publish_map(now_ns, &names, node);
+        }
+    }
+
+    fn take(&mut self, placed: &Placed, names: &Names, node: &Node) {
+        self.scans += 1;
+        let every = integer(&self.values, "throttle_scans").unwrap_or(1).max(1);
+        if !(self.scans - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
+            return;
+        }
+        let time_ns = placed.message.header.stamp.ns();
+        // Only what somebody asked for: by itself the engine is the better for every scan.
+        let interval_ns = number(&self.values, "minimum_time_interval")
+            .filter(|_| is_given(&self.values, "minimum_time_interval"))
+            .map_or(0, seconds_ns);
+        let is_early = |last: &Last| (0..interval_ns).contains(&(time_ns - last.time_ns));
+        if self.last.as_ref().is_some_and(is_early) {
+            return;
+        }
+        if self.engine.is_none() {
+            let words = "there is no stored graph to find the robot on";
+            let help = "set `map_file_name` to a session, or call `slam_toolbox/deserialize_map`";
+            self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
+            return;
+        }
+        let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
+        let scan = scan(&placed.message, placed.places.base_from_laser, is_inverted);
+        let odom_from_base = placed.places.odom_from_base;
+        let Some((mut update, mut corrected)) = self.add(&scan, odom_from_base) else { return };
+        self.log_remarks(node);
+        if let Some(again) = self.correct(&scan, odom_from_base, names, node) {
+            (update, corrected) = again;
+        }
+        let Some(engine) = &self.engine else { return };
+        let covariance = engine.covariance();
+        match update.taken {
+            Taken::Ignored(reason) => {
+                let words = format!("scans are left out: {reason}");
+                self.told.tell(&Diagnostic::error("bad-scan", words), node);
+                return;
+            }
+            Taken::Lost => {
+                let words = "a scan does not fit what was seen before; odometry alone tells where \
+                             the robot is";
+                let help = "when this goes on, the robot was carried or the wheels slip: say where \
+                            it is with `initialpose`";
+                self.told.tell(&Diagnostic::warning("lost-scan", words).help(help), node);
+            }
+            Taken::Kept | Taken::Passed => self.told.fine(),
+        }
+        self.health.count(update.taken);
+        self.last = Some(Last { time_ns, odom_from_base, corrected });
+        let Some(outputs) = &self.outputs else { return };
+        outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
+        if update.taken == Taken::Kept {
+            outputs.publish_scan(&placed.message);
+        }
+    }
+
+    /// Hands a scan to the engine, with the fault of the data undone that is known; gives also odometry
+    /// as the engine got it.
+    fn add(&mut self, scan: &Scan, odom_from_base: Pose2) -> Option<(Update, Pose2)> {
+        let engine = self.engine.as_mut()?;
+        let cured = self.correction.as_mut().map(|it| it.cure.apply(scan, Some(odom_from_base)));
+        let (scan, corrected) = match &cured {
+            Some((scan, corrected)) => (scan, corrected.unwrap_or(odom_from_base)),
+            None => (scan, odom_from_base),
+        };
+        if std::mem::take(&mut self.is_back_in_time)
+            && let Some(last) = &self.last
+        {
+            // A reset sets robot and odometry back together, so the map is still where it was in
+            // odometry. The engine alone would take that step for a slip.
+            let map_from_odom = engine.mapper().map_from_base() * last.corrected.inverse();
+            let map_from_base = (map_from_odom * corrected).normalized();
+            let (place_m2, yaw_rad2) = AFTER_RESET_VARIANCES;
+            engine.place(map_from_base, Symmetric3::diagonal(place_m2, place_m2, yaw_rad2));
+            self.said = Some(map_from_base);
+        }
+        let update = engine.add_scan(scan, corrected);
+        if !matches!(update.taken, Taken::Ignored(_)) {
+            self.began_ns.get_or_insert(scan.time_ns);
+            match (&mut self.anchor, self.said.take()) {
+                (anchor, Some(said)) => *anchor = Some(Anchor::new(said, odom_from_base)),
+                (Some(anchor), None) => anchor.follow(odom_from_base),
+                (anchor @ None, None) => {
+                    *anchor = Some(Anchor::new(update.map_from_base, odom_from_base));
+                }
+            }
+        }
+        Some((update, corrected))
+    }
+
+    fn log_remarks(&mut self, node: &Node) {
+        let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
+        for remark in remarks.iter().skip(self.remarked) {
+            node.log(Level::Warn, remark);
+        }
+        self.remarked = remarks.len();
+    }
+
+    /// Begins the map again when a fault of the data is certain, with the fault undone; once only. Gives
+    /// what became of the scan then.
+    fn correct(
+        &mut self,
+        scan: &Scan,
+        odom_from_base: Pose2,
+        names: &Names,
+        node: &Node,
+    ) -> Option<(Update, Pose2)> {
+        let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
+        let remedy = Remedy::of(remarks)?;
+        let is_wanted = flag(&self.values, "correct_mounting").unwrap_or(false);
+        if !is_wanted || self.is_continued || self.correction.is_some() {
+            if !std::mem::replace(&mut self.is_refused, true) {
+                let why = if !is_wanted {
+                    "`correct_mounting` is false"
+                } else if self.is_continued {
+                    "the map continues a stored one"
+                } else {
+                    "another fault is corrected already, so that neither is certain"
+                };
+                let words = format!(
+                    "the map is wrong, and it is not begun again, since {why}: set the scanner's \
+                     transform or the drive's odometry right and map again"
+                );
+                node.log(Level::Warn, words);
+            }
+            return None;
+        }
+        let (cure, map_from_base) = self.anchor.as_ref()?.corrected(remedy, odom_from_base);
+        self.begin(Engine::empty(self.program, &self.values, self.slices));
+        self.correction = Some(Correction { cure, time_ns: scan.time_ns });
+        if let Some(engine) = &mut self.engine
+            && engine.place(map_from_base, SURE)
+        {
+            self.said = Some(map_from_base);
+        }
+        let again = self.add(scan, odom_from_base);
+        let here = again.map_or(map_from_base, |it| it.0.map_from_base);
+        let words = format!(
+            "the map begins again: {remedy}. What was mapped before is dropped. The robot is at ({:.2}, \
+             {:.2}, {:.2}) in `{}`, where it would have been from the beginning without the fault; drive \
+             again where it has been. {}{}. `correct_mounting: false` maps the data as it is",
+            here.x_m,
+            here.y_m,
+            here.yaw_rad,
+            names.map,
+            SET_RIGHT[..1].to_uppercase(),
+            &SET_RIGHT[1..]
+        );
+        node.log(Level::Warn, words);
+        again
+    }
+
+    /// As `position_covariance_scale` and `yaw_covariance_scale` want it.
+    fn scaled(
+        &self,
+        covariance: &periplus_scan_matching::Symmetric3,
+    ) -> periplus_scan_matching::Symmetric3 {
+        let scale = |name: &str| number(&self.values, name).unwrap_or(1.0);
+        let (place, heading) = (scale("position_covariance_scale"), scale("yaw_covariance_scale"));
+        let both = (place * heading).sqrt();
+        let periplus_scan_matching::Symmetric3 { xx, xy, xt, yy, yt, tt } = *covariance;
+        periplus_scan_matching::Symmetric3 {
+            xx: place * xx,
+            xy: place * xy,
+            xt: both * xt,
+            yy: place * yy,
+            yt: both * yt,
+            tt: heading * tt,
+        }
+    }
+
+    fn publish_transform(&mut self, now_ns: i64) {
+        let (Some(outputs), Some(engine), Some(last)) = (&self.outputs, &self.engine, &self.last)
+        else {
+            return;
+        };
+        // After a jump back the time of the last scan has not come yet.
+        if !self.is_active || self.is_back_in_time {
+            return;
+        }
+        let number = |name: &str| number(&self.values, name);
+        let time_ns = if self.program.is_toolbox() {
+            let timeout_ns = seconds_ns(number("transform_timeout").unwrap_or(0.2));
+            let from_ns =
+                if flag(&self.values, "restamp_tf") == Some(true) { now_ns } else { last.time_ns };
+            from_ns.saturating_add(timeout_ns)
+        } else {
+            let delay_s = number("tf_delay").or_else(|| number("transform_publish_period"));
+            now_ns.saturating_add(seconds_ns(delay_s.unwrap_or(0.05)))
+        };
+        // The map may have been bent since the scan came.
+        let map_from_odom =
+            (engine.mapper().map_from_base() * last.odom_from_base.inverse()).normalized();
+        let names = self.names();
+        outputs.publish_transform(&names.map, &names.odom, map_from_odom, time_ns);
+    }
+
+    /// Draws the map when it has changed, and publishes it when it is time: first as soon as there is
+    /// one.
+    fn publish_map(&mut self, now_ns: i64, names: &Names, node: &Node) {
+        let (Some(outputs), Some(engine)) = (&self.outputs, &self.engine) else { return };
+        if let Some(map) = self.drawer.take() {
+            match map {
+                Some(map) => {
+                    outputs.publish_map(&map, now_ns, &names.map);
+                    self.map = Some(map);
+                }
+                None => {
+                    let words = "the map is too large to draw";
+                    let help = "set a coarser `resolution` or a smaller `max_laser_range`";
+                    self.told.tell(&Diagnostic::error("large-map", words).help(help), node);
+                }
+            }
+        }
+        let interval_ns = seconds_ns(number(&self.values, "map_update_interval").unwrap_or(5.0));
+        let is_stored = matches!(engine, Engine::Localizer(_));
+        let is_due =
+            self.published_ns.is_none_or(|last_ns| !(0..interval_ns).contains(&(now_ns - last_ns)));
+        if !is_due || self.drawer.is_busy() || (engine.mapper().counts().kept == 0 && !is_stored) {
+            return;
+        }
+        self.published_ns = Some(now_ns);
+        let version = engine.version();
+        if let Some(entropy) = engine.entropy() {
+            outputs.publish_entropy(entropy);
+        }
+        outputs.publish_graph(|| {
+            engine.graph().map_or_else(Default::default, |slam| {
+                markers::graph(slam, &self.moved, &names.map, now_ns)
+            })
+        });
+        // Viewers that came since the last change see them, too.
+        self.health.draw_again(|drawn| self.draw_contradictions(now_ns, drawn));
+        if self.is_interactive {
+            self.handled += 1;
+            outputs.publish_handles(self.handled, || self.handles(now_ns));
+        }
+        match &self.map {
+            // Latecomers without memory get it again.
+            Some(map) if self.drawn == Some(version) => {
+                outputs.publish_map(map, now_ns, &names.map);
+            }
+            _ => {
+                self.drawn = Some(version);
+                self.drawer.begin(engine.drawing());
+                if !self.is_live {
+                    self.publish_map(now_ns, names, node);
+                }
+            }
+        }
+    }
+
+    /// Kept scans as handles, while they can be moved.
+    pub(crate) fn handles(&self, now_ns: i64) -> Vec<InteractiveMarker> {
+        let graph = self.engine.as_ref().and_then(Engine::graph).filter(|_| self.is_interactive);
+        graph.map_or_else(Vec::new, |slam| {
+            markers::handles(slam, &self.moved, &self.names().map, now_ns)
+        })
+    }
+
+    /// Somebody says where the robot is.
+    fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
+        if !self.program.is_toolbox() {
+            node.log(
+                Level::Warn,
+                "the initial pose is not taken: each particle draws a map of its own around where \
+                 it is, and none of them could be moved on it; to say where the robot is on a map \
+                 that is there, localize on it, or run `slam_toolbox`",
+            );
+            return;
+        }
+        let names = self.names();
+        let frame = plain(&message.header.frame_id);
+        if !frame.is_empty() && frame != names.map {
+            node.log(
+                Level::Warn,
+                format!(
+                    "the initial pose is in `{frame}`, and it has to be in `{}`: it is not taken; \
+                     choose that frame where you set it",
+                    names.map
+                ),
+            );
+            return;
+        }
+        match pose2(&message.pose.pose) {
+            Ok(pose) => {
+                let is_placed = self
+                    .engine
+                    .as_mut()
+                    .is_some_and(|it| it.place(pose, covariance(&message.pose.covariance)));
+                let said = format!("({:.2}, {:.2}, {:.2})", pose.x_m, pose.y_m, pose.yaw_rad);
+                if is_placed {
+                    self.said = Some(pose);
+                    let words = format!("the robot is said to be at {said}; the next scan tells");
+                    node.log(Level::Info, words);
+                } else {
+                    let words = format!("there is no map yet on which the robot can be at {said}");
+                    node.log(Level::Warn, words);
+                }
+            }
+            Err(why) => node.log(Level::Warn, format!("the initial pose is refused: {why}")),
+        }
+    }
+
+    /// Somebody drags a kept scan.
+    fn drag(&mut self, message: &InteractiveMarkerFeedback, node: &Node) {
+        let is_move = [InteractiveMarkerFeedback::POSE_UPDATE, InteractiveMarkerFeedback::MOUSE_UP]
+            .contains(&message.event_type);
+        if !is_move {
+            return;
+        }
+        let kept =
+            self.engine.as_ref().and_then(Engine::graph).map_or(0, |slam| slam.poses().len());
+        let key = message.marker_name.parse::<usize>().ok().filter(|&key| key < kept);
+        let refusal = match (self.is_interactive, key, pose2(&message.pose)) {
+            (false, _, _) => {
+                "interactive mode is off: call `slam_toolbox/toggle_interactive_mode` \
+                              first"
+                    .to_owned()
+            }
+            (true, None, _) => format!(
+                "`{}` is no kept scan; they are numbered from 0, and there are {kept}",
+                message.marker_name
+            ),
+            (true, Some(_), Err(why)) => why,
+            (true, Some(key), Ok(pose)) => {
+                self.moved.insert(key, pose);
+                return;
+            }
+        };
+        node.log(Level::Warn, format!("a scan is not moved: {refusal}"));
+    }
+
+    /// Takes other parameters while it runs.
+    fn change(&mut self, values: &Values) -> Result<(), String> {
+        const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
+        const AT_ANY_TIME: [&str; 11] = [
+            "paused_new_measurements",
+            "map_update_interval",
+            "minimum_time_interval",
+            "throttle_scans",
+            "transform_timeout",
+            "restamp_tf",
+            "tf_delay",
+            "position_covariance_scale",
+            "yaw_covariance_scale",
+            "use_sim_time",
+            "debug_logging",
+        ];
+        if values.table().find(BUFFER).is_some() && values.get(BUFFER) != self.values.get(BUFFER) {
+            return Err(format!("`{BUFFER}` is read when the node is made; set it in its file"));
+        }
+        let is_changed = |name: &&str| {
+            values.table().find(name).is_some() && values.get(name) != self.values.get(name)
+        };
+        if let Some(name) = STATES.iter().find(|name| is_changed(name)) {
+            return Err(format!(
+                "`{name}` shows a state; the service `slam_toolbox/toggle_interactive_mode` changes \
+                 it"
+            ));
+        }
+        let changed =
+            values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
+                !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
+            });
+        if let Some(name) = changed.filter(|_| self.inputs.is_some()) {
+            return Err(format!(
+                "`{name}` is read when the node is configured; set it before, or clean the node up \
+                 and configure it again"
+            ));
+        }
+        let is_paused = flag(values, "paused_new_measurements");
+        if is_paused != flag(&self.values, "paused_new_measurements") {
+            self.is_paused = is_paused.unwrap_or(false);
+        }
+        self.values = values.clone();
+        Ok(())
+    }
+
+    pub(crate) fn status(&self, node: String) -> SlamStatus {
+        let mapper = self.engine.as_ref().map(Engine::mapper);
+        let graph = self.engine.as_ref().and_then(Engine::graph);
+        SlamStatus {
+            node,
+            program: self.program,
+            counts: mapper.map(periplus_slam::Mapper::counts).unwrap_or_default(),
+            left_out: self.inputs.as_ref().map_or(0, |inputs| inputs.left_out),
+            dropped: self.inputs.as_ref().map_or(0, |inputs| inputs.dropped),
+            graph: graph.map_or((0, 0), |slam| (slam.poses().len(), slam.links().count())),
+            closures: mapper.map(|it| it.closures().to_vec()).unwrap_or_default(),
+            map_from_base: mapper.map_or(Pose2::IDENTITY, periplus_slam::Mapper::map_from_base),
+            size: mapper.map_or(0, periplus_slam::Mapper::size),
+            trouble: self.told.trouble.clone(),
+            correction: self.correction.as_ref().map(|it| it.cure.remedy()),
+        }
+    }
+}
+
+fn seconds_ns(seconds: f64) -> i64 {
+    (seconds * 1e9) as i64
+}
