@@ -76,6 +76,8 @@ const PARTLY_ONE_WITNESS_M: f64 = 1.0;
 const TWO_WITNESSES_M: f64 = 12.0;
 /// A closure that others speak against is tried at the end when its scans agree on more than this.
 const CLEAR: f64 = 0.93;
+/// Witnesses for each against, where those against would be enough for another closure.
+const MAJORITY: usize = 3;
 /// Witnesses are at least this way apart \[m\], and are heard over so much way.
 const APART_M: f64 = 4.0;
 const HEARD_M: f64 = 60.0;
@@ -184,7 +186,9 @@ struct Evidence {
 
 impl Evidence {
     fn is_enough(&self) -> bool {
-        self.witnesses >= self.wanted + self.rivals
+        // As many against it as would do for another closure: two places look alike.
+        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY * self.rivals;
+        self.witnesses >= self.wanted + self.rivals && is_clear
     }
 }
 

@@ -4,6 +4,7 @@
 mod worlds;
 
 use periplus_slam::Doubt;
+use worlds::Moment;
 use worlds::kinds::{KINDS, Verdict, outcome};
 
 fn check(name: &str, seed: u64) {
@@ -78,4 +79,19 @@ fn walls_that_are_the_same_all_along_are_no_confirmation() {
         outcome.judgement,
         outcome.slam.remarks()
     );
+}
+
+/// Rows of equal racks: the way back fits one row as well as the next, five metres from it. Seven stretches
+/// speak for the wrong row and five for the right one, so that neither closure is made.
+#[test]
+fn equal_racks_leave_a_loop_undecided() {
+    let Some(kind) = KINDS.iter().find(|it| it.name == "hall") else {
+        panic!("there is no such kind");
+    };
+    let part: Vec<Moment> = (kind.drive)(5, false).into_iter().skip(450).take(800).collect();
+    let outcome = outcome(kind, &part);
+    let is_told = |doubt: &Doubt| matches!(doubt, Doubt::Undecided(..));
+    let remarks = outcome.slam.remarks();
+    assert!(remarks.iter().any(|it| is_told(&it.doubt)), "{remarks:?}");
+    assert!(outcome.judgement.loops_m < 0.1, "{:?}", outcome.judgement);
 }
