@@ -25,7 +25,6 @@ mod runs;
 mod slam;
 mod soak;
 mod step;
-#[cfg(test)]
 mod tidy;
 mod tutorials;
 mod viewer;
@@ -66,6 +65,8 @@ enum Task {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         rest: Vec<String>,
     },
+    /// The language of the tree: words, doc comments, names of constants and types
+    Tidy(tidy::Options),
     /// The corpus of real files, against libsdformat, liburdfdom and PyPI's xacro
     Corpus,
     /// Speed, side by side with the peers; run `corpus` first
@@ -221,6 +222,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Deny => deny(),
         Task::Docs => docs::run(),
         Task::Test { rest } => test(rest),
+        Task::Tidy(options) => tidy::run(options),
         Task::Corpus => corpus::run_all(),
         Task::Bench { only, load, quick, logs, runs, json, check, resume, page, program } => {
             match only {
@@ -278,6 +280,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
 fn ci() -> Result<(), Failed> {
     timed("fmt", fmt)?;
     timed("layers", layers::run)?;
+    timed("tidy", || tidy::run(&tidy::Options::default()))?;
     timed("clippy", clippy)?;
     timed("deny", deny)?;
     timed("docs", docs::run)?;

@@ -1,214 +1,366 @@
-//! What must be true of the source tree itself.
+//! The language of the tree: words, openings of doc comments, names of constants and types.
+//!
+//! The words are data, in `xtask/tidy/words.yaml`. Findings that the tree still has are counted in
+//! `xtask/tidy/ratchet.yaml`; the command fails where a count rises.
 
-use std::collections::BTreeSet;
+mod checks;
+mod passages;
+mod pattern;
+mod prose;
+mod ratchet;
+mod rules;
+mod rust;
+mod sample;
+mod source;
+#[cfg(test)]
+mod tree;
+mod viewer;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
-use std::process::Command;
 
-use crate::step::root;
+use crate::step::{Failed, root};
+use checks::{Check, Finding, constants, results, types};
+use prose::{Part, Passage, Source};
+use ratchet::Counts;
+use rules::Rules;
+use sample::Random;
+use source::{File, Rust, line_and_column};
 
-/// No file of the tree is larger; bytes.
-const LARGEST: u64 = 1 << 20;
+/// File of the words, below the root.
+const WORDS: &str = "xtask/tidy/words.yaml";
+/// File of the counts that are left, below the root.
+const RATCHET: &str = "xtask/tidy/ratchet.yaml";
+/// Bytes shown on each side of a sampled finding.
+const CONTEXT_BYTE_COUNT: usize = 140;
 
-/// What no file may say, put together so that this one does not say it either, and why.
-const FORBIDDEN: [(&str, &str); 3] = [
-    (concat!("/wo", "rk/"), "a path of one machine"),
-    (concat!("/tmp/", "target"), "a path of one machine"),
-    (concat!("TO", "DO"), "say who will do it: (name) must follow, or open an issue"),
-];
-
-/// Words with a slash that are not paths.
-const NOT_PATHS: [&str; 6] = ["m/s", "m/s2", "rad/s", "and/or", "N/m", "I/O"];
-
-/// All tracked files.
-fn files() -> Vec<String> {
-    let output = Command::new("git")
-        .current_dir(root())
-        .args(["ls-files", "-z"])
-        .output()
-        .expect("git tells which files belong to the tree");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let names = String::from_utf8(output.stdout).expect("file names are UTF-8");
-    let exists = |name: &&str| !name.is_empty() && root().join(name).is_file();
-    names.split('\0').filter(exists).map(str::to_owned).collect()
+/// Options of `cargo xtask tidy`.
+#[derive(Default, clap::Args)]
+pub(crate) struct Options {
+    /// Print the findings of a check: file:line:column: text -> replacement
+    #[arg(long, value_name = "CHECK", conflicts_with_all = ["counts", "update"])]
+    list: Option<Check>,
+    /// With --list: only findings of this package (`periplus-slam`, `docs`, `viewer`)
+    #[arg(long = "crate", value_name = "PACKAGE", requires = "list")]
+    package: Option<String>,
+    /// With --list words: only findings of the entry of this name
+    #[arg(long, value_name = "WORDS", requires = "list")]
+    entry: Option<String>,
+    /// Print a table of all counts
+    #[arg(long, conflicts_with_all = ["update", "sample"])]
+    counts: bool,
+    /// Print N random sentences of each source of prose; with --list, N random findings in context
+    #[arg(long, value_name = "N", conflicts_with = "update")]
+    sample: Option<usize>,
+    /// Seed of the sample
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "sample")]
+    seed: u64,
+    /// Commit to fewer findings: lower the counts to the present ones
+    #[arg(long)]
+    update: bool,
+    /// With --update: accept more findings in a package when others have as many fewer, since code moved
+    #[arg(long, requires = "update")]
+    moved: bool,
 }
 
-fn text(name: &str) -> Option<String> {
-    String::from_utf8(fs::read(root().join(name)).ok()?).ok()
+/// Everything that was read and found.
+struct Report {
+    files: Vec<File>,
+    /// Findings with the indices of their files, in the order of files and positions.
+    findings: Vec<(usize, Finding)>,
+    passages: Vec<(usize, Passage)>,
+    rules: Rules,
+    /// Number of public types and of their names, without shared ones.
+    type_count: usize,
+    type_name_count: usize,
 }
 
-fn architecture() -> String {
-    text("ARCHITECTURE.md").expect("ARCHITECTURE.md is missing: it is the map of the source tree")
-}
-
-#[track_caller]
-fn none(faults: &[String]) {
-    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
-}
-
-/// The folders in a folder of the tree, as paths from its root.
-fn folders(of: &str) -> Vec<String> {
-    let entries = fs::read_dir(root().join(of)).unwrap_or_else(|error| panic!("{of}: {error}"));
-    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    names.map(|name| format!("{of}/{name}")).filter(|path| root().join(path).is_dir()).collect()
-}
-
-/// The folders of the workspace's crates, by wing, and of those beside the product.
-fn members() -> Vec<String> {
-    let mut members: Vec<String> =
-        folders("crates").iter().flat_map(|wing| folders(wing)).collect();
-    members.extend(["conformance", "xtask", "benches"].map(String::from));
-    members.retain(|member| root().join(member).join("Cargo.toml").is_file());
-    members.sort();
-    members
-}
-
-#[test]
-fn files_are_small() {
-    let size = |name: &str| fs::metadata(root().join(name)).map_or(0, |data| data.len());
-    let large = files().into_iter().filter(|name| size(name) > LARGEST);
-    none(&large.map(|name| format!("{name} is over 1 MiB")).collect::<Vec<_>>());
-}
-
-#[test]
-fn no_line_ends_in_space() {
-    let mut faults = Vec::new();
-    for name in files().iter().filter(|name| name.ends_with(".rs") || name.ends_with(".md")) {
-        let text = text(name).unwrap_or_else(|| panic!("{name} is not UTF-8"));
-        let lines = text.lines().enumerate();
-        let untidy = lines.filter(|(_, line)| line.ends_with([' ', '\t', '\r']));
-        faults.extend(untidy.map(|(at, _)| format!("{name}:{}: space at the end", at + 1)));
+/// Runs the command.
+///
+/// # Errors
+/// More findings than committed, and data files that cannot be read.
+pub(crate) fn run(options: &Options) -> Result<(), Failed> {
+    let root = root();
+    let words = read(&root, WORDS)?;
+    let rules = Rules::parse(WORDS, &words)?;
+    let report = report(source::files(&root)?, rules);
+    if let Some(check) = options.list {
+        list(&report, check, options);
+        return Ok(());
     }
-    none(&faults);
+    if options.counts {
+        print!("{}", table(&report));
+        return Ok(());
+    }
+    if let Some(count) = options.sample {
+        sentences(&report, count, options.seed);
+        return Ok(());
+    }
+    let allowed = match fs::read_to_string(root.join(RATCHET)) {
+        Ok(text) => ratchet::parse(RATCHET, &text)?,
+        // Without the file nothing is allowed.
+        Err(_) => Counts::new(),
+    };
+    let packages: BTreeSet<String> = report.files.iter().map(|file| file.package.clone()).collect();
+    let found = counts(&report);
+    if options.update {
+        let lowered = ratchet::lowered(&allowed, &found, &packages, options.moved)
+            .map_err(|rises| refused(&rises))?;
+        return write(&root, &ratchet::render(&lowered));
+    }
+    let rises = ratchet::rises(&allowed, &found, &packages);
+    if !rises.is_empty() {
+        return Err(refused(&rises));
+    }
+    let total = |counts: &Counts| counts.values().flat_map(BTreeMap::values).sum::<usize>();
+    println!("{} findings, {} allowed", total(&found), total(&allowed));
+    if total(&found) < total(&allowed) {
+        println!("lower the allowed ones with `cargo xtask tidy --update`");
+    }
+    Ok(())
 }
 
-/// Whether a line says a forbidden word; a marked task with its owner is allowed.
-fn says(line: &str, word: &str) -> bool {
-    line.match_indices(word).any(|(at, _)| !line[at + word.len()..].starts_with('('))
+fn read(root: &Path, path: &str) -> Result<String, Failed> {
+    fs::read_to_string(root.join(path))
+        .map_err(|error| Failed(format!("{path}: {error}; restore it with `git checkout {path}`")))
 }
 
-#[test]
-fn no_forbidden_words() {
-    let mut faults = Vec::new();
-    for name in files() {
-        for (at, line) in text(&name).unwrap_or_default().lines().enumerate() {
-            for (word, why) in FORBIDDEN.into_iter().filter(|(word, _)| says(line, word)) {
-                faults.push(format!("{name}:{}: `{word}`: {why}", at + 1));
-            }
+/// Writes the counts, or removes their file when nothing is left.
+fn write(root: &Path, text: &str) -> Result<(), Failed> {
+    let path = root.join(RATCHET);
+    let done = match text {
+        "" if path.exists() => fs::remove_file(&path),
+        "" => Ok(()),
+        text => fs::write(&path, text),
+    };
+    done.map_err(|error| {
+        Failed(format!("{RATCHET} cannot be written: {error}; mend that and repeat"))
+    })
+}
+
+fn refused(rises: &[ratchet::Rise]) -> Failed {
+    let mut lines = vec!["more findings than are committed; mend the new ones:".to_owned()];
+    lines.extend(rises.iter().map(|rise| {
+        let ratchet::Rise { check, package, allowed, found } = rise;
+        format!(
+            "{check} in {package}: {found}, {allowed} allowed; \
+             `cargo xtask tidy --list {check} --crate {package}` shows them"
+        )
+    }));
+    lines.push(
+        "where code only moved between packages, `cargo xtask tidy --update --moved` accepts it"
+            .into(),
+    );
+    Failed(lines.join("\n       "))
+}
+
+/// Runs all checks.
+fn report(files: Vec<File>, rules: Rules) -> Report {
+    let mut findings: Vec<(usize, Finding)> = Vec::new();
+    let mut passages: Vec<(usize, Passage)> = Vec::new();
+    let mut all_types = Vec::new();
+    let mut text_constants: BTreeSet<String> = BTreeSet::new();
+    for (at, file) in files.iter().enumerate() {
+        if rules.is_exempt(&file.path) {
+            continue;
+        }
+        let found = if file.path.ends_with(".rs") {
+            let rust = Rust::new(file);
+            let objections = constants::check(&rust, &rules.constants)
+                .into_iter()
+                .chain(results::check_signatures(&rust))
+                .chain(results::check_codes(&rust));
+            findings.extend(objections.map(|finding| (at, finding)));
+            text_constants.extend(results::text_constants(&rust).map(str::to_owned));
+            all_types.extend(types::types(&rust, &rules.types, at));
+            passages::of_rust(&rust)
+        } else {
+            passages::of_text(file)
+        };
+        for passage in found {
+            findings.extend(
+                checks::prose::check(&passage, &rules).into_iter().map(|finding| (at, finding)),
+            );
+            passages.push((at, passage));
         }
     }
-    none(&faults);
+    findings.retain(|(_, finding)| {
+        finding.check != Check::Codes
+            || finding.entry.is_empty()
+            || text_constants.contains(&finding.entry)
+    });
+    findings.extend(types::check(&all_types, &rules.types, |file| files[file].path.clone()));
+    findings.sort_by_key(|(file, finding)| (*file, finding.range.start, finding.check));
+    let names: BTreeSet<&str> = all_types.iter().map(|one| one.name.as_str()).collect();
+    let (type_count, type_name_count) = (all_types.len(), names.len());
+    Report { files, findings, passages, rules, type_count, type_name_count }
 }
 
-/// Crates with vector instructions or C: they repeat the common lints, and deny unsafe code where the
-/// others forbid it, so that modules can be let off. (Cargo has no way to inherit and differ.)
-const WITH_UNSAFE: [&str; 2] = ["crates/transports/cyclonedds-sys", "crates/simulation/raycast"];
+fn counts(report: &Report) -> Counts {
+    let mut counts = Counts::new();
+    for (file, finding) in &report.findings {
+        let package = report.files[*file].package.clone();
+        *counts.entry(finding.check).or_default().entry(package).or_default() += 1;
+    }
+    counts
+}
 
-#[test]
-fn every_crate_takes_the_common_lints() {
-    let root = text("Cargo.toml").unwrap_or_default();
-    let common: Vec<&str> = root
-        .split("\n[")
-        .filter(|section| section.starts_with("workspace.lints."))
-        .flat_map(|section| section.lines().skip(1))
-        .filter(|line| line.contains('=') && !line.starts_with("unsafe_code"))
+fn list(report: &Report, check: Check, options: &Options) {
+    let is_wanted = |(file, finding): &&(usize, Finding)| {
+        let package = &report.files[*file].package;
+        let is_of_package = options.package.as_ref().is_none_or(|wanted| {
+            wanted == package || package.strip_prefix("periplus-") == Some(wanted.as_str())
+        });
+        let is_of_entry = options.entry.as_ref().is_none_or(|wanted| *wanted == finding.entry);
+        finding.check == check && is_of_package && is_of_entry
+    };
+    let mut wanted: Vec<_> = report.findings.iter().filter(is_wanted).collect();
+    if let Some(count) = options.sample {
+        wanted = Random::new(options.seed).pick(wanted, count);
+    }
+    for (file, finding) in &wanted {
+        let file = &report.files[*file];
+        let (line, column) = line_and_column(&file.text, finding.range.start);
+        println!("{}:{line}:{column}: {} -> {}", file.path, finding.text, finding.advice);
+        if options.sample.is_some() {
+            println!("    {}", context(&file.text, &finding.range));
+        }
+    }
+}
+
+/// Text around a finding in one line, the finding in brackets.
+fn context(text: &str, range: &Range<usize>) -> String {
+    let start = text.floor_char_boundary(range.start.saturating_sub(CONTEXT_BYTE_COUNT));
+    let end = text.ceil_char_boundary((range.end + CONTEXT_BYTE_COUNT).min(text.len()));
+    let one_line = |part: &str| {
+        let words = part.split_whitespace().filter(|word| !matches!(*word, "///" | "//!" | "//"));
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let (before, hit, after) =
+        (&text[start..range.start], &text[range.clone()], &text[range.end..end]);
+    format!("{} [[{}]] {}", one_line(before), one_line(hit), one_line(after))
+}
+
+/// Table of all counts.
+fn table(report: &Report) -> String {
+    let count =
+        |check| report.findings.iter().filter(|(_, finding)| finding.check == check).count();
+    let is_doc =
+        |(_, passage): &&(usize, Passage)| matches!(passage.source, Source::Doc | Source::Help);
+    let docs = report.passages.iter().filter(is_doc).count();
+    let opening_count = count(Check::Openings);
+    let percent = 100.0 * opening_count as f64 / docs.max(1) as f64;
+    let repeated: BTreeSet<&str> = report
+        .findings
+        .iter()
+        .filter(|(_, finding)| finding.check == Check::Types)
+        .map(|(_, finding)| finding.text.as_str())
         .collect();
-    assert!(common.len() > 5, "the common lints are not found in Cargo.toml");
-    let mut faults = Vec::new();
-    for member in members() {
-        let manifest = text(&format!("{member}/Cargo.toml")).unwrap_or_default();
-        let manifest = manifest.replace("\r\n", "\n");
-        if WITH_UNSAFE.contains(&member.as_str()) {
-            let wanted = common.iter().copied().chain(["unsafe_code = \"deny\""]);
-            let missing = wanted.filter(|lint| !manifest.lines().any(|line| line == *lint));
-            faults.extend(missing.map(|lint| format!("{member}/Cargo.toml lacks `{lint}`")));
-        } else if !manifest.contains("[lints]\nworkspace = true") {
-            faults
-                .push(format!("{member}/Cargo.toml: `[lints]` with `workspace = true` is missing"));
+    let mut rows = vec![
+        ("openings".to_owned(), opening_count, format!("{percent:.1} % of {docs} doc comments")),
+        (
+            "types".to_owned(),
+            count(Check::Types),
+            format!(
+                "of {}; {} of {} names are defined more than once",
+                report.type_count,
+                repeated.len(),
+                report.type_name_count
+            ),
+        ),
+        ("constants".to_owned(), count(Check::Constants), String::new()),
+        ("results".to_owned(), count(Check::Results), "public signatures".to_owned()),
+        ("codes".to_owned(), count(Check::Codes), String::new()),
+        ("words".to_owned(), count(Check::Words), String::new()),
+    ];
+    let mut by_entry: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, finding) in report.findings.iter().filter(|(_, finding)| finding.check == Check::Words)
+    {
+        *by_entry.entry(&finding.entry).or_default() += 1;
+    }
+    rows.extend(report.rules.entries.iter().map(|entry| {
+        let count = by_entry.get(entry.name.as_str()).copied().unwrap_or_default();
+        (format!("  {}", entry.name), count, entry.advice())
+    }));
+    let mut table = String::new();
+    for (name, count, remark) in rows {
+        let _ = writeln!(table, "{}", format!("{name:<28} {count:>6}  {remark}").trim_end());
+    }
+    table
+}
+
+/// Prints random sentences of each source.
+fn sentences(report: &Report, count: usize, seed: u64) {
+    type IsOf = fn(&str, Source) -> bool;
+    let sources: [(&str, IsOf); 5] = [
+        ("README", |path, _| path == "README.md"),
+        ("docs", |path, source| path.starts_with("docs/") && source == Source::Page),
+        ("help", |_, source| source == Source::Help),
+        ("messages", |_, source| source == Source::Message),
+        ("doc comments", |_, source| source == Source::Doc),
+    ];
+    for (title, is_of) in sources {
+        println!("== {title}");
+        let of = report
+            .passages
+            .iter()
+            .filter(|(file, passage)| is_of(&report.files[*file].path, passage.source));
+        let all: Vec<_> = of
+            .flat_map(|(file, passage)| split(passage).map(move |range| (*file, passage, range)))
+            .collect();
+        for (file, passage, range) in Random::new(seed).pick(all, count) {
+            let file = &report.files[file];
+            let (line, _) = line_and_column(&file.text, passage.offset_in_file(range.start));
+            let words: Vec<&str> = passage.text[range].split_whitespace().collect();
+            println!("{}:{line}: {}", file.path, words.join(" "));
         }
     }
-    none(&faults);
 }
 
-#[test]
-fn the_map_names_every_crate() {
-    let map = architecture();
-    let named: BTreeSet<&str> =
-        code_spans(&map).map(|(_, span)| span.trim_end_matches('/')).collect();
-    let is_named = |member: &String| {
-        let short = member.rsplit('/').next().unwrap_or(member);
-        let package = format!("periplus-{short}");
-        [member.as_str(), short, &package].iter().any(|name| named.contains(name))
-    };
-    let missing = members().into_iter().filter(|member| !is_named(member));
-    let fault = |member| format!("ARCHITECTURE.md does not name `{member}`");
-    none(&missing.map(fault).collect::<Vec<_>>());
+/// Sentences of at least three words.
+fn split(passage: &Passage) -> impl Iterator<Item = Range<usize>> + use<> {
+    let atoms = prose::atoms(passage);
+    let mut sentences = Vec::new();
+    let mut from = 0;
+    for at in 0..=atoms.len() {
+        if at < atoms.len() && atoms[at].part != Part::Stop {
+            continue;
+        }
+        let words = atoms[from..at].iter().filter(|atom| atom.part == Part::Word).count();
+        if words >= 3 {
+            let end = atoms.get(at).filter(|stop| stop.range.len() == 1).unwrap_or(&atoms[at - 1]);
+            sentences.push(atoms[from].range.start..end.range.end);
+        }
+        from = at + 1;
+    }
+    sentences.into_iter()
 }
 
-#[test]
-fn the_map_names_only_what_is_there() {
-    let map = architecture();
-    let wings = folders("crates");
-    let there = |path: &String| {
-        root().join(path).exists()
-            || root().join("crates").join(path).exists()
-            || wings.iter().any(|wing| root().join(wing).join(path).exists())
-    };
-    let named = named_paths(&map);
-    assert!(named.len() > 3, "no paths were recognised in ARCHITECTURE.md: {named:?}");
-    let gone = named.into_iter().filter(|path| !there(path));
-    let fault = |path| format!("ARCHITECTURE.md names `{path}`, which is not there");
-    none(&gone.map(fault).collect::<Vec<_>>());
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The pieces of a Markdown text between single backticks, each with its line; not in code blocks.
-fn code_spans(markdown: &str) -> impl Iterator<Item = (&str, &str)> {
-    let mut in_block = false;
-    let prose = markdown.lines().filter(move |line| {
-        let fence = line.trim_start().starts_with("```");
-        in_block ^= fence;
-        !in_block && !fence
-    });
-    prose.flat_map(|line| line.split('`').skip(1).step_by(2).map(move |span| (line, span)))
-}
+    #[test]
+    fn the_words_can_be_read() {
+        let text = read(&root(), WORDS).expect("the words");
+        let rules = Rules::parse(WORDS, &text).unwrap_or_else(|Failed(why)| panic!("{why}"));
+        assert!(rules.entries.len() > 10);
+    }
 
-/// What a Markdown text names as paths: what has a slash, and under the heading "Code map" the
-/// first piece of code of each entry.
-fn named_paths(markdown: &str) -> BTreeSet<String> {
-    let map_at = markdown.find("Code map\n").unwrap_or(markdown.len());
-    let map_len = markdown[map_at..].find("\n## ").unwrap_or(markdown.len() - map_at);
-    let entries = markdown[map_at..map_at + map_len].lines().filter_map(|line| {
-        let entry = line.trim_start().trim_start_matches(['-', '*', '|', '#', ' ']);
-        let is_entry = line.trim_start().starts_with(['-', '*', '|', '#']);
-        entry.strip_prefix('`').filter(|_| is_entry)?.split('`').next()
-    });
-    let with_slash = code_spans(markdown).map(|(_, span)| span).filter(|span| span.contains('/'));
-    with_slash.chain(entries).filter(|span| is_path(span)).map(str::to_owned).collect()
-}
+    #[test]
+    fn sentences_end_at_stops() {
+        let text = "# A\nOne two three. Four five. Six seven\neight nine\n\nTen";
+        let mut passage = Passage::new(Source::Page);
+        passage.push(text, 0..text.len());
+        let found: Vec<_> = split(&passage).map(|range| text[range].to_owned()).collect();
+        assert_eq!(found, ["One two three.", "Six seven\neight nine"]);
+    }
 
-/// Not a command, a URI, a topic, a message type, a unit or a pattern.
-fn is_path(span: &str) -> bool {
-    let plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
-    let first =
-        Path::new(span).components().next().map(|first| first.as_os_str().to_string_lossy());
-    span.chars().all(plain)
-        && !span.starts_with(['/', '.']) | span.starts_with(".c")
-        && !first.is_some_and(|first| first.ends_with("msgs") || first.ends_with("_srvs"))
-        && !NOT_PATHS.contains(&span)
-}
-
-#[test]
-fn paths_are_told_from_other_words() {
-    let map = "Run `cargo xtask ci`, see `docs/a.md`, `/scan`, `std_msgs/String`, `m/s`, `a://b`.\n\
-        ```\nnot/this\n```\n## Code map\n- `base`: `Pose`\n| `crates/foundation/xml/` | `Node` |\n\n## Else\n\
-        - `word`\n";
-    let named: Vec<String> = named_paths(map).into_iter().collect();
-    assert_eq!(named, ["base", "crates/foundation/xml/", "docs/a.md"]);
-}
-
-#[test]
-fn owners_are_seen() {
-    let word = FORBIDDEN[2].0;
-    assert!(says(&format!("// {word} later"), word));
-    assert!(!says(&format!("// {word}(ada): later"), word));
+    #[test]
+    fn findings_are_shown_in_context() {
+        assert_eq!(context("/// a\n/// who b\n", &(10..13)), "a [[who]] b");
+    }
 }
