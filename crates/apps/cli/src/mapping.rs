@@ -213,7 +213,7 @@ impl Mapping {
             writeln!(
                 out,
                 "  a graph of {scans} scans and {links} links, {} of them ties",
-                counts.ties
+                counts.proximity
             )?;
         }
         if counts.kept <= 1 {
@@ -251,7 +251,7 @@ impl Mapping {
             writeln!(
                 out,
                 "    {} - {} {verdict}: {}",
-                closure.keys.0, closure.keys.1, closure.reason
+                closure.keyframes.0, closure.keyframes.1, closure.reason
             )?;
         }
         Ok(())

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use periplus_geometry::Pose2;
 use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_os::Stopwatch;
-use periplus_slam::{Cure, Mapper, Remedy};
+use periplus_slam::{CorrectedInput, Mapper, MountingCorrection};
 
 use crate::log::{Log, LogOptions};
 use crate::picture::draw_by;
@@ -58,7 +58,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         }
     };
     let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
-    let remedy = Remedy::of(run.made.mapper().remarks())
+    let remedy = MountingCorrection::of(run.made.mapper().remarks())
         .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {
         // A fault of mounting or axes is certain: the map is made again without it.
@@ -133,7 +133,7 @@ fn map(
     options: &SlamOptions,
     parameters: &Parameters,
     input: &LogOptions,
-    remedy: Option<Remedy>,
+    remedy: Option<MountingCorrection>,
 ) -> io::Result<Result<Run, String>> {
     let watch = Stopwatch::start();
     let mut log = match Log::open(&options.log, input)? {
@@ -150,7 +150,7 @@ fn map(
     let before = made.mapper().trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
-    let mut cure = remedy.map(Cure::new);
+    let mut cure = remedy.map(CorrectedInput::new);
     let (mut spent_s, mut used) = (Vec::with_capacity(log.scans.len()), Vec::new());
     let slam = made.mapper_mut();
     for (number, logged) in log.scans.iter_mut().enumerate().step_by(parameters.every()) {

@@ -229,7 +229,7 @@ fn a_log_with_reversed_wheels_is_mapped_again() {
     let command = command.arg("slam").arg(&log).arg("--out").arg(&out);
     let output = command.args(["-p", "correct_mounting:=false"]).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(said.contains("both wheels are counted with the wrong sign"), "{said}");
+    assert!(said.contains("both wheels have the wrong sign"), "{said}");
     assert!(!said.contains("the map was made again"), "{said}");
 }
 
@@ -311,7 +311,7 @@ fn a_log_whose_scans_fit_nothing_fails() {
         mapped.report["scans"]
     );
     let warnings = mapped.report["warnings"].to_string();
-    assert!(warnings.contains("fit nothing that was seen before"), "{warnings}");
+    assert!(warnings.contains("match nothing in the map"), "{warnings}");
 }
 
 #[test]

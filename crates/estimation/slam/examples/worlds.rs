@@ -132,7 +132,7 @@ fn race(kind: &Kind, seed: u64, is_short: bool, tells_why: bool) -> Row {
     let accepted = slam.closures().iter().filter(|it| it.is_accepted).count();
     let mut remarks: BTreeMap<String, usize> = BTreeMap::new();
     for remark in slam.remarks().iter().filter(|it| it.is_warning()) {
-        let word = format!("{:?}", remark.doubt);
+        let word = format!("{:?}", remark.kind);
         let word = word.split('(').next().unwrap_or_default();
         *remarks.entry(word.to_owned()).or_default() += 1;
     }
@@ -176,11 +176,12 @@ fn race(kind: &Kind, seed: u64, is_short: bool, tells_why: bool) -> Row {
 
 /// Closures that are part of the map and wrong by the truth: how many, and which.
 fn wrong_closures(slam: &periplus_slam::Slam, moments: &[Moment]) -> (usize, String) {
-    let keys = slam.kept();
+    let keyframes = slam.kept();
     let mut wrong = 0;
     let mut why = String::new();
     for closure in slam.closures() {
-        let (old, new) = (&moments[keys[closure.keys.0]], &moments[keys[closure.keys.1]]);
+        let (old, new) =
+            (&moments[keyframes[closure.keyframes.0]], &moments[keyframes[closure.keyframes.1]]);
         let truth = old.truth.inverse() * new.truth;
         let off = truth.inverse() * closure.old_from_new;
         let (metres, turn) = (libm::hypot(off.x_m, off.y_m), normalize_angle(off.yaw_rad).abs());
@@ -189,11 +190,11 @@ fn wrong_closures(slam: &periplus_slam::Slam, moments: &[Moment]) -> (usize, Str
         if !is_wrong || closure.is_accepted {
             let _ = write!(
                 why,
-                "\n    {}{}: keys {:?} at ({:.1}, {:.1}) m off by {metres:.2} m, {:.1} degrees; region {:.1} m, \
+                "\n    {}{}: keyframes {:?} at ({:.1}, {:.1}) m off by {metres:.2} m, {:.1} degrees; region {:.1} m, \
                  {:.0} % agree: {}",
                 if is_wrong { "WRONG " } else { "" },
                 if closure.is_accepted { "accepted" } else { "refused though right" },
-                closure.keys,
+                closure.keyframes,
                 new.truth.x_m,
                 new.truth.y_m,
                 turn.to_degrees(),

@@ -11,14 +11,14 @@ use periplus_geometry::Pose2;
 use periplus_scan_matching::Agreement;
 
 use crate::graph::Graph;
-use crate::key::Key;
+use crate::keyframe::Keyframe;
 use crate::local::{apart, both_ways};
 
 /// A stretch of the way that contradicts what another pass saw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contradiction {
     /// Kept scans at its ends.
-    pub(crate) keys: (usize, usize),
+    pub(crate) keyframes: (usize, usize),
     /// Kept scans at the ends of the stretch of the other pass.
     pub(crate) others: (usize, usize),
     /// The kept scan in its middle.
@@ -47,28 +47,31 @@ const PASSES: usize = 2;
 
 /// A scan held against another pass.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Held {
-    pub(crate) key: usize,
+pub(crate) struct ConstraintResidual {
+    pub(crate) keyframe: usize,
     pub(crate) other: usize,
-    pub(crate) other_from_key: Pose2,
+    pub(crate) other_from_keyframe: Pose2,
     pub(crate) sum: Agreement,
 }
 
 /// All stretches that contradict another pass, in the order of the way.
-pub(crate) fn audit(keys: &[Key], graph: &Graph) -> Vec<Contradiction> {
-    contradictions(&passes(keys, graph), keys)
+pub(crate) fn audit(keyframes: &[Keyframe], graph: &Graph) -> Vec<Contradiction> {
+    contradictions(&passes(keyframes, graph), keyframes)
 }
 
 /// The same of scans that were held against each other before, in the order of the way.
-pub(crate) fn contradictions(held: &[Held], keys: &[Key]) -> Vec<Contradiction> {
+pub(crate) fn contradictions(
+    held: &[ConstraintResidual],
+    keyframes: &[Keyframe],
+) -> Vec<Contradiction> {
     let mut found: Vec<Contradiction> = Vec::new();
     let mut start = 0;
     while start < held.len() {
-        let from_m = keys[held[start].key].travel_m;
+        let from_m = keyframes[held[start].keyframe].travel_m;
         let mut sum = Agreement::default();
         let mut end = start;
-        let goes_on = |it: &Held, judged: u32| {
-            let way_m = keys[it.key].travel_m - from_m;
+        let goes_on = |it: &ConstraintResidual, judged: u32| {
+            let way_m = keyframes[it.keyframe].travel_m - from_m;
             way_m < STRETCH_M || (judged <= JUDGED && way_m < LONGEST_M)
         };
         while end < held.len() && goes_on(&held[end], sum.judged()) {
@@ -77,16 +80,16 @@ pub(crate) fn contradictions(held: &[Held], keys: &[Key]) -> Vec<Contradiction> 
         }
         if sum.judged() > JUDGED && sum.share() < AGREEING {
             let next = Contradiction {
-                keys: (held[start].key, held[end - 1].key),
-                others: other_stretch(&held[start..end], keys),
-                middle: held[(start + end) / 2].key,
+                keyframes: (held[start].keyframe, held[end - 1].keyframe),
+                others: other_stretch(&held[start..end], keyframes),
+                middle: held[(start + end) / 2].keyframe,
                 agreeing: sum.share(),
             };
             match found.last_mut() {
-                Some(last) if next.keys.0 <= last.keys.1 + 1 => {
-                    last.keys.1 = next.keys.1;
+                Some(last) if next.keyframes.0 <= last.keyframes.1 + 1 => {
+                    last.keyframes.1 = next.keyframes.1;
                     if next.agreeing < last.agreeing {
-                        *last = Contradiction { keys: last.keys, ..next };
+                        *last = Contradiction { keyframes: last.keyframes, ..next };
                     }
                 }
                 _ => found.push(next),
@@ -96,7 +99,7 @@ pub(crate) fn contradictions(held: &[Held], keys: &[Key]) -> Vec<Contradiction> 
             // Half a stretch on.
             let half_m = from_m + 0.5 * STRETCH_M;
             start += 1;
-            while start < end && keys[held[start].key].travel_m < half_m {
+            while start < end && keyframes[held[start].keyframe].travel_m < half_m {
                 start += 1;
             }
         }
@@ -105,56 +108,60 @@ pub(crate) fn contradictions(held: &[Held], keys: &[Key]) -> Vec<Contradiction> 
 }
 
 /// The stretch of the other pass that a stretch contradicts most.
-fn other_stretch(held: &[Held], keys: &[Key]) -> (usize, usize) {
+fn other_stretch(held: &[ConstraintResidual], keyframes: &[Keyframe]) -> (usize, usize) {
     let worst = held.iter().max_by_key(|it| it.sum.contradicting).map_or(0, |it| it.other);
-    let is_same =
-        |other: &usize| (keys[*other].travel_m - keys[worst].travel_m).abs() < OTHER_PASS_M;
+    let is_same = |other: &usize| {
+        (keyframes[*other].travel_m - keyframes[worst].travel_m).abs() < OTHER_PASS_M
+    };
     let others = || held.iter().map(|it| it.other).filter(is_same);
     (others().min().unwrap_or(worst), others().max().unwrap_or(worst))
 }
 
 /// Each scan against the nearest ones of earlier passes.
-fn passes(keys: &[Key], graph: &Graph) -> Vec<Held> {
-    let all = all_other_passes(keys, graph).into_iter().enumerate();
-    all.flat_map(|(key, others)| others.into_iter().map(move |other| hold(keys, graph, key, other)))
-        .collect()
+fn passes(keyframes: &[Keyframe], graph: &Graph) -> Vec<ConstraintResidual> {
+    let all = all_other_passes(keyframes, graph).into_iter().enumerate();
+    all.flat_map(|(keyframe, others)| {
+        others.into_iter().map(move |other| hold(keyframes, graph, keyframe, other))
+    })
+    .collect()
 }
 
 /// Of each kept scan the nearest ones of earlier passes, one of each.
-pub(crate) fn all_other_passes(keys: &[Key], graph: &Graph) -> Vec<Vec<usize>> {
+pub(crate) fn all_other_passes(keyframes: &[Keyframe], graph: &Graph) -> Vec<Vec<usize>> {
     let cell =
         |pose: Pose2| ((pose.x_m / NEAR_M).floor() as i32, (pose.y_m / NEAR_M).floor() as i32);
     let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
-    let mut all = Vec::with_capacity(keys.len());
-    for key in 0..keys.len() {
-        let (column, row) = cell(graph.poses[key]);
+    let mut all = Vec::with_capacity(keyframes.len());
+    for keyframe in 0..keyframes.len() {
+        let (column, row) = cell(graph.poses[keyframe]);
         let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| (column + x, row + y)));
         let near = around.filter_map(|there| cells.get(&there)).flatten().copied();
-        all.push(other_passes(keys, graph, key, near));
-        cells.entry((column, row)).or_default().push(key);
+        all.push(other_passes(keyframes, graph, keyframe, near));
+        cells.entry((column, row)).or_default().push(keyframe);
     }
     all
 }
 
 /// The nearest scans of earlier passes, one of each, among some.
 pub(crate) fn other_passes(
-    keys: &[Key],
+    keyframes: &[Keyframe],
     graph: &Graph,
-    key: usize,
+    keyframe: usize,
     among: impl Iterator<Item = usize>,
 ) -> Vec<usize> {
-    let pose = graph.poses[key];
+    let pose = graph.poses[keyframe];
     let mut near: Vec<(f64, usize)> = among
         .filter_map(|other| {
             let (metres, radians) = apart(pose, graph.poses[other]);
-            let is_other = keys[key].travel_m - keys[other].travel_m > OTHER_PASS_M;
+            let is_other = keyframes[keyframe].travel_m - keyframes[other].travel_m > OTHER_PASS_M;
             (is_other && metres < NEAR_M).then_some((metres + TURN_M * radians, other))
         })
         .collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut chosen: Vec<usize> = Vec::new();
     for (_, other) in near {
-        let is_same = |it: &usize| (keys[*it].travel_m - keys[other].travel_m).abs() < OTHER_PASS_M;
+        let is_same =
+            |it: &usize| (keyframes[*it].travel_m - keyframes[other].travel_m).abs() < OTHER_PASS_M;
         if !chosen.iter().any(is_same) {
             chosen.push(other);
             if chosen.len() >= PASSES {
@@ -166,37 +173,44 @@ pub(crate) fn other_passes(
 }
 
 /// A scan held against one of another pass.
-pub(crate) fn hold(keys: &[Key], graph: &Graph, key: usize, other: usize) -> Held {
-    let other_from_key = graph.between(other, key);
-    let (new, old) = (keys[key].cloud(), keys[other].cloud());
-    let sum = both_ways(&new, &old, other_from_key, TOLERANCE_M);
-    Held { key, other, other_from_key, sum }
+pub(crate) fn hold(
+    keyframes: &[Keyframe],
+    graph: &Graph,
+    keyframe: usize,
+    other: usize,
+) -> ConstraintResidual {
+    let other_from_keyframe = graph.between(other, keyframe);
+    let (new, old) = (keyframes[keyframe].cloud(), keyframes[other].cloud());
+    let sum = both_ways(&new, &old, other_from_keyframe, TOLERANCE_M);
+    ConstraintResidual { keyframe, other, other_from_keyframe, sum }
 }
 
 /// Scans around one kept scan held against those around another, both ways; and how many points
 /// that are.
 pub(crate) fn overlap(
-    keys: &[Key],
+    keyframes: &[Keyframe],
     graph: &Graph,
     new: usize,
     old: usize,
     around_m: f64,
 ) -> (Agreement, u32) {
     let beside = |of: usize| {
-        let is_near = move |key: &usize| (keys[*key].travel_m - keys[of].travel_m).abs() < around_m;
-        (0..keys.len()).filter(is_near)
+        let is_near = move |keyframe: &usize| {
+            (keyframes[*keyframe].travel_m - keyframes[of].travel_m).abs() < around_m
+        };
+        (0..keyframes.len()).filter(is_near)
     };
     let mut sum = Agreement::default();
     let mut all = 0;
-    for key in beside(new) {
-        let here = graph.poses[key];
+    for keyframe in beside(new) {
+        let here = graph.poses[keyframe];
         let distance = |other: &usize| apart(here, graph.poses[*other]).0;
         let nearest = beside(old).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let Some(other) = nearest.filter(|it| distance(it) < 2.0 * NEAR_M) else { continue };
-        let other_from_key = graph.between(other, key);
-        let (a, b) = (keys[key].cloud(), keys[other].cloud());
+        let other_from_keyframe = graph.between(other, keyframe);
+        let (a, b) = (keyframes[keyframe].cloud(), keyframes[other].cloud());
         all += (a.points().len() + b.points().len()) as u32;
-        sum += both_ways(&a, &b, other_from_key, TOLERANCE_M);
+        sum += both_ways(&a, &b, other_from_keyframe, TOLERANCE_M);
     }
     (sum, all)
 }
@@ -211,17 +225,23 @@ mod tests {
     fn scans_of_few_points_are_summed_over_more_way() {
         let check = |agreeing: u32, contradicting: u32, wanted: usize| {
             let nothing = Cloud::new([], [0.0; 2], 0.0, &CloudSettings::default());
-            let keys: Vec<Key> =
-                (0..60).map(|key| Key::new(&nothing, None, f64::from(key))).collect();
+            let keyframes: Vec<Keyframe> = (0..60)
+                .map(|keyframe| Keyframe::new(&nothing, None, f64::from(keyframe)))
+                .collect();
             let mut graph = Graph::default();
-            keys.iter().for_each(|_| {
+            keyframes.iter().for_each(|_| {
                 graph.add_pose(Pose2::IDENTITY);
             });
             let sum = Agreement { agreeing, contradicting, unseen: 0 };
-            let other_from_key = Pose2::IDENTITY;
-            let held = (30..60).map(|key| Held { key, other: key - 30, other_from_key, sum });
-            let held: Vec<Held> = held.collect();
-            assert_eq!(contradictions(&held, &keys).len(), wanted);
+            let other_from_keyframe = Pose2::IDENTITY;
+            let held = (30..60).map(|keyframe| ConstraintResidual {
+                keyframe,
+                other: keyframe - 30,
+                other_from_keyframe,
+                sum,
+            });
+            let held: Vec<ConstraintResidual> = held.collect();
+            assert_eq!(contradictions(&held, &keyframes).len(), wanted);
         };
         // A scan a metre: three metres judge 600 points, 150, and 15.
         check(100, 100, 1);

@@ -10,13 +10,13 @@ use crate::graph::Graph;
 
 /// A pose as seen from the one that was asked about.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sighting {
-    pub(crate) key: usize,
-    /// Covariance of `start_from_key`; errors are a shift along the axes of the start and a turn.
+pub(crate) struct RelativeUncertainty {
+    pub(crate) keyframe: usize,
+    /// Covariance of `start_from_keyframe`; errors are a shift along the axes of the start and a turn.
     pub(crate) covariance: Symmetric3,
 }
 
-impl Sighting {
+impl RelativeUncertainty {
     /// One standard deviation of the place in its worst direction \[m\].
     pub(crate) fn shift_m(&self) -> f64 {
         self.covariance.largest_shift().sqrt()
@@ -36,42 +36,60 @@ const ARM_M: f64 = 3.0;
 /// is never too small. The estimate costs a walk and no inverse of the whole graph.
 ///
 /// Source: Olson 2008, "Robust and efficient robotic mapping", section on Dijkstra projections.
-pub(crate) fn from_here(graph: &Graph, start: usize, most_m: f64) -> Vec<Sighting> {
+pub(crate) fn uncertainties_from(
+    graph: &Graph,
+    start: usize,
+    most_m: f64,
+) -> Vec<RelativeUncertainty> {
     within(graph, start, most_m, f64::INFINITY)
 }
 
 /// The same by paths that stay within some way of the pose as the crow flies \[m\].
-pub(crate) fn within(graph: &Graph, start: usize, most_m: f64, reach_m: f64) -> Vec<Sighting> {
+pub(crate) fn within(
+    graph: &Graph,
+    start: usize,
+    most_m: f64,
+    reach_m: f64,
+) -> Vec<RelativeUncertainty> {
     let mut settled = vec![false; graph.poses.len()];
     let mut heap = BinaryHeap::new();
     let mut found = Vec::new();
     let start_from_map = graph.poses[start].inverse();
-    heap.push(Entry { size: 0.0, sighting: Sighting { key: start, covariance: Symmetric3::ZERO } });
-    while let Some(Entry { sighting, .. }) = heap.pop() {
-        if std::mem::replace(&mut settled[sighting.key], true) {
+    heap.push(Entry {
+        size: 0.0,
+        uncertainty: RelativeUncertainty { keyframe: start, covariance: Symmetric3::ZERO },
+    });
+    while let Some(Entry { uncertainty, .. }) = heap.pop() {
+        if std::mem::replace(&mut settled[uncertainty.keyframe], true) {
             continue;
         }
-        found.push(sighting);
-        let start_from_here = start_from_map * graph.poses[sighting.key];
-        let here_from_map = graph.poses[sighting.key].inverse();
-        for &index in &graph.at[sighting.key] {
+        found.push(uncertainty);
+        let start_from_here = start_from_map * graph.poses[uncertainty.keyframe];
+        let here_from_map = graph.poses[uncertainty.keyframe].inverse();
+        for &index in &graph.at[uncertainty.keyframe] {
             let edge = &graph.edges[index as usize];
             if edge.weight < 0.5 {
                 continue;
             }
             let [there, back] = &edge.covariances;
-            let (next, covariance) =
-                if edge.from == sighting.key { (edge.to, there) } else { (edge.from, back) };
+            let (next, covariance) = if edge.from == uncertainty.keyframe {
+                (edge.to, there)
+            } else {
+                (edge.from, back)
+            };
             let away = start_from_map * graph.poses[next];
             if settled[next] || libm::hypot(away.x_m, away.y_m) > reach_m {
                 continue;
             }
             let here_from_next = here_from_map * graph.poses[next];
             let covariance =
-                sighting.covariance.compounded(start_from_here, here_from_next, covariance);
+                uncertainty.covariance.compounded(start_from_here, here_from_next, covariance);
             let size = covariance.largest_shift() + ARM_M * ARM_M * covariance.tt;
             if size < most_m * most_m {
-                heap.push(Entry { size, sighting: Sighting { key: next, covariance } });
+                heap.push(Entry {
+                    size,
+                    uncertainty: RelativeUncertainty { keyframe: next, covariance },
+                });
             }
         }
     }
@@ -98,7 +116,7 @@ pub(crate) fn reversed(covariance: &Symmetric3, a_from_b: Pose2) -> Symmetric3 {
 
 struct Entry {
     size: f64,
-    sighting: Sighting,
+    uncertainty: RelativeUncertainty,
 }
 
 impl PartialEq for Entry {
@@ -118,7 +136,10 @@ impl PartialOrd for Entry {
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
         // The heap gives the largest first, and we want the smallest.
-        other.size.total_cmp(&self.size).then(other.sighting.key.cmp(&self.sighting.key))
+        other
+            .size
+            .total_cmp(&self.size)
+            .then(other.uncertainty.keyframe.cmp(&self.uncertainty.keyframe))
     }
 }
 

@@ -24,8 +24,9 @@ impl Slam {
     pub fn to_g2o(&self) -> String {
         let graph = self.graph();
         let mut text = String::new();
-        for (key, pose) in graph.poses.iter().enumerate() {
-            let _ = writeln!(text, "VERTEX_SE2 {key} {} {} {}", pose.x_m, pose.y_m, pose.yaw_rad);
+        for (keyframe, pose) in graph.poses.iter().enumerate() {
+            let _ =
+                writeln!(text, "VERTEX_SE2 {keyframe} {} {} {}", pose.x_m, pose.y_m, pose.yaw_rad);
         }
         if !graph.poses.is_empty() {
             text.push_str("FIX 0\n");

@@ -35,12 +35,12 @@ use std::thread;
 
 use periplus_geometry::{Pose2, Stream};
 
-use crate::doubts::{Doubt, Remark};
-use crate::engine::{Counts, Slam, Taken, Update};
-use crate::key::Track;
+use crate::engine::{Counts, ScanOutcome, Slam, Update};
+use crate::keyframe::TrajectoryNode;
 use crate::local::apart;
 use crate::map::Plan;
 use crate::method::{Mapper, Method};
+use crate::remark::{Remark, RemarkKind};
 use crate::scan::Scan;
 use crate::settings::Settings;
 
@@ -114,8 +114,8 @@ pub struct Gmapping {
     nodes_size: usize,
     offered: Offered,
     /// Where the front end has the scan that was used last, and the one before.
-    used: Option<Track>,
-    last: Option<Track>,
+    used: Option<TrajectoryNode>,
+    last: Option<TrajectoryNode>,
     way_m: f64,
     update_from_base: Pose2,
     best: usize,
@@ -169,11 +169,12 @@ impl Gmapping {
     }
 
     /// Takes a scan that the front end has placed; whether it was used.
-    fn take(&mut self, scan: &Scan, here: Track) -> bool {
+    fn take(&mut self, scan: &Scan, here: TrajectoryNode) -> bool {
         // The map of the front end may have bent since: ways are as it has them now.
-        let front_from_base = self.front.on_the_way(&here);
-        let since =
-            |track: &Track| (self.front.on_the_way(track).inverse() * front_from_base).normalized();
+        let front_from_base = self.front.pose_of(&here);
+        let since = |node: &TrajectoryNode| {
+            (self.front.pose_of(node).inverse() * front_from_base).normalized()
+        };
         let motion = self.last.as_ref().and_then(|last| {
             let seconds = scan.time_ns.saturating_sub(last.time_ns) as f64 * 1e-9;
             let motion = since(last);
@@ -210,7 +211,7 @@ impl Gmapping {
     }
 
     /// Keeps a scan that was used, to be drawn again.
-    fn keep(&mut self, here: Track, beams: &Beams) {
+    fn keep(&mut self, here: TrajectoryNode, beams: &Beams) {
         self.used = Some(here);
         if self.nodes.len() + 1 < self.counts.kept {
             return;
@@ -261,7 +262,7 @@ impl Gmapping {
         let noise = settings.noise;
         let sigma_m = noise.place_by_way * metres + noise.place_by_turn * radians;
         let sigma_rad = noise.heading_by_way * metres + noise.heading_by_turn * radians;
-        let front = self.used.as_ref().and_then(|used| self.front.scatter_since(used));
+        let front = self.used.as_ref().and_then(|used| self.front.covariance_since(used));
         let sigmas = (sigma_m.max(LEAST_SIGMA[0]), sigma_rad.max(LEAST_SIGMA[1]));
         let step = |index: usize, particle: &mut Particle, trace: &mut Trace| {
             // Particles are at most 10,000.
@@ -357,9 +358,8 @@ impl Gmapping {
         self.remarks.extend_from_slice(&front[self.told_of_front..]);
         self.told_of_front = front.len();
         if let Some(count) = self.told_of_memory.take() {
-            let remark = Remark { time_ns, doubt: Doubt::FewerMaps(count) };
-            let is_old =
-                |it: &Remark| matches!(it.doubt, Doubt::FewerMaps(least) if least <= count);
+            let remark = Remark { time_ns, kind: RemarkKind::ParticlesReduced(count) };
+            let is_old = |it: &Remark| matches!(it.kind, RemarkKind::ParticlesReduced(least) if least <= count);
             if !self.remarks.iter().any(is_old) {
                 self.remarks.push(remark);
             }
@@ -467,21 +467,22 @@ impl Mapper for Gmapping {
         self.counts.scans += 1;
         let before = self.particles.get(self.best).map(|it| it.map_from_base);
         let told = self.front.add_scan(scan, odom_from_base);
-        let mut taken = told.taken;
-        let mut is_map_bent = false;
-        if let Taken::Ignored(_) = taken {
+        let mut outcome = told.outcome;
+        let mut is_map_revised = false;
+        if let ScanOutcome::Rejected(_) = outcome {
             self.counts.ignored += 1;
         } else {
-            let (best, offers) = (self.best, self.offered.taken);
+            let (best, offers) = (self.best, self.offered.accepted_count);
             if let Some(here) = self.front.newest() {
-                taken = match (self.take(scan, here), taken) {
-                    (true, _) => Taken::Kept,
-                    (false, Taken::Kept) => Taken::Passed,
+                outcome = match (self.take(scan, here), outcome) {
+                    (true, _) => ScanOutcome::Inserted,
+                    (false, ScanOutcome::Inserted) => ScanOutcome::BelowMotionThreshold,
                     (false, other) => other,
                 };
             }
             self.offer(false);
-            is_map_bent = before.is_some() && (best != self.best || offers != self.offered.taken);
+            is_map_revised =
+                before.is_some() && (best != self.best || offers != self.offered.accepted_count);
             self.push_step(Step {
                 time_ns: scan.time_ns,
                 update: self.counts.kept.saturating_sub(1) as u32,
@@ -495,11 +496,11 @@ impl Mapper for Gmapping {
         let map_from_base = self.map_from_base();
         let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
         Update {
-            taken,
+            outcome,
             map_from_base,
             map_from_odom: odom_from_base
                 .map_or(Pose2::IDENTITY, |odom| (map_from_base * odom.inverse()).normalized()),
-            is_map_bent,
+            is_map_revised,
         }
     }
 

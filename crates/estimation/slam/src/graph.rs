@@ -2,7 +2,7 @@
 
 mod cholesky;
 mod order;
-mod riders;
+mod pose_clusters;
 mod solve;
 mod system;
 
@@ -11,19 +11,19 @@ use periplus_scan_matching::Symmetric3;
 
 use crate::drift::reversed;
 
-pub(crate) use riders::riders;
+pub(crate) use pose_clusters::pose_clusters;
 pub(crate) use solve::{Outcome, Saved, Size, Solver};
 pub(crate) use system::System;
 
-/// Where what is known between two poses comes from.
+/// Origin of a constraint between two keyframes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// From a scan to the next, by matching and odometry together.
-    Chain,
-    /// Between scans whose places were known well enough to be compared directly.
-    Near,
-    /// A loop closed after a search.
-    Loop,
+pub enum ConstraintKind {
+    /// Between consecutive keyframes, by scan matching and odometry.
+    Sequential,
+    /// Between keyframes whose relative pose was known well enough to match their scans directly.
+    Proximity,
+    /// A loop closure found by search.
+    LoopClosure,
 }
 
 /// What is known between two poses.
@@ -36,7 +36,7 @@ pub(crate) struct Edge {
     pub(crate) information: Symmetric3,
     /// Its inverse, and that for `to_from_from`.
     pub(crate) covariances: [Symmetric3; 2],
-    pub(crate) kind: Kind,
+    pub(crate) kind: ConstraintKind,
     /// 1 when it counts, 0 when it does not.
     pub(crate) weight: f64,
 }
@@ -49,7 +49,7 @@ impl Edge {
         (from, to): (usize, usize),
         from_from_to: Pose2,
         information: Symmetric3,
-        kind: Kind,
+        kind: ConstraintKind,
     ) -> Self {
         // What is known to nothing is uncertain without bound, in numbers that can be computed with.
         let covariance = information.inverse().unwrap_or(Symmetric3::diagonal(1e6, 1e6, 1e6));
@@ -60,12 +60,12 @@ impl Edge {
     /// A step of which nothing is known: a separate piece of map begins after it.
     pub(crate) fn gap((from, to): (usize, usize), from_from_to: Pose2) -> Self {
         let nothing = Symmetric3::diagonal(GAP, GAP, GAP);
-        Self::new((from, to), from_from_to, nothing, Kind::Chain)
+        Self::new((from, to), from_from_to, nothing, ConstraintKind::Sequential)
     }
 
     /// Whether nothing is known of it.
     pub(crate) fn is_gap(&self) -> bool {
-        self.kind == Kind::Chain && self.information.xx <= GAP
+        self.kind == ConstraintKind::Sequential && self.information.xx <= GAP
     }
 
     /// The same, with another information for questions of uncertainty.
@@ -96,7 +96,7 @@ pub(crate) fn error(poses: &[Pose2], (from, to): (usize, usize), known: Pose2) -
 /// Poses of key scans in the map and what is known between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
-    /// `map_from_key`.
+    /// `map_from_keyframe`.
     pub(crate) poses: Vec<Pose2>,
     pub(crate) edges: Vec<Edge>,
     /// For each pose the edges at it.
@@ -104,8 +104,8 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    pub(crate) fn add_pose(&mut self, map_from_key: Pose2) -> usize {
-        self.poses.push(map_from_key);
+    pub(crate) fn add_pose(&mut self, map_from_keyframe: Pose2) -> usize {
+        self.poses.push(map_from_keyframe);
         self.at.push(Vec::new());
         self.poses.len() - 1
     }
@@ -119,22 +119,22 @@ impl Graph {
     }
 
     /// Whether a tie or a closure holds a pose to older ones.
-    pub(crate) fn is_held(&self, key: usize) -> bool {
-        self.at[key].iter().any(|&edge| {
+    pub(crate) fn is_held(&self, keyframe: usize) -> bool {
+        self.at[keyframe].iter().any(|&edge| {
             let edge = &self.edges[edge as usize];
-            edge.kind != Kind::Chain && edge.to == key && edge.weight > 0.5
+            edge.kind != ConstraintKind::Sequential && edge.to == keyframe && edge.weight > 0.5
         })
     }
 
     /// Puts poses from one on where they hang on those that they came after.
     pub(crate) fn hang(&mut self, from: usize) {
-        for key in from..self.poses.len() {
-            let chain = self.at[key]
+        for keyframe in from..self.poses.len() {
+            let chain = self.at[keyframe]
                 .iter()
                 .map(|&edge| self.edges[edge as usize])
-                .find(|edge| edge.kind == Kind::Chain && edge.to == key);
+                .find(|edge| edge.kind == ConstraintKind::Sequential && edge.to == keyframe);
             if let Some(edge) = chain {
-                self.poses[key] = (self.poses[edge.from] * edge.from_from_to).normalized();
+                self.poses[keyframe] = (self.poses[edge.from] * edge.from_from_to).normalized();
             }
         }
     }

@@ -10,7 +10,7 @@
 //! 3. when the robot has moved enough it is kept: a pose in the graph, and an edge (`graph`);
 //! 4. old scans nearby whose place is well known are tied to it directly (`near`);
 //! 5. where the uncertainty has grown, loops are searched, doubted and believed (`loops`, `drift`);
-//! 6. what odometry and scans say of each other is weighed, and told when it is odd (`doubts`);
+//! 6. what odometry and scans say of each other is weighed, and told when it is odd (`diagnostics`);
 //! 7. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
 //!
 //! [`Gmapping`] is another method behind the same interface, [`Mapper`]: particles with a map each.
@@ -21,39 +21,42 @@
 extern crate self as periplus_slam;
 
 mod audit;
-mod doubts;
 mod drift;
 mod engine;
 mod g2o;
 mod gmapping;
 mod graph;
-mod key;
+mod keyframe;
 mod local;
 mod localizer;
 mod loops;
 mod map;
 mod method;
-mod near;
-mod odometry;
+mod mounting;
+mod odometry_diagnostics;
+mod odometry_monitor;
+mod odometry_noise;
 mod offsets;
+mod proximity;
 mod refine;
 mod relations;
-mod remedy;
+mod remark;
 mod scan;
 mod session;
 mod settings;
 pub mod tables;
-mod wheels;
 
-pub use doubts::{Doubt, Remark};
-pub use engine::{Counts, Held, Link, MapContradiction, Slam, Taken, Update};
+pub use engine::{
+    ConstraintKind, ConstraintResidual, Counts, MapContradiction, ScanOutcome, Slam, Update,
+};
 pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;
-pub use map::{Plan, Sketch, SketchPlan};
+pub use map::{MapSnapshot, Plan, SnapshotRaster};
 pub use method::{Mapper, Method};
+pub use mounting::{CorrectedInput, MountingCorrection};
 pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
-pub use remedy::{Cure, Remedy};
+pub use remark::{Remark, RemarkKind};
 pub use scan::Scan;
 pub use session::{SESSION_MAGIC, SESSION_VERSION, SessionError};
 pub use settings::Settings;

@@ -7,7 +7,7 @@ use periplus_scan_matching::{
 };
 
 use crate::graph::Graph;
-use crate::key::Key;
+use crate::keyframe::Keyframe;
 use crate::settings::Settings;
 
 /// Points of a scan that are searched with.
@@ -34,7 +34,7 @@ const SURE: f64 = 0.9;
 const ARM_M: std::ops::Range<f64> = 2.0..12.0;
 
 /// Where a scan was found.
-pub(crate) struct Located {
+pub(crate) struct LocalMatch {
     pub(crate) fit: Fit,
     /// What scans and odometry together say.
     pub(crate) information: Symmetric3,
@@ -50,14 +50,19 @@ pub(crate) struct Located {
 }
 
 /// The key scans that a new one is laid onto: the last ones, nearby, from the first of a piece of map on.
-pub(crate) fn neighbours(keys: &[Key], graph: &Graph, most: usize, first: usize) -> Vec<usize> {
-    let Some(last) = keys.len().checked_sub(1) else { return Vec::new() };
+pub(crate) fn neighbours(
+    keyframes: &[Keyframe],
+    graph: &Graph,
+    most: usize,
+    first: usize,
+) -> Vec<usize> {
+    let Some(last) = keyframes.len().checked_sub(1) else { return Vec::new() };
     let here = graph.poses[last];
-    (first..keys.len())
+    (first..keyframes.len())
         .rev()
         .take(3 * most)
-        .filter(|&key| {
-            let pose = graph.poses[key];
+        .filter(|&keyframe| {
+            let pose = graph.poses[keyframe];
             libm::hypot(pose.x_m - here.x_m, pose.y_m - here.y_m) < 7.0
         })
         .take(most)
@@ -79,8 +84,10 @@ impl Group {
 }
 
 /// Clouds of some keys in the frame of one.
-pub(crate) fn grouped(keys: &[Key], graph: &Graph, of: &[usize], frame: usize) -> Group {
-    Group::new(of.iter().map(|&key| (keys[key].cloud(), graph.between(frame, key))))
+pub(crate) fn grouped(keyframes: &[Keyframe], graph: &Graph, of: &[usize], frame: usize) -> Group {
+    Group::new(
+        of.iter().map(|&keyframe| (keyframes[keyframe].cloud(), graph.between(frame, keyframe))),
+    )
 }
 
 /// Points of clouds in the frame of their group.
@@ -134,15 +141,15 @@ pub(crate) fn heading_step(points: &[[f32; 2]], resolution_m: f32) -> f64 {
 
 /// Finds a scan among the keys before. `frame_from_base` is where odometry has it in the frame of the
 /// first of `group`, with this covariance.
-pub(crate) fn locate(
+pub(crate) fn match_locally(
     cloud: &Cloud,
     group: &[Placed<'_>],
     frame_from_base: Pose2,
     covariance: &Symmetric3,
     settings: &Settings,
     searches: bool,
-    usual: f64,
-) -> Located {
+    inlier_ratio: f64,
+) -> LocalMatch {
     let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
     let mut prior = Prior { target_from_moving: frame_from_base, information };
     let moving = [Placed::alone(cloud)];
@@ -155,7 +162,7 @@ pub(crate) fn locate(
         register(&moving, group, fit.target_from_moving, Some(prior), &how)
     };
     let mut best = fit_from(frame_from_base, &prior);
-    let is_poor = |fit: &Fit| fit.matched < LEAST_MATCHED.max(POOR * usual);
+    let is_poor = |fit: &Fit| fit.matched < LEAST_MATCHED.max(POOR * inlier_ratio);
     if searches || is_poor(&best) {
         let points = sampled(cloud, SEARCH_POINTS);
         let step_rad = heading_step(&points, settings.local_field.resolution_m);
@@ -196,7 +203,7 @@ pub(crate) fn locate(
             {
                 let fit = finish(&fit, &prior);
                 let information = prior.information + fit.information;
-                return Located {
+                return LocalMatch {
                     fit,
                     information,
                     doubted: information,
@@ -218,11 +225,11 @@ pub(crate) fn locate(
         best.target_from_moving = frame_from_base;
         let doubted = doubted(&information, 0.0);
         let is_doubted = false;
-        return Located { fit: best, information, doubted, is_matched, is_doubted, agreeing };
+        return LocalMatch { fit: best, information, doubted, is_matched, is_doubted, agreeing };
     }
     let doubted = doubted(&information, fit.firmness) + fit.information;
     let information = information + fit.information;
-    Located { fit, information, doubted, is_matched, is_doubted: false, agreeing }
+    LocalMatch { fit, information, doubted, is_matched, is_doubted: false, agreeing }
 }
 
 /// Weighs scans against odometry where the two differ and scans contradict each other as well.
@@ -232,14 +239,14 @@ pub(crate) fn locate(
 /// Hedges are so rough that a fit along them drifts. `typical` is the covariance of an ordinary step
 /// of odometry: where the scan was found farther off, it counts the less, the less scans agree there
 /// and, within what is possible for odometry, the rougher they are.
-pub(crate) fn weighed(
-    located: Located,
+pub(crate) fn reweighted(
+    located: LocalMatch,
     cloud: &Cloud,
     group: &[Placed<'_>],
     frame_from_base: Pose2,
     typical: &Symmetric3,
     settings: &Settings,
-) -> Located {
+) -> LocalMatch {
     let found = located.fit.target_from_moving;
     let off = [
         found.x_m - frame_from_base.x_m,
@@ -265,30 +272,30 @@ pub(crate) fn weighed(
     let mut fit = register(&[Placed::alone(cloud)], group, frame_from_base, Some(&prior), &how);
     // Wheels that slipped, or that were counted late, do not change how well scans agree.
     if against(cloud, group, fit.target_from_moving).share() < seen.share() - WORSE {
-        return Located { is_doubted: true, ..located };
+        return LocalMatch { is_doubted: true, ..located };
     }
     fit.information = fit.information * trusted;
     let information = information * trusted + fit.information;
-    Located { fit, information, is_doubted: true, ..located }
+    LocalMatch { fit, information, is_doubted: true, ..located }
 }
 
 /// Whether a scan clearly fits better in one place than in another.
 pub(crate) fn is_better(
     cloud: &Cloud,
     group: &[Placed<'_>],
-    one: &Located,
-    other: &Located,
+    one: &LocalMatch,
+    other: &LocalMatch,
 ) -> bool {
     if !one.is_matched || one.fit.matched < CLEARLY * other.fit.matched {
         return false;
     }
-    let seen = |it: &Located| against(cloud, group, it.fit.target_from_moving).share();
+    let seen = |it: &LocalMatch| against(cloud, group, it.fit.target_from_moving).share();
     !other.is_matched || seen(one) > (seen(other) + CLEARLY_SEEN).min(SURE)
 }
 
 /// What scans and odometry leave uncertain, for asking how far off a place may be; `typical` is the
 /// covariance of an ordinary step of odometry.
-pub(crate) fn uncertain(located: &Located, typical: &Symmetric3) -> Symmetric3 {
+pub(crate) fn uncertain(located: &LocalMatch, typical: &Symmetric3) -> Symmetric3 {
     let firmness = if located.is_doubted { 0.0 } else { located.fit.firmness };
     match typical.inverse() {
         Some(information) => doubted(&information, firmness) + located.fit.information,

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, VecDeque};
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, Placed, Symmetric3};
 
-use crate::engine::{Counts, Slam, Taken, Update};
-use crate::local::{Group, apart, locate};
-use crate::map::{Plan, Sketch};
+use crate::engine::{Counts, ScanOutcome, Slam, Update};
+use crate::local::{Group, apart, match_locally};
+use crate::map::{MapSnapshot, Plan};
 use crate::method::{Mapper, Method};
-use crate::odometry::Trust;
+use crate::odometry_noise::OdometryNoise;
 use crate::scan::Scan;
 
 /// Scans of the stored graph, and of the robot's own memory, that a new one is laid onto.
@@ -45,18 +45,18 @@ pub struct Localizer {
     squares: BTreeMap<(i64, i64), Vec<usize>>,
     own: VecDeque<Own>,
     most_own: usize,
-    trust: Trust,
+    odometry_noise: OdometryNoise,
     last: Option<Last>,
     start: (Pose2, Symmetric3),
     poses: VecDeque<(i64, Pose2)>,
     counts: Counts,
-    usual: f64,
+    inlier_ratio: f64,
 }
 
 /// A scan of the robot's own memory.
 struct Own {
     cloud: Cloud,
-    map_from_key: Pose2,
+    map_from_keyframe: Pose2,
 }
 
 struct Last {
@@ -81,8 +81,8 @@ impl Localizer {
     #[must_use]
     pub fn new(stored: Slam, most_own: usize) -> Self {
         let mut squares: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-        for (key, &pose) in stored.poses().iter().enumerate() {
-            squares.entry(square(pose)).or_default().push(key);
+        for (keyframe, &pose) in stored.poses().iter().enumerate() {
+            squares.entry(square(pose)).or_default().push(keyframe);
         }
         let first = stored.poses().first().copied().unwrap_or(Pose2::IDENTITY);
         Self {
@@ -90,12 +90,12 @@ impl Localizer {
             squares,
             own: VecDeque::new(),
             most_own,
-            trust: Trust::default(),
+            odometry_noise: OdometryNoise::default(),
             last: None,
             start: (first, spread(START)),
             poses: VecDeque::new(),
             counts: Counts::default(),
-            usual: 0.7,
+            inlier_ratio: 0.7,
         }
     }
 
@@ -122,8 +122,8 @@ impl Localizer {
 
     /// What the map is drawn of: the stored graph alone.
     #[must_use]
-    pub fn sketch(&self) -> Sketch {
-        self.stored.sketch()
+    pub fn snapshot(&self) -> MapSnapshot {
+        self.stored.snapshot()
     }
 
     /// Scans of its own that it remembers.
@@ -138,7 +138,7 @@ impl Localizer {
         self.last.as_ref().map_or(self.start.1, |last| last.covariance)
     }
 
-    fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Taken {
+    fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> ScanOutcome {
         let settings = self.stored.settings();
         let seconds = self
             .last
@@ -153,8 +153,9 @@ impl Localizer {
             None => self.start,
             Some(last) => {
                 let motion = told.unwrap_or(Pose2::IDENTITY);
-                let spread =
-                    told.map_or_else(Trust::blind, |motion| self.trust.covariance(motion, 0.0));
+                let spread = told.map_or_else(OdometryNoise::blind, |motion| {
+                    self.odometry_noise.covariance(motion, 0.0)
+                });
                 let grown = last.covariance + spread.turned(last.map_from_base.yaw_rad);
                 ((last.map_from_base * motion).normalized(), bounded(&grown))
             }
@@ -171,66 +172,74 @@ impl Localizer {
                 .iter()
                 .rev()
                 .take(OWN)
-                .filter(|own| apart(own.map_from_key, expected).0 < REACH_M)
+                .filter(|own| apart(own.map_from_keyframe, expected).0 < REACH_M)
         };
         // In the frame of one scan numbers are small.
-        let frame = near.first().map(|&key| self.stored.poses()[key]);
-        let frame = frame.or_else(|| own().next().map(|own| own.map_from_key));
-        let mut taken = Taken::Lost;
+        let frame = near.first().map(|&keyframe| self.stored.poses()[keyframe]);
+        let frame = frame.or_else(|| own().next().map(|own| own.map_from_keyframe));
+        let mut outcome = ScanOutcome::NoMatch;
         if let Some(map_from_frame) = frame.filter(|_| cloud.points().len() >= LEAST_POINTS) {
             let frame_from = |pose: Pose2| (map_from_frame.inverse() * pose).normalized();
-            let stored = near
-                .iter()
-                .map(|&key| (self.stored.cloud(key), frame_from(self.stored.poses()[key])));
+            let stored = near.iter().map(|&keyframe| {
+                (self.stored.cloud(keyframe), frame_from(self.stored.poses()[keyframe]))
+            });
             let stored = Group::new(stored);
             let mut group = stored.placed();
             group.extend(own().map(|own| Placed {
                 cloud: &own.cloud,
-                group_from_cloud: frame_from(own.map_from_key),
+                group_from_cloud: frame_from(own.map_from_keyframe),
             }));
             let moved = told.map(|it| (libm::hypot(it.x_m, it.y_m), it.yaw_rad.abs()));
             let searches = moved.is_none_or(|(m, rad)| m > SEARCH_M || rad > SEARCH_RAD);
             let turned = covariance.turned(-map_from_frame.yaw_rad);
             let expected = frame_from(expected);
-            let found = locate(&cloud, &group, expected, &turned, settings, searches, self.usual);
+            let found = match_locally(
+                &cloud,
+                &group,
+                expected,
+                &turned,
+                settings,
+                searches,
+                self.inlier_ratio,
+            );
             if found.is_matched {
                 next.map_from_base = (map_from_frame * found.fit.target_from_moving).normalized();
                 let known = found.information.inverse().unwrap_or(turned);
                 next.covariance = bounded(&known.turned(map_from_frame.yaw_rad));
-                self.usual += USUAL * (found.fit.matched - self.usual);
-                taken = Taken::Passed;
+                self.inlier_ratio += USUAL * (found.fit.matched - self.inlier_ratio);
+                outcome = ScanOutcome::BelowMotionThreshold;
             }
         }
-        if taken == Taken::Passed {
+        if outcome == ScanOutcome::BelowMotionThreshold {
             if let (Some(motion), Some(last)) = (told, &self.last) {
                 let moved = (last.map_from_base.inverse() * next.map_from_base).normalized();
-                self.trust.learn(motion, moved, false);
+                self.odometry_noise.learn(motion, moved, false);
             }
             let is_new = self.own.back().is_none_or(|own| {
-                let (metres, radians) = apart(own.map_from_key, next.map_from_base);
-                metres > settings.key_shift_m || radians > settings.key_turn_rad
+                let (metres, radians) = apart(own.map_from_keyframe, next.map_from_base);
+                metres > settings.keyframe_distance_m || radians > settings.keyframe_rotation_rad
             });
             if is_new && self.most_own > 0 {
-                taken = Taken::Kept;
-                self.own.push_back(Own { cloud, map_from_key: next.map_from_base });
+                outcome = ScanOutcome::Inserted;
+                self.own.push_back(Own { cloud, map_from_keyframe: next.map_from_base });
                 while self.own.len() > self.most_own {
                     self.own.pop_front();
                 }
             }
         }
         self.last = Some(next);
-        taken
+        outcome
     }
 
     /// Stored scans around a place, the nearest first; a turn counts a little.
     fn near(&self, place: Pose2) -> Vec<usize> {
         let (column, row) = square(place);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
-        let keys = around.filter_map(|square| self.squares.get(&square)).flatten();
-        let mut near: Vec<(f64, usize)> = keys
-            .filter_map(|&key| {
-                let (metres, radians) = apart(self.stored.poses()[key], place);
-                (metres < REACH_M).then_some((metres + 0.6 * radians, key))
+        let keyframes = around.filter_map(|square| self.squares.get(&square)).flatten();
+        let mut near: Vec<(f64, usize)> = keyframes
+            .filter_map(|&keyframe| {
+                let (metres, radians) = apart(self.stored.poses()[keyframe], place);
+                (metres < REACH_M).then_some((metres + 0.6 * radians, keyframe))
             })
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -254,29 +263,29 @@ impl Mapper for Localizer {
     fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
         self.counts.scans += 1;
         let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
-        let taken = match scan.fault() {
-            Some(reason) => Taken::Ignored(reason),
+        let outcome = match scan.fault() {
+            Some(reason) => ScanOutcome::Rejected(reason),
             None => self.take(scan, odom_from_base),
         };
-        match taken {
-            Taken::Kept => self.counts.kept += 1,
-            Taken::Lost => self.counts.lost += 1,
-            Taken::Ignored(_) => self.counts.ignored += 1,
-            Taken::Passed => {}
+        match outcome {
+            ScanOutcome::Inserted => self.counts.kept += 1,
+            ScanOutcome::NoMatch => self.counts.lost += 1,
+            ScanOutcome::Rejected(_) => self.counts.ignored += 1,
+            ScanOutcome::BelowMotionThreshold => {}
         }
         let map_from_base = self.map_from_base();
-        if !matches!(taken, Taken::Ignored(_)) {
+        if !matches!(outcome, ScanOutcome::Rejected(_)) {
             self.poses.push_back((scan.time_ns, map_from_base));
             if self.poses.len() > REMEMBERED {
                 self.poses.pop_front();
             }
         }
         Update {
-            taken,
+            outcome,
             map_from_base,
             map_from_odom: odom_from_base
                 .map_or(Pose2::IDENTITY, |odom| (map_from_base * odom.inverse()).normalized()),
-            is_map_bent: false,
+            is_map_revised: false,
         }
     }
 
@@ -292,7 +301,7 @@ impl Mapper for Localizer {
     }
 
     fn plan(&self) -> Option<Box<dyn Plan + '_>> {
-        Some(Box::new(self.stored.sketch().plan()?))
+        Some(Box::new(self.stored.snapshot().plan()?))
     }
 
     fn counts(&self) -> Counts {

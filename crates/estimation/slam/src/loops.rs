@@ -20,9 +20,9 @@ use periplus_scan_matching::{
     Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register,
 };
 
-use crate::drift::{Sighting, from_here, reversed};
-use crate::graph::{Edge, Graph, Kind};
-use crate::key::{Key, between};
+use crate::drift::{RelativeUncertainty, reversed, uncertainties_from};
+use crate::graph::{ConstraintKind, Edge, Graph};
+use crate::keyframe::{Keyframe, between};
 use crate::local::{
     Group, against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
 };
@@ -114,7 +114,7 @@ const FEW_POINTS: usize = 800;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Kept scans that it ties, the old one first.
-    pub keys: (usize, usize),
+    pub keyframes: (usize, usize),
     /// The place of the later in the frame of the older.
     pub old_from_new: Pose2,
     /// Whether it is part of the map.
@@ -137,7 +137,7 @@ struct Task {
 
 /// A stretch of way in which others are searched.
 struct Place {
-    keys: Range<usize>,
+    keyframes: Range<usize>,
     middle: usize,
 }
 
@@ -156,9 +156,9 @@ struct Candidate {
 }
 
 impl Candidate {
-    fn told(&self) -> Closure {
+    fn closure(&self) -> Closure {
         Closure {
-            keys: (self.middle, self.anchor),
+            keyframes: (self.middle, self.anchor),
             old_from_new: self.middle_from_anchor,
             is_accepted: false,
             region_m: self.region_m,
@@ -168,8 +168,8 @@ impl Candidate {
     }
 
     fn edge(&self) -> Edge {
-        let keys = (self.middle, self.anchor);
-        Edge::new(keys, self.middle_from_anchor, self.information, Kind::Loop)
+        let keyframes = (self.middle, self.anchor);
+        Edge::new(keyframes, self.middle_from_anchor, self.information, ConstraintKind::LoopClosure)
     }
 }
 
@@ -193,11 +193,11 @@ impl Evidence {
 }
 
 /// What two closures say of each other.
-enum Word {
+enum Consistency {
     Agrees,
-    Opposes,
+    Contradicts,
     /// The ways between them are so uncertain that anything would agree.
-    Silent,
+    Uninformative,
 }
 
 /// A field that is kept, of a place.
@@ -218,19 +218,28 @@ pub(crate) struct Loops {
     tasks: VecDeque<Task>,
     pending: Vec<Candidate>,
     fields: VecDeque<Kept>,
-    pub(crate) told: Vec<Closure>,
+    pub(crate) closures: Vec<Closure>,
 }
 
 impl Loops {
     /// Takes note of a new key; asks for searches when it is time.
-    pub(crate) fn notice(&mut self, keys: &[Key], graph: &Graph, tied_m: f64, is_torn: bool) {
-        let last = keys.len() - 1;
-        let travel_m = keys[last].travel_m;
-        if travel_m - keys[self.place_from].travel_m >= PLACE_M {
+    pub(crate) fn add_keyframe(
+        &mut self,
+        keyframes: &[Keyframe],
+        graph: &Graph,
+        proximity_m: f64,
+        is_torn: bool,
+    ) {
+        let last = keyframes.len() - 1;
+        let travel_m = keyframes[last].travel_m;
+        if travel_m - keyframes[self.place_from].travel_m >= PLACE_M {
             let range = self.place_from..last + 1;
-            let half = keys[range.start].travel_m + 0.5 * PLACE_M;
-            let middle = range.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
-            self.places.push(Place { keys: range, middle });
+            let half = keyframes[range.start].travel_m + 0.5 * PLACE_M;
+            let middle = range
+                .clone()
+                .find(|&keyframe| keyframes[keyframe].travel_m >= half)
+                .unwrap_or(last);
+            self.places.push(Place { keyframes: range, middle });
             self.place_from = last;
         }
         if travel_m - self.searched_m < EVERY_M {
@@ -238,48 +247,58 @@ impl Loops {
         }
         // Where near scans hold the way, nothing is to be searched.
         self.searched_m = travel_m;
-        if travel_m - tied_m < STRETCH_M {
+        if travel_m - proximity_m < STRETCH_M {
             return;
         }
-        self.ask(keys, graph, last, is_torn);
+        self.ask(keyframes, graph, last, is_torn);
     }
 
     /// Asks for all old stretches that the one up to a key may have met.
     ///
     /// Where the map is torn, all that lies in other pieces of it is asked for as well.
-    pub(crate) fn ask(&mut self, keys: &[Key], graph: &Graph, last: usize, is_torn: bool) {
-        let scale = scale(keys, last);
+    pub(crate) fn ask(
+        &mut self,
+        keyframes: &[Keyframe],
+        graph: &Graph,
+        last: usize,
+        is_torn: bool,
+    ) {
+        let scale = scale(keyframes, last);
         let start = (0..last)
             .rev()
-            .find(|&key| keys[last].travel_m - keys[key].travel_m > scale * STRETCH_M)
+            .find(|&keyframe| {
+                keyframes[last].travel_m - keyframes[keyframe].travel_m > scale * STRETCH_M
+            })
             .unwrap_or(0);
         let stretch = start..last + 1;
-        let way = keys[last].travel_m - keys[start].travel_m;
+        let way = keyframes[last].travel_m - keyframes[start].travel_m;
         if way < LEAST_STRETCH_M {
             return;
         }
-        let half = keys[start].travel_m + 0.5 * way;
-        let anchor = stretch.clone().find(|&key| keys[key].travel_m >= half).unwrap_or(last);
-        let sightings = from_here(graph, anchor, MOST_M);
-        let mut covariances: Vec<Option<Sighting>> = vec![None; keys.len()];
-        for sighting in sightings {
-            covariances[sighting.key] = Some(sighting);
+        let half = keyframes[start].travel_m + 0.5 * way;
+        let anchor =
+            stretch.clone().find(|&keyframe| keyframes[keyframe].travel_m >= half).unwrap_or(last);
+        let uncertainties = uncertainties_from(graph, anchor, MOST_M);
+        let mut covariances: Vec<Option<RelativeUncertainty>> = vec![None; keyframes.len()];
+        for uncertainty in uncertainties {
+            covariances[uncertainty.keyframe] = Some(uncertainty);
         }
         let mut asked: Vec<(f64, Task)> = Vec::new();
         let mut elsewhere: Vec<(f64, Task)> = Vec::new();
         // Places reach over those beside them.
         for (place, old) in self.places.iter().enumerate().step_by(scale as usize) {
-            let gone_m = keys[start].travel_m - keys[old.keys.end - 1].travel_m;
+            let gone_m = keyframes[start].travel_m - keyframes[old.keyframes.end - 1].travel_m;
             if gone_m < scale * (OLD_M - STRETCH_M) {
                 break;
             }
-            let Some(sighting) = &covariances[old.middle] else {
+            let Some(uncertainty) = &covariances[old.middle] else {
                 // It lies in another piece of map, or so far away that nothing is known of it.
                 let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
                 elsewhere.push((FARTHER, task));
                 continue;
             };
-            let (region_m, region_rad) = (3.0 * sighting.shift_m(), 3.0 * sighting.turn_rad());
+            let (region_m, region_rad) =
+                (3.0 * uncertainty.shift_m(), 3.0 * uncertainty.turn_rad());
             if region_m < KNOWN_M && region_rad < KNOWN_RAD {
                 continue;
             }
@@ -287,7 +306,7 @@ impl Loops {
             if metres > region_m + scale * MEET_M {
                 continue;
             }
-            let covariance = reversed(&sighting.covariance, graph.between(anchor, old.middle));
+            let covariance = reversed(&uncertainty.covariance, graph.between(anchor, old.middle));
             let task = Task { stretch: stretch.clone(), anchor, place, covariance };
             // The likeliest first: how far out in its region a meeting would be.
             asked.push(((metres - scale * MEET_M).max(0.0) / region_m.max(0.1), task));
@@ -305,17 +324,17 @@ impl Loops {
     }
 
     /// Ends of all stretches that no tie or closure holds.
-    pub(crate) fn unheld(keys: &[Key], graph: &Graph) -> Vec<usize> {
+    pub(crate) fn unconstrained(keyframes: &[Keyframe], graph: &Graph) -> Vec<usize> {
         let mut ends = Vec::new();
         let mut asked_m = 0.0;
         let mut held_m = f64::NEG_INFINITY;
-        for (key, it) in keys.iter().enumerate() {
-            if graph.is_held(key) {
+        for (keyframe, it) in keyframes.iter().enumerate() {
+            if graph.is_held(keyframe) {
                 held_m = it.travel_m;
             }
             if it.travel_m - asked_m >= EVERY_M && it.travel_m - held_m > STRETCH_M {
                 asked_m = it.travel_m;
-                ends.push(key);
+                ends.push(keyframe);
             }
         }
         ends
@@ -327,10 +346,15 @@ impl Loops {
     }
 
     /// Does one search; gives edges when closures are believed after it.
-    pub(crate) fn work(&mut self, keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<Edge> {
+    pub(crate) fn work(
+        &mut self,
+        keyframes: &[Keyframe],
+        graph: &Graph,
+        settings: &Settings,
+    ) -> Vec<Edge> {
         let Some(task) = self.tasks.pop_front() else { return Vec::new() };
-        match self.search(&task, keys, graph, settings) {
-            Some(candidate) => self.weigh(candidate, keys, graph),
+        match self.search(&task, keyframes, graph, settings) {
+            Some(candidate) => self.weigh(candidate, keyframes, graph),
             None => Vec::new(),
         }
     }
@@ -338,18 +362,18 @@ impl Loops {
     fn search(
         &mut self,
         task: &Task,
-        keys: &[Key],
+        keyframes: &[Keyframe],
         graph: &Graph,
         settings: &Settings,
     ) -> Option<Candidate> {
         let middle = self.places[task.place].middle;
-        let scale = scale(keys, task.stretch.end - 1);
-        let around = self.around(task.place, keys, scale);
-        let around: Vec<usize> = around.filter(|&key| key < task.stretch.start).collect();
-        let old = grouped(keys, graph, &around, middle);
+        let scale = scale(keyframes, task.stretch.end - 1);
+        let around = self.around(task.place, keyframes, scale);
+        let around: Vec<usize> = around.filter(|&keyframe| keyframe < task.stretch.start).collect();
+        let old = grouped(keyframes, graph, &around, middle);
         let old = old.placed();
         let stretch: Vec<usize> = task.stretch.clone().collect();
-        let new = grouped(keys, graph, &stretch, task.anchor);
+        let new = grouped(keyframes, graph, &stretch, task.anchor);
         let new = new.placed();
         let expected = graph.between(middle, task.anchor);
         let region = [3.0 * task.covariance.xx.sqrt() + 0.4, 3.0 * task.covariance.yy.sqrt() + 0.4];
@@ -372,8 +396,8 @@ impl Loops {
             half_rad,
             step_rad: heading_step(&points, settings.loop_field.resolution_m) / scale.min(COARSE),
         };
-        let of = around.iter().map(|&key| (key, graph.between(middle, key)));
-        let field = self.field(task.place, of, keys, settings, scale);
+        let of = around.iter().map(|&keyframe| (keyframe, graph.between(middle, keyframe)));
+        let field = self.field(task.place, of, keyframes, settings, scale);
         let region_m = 3.0 * task.covariance.largest_shift().sqrt();
         let is_anywhere = region_m > ANYWHERE_M;
         let least_score = if is_anywhere { ANYWHERE_SCORE } else { LEAST_SCORE };
@@ -391,7 +415,7 @@ impl Loops {
             field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
         let verdict = verify(best.pose, &new, &old, settings);
         let mut told = Closure {
-            keys: (middle, task.anchor),
+            keyframes: (middle, task.anchor),
             old_from_new: best.pose,
             is_accepted: false,
             region_m,
@@ -400,7 +424,7 @@ impl Loops {
         };
         if let Some(reason) = verdict.fault {
             told.reason = format!("{reason} (likelihood {:.2})", best.score);
-            self.told.push(told);
+            self.closures.push(told);
             return None;
         }
         if is_anywhere && verdict.share < ANYWHERE_AGREEING {
@@ -408,7 +432,7 @@ impl Loops {
                 "{:.0} % of the points are seen through, too many for a place that may be anywhere",
                 100.0 * (1.0 - verdict.share)
             );
-            self.told.push(told);
+            self.closures.push(told);
             return None;
         }
         let place = verdict.fit.target_from_moving;
@@ -431,12 +455,12 @@ impl Loops {
     }
 
     /// Keys of a place and those around it.
-    fn around(&self, place: usize, keys: &[Key], scale: f64) -> Range<usize> {
-        let own = &self.places[place].keys;
+    fn around(&self, place: usize, keyframes: &[Keyframe], scale: f64) -> Range<usize> {
+        let own = &self.places[place].keyframes;
         let around_m = scale * AROUND_M + 0.5 * (scale - 1.0) * PLACE_M;
         let (from_m, to_m) =
-            (keys[own.start].travel_m - around_m, keys[own.end - 1].travel_m + around_m);
-        between(keys, from_m, to_m)
+            (keyframes[own.start].travel_m - around_m, keyframes[own.end - 1].travel_m + around_m);
+        between(keyframes, from_m, to_m)
     }
 
     /// The field of a place: the one that is kept, or one of these keys.
@@ -444,7 +468,7 @@ impl Loops {
         &mut self,
         place: usize,
         of: impl Iterator<Item = (usize, Pose2)>,
-        keys: &[Key],
+        keyframes: &[Keyframe],
         settings: &Settings,
         scale: f64,
     ) -> &Field {
@@ -455,7 +479,8 @@ impl Loops {
         self.fields.push_front(kept);
         let Kept { of, field, .. } = &mut self.fields[0];
         field.get_or_insert_with(|| {
-            let group = Group::new(of.iter().map(|&(key, pose)| (keys[key].cloud(), pose)));
+            let group =
+                Group::new(of.iter().map(|&(keyframe, pose)| (keyframes[keyframe].cloud(), pose)));
             Field::new(&points_of(&group.placed()), [0.0, 0.0], &field_settings(settings, scale))
         })
     }
@@ -465,11 +490,11 @@ impl Loops {
     /// Each is believed by its own evidence: as many witnesses as its own region asks for, among those
     /// that agree with it. Those that fit elsewhere too are never believed: near scans will tell better
     /// once the place is known. But they are done with.
-    fn weigh(&mut self, new: Candidate, keys: &[Key], graph: &Graph) -> Vec<Edge> {
-        self.told.push(new.told());
+    fn weigh(&mut self, new: Candidate, keyframes: &[Keyframe], graph: &Graph) -> Vec<Edge> {
+        self.closures.push(new.closure());
         self.pending.push(new);
         let newest = self.pending.len() - 1;
-        let evidence = self.evidence(newest, keys, graph);
+        let evidence = self.evidence(newest, keyframes, graph);
         self.tell(newest, &evidence, evidence.is_enough());
         if !evidence.is_enough() || !self.pending[newest].is_unique {
             return Vec::new();
@@ -479,7 +504,7 @@ impl Loops {
             if !self.pending[index].is_unique {
                 continue;
             }
-            let own = self.evidence(index, keys, graph);
+            let own = self.evidence(index, keyframes, graph);
             if own.is_enough() {
                 self.tell(index, &own, true);
                 believed.push(index);
@@ -499,11 +524,11 @@ impl Loops {
     }
 
     /// What other closures say of one.
-    fn evidence(&self, of: usize, keys: &[Key], graph: &Graph) -> Evidence {
+    fn evidence(&self, of: usize, keyframes: &[Keyframe], graph: &Graph) -> Evidence {
         let it = &self.pending[of];
-        let from_anchor = sightings(graph, it.anchor);
-        let from_middle = sightings(graph, it.middle);
-        let here_m = keys[it.anchor].travel_m;
+        let from_anchor = uncertainties(graph, it.anchor);
+        let from_middle = uncertainties(graph, it.middle);
+        let here_m = keyframes[it.anchor].travel_m;
         let mut agreeing: Vec<usize> = Vec::new();
         let mut rivals: Vec<f64> = Vec::new();
         // Witnesses: unique ones, far enough from each other.
@@ -513,19 +538,19 @@ impl Loops {
             witnesses.push(here_m);
         }
         for (index, other) in self.pending.iter().enumerate().rev() {
-            let there_m = keys[other.anchor].travel_m;
+            let there_m = keyframes[other.anchor].travel_m;
             // What is far away says nothing of what is here.
             if index == of || (here_m - there_m).abs() > HEARD_M {
                 continue;
             }
             match consistency(it, other, graph, &from_anchor, &from_middle) {
-                Word::Agrees => {
+                Consistency::Agrees => {
                     agreeing.push(index);
                     if other.is_unique && is_apart(&witnesses, there_m) {
                         witnesses.push(there_m);
                     }
                 }
-                Word::Opposes if other.is_unique && is_apart(&rivals, there_m) => {
+                Consistency::Contradicts if other.is_unique && is_apart(&rivals, there_m) => {
                     rivals.push(there_m);
                 }
                 _ => {}
@@ -544,15 +569,16 @@ impl Loops {
     /// Writes down what became of a closure.
     fn tell(&mut self, index: usize, evidence: &Evidence, is_believed: bool) {
         let it = &self.pending[index];
-        let (keys, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
+        let (keyframes, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
         let words = match (it.is_unique, is_believed) {
             (true, _) => "the only place in the region",
             (false, false) => "fits elsewhere too",
             (false, true) => "fits elsewhere too, though others agree with it",
         };
         let is_accepted = is_believed && it.is_unique;
-        let told = self.told.iter_mut().rev();
-        let Some(told) = { told }.find(|told| told.keys == keys && told.old_from_new == pose)
+        let told = self.closures.iter_mut().rev();
+        let Some(told) =
+            { told }.find(|told| told.keyframes == keyframes && told.old_from_new == pose)
         else {
             return;
         };
@@ -565,11 +591,11 @@ impl Loops {
 
     /// Closures that lack a witness, that nothing speaks against, and that fit nowhere else: those with the
     /// most witnesses first.
-    pub(crate) fn waiting(&self, keys: &[Key], graph: &Graph) -> Vec<Edge> {
+    pub(crate) fn waiting(&self, keyframes: &[Keyframe], graph: &Graph) -> Vec<Edge> {
         let mut waiting: Vec<(usize, f64, usize)> = (0..self.pending.len())
             .filter(|&index| self.pending[index].is_unique && !self.pending[index].is_partial)
             .filter_map(|index| {
-                let evidence = self.evidence(index, keys, graph);
+                let evidence = self.evidence(index, keyframes, graph);
                 let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
                 let is_clear = evidence.rivals == 0 || self.pending[index].share > CLEAR;
                 let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
@@ -581,19 +607,24 @@ impl Loops {
     }
 
     /// Of the closures that contradict one, the best supported: the other answer to where the robot was.
-    pub(crate) fn rival_of(&self, edge: &Edge, keys: &[Key], graph: &Graph) -> Option<Edge> {
+    pub(crate) fn rival_of(
+        &self,
+        edge: &Edge,
+        keyframes: &[Keyframe],
+        graph: &Graph,
+    ) -> Option<Edge> {
         let keys_of = |it: &Candidate| (it.middle, it.anchor);
         let it = self.pending.iter().find(|it| keys_of(it) == (edge.from, edge.to))?;
-        let from_anchor = sightings(graph, it.anchor);
-        let from_middle = sightings(graph, it.middle);
-        let here_m = keys[it.anchor].travel_m;
+        let from_anchor = uncertainties(graph, it.anchor);
+        let from_middle = uncertainties(graph, it.middle);
+        let here_m = keyframes[it.anchor].travel_m;
         let opposes = |index: &usize| {
             let other = &self.pending[*index];
-            let is_near = (here_m - keys[other.anchor].travel_m).abs() <= HEARD_M;
+            let is_near = (here_m - keyframes[other.anchor].travel_m).abs() <= HEARD_M;
             let word = || consistency(it, other, graph, &from_anchor, &from_middle);
-            other.is_unique && is_near && matches!(word(), Word::Opposes)
+            other.is_unique && is_near && matches!(word(), Consistency::Contradicts)
         };
-        let witnesses = |index: &usize| self.evidence(*index, keys, graph).witnesses;
+        let witnesses = |index: &usize| self.evidence(*index, keyframes, graph).witnesses;
         let rivals = (0..self.pending.len()).filter(opposes);
         rivals
             .max_by_key(|index| (witnesses(index), *index))
@@ -601,10 +632,10 @@ impl Loops {
     }
 
     /// A closure that waited is part of the map.
-    pub(crate) fn believe(&mut self, edge: &Edge, reason: String) {
+    pub(crate) fn accept(&mut self, edge: &Edge, reason: String) {
         self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
-        let told = self.told.iter_mut().rev();
-        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        let told = self.closures.iter_mut().rev();
+        let mut told = told.filter(|it| it.keyframes == (edge.from, edge.to));
         if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
             (told.is_accepted, told.reason) = (true, reason);
         }
@@ -612,8 +643,8 @@ impl Loops {
 
     /// Another closure passes the same tests: neither is part of the map.
     pub(crate) fn leave_undecided(&mut self, edge: &Edge, apart_m: f64) {
-        let told = self.told.iter_mut().rev();
-        let mut told = told.filter(|it| it.keys == (edge.from, edge.to));
+        let told = self.closures.iter_mut().rev();
+        let mut told = told.filter(|it| it.keyframes == (edge.from, edge.to));
         if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
             told.reason = format!(
                 "{}; on trial when the log had ended, a closure {apart_m:.1} m from it passed as well",
@@ -624,8 +655,8 @@ impl Loops {
 
     /// Two passes that the map had side by side are joined.
     pub(crate) fn join(&mut self, edge: &Edge, shift_m: f64) {
-        self.told.push(Closure {
-            keys: (edge.from, edge.to),
+        self.closures.push(Closure {
+            keyframes: (edge.from, edge.to),
             old_from_new: edge.from_from_to,
             is_accepted: true,
             region_m: shift_m,
@@ -637,8 +668,8 @@ impl Loops {
     }
 
     /// Closures are part of the map no more.
-    pub(crate) fn disbelieve(&mut self, edges: &[Edge], reason: &str) {
-        for told in self.told_of(edges) {
+    pub(crate) fn reject(&mut self, edges: &[Edge], reason: &str) {
+        for told in self.closures_of(edges) {
             told.is_accepted = false;
             told.reason = reason.to_owned();
         }
@@ -651,13 +682,13 @@ impl Loops {
     }
 
     /// What is told of the closures that these edges are.
-    pub(crate) fn told_of<'a>(
+    pub(crate) fn closures_of<'a>(
         &'a mut self,
         edges: &'a [Edge],
     ) -> impl Iterator<Item = &'a mut Closure> {
-        self.told.iter_mut().filter(move |told| {
+        self.closures.iter_mut().filter(move |told| {
             let is_of = |edge: &Edge| {
-                (edge.from, edge.to) == told.keys && edge.from_from_to == told.old_from_new
+                (edge.from, edge.to) == told.keyframes && edge.from_from_to == told.old_from_new
             };
             told.is_accepted && edges.iter().any(is_of)
         })
@@ -720,10 +751,10 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
     Verdict { fit, share, fault }
 }
 
-fn sightings(graph: &Graph, key: usize) -> Vec<Option<Symmetric3>> {
+fn uncertainties(graph: &Graph, keyframe: usize) -> Vec<Option<Symmetric3>> {
     let mut found = vec![None; graph.poses.len()];
-    for sighting in from_here(graph, key, MOST_M) {
-        found[sighting.key] = Some(sighting.covariance);
+    for uncertainty in uncertainties_from(graph, keyframe, MOST_M) {
+        found[uncertainty.keyframe] = Some(uncertainty.covariance);
     }
     found
 }
@@ -737,9 +768,9 @@ fn consistency(
     graph: &Graph,
     from_anchor_a: &[Option<Symmetric3>],
     from_middle_a: &[Option<Symmetric3>],
-) -> Word {
+) -> Consistency {
     let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
-        return Word::Silent;
+        return Consistency::Uninformative;
     };
     // Both paths from the old place of a to the anchor of b.
     let by_old = graph.between(a.middle, b.middle);
@@ -755,14 +786,14 @@ fn consistency(
         normalize_angle(over_old.yaw_rad - over_new.yaw_rad),
     ];
     let sum = old_covariance + new_covariance;
-    let Some(information) = sum.inverse() else { return Word::Silent };
+    let Some(information) = sum.inverse() else { return Consistency::Uninformative };
     if information.quadratic(error) >= CONSISTENT {
-        return Word::Opposes;
+        return Consistency::Contradicts;
     }
     let by_chance_m = 3.0 * sum.largest_shift().sqrt();
     if by_chance_m < (EMPTY * a.region_m.min(b.region_m)).max(EMPTY_M) {
-        Word::Agrees
+        Consistency::Agrees
     } else {
-        Word::Silent
+        Consistency::Uninformative
     }
 }

@@ -6,7 +6,7 @@ use periplus_geometry::Pose2;
 use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
 use periplus_scan_matching::PackedPlaces;
 
-use crate::key::Key;
+use crate::keyframe::Keyframe;
 
 /// What a beam that passes a cell, and one that ends in it, say of it: log odds in hundredths, for
 /// chances of 0.4 and 0.75; sums end at +-4, so that a cell that changed is learnt anew.
@@ -21,28 +21,31 @@ const UNSEEN: i16 = i16::MIN;
 /// Scans at their places at one moment. It can be drawn somewhere else while the map grows on; the
 /// scans themselves are shared.
 #[derive(Clone, Debug, Default)]
-pub struct Sketch {
+pub struct MapSnapshot {
     scans: Vec<Drawn>,
     resolution_m: f64,
 }
 
 #[derive(Clone, Debug)]
 struct Drawn {
-    key: Key,
-    map_from_key: Pose2,
+    keyframe: Keyframe,
+    map_from_keyframe: Pose2,
 }
 
 impl Drawn {
     /// Ends of beams, in the frame of the key.
     fn ends(&self) -> &PackedPlaces {
-        self.key.ends.as_deref().unwrap_or(self.key.cloud.places())
+        self.keyframe.ends.as_deref().unwrap_or(self.keyframe.cloud.places())
     }
 }
 
-impl Sketch {
-    pub(crate) fn new(keys: &[Key], poses: &[Pose2], resolution_m: f64) -> Self {
-        let drawn = |(key, &map_from_key): (&Key, &Pose2)| Drawn { key: key.clone(), map_from_key };
-        Self { scans: keys.iter().zip(poses).map(drawn).collect(), resolution_m }
+impl MapSnapshot {
+    pub(crate) fn new(keyframes: &[Keyframe], poses: &[Pose2], resolution_m: f64) -> Self {
+        let drawn = |(keyframe, &map_from_keyframe): (&Keyframe, &Pose2)| Drawn {
+            keyframe: keyframe.clone(),
+            map_from_keyframe,
+        };
+        Self { scans: keyframes.iter().zip(poses).map(drawn).collect(), resolution_m }
     }
 
     /// The map; none when it would be too large to hold.
@@ -54,11 +57,11 @@ impl Sketch {
 
     /// What it takes to draw the map a few rows at a time; none when it would be too large even so.
     #[must_use]
-    pub fn plan(self) -> Option<SketchPlan> {
+    pub fn plan(self) -> Option<SnapshotRaster> {
         let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
         let mut spans = Vec::with_capacity(self.scans.len());
         for scan in &self.scans {
-            let pose = scan.map_from_key;
+            let pose = scan.map_from_keyframe;
             let (mut lowest, mut highest) = (pose.y_m, pose.y_m);
             let mut include = |x: f64, y: f64| {
                 low = [low[0].min(x), low[1].min(y)];
@@ -71,7 +74,7 @@ impl Sketch {
                 include(x, y);
             }
             // Beams begin at the scanner, which is not where the base is.
-            let [x, y] = scan.key.cloud.places().middle();
+            let [x, y] = scan.keyframe.cloud.places().middle();
             let (_, y) = pose.transform_point(x.into(), y.into());
             spans.push([lowest.min(y), highest.max(y)]);
         }
@@ -89,7 +92,7 @@ impl Sketch {
         // A cell more on either side, for rounding.
         let row = |y: f64| ((y - corner[1]) / resolution_m).max(0.0) as u32;
         let rows = |[low, high]: [f64; 2]| [row(low).saturating_sub(1), row(high) + 2];
-        Some(SketchPlan {
+        Some(SnapshotRaster {
             scans: self.scans,
             lattice,
             spans: spans.into_iter().map(rows).collect(),
@@ -107,14 +110,14 @@ pub trait Plan {
 }
 
 /// Scans at their places, and which rows of the map each of them touches.
-pub struct SketchPlan {
+pub struct SnapshotRaster {
     scans: Vec<Drawn>,
     lattice: Lattice,
     /// First row, and the one after the last.
     spans: Vec<[u32; 2]>,
 }
 
-impl Plan for SketchPlan {
+impl Plan for SnapshotRaster {
     fn lattice(&self) -> Lattice {
         self.lattice
     }
@@ -156,7 +159,7 @@ impl Marks {
     fn fill(&mut self, scan: &Drawn, lattice: &Lattice, rows: &Range<usize>) {
         self.words = 0;
         let finder = lattice.finder();
-        let (pose, [x, y]) = (scan.map_from_key, scan.key.cloud.places().middle());
+        let (pose, [x, y]) = (scan.map_from_keyframe, scan.keyframe.cloud.places().middle());
         let (x, y) = pose.transform_point(x.into(), y.into());
         let Some(start) = finder.cell_of(x, y) else { return };
         let (s, c) = libm::sincos(pose.yaw_rad);
@@ -247,7 +250,7 @@ mod tests {
     use crate::settings::Settings;
 
     /// Scans of a room, at places in a row.
-    fn sketch() -> Sketch {
+    fn snapshot() -> MapSnapshot {
         let settings = Settings::default();
         let mut stream = Stream::keyed(1, "sketch", 0);
         let scans = (0..40).map(|scan| {
@@ -261,23 +264,23 @@ mod tests {
             let step = 1.0_f32.to_radians();
             let cloud =
                 Cloud::new(ends.iter().map(|it| Some(*it)), [0.2, 0.0], step, &settings.cloud);
-            let key = Key::new(&cloud, Some(PackedPlaces::new(&ends, [0.2, 0.0])), 0.0);
+            let keyframe = Keyframe::new(&cloud, Some(PackedPlaces::new(&ends, [0.2, 0.0])), 0.0);
             let at = f64::from(scan);
-            Drawn { key, map_from_key: Pose2::new(0.5 * at, -0.4 * at, 0.3 * at) }
+            Drawn { keyframe, map_from_keyframe: Pose2::new(0.5 * at, -0.4 * at, 0.3 * at) }
         });
-        Sketch { scans: scans.collect(), resolution_m: 0.05 }
+        MapSnapshot { scans: scans.collect(), resolution_m: 0.05 }
     }
 
     /// Every scan on the whole map, cell by cell.
-    fn plain(sketch: &Sketch, lattice: Lattice) -> Vec<i16> {
+    fn plain(snapshot: &MapSnapshot, lattice: Lattice) -> Vec<i16> {
         let mut odds = vec![UNSEEN; lattice.len()];
-        for scan in &sketch.scans {
-            let pose = scan.map_from_key;
+        for scan in &snapshot.scans {
+            let pose = scan.map_from_keyframe;
             let cell = |[x, y]: [f32; 2]| {
                 let (x, y) = pose.transform_point(x.into(), y.into());
                 lattice.cell_of(x, y).unwrap()
             };
-            let start = cell(scan.key.cloud.places().middle());
+            let start = cell(scan.keyframe.cloud.places().middle());
             let ends: std::collections::BTreeSet<_> = scan.ends().iter().map(cell).collect();
             let passed: std::collections::BTreeSet<_> =
                 ends.iter().flat_map(|&end| Line::between(start, end)).collect();
@@ -289,11 +292,11 @@ mod tests {
 
     #[test]
     fn a_map_in_parts_is_the_whole_map() {
-        let plan = sketch().plan().unwrap();
+        let plan = snapshot().plan().unwrap();
         let lattice = plan.lattice();
         let whole = plan.rows(0..lattice.height);
-        assert_eq!(Some(&whole), sketch().draw().as_ref());
-        let plain = plain(&sketch(), lattice);
+        assert_eq!(Some(&whole), snapshot().draw().as_ref());
+        let plain = plain(&snapshot(), lattice);
         assert_eq!(whole.cells, plain.iter().map(percent).collect::<Vec<i8>>());
         for at_once in [1, 7, 64, lattice.height - 1] {
             let mut cells = Vec::new();

@@ -6,10 +6,10 @@ use std::str::FromStr;
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
 
-use crate::doubts::Remark;
-use crate::engine::{Counts, Held, MapContradiction, Slam, Update};
+use crate::engine::{ConstraintResidual, Counts, MapContradiction, Slam, Update};
 use crate::loops::Closure;
 use crate::map::Plan;
+use crate::remark::Remark;
 use crate::scan::Scan;
 
 /// A map that grows with every scan, by whichever method.
@@ -55,7 +55,7 @@ pub trait Mapper: Send {
     }
 
     /// Everything that is known between kept scans and counts, of methods that keep a graph.
-    fn edges(&self) -> Vec<Held> {
+    fn edges(&self) -> Vec<ConstraintResidual> {
         Vec::new()
     }
 
@@ -141,7 +141,7 @@ impl Mapper for Slam {
     }
 
     fn plan(&self) -> Option<Box<dyn Plan + '_>> {
-        Some(Box::new(self.sketch().plan()?))
+        Some(Box::new(self.snapshot().plan()?))
     }
 
     fn counts(&self) -> Counts {
@@ -156,7 +156,7 @@ impl Mapper for Slam {
         Self::closures(self)
     }
 
-    fn edges(&self) -> Vec<Held> {
+    fn edges(&self) -> Vec<ConstraintResidual> {
         Self::edges(self).collect()
     }
 

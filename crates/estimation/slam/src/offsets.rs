@@ -10,8 +10,8 @@ use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::{Field, Fit, Placed, Prior, Symmetric3, Window, register};
 
 use crate::audit::all_other_passes;
-use crate::graph::{Edge, Graph, Kind};
-use crate::key::{Key, between};
+use crate::graph::{ConstraintKind, Edge, Graph};
+use crate::keyframe::{Keyframe, between};
 use crate::local::{
     against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
 };
@@ -84,34 +84,34 @@ pub(crate) struct Passes {
 }
 
 /// What scans say of a stretch and another pass.
-enum Word {
+enum Consistency {
     /// They fit where the map has them.
     Fits,
     /// They fit clearly better elsewhere.
     Apart(Box<Offset>),
     /// Too little of one is seen from the other.
-    Silent,
+    Uninformative,
 }
 
 /// Holds all stretches against the passes that the map has within a few metres.
-pub(crate) fn compare(keys: &[Key], graph: &Graph, settings: &Settings) -> Passes {
+pub(crate) fn compare(keyframes: &[Keyframe], graph: &Graph, settings: &Settings) -> Passes {
     let mut found = Passes::default();
     let mut next_m = f64::NEG_INFINITY;
-    for (new, others) in all_other_passes(keys, graph).into_iter().enumerate() {
-        if keys[new].travel_m < next_m || others.is_empty() {
+    for (new, others) in all_other_passes(keyframes, graph).into_iter().enumerate() {
+        if keyframes[new].travel_m < next_m || others.is_empty() {
             continue;
         }
-        next_m = keys[new].travel_m + STRETCH_M;
+        next_m = keyframes[new].travel_m + STRETCH_M;
         let mut is_confirmed = false;
         for old in others {
-            if is_tied(keys, graph, old, new) {
+            if is_tied(keyframes, graph, old, new) {
                 is_confirmed = true;
                 continue;
             }
-            match word(keys, graph, (old, new), settings) {
-                Word::Fits => is_confirmed = true,
-                Word::Apart(offset) => found.offsets.push(*offset),
-                Word::Silent => {}
+            match word(keyframes, graph, (old, new), settings) {
+                Consistency::Fits => is_confirmed = true,
+                Consistency::Apart(offset) => found.offsets.push(*offset),
+                Consistency::Uninformative => {}
             }
         }
         found.whole_m += STRETCH_M;
@@ -121,12 +121,13 @@ pub(crate) fn compare(keys: &[Key], graph: &Graph, settings: &Settings) -> Passe
 }
 
 /// Whether something ties two passes around two kept scans.
-fn is_tied(keys: &[Key], graph: &Graph, old: usize, new: usize) -> bool {
-    let is_near = |a: usize, b: usize| (keys[a].travel_m - keys[b].travel_m).abs() < TIED_M;
-    around(keys, new, TIED_M).any(|key| {
-        graph.at[key].iter().any(|&edge| {
+fn is_tied(keyframes: &[Keyframe], graph: &Graph, old: usize, new: usize) -> bool {
+    let is_near =
+        |a: usize, b: usize| (keyframes[a].travel_m - keyframes[b].travel_m).abs() < TIED_M;
+    around(keyframes, new, TIED_M).any(|keyframe| {
+        graph.at[keyframe].iter().any(|&edge| {
             let edge = &graph.edges[edge as usize];
-            edge.kind != Kind::Chain
+            edge.kind != ConstraintKind::Sequential
                 && edge.weight > 0.5
                 && is_firm(edge)
                 && (is_near(edge.from, old) || is_near(edge.to, old))
@@ -140,15 +141,21 @@ fn is_firm(edge: &Edge) -> bool {
     covariance.is_some_and(|it| it.largest_shift() < FIRM_M * FIRM_M)
 }
 
-fn around(keys: &[Key], of: usize, way_m: f64) -> Range<usize> {
-    between(keys, keys[of].travel_m - way_m, keys[of].travel_m + way_m)
+fn around(keyframes: &[Keyframe], of: usize, way_m: f64) -> Range<usize> {
+    between(keyframes, keyframes[of].travel_m - way_m, keyframes[of].travel_m + way_m)
 }
 
 /// Lays a stretch of one pass onto another.
-fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Settings) -> Word {
-    let stretch: Vec<usize> = around(keys, new, 0.5 * STRETCH_M).collect();
-    let place: Vec<usize> = around(keys, old, AROUND_M).collect();
-    let (moving, target) = (grouped(keys, graph, &stretch, new), grouped(keys, graph, &place, old));
+fn word(
+    keyframes: &[Keyframe],
+    graph: &Graph,
+    (old, new): (usize, usize),
+    settings: &Settings,
+) -> Consistency {
+    let stretch: Vec<usize> = around(keyframes, new, 0.5 * STRETCH_M).collect();
+    let place: Vec<usize> = around(keyframes, old, AROUND_M).collect();
+    let (moving, target) =
+        (grouped(keyframes, graph, &stretch, new), grouped(keyframes, graph, &place, old));
     let (moving, target) = (moving.placed(), target.placed());
     let expected = graph.between(old, new);
     // Along walls that do not hold it stays where the map has it.
@@ -172,10 +179,10 @@ fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Sett
     // Along bare walls everything fits, wherever it is.
     let is_firm = near.firmness > 0.0;
     if is_firm && apart(expected, near.target_from_moving).0 < LEAST_M && fits(&near, HERE) {
-        return Word::Fits;
+        return Consistency::Fits;
     }
     if stretch.len() < LEAST_SCANS || place.len() < LEAST_SCANS {
-        return Word::Silent;
+        return Consistency::Uninformative;
     }
     let points = spread(&points_of(&moving), SPACING_M, FAR_M);
     let window = Window {
@@ -187,7 +194,7 @@ fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Sett
     let middle = [expected.x_m as f32, expected.y_m as f32];
     let field = Field::new(&points_of(&target), middle, &settings.local_field);
     let Some(best) = field.search(&points, &window, LEAST_SCORE, None).0 else {
-        return Word::Silent;
+        return Consistency::Uninformative;
     };
     let fit = fit_from(best.pose);
     let there = fit.target_from_moving;
@@ -198,15 +205,15 @@ fn word(keys: &[Key], graph: &Graph, (old, new): (usize, usize), settings: &Sett
     let is_sure = shift_m > LEAST_M && information.quadratic(off) > SURE && fits(&fit, ELSEWHERE);
     let same = |pose: Pose2| part_on_walls(&moving, &target, pose);
     if !is_sure || same(there) - same(expected) < CLEARLY {
-        return Word::Silent;
+        return Consistency::Uninformative;
     }
     let elsewhere = (there, OTHER_M, OTHER_RAD);
     if field.search(&points, &window, RIVAL * best.score, Some(elsewhere)).0.is_some() {
-        return Word::Silent;
+        return Consistency::Uninformative;
     }
-    let edge = Edge::new((old, new), there, information, Kind::Loop);
+    let edge = Edge::new((old, new), there, information, ConstraintKind::LoopClosure);
     let map_from_base = graph.poses[new];
-    Word::Apart(Box::new(Offset { edge, shift_m, map_from_base }))
+    Consistency::Apart(Box::new(Offset { edge, shift_m, map_from_base }))
 }
 
 /// Part of the points of one group that lie on a wall of the other.

@@ -6,8 +6,8 @@ use std::rc::Rc;
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, agreement, compare};
 
-use crate::graph::{Graph, Kind, System, error, riders};
-use crate::key::Key;
+use crate::graph::{ConstraintKind, Graph, System, error, pose_clusters};
+use crate::keyframe::Keyframe;
 use crate::local::apart;
 use crate::settings::Settings;
 
@@ -31,10 +31,10 @@ const FARTHEST_M: f64 = 2.0;
 ///
 /// What a pair of scans tells goes straight into the equations: of a map of kilometres there are some
 /// hundred thousand pairs.
-pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
-    let pairs = choose(keys, graph, settings);
+pub(crate) fn refine(keyframes: &[Keyframe], graph: &mut Graph, settings: &Settings) {
+    let pairs = choose(keyframes, graph, settings);
     for sweep in 0..settings.refine_sweeps {
-        let Some((poses, farthest_m)) = refined(keys, graph, &pairs, sweep, settings) else {
+        let Some((poses, farthest_m)) = refined(keyframes, graph, &pairs, sweep, settings) else {
             return;
         };
         if farthest_m > FARTHEST_M {
@@ -46,7 +46,7 @@ pub(crate) fn refine(keys: &[Key], graph: &mut Graph, settings: &Settings) {
 
 /// Poses after a sweep, and by how much the farthest has moved; none when they cannot be solved for.
 fn refined(
-    keys: &[Key],
+    keyframes: &[Keyframe],
     graph: &Graph,
     pairs: &[(usize, usize)],
     sweep: usize,
@@ -56,15 +56,15 @@ fn refined(
     let part = if sweeps > 1 { sweep as f32 / (sweeps - 1) as f32 } else { 1.0 };
     let width = |[from, to]: [f32; 2]| from + (to - from) * part;
     let poses = &graph.poses;
-    let chain = || graph.edges.iter().filter(|edge| edge.kind == Kind::Chain);
-    let bodies = riders(graph, (poses.len(), graph.edges.len()), sweep);
+    let chain = || graph.edges.iter().filter(|edge| edge.kind == ConstraintKind::Sequential);
+    let bodies = pose_clusters(graph, (poses.len(), graph.edges.len()), sweep);
     let ends = || chain().map(|edge| (edge.from, edge.to)).chain(pairs.iter().copied());
     let mut system = System::new(&bodies, ends);
     for edge in chain() {
         let information = edge.information * CHAIN;
         system.add(poses, (edge.from, edge.to), edge.error(poses), &information);
     }
-    let mut clouds = Clouds::new(keys);
+    let mut clouds = Clouds::new(keyframes);
     for &(from, to) in pairs {
         let held = compare(
             &clouds.get(to),
@@ -87,7 +87,7 @@ fn refined(
 
 /// Clouds that were looked at last, unpacked.
 struct Clouds<'a> {
-    keys: &'a [Key],
+    keyframes: &'a [Keyframe],
     kept: Vec<Option<(usize, Rc<Cloud>)>>,
 }
 
@@ -95,17 +95,17 @@ struct Clouds<'a> {
 const KEPT_CLOUDS: usize = 128;
 
 impl<'a> Clouds<'a> {
-    fn new(keys: &'a [Key]) -> Self {
-        Self { keys, kept: vec![None; KEPT_CLOUDS] }
+    fn new(keyframes: &'a [Keyframe]) -> Self {
+        Self { keyframes, kept: vec![None; KEPT_CLOUDS] }
     }
 
-    fn get(&mut self, key: usize) -> Rc<Cloud> {
-        let kept = &mut self.kept[key % KEPT_CLOUDS];
+    fn get(&mut self, keyframe: usize) -> Rc<Cloud> {
+        let kept = &mut self.kept[keyframe % KEPT_CLOUDS];
         match kept {
-            Some((of, cloud)) if *of == key => Rc::clone(cloud),
+            Some((of, cloud)) if *of == keyframe => Rc::clone(cloud),
             _ => {
-                let cloud = Rc::new(self.keys[key].cloud());
-                *kept = Some((key, Rc::clone(&cloud)));
+                let cloud = Rc::new(self.keyframes[keyframe].cloud());
+                *kept = Some((keyframe, Rc::clone(&cloud)));
                 cloud
             }
         }
@@ -113,22 +113,22 @@ impl<'a> Clouds<'a> {
 }
 
 /// Pairs of scans that see the same, the earlier first.
-fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize)> {
-    let mut clouds = Clouds::new(keys);
-    let cell = |key: usize| {
-        let pose = graph.poses[key];
+fn choose(keyframes: &[Keyframe], graph: &Graph, settings: &Settings) -> Vec<(usize, usize)> {
+    let mut clouds = Clouds::new(keyframes);
+    let cell = |keyframe: usize| {
+        let pose = graph.poses[keyframe];
         ((pose.x_m / REACH_M).floor() as i32, (pose.y_m / REACH_M).floor() as i32)
     };
     let mut cells: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
     let mut pairs = Vec::new();
-    for key in 0..keys.len() {
-        let (column, row) = cell(key);
+    for keyframe in 0..keyframes.len() {
+        let (column, row) = cell(keyframe);
         let mut near: Vec<(f64, usize)> = Vec::new();
         for dx in -1..=1 {
             for dy in -1..=1 {
                 let there = cells.get(&(column + dx, row + dy)).into_iter().flatten();
                 near.extend(there.filter_map(|&other| {
-                    let (metres, radians) = apart(graph.poses[key], graph.poses[other]);
+                    let (metres, radians) = apart(graph.poses[keyframe], graph.poses[other]);
                     (metres < REACH_M).then_some((metres + TURN_M * radians, other))
                 }));
             }
@@ -137,25 +137,25 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
         let mut count = 0;
         let is_gap = |&edge: &u32| {
             let edge = &graph.edges[edge as usize];
-            edge.is_gap() && edge.to == key
+            edge.is_gap() && edge.to == keyframe
         };
         // A piece of map that begins here is chained to nothing.
-        let begins = key == 0 || graph.at[key].iter().any(is_gap);
+        let begins = keyframe == 0 || graph.at[keyframe].iter().any(is_gap);
         let mut is_chained = begins;
         for (_, other) in near {
             if count >= settings.refine_neighbours {
                 break;
             }
-            if (other + 1 == key && !begins) || is_alike(&mut clouds, graph, other, key) {
-                pairs.push((other, key));
-                is_chained |= other + 1 == key;
+            if (other + 1 == keyframe && !begins) || is_alike(&mut clouds, graph, other, keyframe) {
+                pairs.push((other, keyframe));
+                is_chained |= other + 1 == keyframe;
                 count += 1;
             }
         }
         if !is_chained {
-            pairs.push((key - 1, key));
+            pairs.push((keyframe - 1, keyframe));
         }
-        cells.entry((column, row)).or_default().push(key);
+        cells.entry((column, row)).or_default().push(keyframe);
     }
     pairs
 }
@@ -163,10 +163,14 @@ fn choose(keys: &[Key], graph: &Graph, settings: &Settings) -> Vec<(usize, usize
 /// Whether two scans see the same.
 fn is_alike(clouds: &mut Clouds<'_>, graph: &Graph, a: usize, b: usize) -> bool {
     let a_from_b = graph.between(a, b);
-    let keys = clouds.keys;
+    let keyframes = clouds.keyframes;
     let (at_a, at_b) = (clouds.get(a), clouds.get(b));
     let mut sum = agreement(&at_b, &at_a, a_from_b, 0.25);
-    let least = if (keys[b].travel_m - keys[a].travel_m).abs() < SAME_VISIT_M { 0.5 } else { 0.75 };
+    let least = if (keyframes[b].travel_m - keyframes[a].travel_m).abs() < SAME_VISIT_M {
+        0.5
+    } else {
+        0.75
+    };
     if sum.agreeing < 20 || sum.share() < least {
         return false;
     }

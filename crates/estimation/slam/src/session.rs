@@ -13,8 +13,8 @@ use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, PackedPlaces, Point, Symmetric3};
 
 use crate::engine::Slam;
-use crate::graph::{Edge, Kind};
-use crate::key::{Key, Track};
+use crate::graph::{ConstraintKind, Edge};
+use crate::keyframe::{Keyframe, TrajectoryNode};
 use crate::settings::Settings;
 
 pub(crate) use bytes::{Bytes, Fault, Pack, Reader, packed};
@@ -149,7 +149,7 @@ pub(crate) fn whole<T: Pack>(mut section: Reader<'_>) -> Result<T, SessionError>
     }
 }
 
-packed!(Track { time_ns, key, key_from_base });
+packed!(TrajectoryNode { time_ns, keyframe, keyframe_from_base });
 
 impl Pack for Pose2 {
     fn pack(&self, out: &mut Bytes) {
@@ -182,7 +182,7 @@ impl Pack for Symmetric3 {
     }
 }
 
-impl Pack for Key {
+impl Pack for Keyframe {
     fn pack(&self, out: &mut Bytes) {
         let Self { cloud, ends, travel_m } = self;
         let (cloud, ends) = (cloud.cloud(), ends.as_ref().map(|it| it.iter().collect::<Vec<_>>()));
@@ -215,21 +215,21 @@ impl Pack for Key {
     }
 }
 
-impl Pack for Kind {
+impl Pack for ConstraintKind {
     fn pack(&self, out: &mut Bytes) {
         let code = match self {
-            Self::Chain => 0_u8,
-            Self::Near => 1,
-            Self::Loop => 2,
+            Self::Sequential => 0_u8,
+            Self::Proximity => 1,
+            Self::LoopClosure => 2,
         };
         code.pack(out);
     }
 
     fn unpack(from: &mut Reader<'_>) -> Result<Self, Fault> {
         Ok(match u8::unpack(from)? {
-            0 => Self::Chain,
-            1 => Self::Near,
-            2 => Self::Loop,
+            0 => Self::Sequential,
+            1 => Self::Proximity,
+            2 => Self::LoopClosure,
             other => return Err(Fault(format!("there is no kind {other} of edges"))),
         })
     }

@@ -6,9 +6,9 @@ use periplus_scan_matching::{CloudSettings, FieldSettings, RegisterSettings};
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// A scan is kept after so much motion \[m\] ...
-    pub key_shift_m: f64,
+    pub keyframe_distance_m: f64,
     /// ... or turn \[rad\] from the last one kept.
-    pub key_turn_rad: f64,
+    pub keyframe_rotation_rad: f64,
     /// Nearer readings are not used \[m\].
     pub range_min_m: f32,
     /// Readings from farther away are not used \[m\].
@@ -59,8 +59,8 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            key_shift_m: 0.35,
-            key_turn_rad: 0.26,
+            keyframe_distance_m: 0.35,
+            keyframe_rotation_rad: 0.26,
             range_min_m: 0.0,
             range_max_m: 60.0,
             cloud: CloudSettings::default(),

@@ -165,8 +165,11 @@ mod tests {
         let values = values(Method::Graph, &given);
         let told: Vec<String> = idle(&values).into_iter().map(|it| it.message).collect();
         assert_eq!(told, ["`ceres_loss_function: HuberLoss` changes nothing"]);
-        assert_eq!(Settings::of(&values).key_shift_m, 0.2);
-        assert_eq!(Settings::of(&values).key_turn_rad, Settings::default().key_turn_rad);
+        assert_eq!(Settings::of(&values).keyframe_distance_m, 0.2);
+        assert_eq!(
+            Settings::of(&values).keyframe_rotation_rad,
+            Settings::default().keyframe_rotation_rad
+        );
     }
 
     #[test]

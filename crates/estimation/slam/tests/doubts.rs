@@ -5,7 +5,7 @@ mod worlds;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use periplus_geometry::Pose2;
-use periplus_slam::{Doubt, Settings, Slam};
+use periplus_slam::{RemarkKind, Settings, Slam};
 use worlds::{Moment, ROBOT, Robot, World};
 
 /// A scanner all around, and wheels that are good but for what a test breaks.
@@ -36,31 +36,32 @@ fn steps(moments: &mut [Moment], change: impl Fn(Pose2) -> Pose2) {
     }
 }
 
-fn doubts(moments: &[Moment]) -> Vec<Doubt> {
+fn diagnostics(moments: &[Moment]) -> Vec<RemarkKind> {
     let mut slam = Slam::new(Settings { closes_loops: false, ..Settings::default() });
     for moment in moments {
         let _ = slam.add_scan(&moment.scan, Some(moment.odometry));
     }
-    slam.remarks().iter().map(|remark| remark.doubt).collect()
+    slam.remarks().iter().map(|remark| remark.kind).collect()
 }
 
 /// Odometry that goes the other way leads scans astray along walls for a while.
-fn but_corridors(doubts: &[Doubt]) -> Vec<Doubt> {
-    doubts.iter().copied().filter(|it| !matches!(it, Doubt::Corridor(_))).collect()
+fn but_corridors(diagnostics: &[RemarkKind]) -> Vec<RemarkKind> {
+    diagnostics.iter().copied().filter(|it| !matches!(it, RemarkKind::Corridor(_))).collect()
 }
 
 #[test]
 fn a_sound_robot_raises_no_doubt() {
-    assert_eq!(doubts(&drive()), []);
+    assert_eq!(diagnostics(&drive()), []);
 }
 
 #[test]
 fn wheels_of_another_radius_are_told() {
     let mut moments = drive();
     steps(&mut moments, |it| Pose2::new(1.1 * it.x_m, 1.1 * it.y_m, 1.1 * it.yaw_rad));
-    let doubts = doubts(&moments);
-    let [Doubt::WayScale(way), Doubt::TurnScale(turn, _)] = doubts[..] else {
-        panic!("{doubts:?}")
+    let diagnostics = diagnostics(&moments);
+    let [RemarkKind::DistanceScale(way), RemarkKind::RotationScale(turn, _)] = diagnostics[..]
+    else {
+        panic!("{diagnostics:?}")
     };
     assert!((way - 1.1).abs() < 0.02 && (turn - 1.1).abs() < 0.02, "{way} {turn}");
 }
@@ -69,8 +70,8 @@ fn wheels_of_another_radius_are_told() {
 fn another_distance_between_wheels_is_told() {
     let mut moments = drive();
     steps(&mut moments, |it| Pose2 { yaw_rad: 0.85 * it.yaw_rad, ..it });
-    let doubts = doubts(&moments);
-    let [Doubt::TurnScale(turn, way)] = doubts[..] else { panic!("{doubts:?}") };
+    let diagnostics = diagnostics(&moments);
+    let [RemarkKind::RotationScale(turn, way)] = diagnostics[..] else { panic!("{diagnostics:?}") };
     assert!((turn - 0.85).abs() < 0.02 && (way - 1.0).abs() < 0.02, "{turn} {way}");
 }
 
@@ -81,17 +82,17 @@ fn swapped_axes_are_told() {
         let it = moment.odometry;
         moment.odometry = Pose2 { x_m: it.y_m, y_m: it.x_m, ..it };
     }
-    assert_eq!(doubts(&moments), [Doubt::AxesSwapped]);
+    assert_eq!(diagnostics(&moments), [RemarkKind::OdometryAxesSwapped]);
 }
 
 #[test]
 fn axes_of_the_wrong_sign_are_told() {
     let mut moments = drive();
     moments.iter_mut().for_each(|it| it.odometry.x_m *= -1.0);
-    assert_eq!(but_corridors(&doubts(&moments)), [Doubt::XNegated]);
+    assert_eq!(but_corridors(&diagnostics(&moments)), [RemarkKind::OdometryXNegated]);
     let mut moments = drive();
     moments.iter_mut().for_each(|it| it.odometry.y_m *= -1.0);
-    assert_eq!(doubts(&moments), [Doubt::YNegated]);
+    assert_eq!(diagnostics(&moments), [RemarkKind::OdometryYNegated]);
 }
 
 #[test]
@@ -99,7 +100,7 @@ fn a_mirrored_scan_is_told() {
     let mut moments = drive();
     // Upside down, and nobody said so: beams run the other way round.
     moments.iter_mut().for_each(|it| it.scan.ranges_m.reverse());
-    assert_eq!(doubts(&moments), [Doubt::Mirrored]);
+    assert_eq!(diagnostics(&moments), [RemarkKind::ScanMirrored]);
 }
 
 #[test]
@@ -108,8 +109,8 @@ fn a_scanner_that_points_elsewhere_is_told() {
         let mut moments = drive();
         // The scanner is turned to the right of where its transform says.
         moments.iter_mut().for_each(|it| it.scan.base_from_laser = Pose2::new(0.0, 0.0, turn_rad));
-        let doubts = doubts(&moments);
-        let [Doubt::ScannerTurned(told)] = doubts[..] else { panic!("{doubts:?}") };
+        let diagnostics = diagnostics(&moments);
+        let [RemarkKind::ScannerYaw(told)] = diagnostics[..] else { panic!("{diagnostics:?}") };
         assert!((told + turn_rad).abs() < 0.05, "{told} {turn_rad}");
     }
 }
@@ -118,8 +119,8 @@ fn a_scanner_that_points_elsewhere_is_told() {
 fn wheels_that_count_backwards_are_told() {
     let mut moments = drive();
     steps(&mut moments, |it| Pose2::new(-it.x_m, -it.y_m, -it.yaw_rad));
-    let doubts = doubts(&moments);
-    assert_eq!(but_corridors(&doubts), [Doubt::Backwards]);
+    let diagnostics = diagnostics(&moments);
+    assert_eq!(but_corridors(&diagnostics), [RemarkKind::OdometryReversed]);
 }
 
 #[test]
@@ -128,8 +129,8 @@ fn odometry_that_stands_still_is_told() {
     let mut moments = world.drive(&[(6.0, 0.0), (16.0, 0.0), (16.0, 8.0)], 0.1, &GOOD, 1);
     let start = moments[0].odometry;
     moments.iter_mut().for_each(|it| it.odometry = start);
-    let doubts = doubts(&moments);
-    let [Doubt::OdometryStill(metres)] = doubts[..] else { panic!("{doubts:?}") };
+    let diagnostics = diagnostics(&moments);
+    let [RemarkKind::OdometryStuck(metres)] = diagnostics[..] else { panic!("{diagnostics:?}") };
     assert!((1.0..1.5).contains(&metres), "{metres}");
 }
 
@@ -178,13 +179,13 @@ fn a_carried_robot_begins_a_piece_that_closures_join() {
         let _ = slam.add_scan(&moment.scan, Some(odometry));
     }
     slam.finish();
-    let doubts: Vec<Doubt> = slam.remarks().iter().map(|it| it.doubt).collect();
-    assert!(doubts.contains(&Doubt::Carried), "{doubts:?}");
-    let is_unjoined = doubts.iter().any(|it| matches!(it, Doubt::Unjoined(_)));
+    let diagnostics: Vec<RemarkKind> = slam.remarks().iter().map(|it| it.kind).collect();
+    assert!(diagnostics.contains(&RemarkKind::Kidnapped), "{diagnostics:?}");
+    let is_unjoined = diagnostics.iter().any(|it| matches!(it, RemarkKind::Disconnected(_)));
     let truth = moments[0].truth.inverse() * moments[moments.len() - 1].truth;
     let found = moments[0].odometry.inverse() * slam.map_from_base();
     let off_m = (found.x_m - truth.x_m).hypot(found.y_m - truth.y_m);
-    assert!(off_m < 0.15 && !is_unjoined, "{off_m} {doubts:?} {:?}", slam.closures());
+    assert!(off_m < 0.15 && !is_unjoined, "{off_m} {diagnostics:?} {:?}", slam.closures());
 }
 
 #[test]
@@ -194,7 +195,7 @@ fn a_bare_corridor_is_told() {
     // Ends beyond the range of the scanner, walls without anything on them for 24 m.
     let robot = Robot { range_max_m: 8.0, ..GOOD };
     let moments = world.drive(&[(0.0, 0.0), (40.0, 0.0)], 0.3, &robot, 3);
-    let doubts = doubts(&moments);
-    let [Doubt::Corridor(metres)] = doubts[..] else { panic!("{doubts:?}") };
+    let diagnostics = diagnostics(&moments);
+    let [RemarkKind::Corridor(metres)] = diagnostics[..] else { panic!("{diagnostics:?}") };
     assert!((25.0..38.0).contains(&metres), "{metres}");
 }

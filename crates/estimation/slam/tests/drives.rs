@@ -3,7 +3,7 @@
 mod worlds;
 
 use periplus_geometry::{Pose2, normalize_angle};
-use periplus_slam::{Scan, Settings, Slam, Taken};
+use periplus_slam::{Scan, ScanOutcome, Settings, Slam};
 use worlds::{Moment, ROBOT, Robot, World};
 
 fn map_of(moments: &[Moment], with_odometry: bool) -> Slam {
@@ -112,7 +112,7 @@ fn bad_scans_say_nothing_and_break_nothing() {
         let _ = slam.add_scan(&empty, None);
     }
     let broken = Scan { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
-    assert!(matches!(slam.add_scan(&broken, None).taken, Taken::Ignored(_)));
+    assert!(matches!(slam.add_scan(&broken, None).outcome, ScanOutcome::Rejected(_)));
     let _ = slam.add_scan(&moments[0].scan, Some(Pose2::new(f64::NAN, 0.0, 0.0)));
     slam.finish();
     assert!(slam.map().is_some());

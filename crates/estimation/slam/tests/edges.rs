@@ -14,33 +14,36 @@ use std::thread;
 use carmen::scan_of;
 use periplus_bags::{CarmenScan, read_carmen};
 use periplus_geometry::Pose2;
-use periplus_slam::{Link, Settings, Slam};
+use periplus_slam::{ConstraintKind, Settings, Slam};
 use worlds::{ROBOT, World};
 
 /// Edges of a graph as g2o reads it, by the scans that they tie.
 fn written(slam: &Slam) -> Vec<(usize, usize)> {
     let text = slam.to_g2o();
     let edges = text.lines().filter_map(|line| line.strip_prefix("EDGE_SE2 "));
-    let mut keys: Vec<(usize, usize)> = edges
+    let mut keyframes: Vec<(usize, usize)> = edges
         .map(|line| {
             let mut words = line.split(' ').map(|word| word.parse::<usize>().unwrap_or_default());
             (words.next().unwrap(), words.next().unwrap())
         })
         .collect();
-    keys.sort_unstable();
-    keys
+    keyframes.sort_unstable();
+    keyframes
 }
 
 /// The edges that are told are those of the graph; and closures that are told as accepted are those among
 /// them, each with a residual that is small where the map is right.
 fn check(slam: &Slam, name: &str) {
-    let mut told: Vec<(usize, usize)> = slam.edges().map(|edge| edge.keys).collect();
+    let mut told: Vec<(usize, usize)> = slam.edges().map(|edge| edge.keyframes).collect();
     told.sort_unstable();
     assert_eq!(told, written(slam), "{name}");
-    let in_graph: BTreeSet<(usize, usize)> =
-        slam.edges().filter(|edge| edge.link == Link::Closure).map(|edge| edge.keys).collect();
+    let in_graph: BTreeSet<(usize, usize)> = slam
+        .edges()
+        .filter(|edge| edge.link == ConstraintKind::LoopClosure)
+        .map(|edge| edge.keyframes)
+        .collect();
     let accepted: BTreeSet<(usize, usize)> =
-        slam.closures().iter().filter(|it| it.is_accepted).map(|it| it.keys).collect();
+        slam.closures().iter().filter(|it| it.is_accepted).map(|it| it.keyframes).collect();
     assert_eq!(accepted, in_graph, "{name}");
 }
 
@@ -54,7 +57,8 @@ fn the_edges_of_a_ring_are_told() {
     }
     slam.finish();
     check(&slam, "ring");
-    let closures: Vec<_> = slam.edges().filter(|edge| edge.link != Link::Chain).collect();
+    let closures: Vec<_> =
+        slam.edges().filter(|edge| edge.link != ConstraintKind::Sequential).collect();
     assert!(!closures.is_empty());
     assert!(closures.iter().all(|edge| edge.residual_m < 0.1), "{closures:?}");
 }
@@ -96,7 +100,7 @@ fn the_edges_of_all_real_logs_are_told() {
     logs.retain(|it| it.join("raw.clf").is_file());
     logs.sort();
     assert!(!logs.is_empty(), "no log in {}", folder.display());
-    let (next, ties) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let (next, proximity) = (AtomicUsize::new(0), AtomicUsize::new(0));
     thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
@@ -108,12 +112,13 @@ fn the_edges_of_all_real_logs_are_told() {
                     }
                     slam.finish();
                     check(&slam, &log.display().to_string());
-                    let returns = slam.edges().filter(|edge| edge.link != Link::Chain);
-                    ties.fetch_add(returns.count(), Ordering::Relaxed);
+                    let returns =
+                        slam.edges().filter(|edge| edge.link != ConstraintKind::Sequential);
+                    proximity.fetch_add(returns.count(), Ordering::Relaxed);
                 }
             });
         }
     });
     // Most logs come back to where they were.
-    assert!(ties.into_inner() > 10 * logs.len());
+    assert!(proximity.into_inner() > 10 * logs.len());
 }

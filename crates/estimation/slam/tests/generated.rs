@@ -3,7 +3,7 @@
 
 mod worlds;
 
-use periplus_slam::Doubt;
+use periplus_slam::RemarkKind;
 use worlds::Moment;
 use worlds::kinds::{KINDS, Verdict, outcome};
 
@@ -72,9 +72,9 @@ fn walls_that_are_the_same_all_along_are_no_confirmation() {
         panic!("there is no such kind");
     };
     let outcome = outcome(kind, &(kind.drive)(1, true));
-    let is_told = |doubt: &Doubt| matches!(doubt, Doubt::Unconfirmed(..));
+    let is_told = |kind: &RemarkKind| matches!(kind, RemarkKind::UnconfirmedPath(..));
     assert!(
-        outcome.slam.remarks().iter().any(|it| is_told(&it.doubt)),
+        outcome.slam.remarks().iter().any(|it| is_told(&it.kind)),
         "{:?} {:?}",
         outcome.judgement,
         outcome.slam.remarks()
@@ -90,8 +90,8 @@ fn equal_racks_leave_a_loop_undecided() {
     };
     let part: Vec<Moment> = (kind.drive)(5, false).into_iter().skip(450).take(800).collect();
     let outcome = outcome(kind, &part);
-    let is_told = |doubt: &Doubt| matches!(doubt, Doubt::Undecided(..));
+    let is_told = |kind: &RemarkKind| matches!(kind, RemarkKind::AmbiguousClosure(..));
     let remarks = outcome.slam.remarks();
-    assert!(remarks.iter().any(|it| is_told(&it.doubt)), "{remarks:?}");
+    assert!(remarks.iter().any(|it| is_told(&it.kind)), "{remarks:?}");
     assert!(outcome.judgement.loops_m < 0.1, "{:?}", outcome.judgement);
 }

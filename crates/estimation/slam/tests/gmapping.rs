@@ -3,7 +3,7 @@
 mod worlds;
 
 use periplus_geometry::{Pose2, normalize_angle};
-use periplus_slam::{Gmapping, GmappingSettings, Mapper, Scan, Taken};
+use periplus_slam::{Gmapping, GmappingSettings, Mapper, Scan, ScanOutcome};
 use worlds::{Moment, ROBOT, Robot, World};
 
 fn map_of(moments: &[Moment], settings: GmappingSettings) -> Gmapping {
@@ -146,12 +146,12 @@ fn particles_are_drawn_from_what_is_left_when_odometry_and_scans_say_nothing_new
     let moments = room().drive(&ROUND[..2], 0.3, &ROBOT, 3);
     let mut slam = Gmapping::new(few());
     let first = slam.add_scan(&moments[0].scan, Some(moments[0].odometry));
-    assert_eq!(first.taken, Taken::Kept);
+    assert_eq!(first.outcome, ScanOutcome::Inserted);
     // A robot that stands still changes nothing, however long.
     let pose = slam.map_from_base();
     for _ in 0..20 {
         let told = slam.add_scan(&moments[0].scan, Some(moments[0].odometry));
-        assert_eq!(told.taken, Taken::Passed);
+        assert_eq!(told.outcome, ScanOutcome::BelowMotionThreshold);
     }
     assert_eq!(slam.counts().kept, 1);
     let now = slam.map_from_base();
@@ -184,7 +184,7 @@ fn bad_scans_say_nothing_and_break_nothing() {
     let mut slam = Gmapping::new(few());
     assert!(slam.map().is_some() && slam.trajectory().is_empty());
     let broken = Scan { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
-    assert!(matches!(slam.add_scan(&broken, None).taken, Taken::Ignored(_)));
+    assert!(matches!(slam.add_scan(&broken, None).outcome, ScanOutcome::Rejected(_)));
     let empty = Scan { ranges_m: Vec::new(), ..moments[0].scan.clone() };
     for _ in 0..3 {
         let _ = slam.add_scan(&empty, None);

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use periplus_geometry::Pose2;
 use periplus_scan_matching::Symmetric3;
-use periplus_slam::{Link, Localizer, Mapper, Settings, Slam, Taken};
+use periplus_slam::{ConstraintKind, Localizer, Mapper, ScanOutcome, Settings, Slam};
 use worlds::{Moment, ROBOT, Robot, World};
 
 const ROUND: Robot = Robot { beams: 240, field_rad: std::f64::consts::TAU, ..ROBOT };
@@ -65,7 +65,7 @@ fn a_stored_graph_is_used_and_stays_as_it_is() {
     for moment in &moments {
         let odometry = moments[0].odometry.inverse() * moment.odometry;
         let update = localizer.add_scan(&moment.scan, Some(odometry));
-        assert_ne!(update.taken, Taken::Lost);
+        assert_ne!(update.outcome, ScanOutcome::NoMatch);
         worst = worst.max(off(update.map_from_base, moment.truth));
         assert!(localizer.own_scans() <= 3);
         let again = update.map_from_odom * odometry;
@@ -91,8 +91,10 @@ fn a_map_is_gone_on_with_from_elsewhere() {
     }
     slam.finish();
     assert!(slam.poses().len() > before + 20);
-    let ties = slam.links().filter(|it| it.1 >= before && it.0 < before && it.2 != Link::Chain);
-    assert!(ties.count() > 5, "the new scans are tied to the old ones");
+    let proximity = slam
+        .links()
+        .filter(|it| it.1 >= before && it.0 < before && it.2 != ConstraintKind::Sequential);
+    assert!(proximity.count() > 5, "the new scans are tied to the old ones");
 }
 
 /// Five rounds in one ring: kept scans stop growing, and so do bytes.
@@ -110,9 +112,9 @@ fn a_life_in_one_building_is_bounded() {
             told.push((slam.poses().len(), slam.links().count(), slam.save().len()));
         }
     }
-    let mut usual = Slam::new(Settings::default());
-    add(&mut usual, &moments);
-    let all = usual.poses().len();
+    let mut inlier_ratio = Slam::new(Settings::default());
+    add(&mut inlier_ratio, &moments);
+    let all = inlier_ratio.poses().len();
     let (second, last) = (told[1], told[told.len() - 1]);
     assert!(last.0 < second.0 + second.0 / 5, "{told:?}, without it {all}");
     assert!(last.1 < second.1 * 3 / 2 && last.2 < second.2 * 3 / 2, "{told:?}");
@@ -146,21 +148,21 @@ fn a_scan_that_is_moved_by_hand_bends_the_map() {
             Pose2::new(1.1 * moment.odometry.x_m, moment.odometry.y_m, moment.odometry.yaw_rad);
         let _ = slam.add_scan(&moment.scan, Some(odometry));
     }
-    let key = slam.poses().len() - 1;
-    let at = slam.kept()[key];
+    let keyframe = slam.poses().len() - 1;
+    let at = slam.kept()[keyframe];
     // The map begins where odometry does.
     let truth_of = |index: usize| {
         Pose2::new(6.6, 0.0, 0.0) * (moments[0].truth.inverse() * moments[index].truth)
     };
-    let before = off(slam.poses()[key], truth_of(at));
-    let moved = BTreeMap::from([(key, truth_of(at))]);
-    assert_eq!(slam.close_by_hand(&moved), 1);
+    let before = off(slam.poses()[keyframe], truth_of(at));
+    let moved = BTreeMap::from([(keyframe, truth_of(at))]);
+    assert_eq!(slam.add_manual_constraints(&moved), 1);
     slam.work_slices(usize::MAX);
-    let after = off(slam.poses()[key], truth_of(at));
+    let after = off(slam.poses()[keyframe], truth_of(at));
     assert!(after < 0.3 && after < 0.7 * before, "{before} {after}");
     let told = slam.closures().last().unwrap();
     assert!(told.is_accepted && told.reason.starts_with("moved by hand"), "{told:?}");
-    assert!(slam.links().any(|it| it.2 == Link::Closure));
+    assert!(slam.links().any(|it| it.2 == ConstraintKind::LoopClosure));
     // What is not there cannot be moved.
-    assert_eq!(slam.close_by_hand(&BTreeMap::from([(9999, Pose2::IDENTITY)])), 0);
+    assert_eq!(slam.add_manual_constraints(&BTreeMap::from([(9999, Pose2::IDENTITY)])), 0);
 }

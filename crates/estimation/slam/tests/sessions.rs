@@ -28,7 +28,7 @@ fn check(settings: &Settings, parts: &[f64]) {
     let mut whole = Slam::new(settings.clone());
     add(&mut whole, &moments);
     let saved_whole = whole.save();
-    assert!(whole.counts().searches > 0 && whole.counts().ties > 0, "{:?}", whole.counts());
+    assert!(whole.counts().searches > 0 && whole.counts().proximity > 0, "{:?}", whole.counts());
     whole.finish();
     for part in parts {
         let stop = (part * moments.len() as f64) as usize;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use periplus_os::peak_memory_bytes;
-use periplus_slam::{Doubt, Link, Mapper, Method, Remark, Remedy};
+use periplus_slam::{ConstraintKind, Mapper, Method, MountingCorrection, Remark, RemarkKind};
 use serde_json::{Value, json};
 
 use super::options::SlamOptions;
@@ -26,7 +26,7 @@ pub(super) struct Report<'a> {
     /// For each scan.
     pub(super) spent_s: &'a [f64],
     /// The map was made again with this fault of the data undone.
-    pub(super) remedy: Option<Remedy>,
+    pub(super) remedy: Option<MountingCorrection>,
 }
 
 impl Report<'_> {
@@ -39,7 +39,7 @@ impl Report<'_> {
             .iter()
             .map(|it| {
                 json!({
-                    "keys": [it.keys.0, it.keys.1],
+                    "keys": [it.keyframes.0, it.keyframes.1],
                     "old_from_new": [it.old_from_new.x_m, it.old_from_new.y_m, it.old_from_new.yaw_rad],
                     "accepted": it.is_accepted,
                     "region_m": it.region_m,
@@ -65,7 +65,7 @@ impl Report<'_> {
             "ignored_scans": counts.ignored,
             "path_m": self.path_m(),
             "log_s": self.log.span_s(),
-            "ties": counts.ties,
+            "ties": counts.proximity,
             "loop_closures": self.accepted(),
             "loop_searches": counts.searches,
             "resamplings": self.slam.resamplings(),
@@ -85,12 +85,12 @@ impl Report<'_> {
         let edges = self.slam.edges().into_iter();
         let told = edges.map(|edge| {
             let link = match edge.link {
-                Link::Chain => "chain",
-                Link::Tie => "tie",
-                Link::Closure => "closure",
+                ConstraintKind::Sequential => "chain",
+                ConstraintKind::Proximity => "tie",
+                ConstraintKind::LoopClosure => "closure",
             };
             json!({
-                "keys": [edge.keys.0, edge.keys.1],
+                "keys": [edge.keyframes.0, edge.keyframes.1],
                 "link": link,
                 "residual": [edge.residual_m, edge.residual_rad],
             })
@@ -111,21 +111,21 @@ impl Report<'_> {
             json!({
                 "position": [it.map_from_base.x_m, it.map_from_base.y_m],
                 "agreeing": it.agreeing_ratio,
-                "pass": pass(it.keys, it.times_ns),
-                "earlier_pass": pass(it.earlier_keys, it.earlier_times_ns),
+                "pass": pass(it.keyframes, it.times_ns),
+                "earlier_pass": pass(it.earlier_keyframes, it.earlier_times_ns),
             })
         });
         told.collect()
     }
 
-    /// Why the map is not one that anybody should use.
+    /// Reason for which the map must not be used.
     pub(super) fn failure(&self) -> Option<String> {
         let counts = self.slam.counts();
-        let is_unfitting = |remark: &Remark| matches!(remark.doubt, Doubt::Unfitting(_));
+        let is_unfitting = |remark: &Remark| matches!(remark.kind, RemarkKind::UnmatchedScans(_));
         self.slam.remarks().iter().any(is_unfitting).then(|| {
             format!(
-                "{} of {} scans fit nothing that was seen before: do not use the map; look at the \
-                 scanner's transform (`periplus doctor`), at the stamps, and at readings that come and go",
+                "{} of {} scans match nothing in the map: do not use the map; check the scanner's transform \
+                 (`periplus doctor`), the time stamps, and spurious readings",
                 counts.lost, counts.scans
             )
         })
@@ -138,7 +138,7 @@ impl Report<'_> {
             writeln!(out, "warning: {warning}")?;
         }
         let how = match self.slam.method() {
-            Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.ties),
+            Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.proximity),
             Method::Gmapping => format!(
                 "{} particles, drawn anew {} times",
                 self.parameters.values.integer("particles").unwrap_or_default(),

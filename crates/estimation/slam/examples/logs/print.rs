@@ -68,7 +68,7 @@ pub(crate) fn table(outcomes: &[Outcome]) -> String {
             it.scan_ms[2],
             it.finish_ms,
             it.counts.kept,
-            it.counts.ties,
+            it.counts.proximity,
             it.counts.lost,
             loops,
             it.size / 1000
@@ -139,7 +139,7 @@ pub(crate) fn json(it: &Outcome) -> String {
         ("kinds", texts(&it.kinds)),
         ("scans", it.counts.scans.to_string()),
         ("kept", it.counts.kept.to_string()),
-        ("ties", it.counts.ties.to_string()),
+        ("ties", it.counts.proximity.to_string()),
         ("lost", it.counts.lost.to_string()),
         ("closures", it.closures.0.to_string()),
         ("resamplings", it.resamplings.to_string()),

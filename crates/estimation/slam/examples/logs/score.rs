@@ -8,8 +8,8 @@ use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
 use periplus_params::{Given, Values};
 use periplus_slam::{
-    Counts, Cure, Gmapping, GmappingSettings, Mapper, Method, Relation, Remedy, Score, Settings,
-    Slam, Stamped, misses, score,
+    CorrectedInput, Counts, Gmapping, GmappingSettings, Mapper, Method, MountingCorrection,
+    Relation, Score, Settings, Slam, Stamped, misses, score,
 };
 
 use crate::carmen::scan_of;
@@ -149,11 +149,16 @@ struct Drive {
     finish: u64,
 }
 
-fn drive(method: Method, values: &Values, copy: &Copy, remedy: Option<Remedy>) -> Drive {
+fn drive(
+    method: Method,
+    values: &Values,
+    copy: &Copy,
+    remedy: Option<MountingCorrection>,
+) -> Drive {
     let mut slam = mapper(method, values);
     let mut spent: Vec<u64> = Vec::with_capacity(copy.scans.len());
     let mut used = Vec::with_capacity(copy.scans.len());
-    let mut cure = remedy.map(Cure::new);
+    let mut cure = remedy.map(CorrectedInput::new);
     for (index, scan) in copy.scans.iter().enumerate() {
         let begin = cpu_ns();
         let mut odometry = scan.odom_from_base;
@@ -181,7 +186,7 @@ pub(crate) fn race(
     show: &Show<'_>,
 ) -> Outcome {
     let mut driven = drive(method, values, copy, None);
-    let remedy = Remedy::of(driven.slam.remarks());
+    let remedy = MountingCorrection::of(driven.slam.remarks());
     if let Some(remedy) = remedy {
         driven = drive(method, values, copy, Some(remedy));
     }
@@ -229,7 +234,7 @@ pub(crate) fn race(
     let is_warned = remarks.iter().any(|it| it.is_warning());
     let mut kinds: Vec<String> = Vec::new();
     for remark in remarks {
-        let kind = format!("{:?}", remark.doubt);
+        let kind = format!("{:?}", remark.kind);
         let kind = kind.split('(').next().unwrap_or_default().to_owned();
         if !kinds.contains(&kind) {
             kinds.push(kind);

@@ -4,11 +4,13 @@
 use periplus_geometry::Pose2;
 
 use super::Slam;
-use crate::audit::{Contradiction, Held, NEAR_M, audit, contradictions, hold, other_passes};
-use crate::doubts::{Doubt, Remark};
+use crate::audit::{
+    ConstraintResidual, Contradiction, NEAR_M, audit, contradictions, hold, other_passes,
+};
 use crate::graph::Graph;
-use crate::key::Key;
+use crate::keyframe::Keyframe;
 use crate::local::apart;
+use crate::remark::{Remark, RemarkKind};
 
 /// Pairs of scans that are compared in one slice, some 2 ms together, and kept scans that are visited.
 const COMPARISONS: usize = 4;
@@ -25,9 +27,9 @@ const SETTLED_M: f64 = 15.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapContradiction {
     /// Kept scans at the ends of the stretch, and of the earlier pass that it contradicts.
-    pub keys: (usize, usize),
-    /// See `keys`.
-    pub earlier_keys: (usize, usize),
+    pub keyframes: (usize, usize),
+    /// See `keyframes`.
+    pub earlier_keyframes: (usize, usize),
     /// Stamps of these scans \[ns\].
     pub times_ns: (i64, i64),
     /// See `times_ns`.
@@ -42,13 +44,13 @@ pub struct MapContradiction {
 #[derive(Default)]
 pub(super) struct LiveAudit {
     /// Comparisons so far, by kept scan.
-    held: Vec<Held>,
+    held: Vec<ConstraintResidual>,
     /// Those of before the map moved, from the next kept scan on.
-    before: Vec<Held>,
+    before: Vec<ConstraintResidual>,
     /// The next kept scan.
     next: usize,
     /// Bends of the map for which the comparisons hold.
-    bends: usize,
+    map_revision: usize,
     /// Whether `found` is of all comparisons.
     is_current: bool,
     found: Vec<Contradiction>,
@@ -57,54 +59,61 @@ pub(super) struct LiveAudit {
 impl LiveAudit {
     /// After all poses moved, with what was found then.
     pub(super) fn concluded(found: Vec<Contradiction>) -> Self {
-        Self { found, bends: usize::MAX, ..Self::default() }
+        Self { found, map_revision: usize::MAX, ..Self::default() }
     }
 
     /// Compares some more scans; false when there is nothing to do.
-    pub(super) fn work(&mut self, keys: &[Key], graph: &Graph, bends: usize) -> bool {
-        if self.bends != bends {
-            self.bends = bends;
+    pub(super) fn work(
+        &mut self,
+        keyframes: &[Keyframe],
+        graph: &Graph,
+        map_revision: usize,
+    ) -> bool {
+        if self.map_revision != map_revision {
+            self.map_revision = map_revision;
             self.restart();
         }
-        if self.next >= keys.len() {
+        if self.next >= keyframes.len() {
             if self.is_current {
                 return false;
             }
-            self.found = contradictions(&self.held, keys);
+            self.found = contradictions(&self.held, keyframes);
             self.is_current = true;
             return true;
         }
         self.is_current = false;
         let mut compared = 0;
         for _ in 0..VISITS {
-            if self.next >= keys.len() || compared >= COMPARISONS {
+            if self.next >= keyframes.len() || compared >= COMPARISONS {
                 break;
             }
-            compared += self.visit(keys, graph);
+            compared += self.visit(keyframes, graph);
         }
         true
     }
 
     /// Visits the next kept scan; gives how many comparisons that took.
-    fn visit(&mut self, keys: &[Key], graph: &Graph) -> usize {
-        let key = self.next;
+    fn visit(&mut self, keyframes: &[Keyframe], graph: &Graph) -> usize {
+        let keyframe = self.next;
         self.next += 1;
-        let gone = self.before.iter().take_while(|it| it.key <= key).count();
-        let known: Vec<Held> = self.before.drain(..gone).filter(|it| it.key == key).collect();
+        let gone = self.before.iter().take_while(|it| it.keyframe <= keyframe).count();
+        let known: Vec<ConstraintResidual> =
+            self.before.drain(..gone).filter(|it| it.keyframe == keyframe).collect();
         let mut compared = 0;
-        let here = graph.poses[key];
+        let here = graph.poses[keyframe];
         let near = |other: &usize| {
             let there = graph.poses[*other];
             (there.x_m - here.x_m).abs() < NEAR_M && (there.y_m - here.y_m).abs() < NEAR_M
         };
-        for other in other_passes(keys, graph, key, (0..key).filter(near)) {
-            let is_same = |it: &&Held| {
-                let (metres, radians) = apart(it.other_from_key, graph.between(other, key));
+        for other in other_passes(keyframes, graph, keyframe, (0..keyframe).filter(near)) {
+            let is_same = |it: &&ConstraintResidual| {
+                let (metres, radians) =
+                    apart(it.other_from_keyframe, graph.between(other, keyframe));
                 it.other == other && metres < SAME_M && radians < SAME_RAD
             };
             self.held.push(known.iter().find(is_same).copied().unwrap_or_else(|| {
                 compared += 1;
-                hold(keys, graph, key, other)
+                hold(keyframes, graph, keyframe, other)
             }));
         }
         compared
@@ -121,18 +130,24 @@ impl LiveAudit {
 
     /// Kept scans have other numbers, and some are gone.
     pub(super) fn renumber(&mut self, number: &[Option<usize>]) {
-        let new = |key: usize| number.get(key).copied().flatten();
+        let new = |keyframe: usize| number.get(keyframe).copied().flatten();
         self.restart();
         self.before = std::mem::take(&mut self.before)
             .into_iter()
-            .filter_map(|it| Some(Held { key: new(it.key)?, other: new(it.other)?, ..it }))
+            .filter_map(|it| {
+                Some(ConstraintResidual {
+                    keyframe: new(it.keyframe)?,
+                    other: new(it.other)?,
+                    ..it
+                })
+            })
             .collect();
         self.found = std::mem::take(&mut self.found)
             .into_iter()
             .filter_map(|it| {
-                let keys = (new(it.keys.0)?, new(it.keys.1)?);
+                let keyframes = (new(it.keyframes.0)?, new(it.keyframes.1)?);
                 let others = (new(it.others.0)?, new(it.others.1)?);
-                Some(Contradiction { keys, others, middle: new(it.middle)?, ..it })
+                Some(Contradiction { keyframes, others, middle: new(it.middle)?, ..it })
             })
             .collect();
     }
@@ -144,9 +159,9 @@ impl Slam {
     /// drives and that no closure has put right since. They go when the map is right there.
     #[must_use]
     pub fn contradictions(&self) -> Vec<MapContradiction> {
-        let newest_m = self.keys.last().map_or(0.0, |key| key.travel_m);
+        let newest_m = self.keyframes.last().map_or(0.0, |keyframe| keyframe.travel_m);
         let is_settled = |it: &&Contradiction| {
-            self.is_finished || newest_m - self.keys[it.keys.1].travel_m > SETTLED_M
+            self.is_finished || newest_m - self.keyframes[it.keyframes.1].travel_m > SETTLED_M
         };
         self.live_audit.found.iter().filter(is_settled).map(|it| self.reported(it)).collect()
     }
@@ -155,16 +170,16 @@ impl Slam {
     /// of path. [`Slam::contradictions`] is what has been found in slices.
     #[must_use]
     pub fn audit(&self) -> Vec<MapContradiction> {
-        audit(&self.keys, &self.graph).iter().map(|it| self.reported(it)).collect()
+        audit(&self.keyframes, &self.graph).iter().map(|it| self.reported(it)).collect()
     }
 
     fn reported(&self, it: &Contradiction) -> MapContradiction {
-        let time_ns = |key: usize| self.time_of(key).unwrap_or_default();
-        let times_ns = |keys: (usize, usize)| (time_ns(keys.0), time_ns(keys.1));
+        let time_ns = |keyframe: usize| self.time_of(keyframe).unwrap_or_default();
+        let times_ns = |keyframes: (usize, usize)| (time_ns(keyframes.0), time_ns(keyframes.1));
         MapContradiction {
-            keys: it.keys,
-            earlier_keys: it.others,
-            times_ns: times_ns(it.keys),
+            keyframes: it.keyframes,
+            earlier_keyframes: it.others,
+            times_ns: times_ns(it.keyframes),
             earlier_times_ns: times_ns(it.others),
             map_from_base: self.graph.poses[it.middle],
             agreeing_ratio: it.agreeing,
@@ -176,24 +191,24 @@ impl Slam {
     #[must_use]
     pub fn current_remarks(&self) -> Vec<Remark> {
         let now_ns = self.last.as_ref().map_or(0, |last| last.time_ns);
-        let noticed_ns = |is_it: &dyn Fn(&Doubt) -> bool| {
-            let mut remarks = self.doubts.remarks.iter().rev();
-            remarks.find(|it| is_it(&it.doubt)).map_or(now_ns, |it| it.time_ns)
+        let noticed_ns = |is_it: &dyn Fn(&RemarkKind) -> bool| {
+            let mut remarks = self.diagnostics.remarks.iter().rev();
+            remarks.find(|it| is_it(&it.kind)).map_or(now_ns, |it| it.time_ns)
         };
-        let mut current = self.doubts.holding();
-        if let Some(doubt) = self.wheels.standing_still() {
-            let time_ns = noticed_ns(&|it| matches!(it, Doubt::OdometryStill(_)));
-            current.push(Remark { time_ns, doubt });
+        let mut current = self.diagnostics.holding();
+        if let Some(kind) = self.odometry_monitor.stuck() {
+            let time_ns = noticed_ns(&|it| matches!(it, RemarkKind::OdometryStuck(_)));
+            current.push(Remark { time_ns, kind });
         }
         if self.counts.kept > 1 && self.last.as_ref().is_some_and(|it| it.odom_from_base.is_none())
         {
-            current.push(Remark { time_ns: now_ns, doubt: Doubt::NoOdometry });
+            current.push(Remark { time_ns: now_ns, kind: RemarkKind::NoOdometry });
         }
-        match self.unjoined().len() {
+        match self.disconnected().len() {
             0 => {}
             pieces => {
-                let time_ns = noticed_ns(&|it| matches!(it, Doubt::Carried));
-                current.push(Remark { time_ns, doubt: Doubt::Unjoined(pieces) });
+                let time_ns = noticed_ns(&|it| matches!(it, RemarkKind::Kidnapped));
+                current.push(Remark { time_ns, kind: RemarkKind::Disconnected(pieces) });
             }
         }
         current.extend(self.contradictions().iter().map(MapContradiction::remark));
@@ -206,7 +221,7 @@ impl MapContradiction {
     #[must_use]
     pub fn remark(&self) -> Remark {
         let Pose2 { x_m, y_m, .. } = self.map_from_base;
-        let doubt = Doubt::Contradiction(x_m, y_m, self.agreeing_ratio);
-        Remark { time_ns: self.times_ns.0, doubt }
+        let kind = RemarkKind::Contradiction(x_m, y_m, self.agreeing_ratio);
+        Remark { time_ns: self.times_ns.0, kind }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::Slam;
 use crate::audit::{audit, overlap};
-use crate::graph::{Edge, Kind};
+use crate::graph::{ConstraintKind, Edge};
 use crate::local::apart;
 use crate::offsets::{Offset, compare};
 
@@ -27,7 +27,7 @@ const PULLED: f64 = 21.1;
 
 /// A kept scan around which two closures that contradict each other passed the same trial.
 pub(super) struct Undecided {
-    pub(super) key: usize,
+    pub(super) keyframe: usize,
     /// Distance between the places that they give it \[m\].
     pub(super) apart_m: f64,
 }
@@ -45,7 +45,7 @@ impl Slam {
         let mut refused: Vec<(usize, usize)> = Vec::new();
         let mut undecided: Vec<Undecided> = Vec::new();
         for _ in 0..MOST_TRIED {
-            let waiting = self.loops.waiting(&self.keys, &self.graph);
+            let waiting = self.loops.waiting(&self.keyframes, &self.graph);
             let next = waiting.into_iter().find(|edge| {
                 let known = self.graph.between(edge.from, edge.to);
                 let (metres, radians) = apart(known, edge.from_from_to);
@@ -57,12 +57,12 @@ impl Slam {
                 Outcome::Kept => continue,
                 Outcome::Refused => {}
                 Outcome::Undecided { apart_m } => {
-                    let here_m = self.keys[edge.to].travel_m;
+                    let here_m = self.keyframes[edge.to].travel_m;
                     let is_near = |it: &Undecided| {
-                        (self.keys[it.key].travel_m - here_m).abs() < SAME_STRETCH_M
+                        (self.keyframes[it.keyframe].travel_m - here_m).abs() < SAME_STRETCH_M
                     };
                     if !undecided.iter().any(is_near) {
-                        undecided.push(Undecided { key: edge.to, apart_m });
+                        undecided.push(Undecided { keyframe: edge.to, apart_m });
                     }
                 }
             }
@@ -76,13 +76,13 @@ impl Slam {
     /// Where many places look alike, the best supported closure that contradicts it passes as well: then
     /// nothing decides between the two, and neither is kept.
     fn try_closure(&mut self, edge: Edge) -> Outcome {
-        let worse = audit(&self.keys, &self.graph).len();
-        let rival = self.loops.rival_of(&edge, &self.keys, &self.graph);
+        let worse = audit(&self.keyframes, &self.graph).len();
+        let rival = self.loops.rival_of(&edge, &self.keyframes, &self.graph);
         let rival = rival.filter(|rival| self.trial(*rival, worse, false).is_some());
         match (self.trial(edge, worse, rival.is_none()), rival) {
             (None, _) => Outcome::Refused,
             (Some(how), None) => {
-                self.loops.believe(&edge, how);
+                self.loops.accept(&edge, how);
                 Outcome::Kept
             }
             (Some(_), Some(rival)) => {
@@ -100,12 +100,12 @@ impl Slam {
     /// Bends the map by a closure; where it passes, says why, and the map stays so if it is to be kept.
     fn trial(&mut self, edge: Edge, worse: usize, is_kept: bool) -> Option<String> {
         let poses = self.graph.poses.clone();
-        self.lay_pieces(&[edge]);
-        let index = self.bend_by(edge);
-        let (sum, all) = overlap(&self.keys, &self.graph, edge.to, edge.from, AROUND_M);
+        self.align_components(&[edge]);
+        let index = self.solve_with(edge);
+        let (sum, all) = overlap(&self.keyframes, &self.graph, edge.to, edge.from, AROUND_M);
         let has_passed = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
             && sum.share() > AGREEING
-            && audit(&self.keys, &self.graph).len() <= worse;
+            && audit(&self.keyframes, &self.graph).len() <= worse;
         if !has_passed || !is_kept {
             self.undo(&poses, &[index]);
         }
@@ -119,7 +119,7 @@ impl Slam {
     }
 
     /// Bends the map by one more edge; gives its number.
-    fn bend_by(&mut self, edge: Edge) -> usize {
+    fn solve_with(&mut self, edge: Edge) -> usize {
         let index = self.graph.add_edge(edge);
         self.solve(None);
         self.work_slices(usize::MAX);
@@ -129,9 +129,9 @@ impl Slam {
     /// Joins passes whose walls lie side by side, those that are farthest apart first, where that leaves
     /// fewer such places and no more contradictions.
     pub(super) fn join_offsets(&mut self) {
-        let found = |slam: &Self| compare(&slam.keys, &slam.graph, &slam.settings).offsets;
+        let found = |slam: &Self| compare(&slam.keyframes, &slam.graph, &slam.settings).offsets;
         let mut left = found(self);
-        let mut worse = audit(&self.keys, &self.graph).len();
+        let mut worse = audit(&self.keyframes, &self.graph).len();
         let mut refused: Vec<(usize, usize)> = Vec::new();
         for _ in 0..MOST_TRIED {
             let is_new = |it: &&Offset| !refused.contains(&(it.edge.from, it.edge.to));
@@ -140,9 +140,9 @@ impl Slam {
                 next.max_by(|a, b| a.shift_m.total_cmp(&b.shift_m).then(b.edge.to.cmp(&a.edge.to)));
             let Some((edge, shift_m)) = next.map(|it| (it.edge, it.shift_m)) else { return };
             let poses = self.graph.poses.clone();
-            let index = self.bend_by(edge);
+            let index = self.solve_with(edge);
             let after = found(self);
-            let contradictions = audit(&self.keys, &self.graph).len();
+            let contradictions = audit(&self.keyframes, &self.graph).len();
             if after.len() < left.len() && contradictions <= worse {
                 (left, worse) = (after, contradictions);
                 self.loops.join(&edge, shift_m);
@@ -156,9 +156,10 @@ impl Slam {
     /// Leaves out closures in turn where passes contradict each other, and those that the others pull at.
     pub(super) fn doubt_closures(&mut self) {
         for _ in 0..MOST_LEFT_OUT {
-            let worse = audit(&self.keys, &self.graph).len();
+            let worse = audit(&self.keyframes, &self.graph).len();
             let graph = &self.graph;
-            let is_closure = |edge: &Edge| edge.kind == Kind::Loop && edge.weight > 0.0;
+            let is_closure =
+                |edge: &Edge| edge.kind == ConstraintKind::LoopClosure && edge.weight > 0.0;
             let pulled = graph.edges.iter().enumerate().filter(|(_, edge)| is_closure(edge));
             let pulled = pulled.map(|(index, edge)| (index, edge.chi2(&graph.poses)));
             let most = pulled.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
@@ -167,12 +168,12 @@ impl Slam {
             self.graph.edges[index].weight = 0.0;
             self.solve(None);
             self.work_slices(usize::MAX);
-            if audit(&self.keys, &self.graph).len() < worse {
+            if audit(&self.keyframes, &self.graph).len() < worse {
                 let reason = format!(
                     "left out when all scans were in: the others pulled at it (squared distance \
                      {chi2:.0}), and without it fewer passes contradict each other"
                 );
-                self.loops.disbelieve(&[edge], &reason);
+                self.loops.reject(&[edge], &reason);
             } else {
                 self.graph.edges[index].weight = edge.weight;
                 self.graph.poses = poses;

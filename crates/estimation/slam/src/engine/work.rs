@@ -8,31 +8,31 @@ use periplus_geometry::Pose2;
 use periplus_scan_matching::Agreement;
 
 use super::Slam;
-use crate::graph::{Edge, Kind, Outcome, Saved, Size, Solver};
+use crate::graph::{ConstraintKind, Edge, Outcome, Saved, Size, Solver};
 use crate::local::{apart, both_ways};
 use crate::loops::Loops;
-use crate::near::ties;
+use crate::proximity::proximity;
 
 /// What is to be done.
 #[derive(Default)]
 pub(super) struct Work {
     /// Keys whose ties to old ones are to be looked for.
-    pub(super) ties: VecDeque<usize>,
+    pub(super) proximity: VecDeque<usize>,
     /// Keys for which older ones may go.
-    pub(super) thins: VecDeque<usize>,
+    pub(super) prunable: VecDeque<usize>,
     /// Way at the last tie to an old scan \[m\].
-    pub(super) tied_m: f64,
+    pub(super) proximity_m: f64,
     solving: Option<Solving>,
     /// Ties since the map was last solved for, and whether one of them pulls.
     loose: usize,
     is_strained: bool,
     /// Keys when the map was last solved for.
     solved_at: usize,
-    pub(super) tied: usize,
+    pub(super) proximity_count: usize,
     pub(super) searches: usize,
     pub(super) slices: usize,
     /// How often the map was bent, in steps and in all.
-    pub(super) bends: usize,
+    pub(super) map_revision: usize,
     solves: usize,
 }
 
@@ -72,9 +72,9 @@ const OLD_M: f64 = 10.0;
 
 /// Weight of an edge by its squared distance: closures that were verified, and chains, count as they
 /// are; ties less when the map says otherwise (Geman and McClure).
-fn robust(kind: Kind, chi2: f64) -> f64 {
+fn robust(kind: ConstraintKind, chi2: f64) -> f64 {
     match kind {
-        Kind::Near => {
+        ConstraintKind::Proximity => {
             let shrink = DOUBTED / (DOUBTED + chi2);
             shrink * shrink
         }
@@ -95,20 +95,20 @@ impl Slam {
     /// Does one slice of work; false when there is none.
     fn work_slice(&mut self) -> bool {
         // Ties first: a way that nothing holds would be searched for loops.
-        if let Some(key) = self.work.ties.pop_front() {
-            self.tie(key);
+        if let Some(keyframe) = self.work.proximity.pop_front() {
+            self.tie(keyframe);
         } else if self.work.solving.is_some() {
             self.solve_step();
         } else if self.is_to_be_solved() {
             self.solve(None);
         } else if self.loops.is_busy() {
             self.search();
-        } else if let Some(key) = self.work.thins.pop_front() {
-            self.thin(key);
+        } else if let Some(keyframe) = self.work.prunable.pop_front() {
+            self.prune(keyframe);
         } else {
             // Not counted: it changes nothing of the map.
             return self.settings.audits_live
-                && self.live_audit.work(&self.keys, &self.graph, self.work.bends);
+                && self.live_audit.work(&self.keyframes, &self.graph, self.work.map_revision);
         }
         self.work.slices += 1;
         true
@@ -117,32 +117,32 @@ impl Slam {
     /// A map is bent for ties that pull, but not for every one: the larger it is, the more scans share
     /// the work.
     fn is_to_be_solved(&self) -> bool {
-        let keys = self.keys.len();
-        let is_due = keys >= self.work.solved_at + SOLVE_EVERY + keys / SOLVE_PART;
-        (self.work.is_strained && is_due) || self.work.loose >= LOOSE + keys / SOLVE_PART
+        let keyframes = self.keyframes.len();
+        let is_due = keyframes >= self.work.solved_at + SOLVE_EVERY + keyframes / SOLVE_PART;
+        (self.work.is_strained && is_due) || self.work.loose >= LOOSE + keyframes / SOLVE_PART
     }
 
-    fn tie(&mut self, key: usize) {
-        for edge in ties(&self.keys, &self.graph, key, &self.settings) {
+    fn tie(&mut self, keyframe: usize) {
+        for edge in proximity(&self.keyframes, &self.graph, keyframe, &self.settings) {
             self.work.is_strained |= edge.chi2(&self.graph.poses) > STRAIN;
             self.work.loose += 1;
-            self.work.tied += 1;
-            self.work.tied_m = self.work.tied_m.max(self.keys[key].travel_m);
+            self.work.proximity_count += 1;
+            self.work.proximity_m = self.work.proximity_m.max(self.keyframes[keyframe].travel_m);
             self.graph.add_edge(edge);
         }
         if self.settings.is_lifelong {
-            self.work.thins.push_back(key);
+            self.work.prunable.push_back(keyframe);
         }
     }
 
     fn search(&mut self) {
         self.work.searches += 1;
-        let edges = self.loops.work(&self.keys, &self.graph, &self.settings);
+        let edges = self.loops.work(&self.keyframes, &self.graph, &self.settings);
         if edges.is_empty() {
             return;
         }
         let poses = self.graph.poses.clone();
-        self.lay_pieces(&edges);
+        self.align_components(&edges);
         let added = edges.into_iter().map(|edge| self.graph.add_edge(edge)).collect();
         self.solve(Some((poses, added)));
     }
@@ -151,7 +151,7 @@ impl Slam {
     pub(super) fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
         self.work.loose = 0;
         self.work.is_strained = false;
-        self.work.solved_at = self.keys.len();
+        self.work.solved_at = self.keyframes.len();
         let size = (self.graph.poses.len(), self.graph.edges.len());
         let solving = Solving { solver: None, resumed: None, steps: 0, size, trial };
         self.work.solving = Some(solving);
@@ -159,7 +159,7 @@ impl Slam {
 
     /// Asks for the map to be bent; when it is being bent, once more after that.
     pub(super) fn solve_soon(&mut self) {
-        self.work.loose += LOOSE + self.keys.len() / SOLVE_PART;
+        self.work.loose += LOOSE + self.keyframes.len() / SOLVE_PART;
     }
 
     fn solve_step(&mut self) {
@@ -183,7 +183,7 @@ impl Slam {
             return;
         };
         solving.steps += 1;
-        self.work.bends += 1;
+        self.work.map_revision += 1;
         let goes_on = matches!(outcome, Outcome::Moved(by) if by > SETTLED_M);
         if goes_on && solving.steps < self.settings.solve_steps {
             self.work.solving = Some(solving);
@@ -202,7 +202,7 @@ impl Slam {
                 "undone: in the map that came of it {:.0} % of the points were seen through",
                 100.0 * (1.0 - sum.share())
             );
-            self.loops.disbelieve(&closed, &reason);
+            self.loops.reject(&closed, &reason);
             return;
         }
         let how = format!(
@@ -210,11 +210,11 @@ impl Slam {
             sum.judged(),
             100.0 * sum.share()
         );
-        self.loops.told_of(&closed).for_each(|told| told.reason.push_str(&how));
+        self.loops.closures_of(&closed).for_each(|told| told.reason.push_str(&how));
         // The uncertainty is gone: near scans can now be compared directly.
         self.loops.forget();
-        let first = self.keys.len().saturating_sub(LOOKED_AT);
-        self.work.ties.extend(first..self.keys.len());
+        let first = self.keyframes.len().saturating_sub(LOOKED_AT);
+        self.work.proximity.extend(first..self.keyframes.len());
     }
 
     /// Goes back to the poses before some edges were on trial, which count no more.
@@ -230,19 +230,21 @@ impl Slam {
     /// Holds the newest way against the old scans that it now lies on.
     fn overlap(&self) -> Agreement {
         let mut sum = Agreement::default();
-        let first = self.keys.len().saturating_sub(LOOKED_AT);
-        for key in first..self.keys.len() {
-            let here = self.graph.poses[key];
+        let first = self.keyframes.len().saturating_sub(LOOKED_AT);
+        for keyframe in first..self.keyframes.len() {
+            let here = self.graph.poses[keyframe];
             let mut near: Vec<(f64, usize)> = (0..first)
-                .filter(|&old| self.keys[key].travel_m - self.keys[old].travel_m > OLD_M)
+                .filter(|&old| {
+                    self.keyframes[keyframe].travel_m - self.keyframes[old].travel_m > OLD_M
+                })
                 .map(|old| (apart(here, self.graph.poses[old]).0, old))
                 .filter(|it| it.0 < NEAR_M)
                 .collect();
             near.sort_by(|a, b| a.0.total_cmp(&b.0));
             for &(_, old) in near.iter().take(2) {
-                let old_from_key = self.graph.between(old, key);
-                let (a, b) = (self.keys[key].cloud(), self.keys[old].cloud());
-                sum += both_ways(&a, &b, old_from_key, 0.25);
+                let old_from_keyframe = self.graph.between(old, keyframe);
+                let (a, b) = (self.keyframes[keyframe].cloud(), self.keyframes[old].cloud());
+                sum += both_ways(&a, &b, old_from_keyframe, 0.25);
             }
         }
         sum
@@ -250,15 +252,15 @@ impl Slam {
 
     /// Looks for ties that were missed while places were uncertain, and bends the map until it rests.
     pub(super) fn settle(&mut self) {
-        let is_held = |key: &usize| self.graph.is_held(*key);
-        self.work.ties.extend((0..self.keys.len()).filter(|key| !is_held(key)));
+        let is_held = |keyframe: &usize| self.graph.is_held(*keyframe);
+        self.work.proximity.extend((0..self.keyframes.len()).filter(|keyframe| !is_held(keyframe)));
         self.work_slices(usize::MAX);
         self.solve(None);
         self.work_slices(usize::MAX);
         if self.settings.closes_loops {
             // Places are known better now, but for those in other pieces of map, which were asked for.
-            for key in Loops::unheld(&self.keys, &self.graph) {
-                self.loops.ask(&self.keys, &self.graph, key, false);
+            for keyframe in Loops::unconstrained(&self.keyframes, &self.graph) {
+                self.loops.ask(&self.keyframes, &self.graph, keyframe, false);
                 self.work_slices(usize::MAX);
             }
         }

@@ -9,9 +9,9 @@
 use periplus_geometry::Pose2;
 
 use super::{Gmapping, Particle, offers};
-use crate::doubts::{Doubt, Remark};
-use crate::engine::Link;
+use crate::engine::ConstraintKind;
 use crate::local::apart;
+use crate::remark::{Remark, RemarkKind};
 
 /// A closure or tie is violated when the trajectory has its ends elsewhere, relative to each other, by more than
 /// this \[m, rad\]. Twice the error that loops may have.
@@ -25,14 +25,18 @@ impl Gmapping {
             return;
         };
         let is_doubtful = |it: &Remark| {
-            matches!(it.doubt, Doubt::Contradiction(..) | Doubt::Unjoined(_) | Doubt::Unfitting(_))
+            matches!(
+                it.kind,
+                RemarkKind::Contradiction(..)
+                    | RemarkKind::Disconnected(_)
+                    | RemarkKind::UnmatchedScans(_)
+            )
         };
         if self.front.remarks().iter().any(is_doubtful) {
             return;
         }
-        let time_ns = last.track.time_ns;
-        let way: Vec<Pose2> =
-            self.nodes.iter().map(|it| self.front.on_the_way(&it.track)).collect();
+        let time_ns = last.node.time_ns;
+        let way: Vec<Pose2> = self.nodes.iter().map(|it| self.front.pose_of(&it.node)).collect();
         let own = self.ways.to(best.tip);
         let violated = self.violated(&way, &own);
         if violated == 0 {
@@ -57,28 +61,28 @@ impl Gmapping {
                 lasting: before.lasting,
             };
         }
-        self.offered.taken += 1;
-        self.remarks.push(Remark { time_ns, doubt: Doubt::GraphFollowed(violated) });
+        self.offered.accepted_count += 1;
+        self.remarks.push(Remark { time_ns, kind: RemarkKind::GraphFollowed(violated) });
     }
 
     /// Closures and ties of the graph that a trajectory violates.
     fn violated(&self, way: &[Pose2], own: &[Pose2]) -> usize {
-        let keys = self.front.poses();
+        let keyframes = self.front.poses();
         // Where both have a kept scan: as seen from the nearest scan that was used.
-        let both = |key: usize| {
-            let after = self.nodes.partition_point(|it| it.track.key < key);
+        let both = |keyframe: usize| {
+            let after = self.nodes.partition_point(|it| it.node.keyframe < keyframe);
             let near = [after.checked_sub(1), Some(after)].into_iter().flatten();
             let near = near.filter(|&it| it < self.nodes.len());
-            let node = near.min_by_key(|&it| self.nodes[it].track.key.abs_diff(key))?;
-            let (key, way, own) = (keys.get(key)?, way.get(node)?, own.get(node)?);
-            Some((*key, *own * (way.inverse() * *key)))
+            let node = near.min_by_key(|&it| self.nodes[it].node.keyframe.abs_diff(keyframe))?;
+            let (keyframe, way, own) = (keyframes.get(keyframe)?, way.get(node)?, own.get(node)?);
+            Some((*keyframe, *own * (way.inverse() * *keyframe)))
         };
         let is_violated = |(old, new): (usize, usize)| {
             let (Some(old), Some(new)) = (both(old), both(new)) else { return false };
             let (metres, radians) = apart(old.0.inverse() * new.0, old.1.inverse() * new.1);
             metres > VIOLATED_M || radians > VIOLATED_RAD
         };
-        let returns = self.front.links().filter(|(_, _, link)| *link != Link::Chain);
+        let returns = self.front.links().filter(|(_, _, link)| *link != ConstraintKind::Sequential);
         returns.filter(|&(old, new, _)| is_violated((old, new))).count()
     }
 }
@@ -130,7 +134,8 @@ mod tests {
         let last = truth_from_map * slam.map_from_base();
         let (metres, _) = apart(last, moments[moments.len() - 1].truth);
         assert!(metres < 0.35, "{metres}");
-        let is_told = |it: &Remark| matches!(it.doubt, Doubt::GraphFollowed(count) if count > 0);
+        let is_told =
+            |it: &Remark| matches!(it.kind, RemarkKind::GraphFollowed(count) if count > 0);
         assert!(slam.remarks().iter().any(is_told), "{:?}", slam.remarks());
         // Once: the map is that of the graph now.
         slam.finish();

@@ -3,12 +3,12 @@
 use periplus_scan_matching::PackedPlaces;
 
 use super::beams::Beams;
-use crate::key::Track;
+use crate::keyframe::TrajectoryNode;
 
 /// A scan that was used. All particles share it.
 pub(super) struct Node {
     /// Where the front end has it.
-    pub(super) track: Track,
+    pub(super) node: TrajectoryNode,
     /// Length of the way up to it \[m\].
     pub(super) way_m: f64,
     hits: PackedPlaces,
@@ -16,9 +16,9 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) fn new(track: Track, way_m: f64, beams: &Beams) -> Self {
+    pub(super) fn new(node: TrajectoryNode, way_m: f64, beams: &Beams) -> Self {
         Self {
-            track,
+            node,
             way_m,
             hits: PackedPlaces::new(&beams.hits, beams.origin),
             rims: PackedPlaces::new(&beams.rims, beams.origin),

@@ -87,8 +87,8 @@ impl Gmapping {
         let (Some(newest), Some(best)) = (self.nodes.last(), self.particles.get(self.best)) else {
             return;
         };
-        let bends = self.front.bends();
-        if bends == self.offered.bends {
+        let map_revision = self.front.map_revision();
+        if map_revision == self.offered.map_revision {
             return;
         }
         let closures = self.front.closures().iter().filter(|it| it.is_accepted).count();
@@ -96,9 +96,8 @@ impl Gmapping {
         if !is_last && newest.way_m < self.offered.way_m + every_m {
             return;
         }
-        self.offered.bends = bends;
-        let way: Vec<Pose2> =
-            self.nodes.iter().map(|it| self.front.on_the_way(&it.track)).collect();
+        self.offered.map_revision = map_revision;
+        let way: Vec<Pose2> = self.nodes.iter().map(|it| self.front.pose_of(&it.node)).collect();
         let own = self.ways.to(best.tip);
         if !is_elsewhere(&way, &own) {
             return;
@@ -119,7 +118,7 @@ impl Gmapping {
         if chosen.is_empty() {
             return;
         }
-        self.offered.taken += 1;
+        self.offered.accepted_count += 1;
         let tip = self.ways.along(&way);
         for (number, &index) in chosen.iter().enumerate() {
             if number > 0 {
@@ -153,10 +152,10 @@ fn is_elsewhere(way: &[Pose2], own: &[Pose2]) -> bool {
 /// When the front end offered its way.
 #[derive(Default)]
 pub(super) struct Offered {
-    bends: usize,
+    map_revision: usize,
     way_m: f64,
     closures: usize,
     count: usize,
     /// Offers that some particle took.
-    pub(super) taken: usize,
+    pub(super) accepted_count: usize,
 }

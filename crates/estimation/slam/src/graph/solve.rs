@@ -2,9 +2,9 @@
 
 use periplus_geometry::Pose2;
 
-use super::riders::riders;
+use super::pose_clusters::pose_clusters;
 use super::system::System;
-use super::{Edge, Graph, Kind};
+use super::{ConstraintKind, Edge, Graph};
 
 /// How a step went.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl Solver {
     /// Prepares for the first of the poses and edges. In large maps some poses ride with others, with
     /// every `turn` other ones.
     pub(crate) fn new(graph: &Graph, size: Size, turn: usize) -> Self {
-        let system = System::new(&riders(graph, size, turn), || ends(graph, size));
+        let system = System::new(&pose_clusters(graph, size, turn), || ends(graph, size));
         Self { size, system, damping: 0.0, stage: None }
     }
 
@@ -75,7 +75,7 @@ impl Solver {
     pub(crate) fn resumed(
         graph: &Graph,
         size: Size,
-        robust: &dyn Fn(Kind, f64) -> f64,
+        robust: &dyn Fn(ConstraintKind, f64) -> f64,
         (places, (damping, stage)): Saved,
     ) -> Option<Self> {
         let is_damping = (0.0..1e12).contains(&damping);
@@ -97,7 +97,7 @@ impl Solver {
     pub(crate) fn advance(
         &mut self,
         graph: &mut Graph,
-        robust: &dyn Fn(Kind, f64) -> f64,
+        robust: &dyn Fn(ConstraintKind, f64) -> f64,
         most: usize,
     ) -> Option<Outcome> {
         let Some(mut stage) = self.stage.take() else {
@@ -128,7 +128,7 @@ impl Solver {
     fn again(
         &mut self,
         graph: &Graph,
-        robust: &dyn Fn(Kind, f64) -> f64,
+        robust: &dyn Fn(ConstraintKind, f64) -> f64,
         stage: Stage,
     ) -> Option<Outcome> {
         self.damping = (self.damping * 10.0).max(1e-3);
@@ -143,7 +143,7 @@ impl Solver {
     fn begin(
         &mut self,
         graph: &Graph,
-        robust: &dyn Fn(Kind, f64) -> f64,
+        robust: &dyn Fn(ConstraintKind, f64) -> f64,
         tries: usize,
         before: f64,
     ) {
@@ -160,7 +160,12 @@ impl Solver {
 
     /// The sum that is made small. `robust` gives the weight of a squared distance; its loss is taken
     /// as weight times square, which grows as the loss does for the weights in use.
-    fn cost(&self, graph: &Graph, poses: &[Pose2], robust: &dyn Fn(Kind, f64) -> f64) -> f64 {
+    fn cost(
+        &self,
+        graph: &Graph,
+        poses: &[Pose2],
+        robust: &dyn Fn(ConstraintKind, f64) -> f64,
+    ) -> f64 {
         let costs = edges(graph, self.size).map(|edge| {
             let chi2 = edge.chi2(poses);
             edge.weight * robust(edge.kind, chi2).sqrt() * chi2
@@ -179,7 +184,7 @@ mod tests {
 
     fn edge(from: usize, to: usize, from_from_to: Pose2) -> Edge {
         let information = Symmetric3::diagonal(100.0, 100.0, 400.0);
-        Edge::new((from, to), from_from_to, information, Kind::Chain)
+        Edge::new((from, to), from_from_to, information, ConstraintKind::Sequential)
     }
 
     /// A walk over a lattice of streets, with edges wherever it comes by again.

@@ -3,9 +3,9 @@
 use super::{Candidate, Closure, Kept, Loops, Place, Task};
 use crate::session::{Bytes, Fault, Pack, Reader, packed};
 
-packed!(Closure { keys, old_from_new, is_accepted, region_m, agreeing, reason });
+packed!(Closure { keyframes, old_from_new, is_accepted, region_m, agreeing, reason });
 packed!(Task { stretch, anchor, place, covariance });
-packed!(Place { keys, middle });
+packed!(Place { keyframes, middle });
 packed!(Candidate {
     anchor,
     middle,
@@ -16,7 +16,7 @@ packed!(Candidate {
     is_unique,
     is_partial
 });
-packed!(Loops { places, place_from, searched_m, tasks, pending, fields, told });
+packed!(Loops { places, place_from, searched_m, tasks, pending, fields, closures });
 
 /// What is told of closures, at most, in a map that lives for ever.
 const MOST_TOLD: usize = 300;
@@ -35,8 +35,8 @@ impl Pack for Kept {
 
 impl Loops {
     /// The robot was set elsewhere: a stretch of way begins with this key.
-    pub(crate) fn restart(&mut self, key: usize, travel_m: f64) {
-        self.place_from = key;
+    pub(crate) fn restart(&mut self, keyframe: usize, travel_m: f64) {
+        self.place_from = keyframe;
         self.searched_m = travel_m;
     }
 
@@ -44,12 +44,13 @@ impl Loops {
     pub(crate) fn renumber(&mut self, number: &[Option<usize>]) {
         self.forget();
         // The first that is left at or after a key.
-        let left = |key: usize| number[key..].iter().find_map(|it| *it);
+        let left = |keyframe: usize| number[keyframe..].iter().find_map(|it| *it);
         self.places.retain_mut(|place| {
-            let mut there = number[place.keys.clone()].iter().filter_map(|it| *it);
+            let mut there = number[place.keyframes.clone()].iter().filter_map(|it| *it);
             let (Some(first), last) = (there.next(), there.next_back()) else { return false };
-            place.keys = first..last.unwrap_or(first) + 1;
-            place.middle = left(place.middle).unwrap_or(first).clamp(first, place.keys.end - 1);
+            place.keyframes = first..last.unwrap_or(first) + 1;
+            place.middle =
+                left(place.middle).unwrap_or(first).clamp(first, place.keyframes.end - 1);
             true
         });
         self.place_from = left(self.place_from).unwrap_or(0);
@@ -60,16 +61,16 @@ impl Loops {
             }
             _ => false,
         });
-        self.told.retain_mut(|it| match (number[it.keys.0], number[it.keys.1]) {
+        self.closures.retain_mut(|it| match (number[it.keyframes.0], number[it.keyframes.1]) {
             (Some(old), Some(new)) => {
-                it.keys = (old, new);
+                it.keyframes = (old, new);
                 true
             }
             _ => false,
         });
         // Those that are part of the map stay.
-        let mut many = self.told.len().saturating_sub(MOST_TOLD);
-        self.told.retain(|it| {
+        let mut many = self.closures.len().saturating_sub(MOST_TOLD);
+        self.closures.retain(|it| {
             let stays = it.is_accepted || many == 0;
             many -= usize::from(!stays);
             stays
@@ -77,11 +78,11 @@ impl Loops {
     }
 
     /// Whether all keys and places that are named are there.
-    pub(crate) fn fits(&self, keys: usize) -> bool {
-        let is_key = |key: usize| key < keys;
+    pub(crate) fn fits(&self, keyframes: usize) -> bool {
+        let is_key = |keyframe: usize| keyframe < keyframes;
         let is_place = |place: usize| place < self.places.len();
-        let is_way = |way: &std::ops::Range<usize>| way.start < way.end && way.end <= keys;
-        self.places.iter().all(|it| is_way(&it.keys) && is_key(it.middle))
+        let is_way = |way: &std::ops::Range<usize>| way.start < way.end && way.end <= keyframes;
+        self.places.iter().all(|it| is_way(&it.keyframes) && is_key(it.middle))
             && (is_key(self.place_from) || self.place_from == 0)
             && self
                 .tasks
@@ -91,7 +92,7 @@ impl Loops {
             && self
                 .fields
                 .iter()
-                .all(|it| is_place(it.place) && it.of.iter().all(|&(key, _)| is_key(key)))
-            && self.told.iter().all(|it| is_key(it.keys.0) && is_key(it.keys.1))
+                .all(|it| is_place(it.place) && it.of.iter().all(|&(keyframe, _)| is_key(keyframe)))
+            && self.closures.iter().all(|it| is_key(it.keyframes.0) && is_key(it.keyframes.1))
     }
 }

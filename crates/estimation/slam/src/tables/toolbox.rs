@@ -158,7 +158,7 @@ pub(super) const IDLE: &[Idle] = &[
             "ceres_dogleg_type",
             "ceres_loss_function",
         ],
-        because: "the graph is solved by a sparse Cholesky factorization of its own; ties that do \
+        because: "the graph is solved by a sparse Cholesky factorization of its own; proximity that do \
                   not fit lose their weight by themselves, and closures of loops are verified before \
                   they count",
     },
@@ -238,10 +238,10 @@ pub(super) fn settings(values: &Values) -> Settings {
         settings.range_min_m = range_m as f32;
     }
     if let Some(shift_m) = number("minimum_travel_distance") {
-        settings.key_shift_m = shift_m;
+        settings.keyframe_distance_m = shift_m;
     }
     if let Some(turn_rad) = number("minimum_travel_heading") {
-        settings.key_turn_rad = turn_rad;
+        settings.keyframe_rotation_rad = turn_rad;
     }
     if let Some(scans) =
         values.integer("scan_buffer_size").filter(|_| values.is_given("scan_buffer_size"))

@@ -1,7 +1,7 @@
 //! All kinds of generated worlds, and what becomes of a drive through one.
 
 use periplus_geometry::Pose2;
-use periplus_slam::{Cure, Remedy, Settings, Slam};
+use periplus_slam::{CorrectedInput, MountingCorrection, Settings, Slam};
 
 use super::judge::{Judgement, judge};
 use super::{Moment, ROBOT, Robot, World, campus, crowd, doors, glass, hall, ramp};
@@ -59,13 +59,13 @@ pub(crate) struct Outcome {
     pub(crate) slam: Slam,
     pub(crate) judgement: Judgement,
     pub(crate) verdict: Verdict,
-    pub(crate) remedy: Option<Remedy>,
+    pub(crate) remedy: Option<MountingCorrection>,
 }
 
 /// Maps a drive, again where a fault of mounting is certain, and holds it against the truth.
 pub(crate) fn outcome(kind: &Kind, moments: &[Moment]) -> Outcome {
     let mut slam = mapped(moments, None);
-    let remedy = Remedy::of(slam.remarks());
+    let remedy = MountingCorrection::of(slam.remarks());
     if let Some(remedy) = remedy {
         slam = mapped(moments, Some(remedy));
     }
@@ -82,9 +82,9 @@ pub(crate) fn outcome(kind: &Kind, moments: &[Moment]) -> Outcome {
     Outcome { slam, judgement, verdict, remedy }
 }
 
-fn mapped(moments: &[Moment], remedy: Option<Remedy>) -> Slam {
+fn mapped(moments: &[Moment], remedy: Option<MountingCorrection>) -> Slam {
     let mut slam = Slam::new(Settings::default());
-    let mut cure = remedy.map(Cure::new);
+    let mut cure = remedy.map(CorrectedInput::new);
     for moment in moments {
         let _ = match &mut cure {
             Some(cure) => {

@@ -239,9 +239,9 @@ impl World {
     ) {
         let mut stream = Stream::keyed(seed, "drive", 0);
         let poses = poses_along(corners, step_m, &mut stream);
-        let mut wheels = Wheels::new(poses[0]);
+        let mut odometry_monitor = OdometryMonitor::new(poses[0]);
         for (index, &truth) in poses.iter().enumerate() {
-            let odometry = wheels.roll_to(truth, robot, 1.0, &mut stream);
+            let odometry = odometry_monitor.roll_to(truth, robot, 1.0, &mut stream);
             let scan = self.scan(truth, robot, index as i64 * 500_000_000, &mut stream);
             take(Moment { truth, odometry, scan });
         }
@@ -282,12 +282,12 @@ pub(crate) fn poses_along(corners: &[(f64, f64)], step_m: f64, stream: &mut Stre
 }
 
 /// Wheels that are counted.
-pub(crate) struct Wheels {
+pub(crate) struct OdometryMonitor {
     odometry: Pose2,
     last: Pose2,
 }
 
-impl Wheels {
+impl OdometryMonitor {
     pub(crate) fn new(start: Pose2) -> Self {
         Self { odometry: start, last: start }
     }

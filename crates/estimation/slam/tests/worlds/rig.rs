@@ -4,7 +4,7 @@ use periplus_geometry::{Pose2, Stream};
 use periplus_slam::Scan;
 
 use super::solid::{Scene, Surface};
-use super::{Moment, ROBOT, Robot, Wheels, poses_along};
+use super::{Moment, OdometryMonitor, ROBOT, Robot, poses_along};
 
 /// What the robot is like.
 #[derive(Clone, Copy, Debug)]
@@ -143,10 +143,11 @@ impl Rig {
         let mut stream = Stream::keyed(seed, "drive", 0);
         let poses = poses_along(corners, self.step_m, &mut stream);
         let scene = scene.cleared(&poses);
-        let mut wheels = Wheels::new(poses[0]);
+        let mut odometry_monitor = OdometryMonitor::new(poses[0]);
         let mut moments = Vec::with_capacity(poses.len());
         for (index, &truth) in poses.iter().enumerate() {
-            let odometry = wheels.roll_to(truth, &self.robot, self.way_scale, &mut stream);
+            let odometry =
+                odometry_monitor.roll_to(truth, &self.robot, self.way_scale, &mut stream);
             let scan = self.scan(&scene, truth, index as f64 * PERIOD_S, &mut stream);
             moments.push(Moment { truth, odometry, scan });
         }

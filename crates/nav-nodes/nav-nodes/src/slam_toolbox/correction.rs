@@ -1,7 +1,7 @@
 //! A second beginning of the map in the frame of the first, with a fault of the data undone.
 
 use periplus_geometry::Pose2;
-use periplus_slam::{Cure, Remedy};
+use periplus_slam::{CorrectedInput, MountingCorrection};
 
 /// A pose from which odometry tells where the robot is in the map: that of the first scan, or the last
 /// one that a client set.
@@ -9,13 +9,13 @@ pub(crate) struct Anchor {
     map_from_base: Pose2,
     odom_from_base: Pose2,
     /// Odometry since then with every step reversed: the only correction that depends on all steps.
-    reversed: Cure,
+    reversed: CorrectedInput,
 }
 
 impl Anchor {
     /// At a scan.
     pub(crate) fn new(map_from_base: Pose2, odom_from_base: Pose2) -> Self {
-        let mut reversed = Cure::new(Remedy::Reverse);
+        let mut reversed = CorrectedInput::new(MountingCorrection::Reverse);
         reversed.odometry(odom_from_base);
         Self { map_from_base, odom_from_base, reversed }
     }
@@ -27,10 +27,14 @@ impl Anchor {
 
     /// The correction from now on, and the robot's pose in the map by odometry that is corrected since
     /// the anchor: where it would have been without the fault.
-    pub(crate) fn corrected(&self, remedy: Remedy, odom_from_base: Pose2) -> (Cure, Pose2) {
-        let mut cure = Cure::new(remedy);
+    pub(crate) fn corrected(
+        &self,
+        remedy: MountingCorrection,
+        odom_from_base: Pose2,
+    ) -> (CorrectedInput, Pose2) {
+        let mut cure = CorrectedInput::new(remedy);
         let then = cure.odometry(self.odom_from_base);
-        if remedy == Remedy::Reverse {
+        if remedy == MountingCorrection::Reverse {
             cure = self.reversed.clone();
         }
         let now = cure.odometry(odom_from_base);
@@ -47,7 +51,7 @@ mod tests {
     fn the_pose_is_the_one_without_the_fault() {
         let said = Pose2::new(2.0, 1.0, std::f64::consts::FRAC_PI_2);
         let (ahead, left) = (Pose2::new(3.0, 0.0, 0.0), Pose2::new(0.0, 1.0, 0.0));
-        let check = |remedy: Remedy, wrong: &dyn Fn(Pose2) -> Pose2| {
+        let check = |remedy: MountingCorrection, wrong: &dyn Fn(Pose2) -> Pose2| {
             let mut anchor = Anchor::new(said, wrong(Pose2::IDENTITY));
             anchor.follow(wrong(ahead));
             anchor.follow(wrong(ahead * left));
@@ -55,10 +59,10 @@ mod tests {
             assert!((found.x_m - 1.0).abs() < 1e-9, "{remedy:?} {found:?}");
             assert!((found.y_m - 4.0).abs() < 1e-9, "{remedy:?} {found:?}");
         };
-        check(Remedy::Flip, &|it| it);
-        check(Remedy::SwapAxes, &|it| Pose2::new(it.y_m, it.x_m, it.yaw_rad));
-        check(Remedy::NegateX, &|it| Pose2::new(-it.x_m, it.y_m, it.yaw_rad));
-        check(Remedy::NegateY, &|it| Pose2::new(it.x_m, -it.y_m, it.yaw_rad));
-        check(Remedy::Reverse, &|it| Pose2::new(-it.x_m, -it.y_m, it.yaw_rad));
+        check(MountingCorrection::Flip, &|it| it);
+        check(MountingCorrection::SwapAxes, &|it| Pose2::new(it.y_m, it.x_m, it.yaw_rad));
+        check(MountingCorrection::NegateX, &|it| Pose2::new(-it.x_m, it.y_m, it.yaw_rad));
+        check(MountingCorrection::NegateY, &|it| Pose2::new(it.x_m, -it.y_m, it.yaw_rad));
+        check(MountingCorrection::Reverse, &|it| Pose2::new(-it.x_m, -it.y_m, it.yaw_rad));
     }
 }

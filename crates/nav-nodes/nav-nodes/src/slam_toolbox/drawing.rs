@@ -28,7 +28,7 @@ impl Drawer {
         self.drawn = Some(take);
         let draw = move || {
             let map = match drawing {
-                Drawing::Sketch(sketch) => sketch.draw(),
+                Drawing::MapSnapshot(snapshot) => snapshot.draw(),
                 Drawing::Map(map) => map,
             };
             // Whoever asked may be gone.

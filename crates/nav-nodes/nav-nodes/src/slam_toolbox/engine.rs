@@ -5,7 +5,8 @@ use periplus_grid::OccupancyGrid;
 use periplus_params::Values;
 use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
-    Gmapping, GmappingSettings, Localizer, Mapper, SessionError, Settings, Sketch, Slam, Update,
+    Gmapping, GmappingSettings, Localizer, MapSnapshot, Mapper, SessionError, Settings, Slam,
+    Update,
 };
 
 use crate::slam_toolbox::Program;
@@ -33,7 +34,7 @@ pub(crate) enum Start {
 /// What comes of a map that is to be drawn.
 pub(crate) enum Drawing {
     /// It can be drawn elsewhere.
-    Sketch(Sketch),
+    MapSnapshot(MapSnapshot),
     /// It is drawn; none when it would be too large.
     Map(Option<OccupancyGrid>),
 }
@@ -170,7 +171,7 @@ impl Engine {
     /// What changes when the map does.
     pub(crate) fn version(&self) -> (usize, usize) {
         match self {
-            Self::Graph(slam) => (slam.counts().kept, slam.bends()),
+            Self::Graph(slam) => (slam.counts().kept, slam.map_revision()),
             // What is stored stays.
             Self::Localizer(_) => (0, 0),
             Self::Particles(particles) => (particles.counts().kept, 0),
@@ -179,8 +180,8 @@ impl Engine {
 
     pub(crate) fn drawing(&self) -> Drawing {
         match self {
-            Self::Graph(slam) => Drawing::Sketch(slam.sketch()),
-            Self::Localizer(localizer) => Drawing::Sketch(localizer.sketch()),
+            Self::Graph(slam) => Drawing::MapSnapshot(slam.snapshot()),
+            Self::Localizer(localizer) => Drawing::MapSnapshot(localizer.snapshot()),
             Self::Particles(particles) => Drawing::Map(particles.map()),
         }
     }

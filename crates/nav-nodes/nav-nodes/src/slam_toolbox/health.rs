@@ -3,7 +3,7 @@
 use periplus_graph::{GraphError, Level, Node, Publisher, Qos};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use periplus_msgs::std_msgs::Header;
-use periplus_slam::{Doubt, MapContradiction, Remark, Taken};
+use periplus_slam::{MapContradiction, Remark, RemarkKind, ScanOutcome};
 
 use crate::slam_toolbox::engine::Engine;
 use crate::slam_toolbox::markers;
@@ -40,29 +40,30 @@ impl Part {
         }
     }
 
-    fn of(doubt: &Doubt) -> Self {
-        match doubt {
-            Doubt::Unfitting(_) => Self::Scans,
-            Doubt::WayScale(_)
-            | Doubt::TurnScale(..)
-            | Doubt::Disagreeing
-            | Doubt::Corridor(_)
-            | Doubt::NoOdometry
-            | Doubt::OdometryStill(_)
-            | Doubt::OdometryJumped(_) => Self::Odometry,
-            Doubt::ScannerTurned(_)
-            | Doubt::Mirrored
-            | Doubt::Backwards
-            | Doubt::AxesSwapped
-            | Doubt::XNegated
-            | Doubt::YNegated => Self::Mounting,
-            Doubt::Carried | Doubt::Unjoined(_) | Doubt::FewerMaps(_) | Doubt::GraphFollowed(_) => {
-                Self::Pieces
-            }
-            Doubt::Contradiction(..)
-            | Doubt::Offset(..)
-            | Doubt::Undecided(..)
-            | Doubt::Unconfirmed(..) => Self::Contradictions,
+    fn of(kind: &RemarkKind) -> Self {
+        match kind {
+            RemarkKind::UnmatchedScans(_) => Self::Scans,
+            RemarkKind::DistanceScale(_)
+            | RemarkKind::RotationScale(..)
+            | RemarkKind::OdometryInconsistent
+            | RemarkKind::Corridor(_)
+            | RemarkKind::NoOdometry
+            | RemarkKind::OdometryStuck(_)
+            | RemarkKind::OdometryJumped(_) => Self::Odometry,
+            RemarkKind::ScannerYaw(_)
+            | RemarkKind::ScanMirrored
+            | RemarkKind::OdometryReversed
+            | RemarkKind::OdometryAxesSwapped
+            | RemarkKind::OdometryXNegated
+            | RemarkKind::OdometryYNegated => Self::Mounting,
+            RemarkKind::Kidnapped
+            | RemarkKind::Disconnected(_)
+            | RemarkKind::ParticlesReduced(_)
+            | RemarkKind::GraphFollowed(_) => Self::Pieces,
+            RemarkKind::Contradiction(..)
+            | RemarkKind::DoubledWalls(..)
+            | RemarkKind::AmbiguousClosure(..)
+            | RemarkKind::UnconfirmedPath(..) => Self::Contradictions,
         }
     }
 
@@ -122,8 +123,8 @@ impl SlamHealth {
     }
 
     /// Takes note of a scan.
-    pub(crate) fn count(&mut self, taken: Taken) {
-        let lost = f64::from(u8::from(taken == Taken::Lost));
+    pub(crate) fn count(&mut self, taken: ScanOutcome) {
+        let lost = f64::from(u8::from(taken == ScanOutcome::NoMatch));
         self.lost_ratio += NEWEST * (lost - self.lost_ratio);
     }
 
@@ -161,12 +162,12 @@ impl State {
         if let Some(mut remarks) = remarks {
             let share = self.health.lost_ratio;
             if share > MOST_LOST {
-                remarks.push(Remark { time_ns: now_ns, doubt: Doubt::Unfitting(share) });
+                remarks.push(Remark { time_ns: now_ns, kind: RemarkKind::UnmatchedScans(share) });
             }
             let parts = self.engine.as_ref().map_or(&[][..], Part::of_engine);
             for &part in parts {
                 let own: Vec<&Remark> =
-                    remarks.iter().filter(|it| Part::of(&it.doubt) == part).collect();
+                    remarks.iter().filter(|it| Part::of(&it.kind) == part).collect();
                 status.push(match part {
                     Part::Contradictions => self.contradicted(node, &contradictions),
                     _ => self.part(node, part, &own),

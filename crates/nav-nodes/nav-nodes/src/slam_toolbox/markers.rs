@@ -9,7 +9,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::visualization_msgs::{
     InteractiveMarker, InteractiveMarkerControl, Marker, MarkerArray,
 };
-use periplus_slam::{Link, MapContradiction, Slam};
+use periplus_slam::{ConstraintKind, MapContradiction, Slam};
 use periplus_tf_ros::pose;
 
 /// Colours: kept scans, those moved by hand, chains, ties, closures, closures that were refused.
@@ -49,9 +49,9 @@ pub(crate) fn graph(
         markers.push(spheres);
     }
     for (ns, wanted, colour) in [
-        ("chain", Link::Chain, CHAIN),
-        ("ties", Link::Tie, TIE),
-        ("closures", Link::Closure, CLOSURE),
+        ("chain", ConstraintKind::Sequential, CHAIN),
+        ("ties", ConstraintKind::Proximity, TIE),
+        ("closures", ConstraintKind::LoopClosure, CLOSURE),
     ] {
         let mut lines = base(ns, 0, Marker::LINE_LIST, colour, 0.02);
         let between = slam.links().filter(|(_, _, link)| *link == wanted);
@@ -64,15 +64,18 @@ pub(crate) fn graph(
     let closures = slam.closures();
     let mut refused = base("refused_closures", 0, Marker::LINE_LIST, REFUSED, 0.01);
     for (id, closure) in closures.iter().rev().take(TOLD).enumerate() {
-        let (Some(old), Some(new)) = (place(closure.keys.0), place(closure.keys.1)) else {
+        let (Some(old), Some(new)) = (place(closure.keyframes.0), place(closure.keyframes.1))
+        else {
             continue;
         };
         let colour = if closure.is_accepted { CLOSURE } else { REFUSED };
         let mut text = base("reasons", id, Marker::TEXT_VIEW_FACING, colour, 0.2);
         text.pose.position = Point { x: 0.5 * (old.x + new.x), y: 0.5 * (old.y + new.y), z: 0.3 };
         let verdict = if closure.is_accepted { "closed" } else { "refused" };
-        text.text =
-            format!("{} - {} {verdict}: {}", closure.keys.0, closure.keys.1, closure.reason);
+        text.text = format!(
+            "{} - {} {verdict}: {}",
+            closure.keyframes.0, closure.keyframes.1, closure.reason
+        );
         markers.push(text);
         if !closure.is_accepted {
             refused.points.extend([old, new]);
@@ -106,7 +109,8 @@ pub(crate) fn contradictions(
             })
             .collect();
         markers.push(ring);
-        for (ns, (first, last)) in [("passes", found.keys), ("earlier_passes", found.earlier_keys)]
+        for (ns, (first, last)) in
+            [("passes", found.keyframes), ("earlier_passes", found.earlier_keyframes)]
         {
             let stretch = poses.get(first..=last).unwrap_or_default();
             if stretch.len() > 1 {

@@ -15,7 +15,9 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
 use periplus_params::{Value, Values};
 use periplus_scan_matching::Symmetric3;
-use periplus_slam::{Closure, Counts, Cure, Remedy, Scan, Slam, Taken, Update, tables};
+use periplus_slam::{
+    Closure, CorrectedInput, Counts, MountingCorrection, Scan, ScanOutcome, Slam, Update, tables,
+};
 use periplus_tf::Kind;
 use periplus_tf_ros::{Frames, Told, plain};
 
@@ -88,7 +90,7 @@ pub struct SlamStatus {
     /// What keeps it from its work.
     pub trouble: Option<String>,
     /// The fault of the data that is corrected.
-    pub correction: Option<Remedy>,
+    pub correction: Option<MountingCorrection>,
 }
 
 pub(crate) struct State {
@@ -147,7 +149,7 @@ struct Last {
 
 /// A fault of the data that is undone.
 pub(crate) struct Correction {
-    pub(crate) cure: Cure,
+    pub(crate) cure: CorrectedInput,
     /// Since when \[ns\].
     pub(crate) time_ns: i64,
 }
@@ -514,26 +516,26 @@ impl State {
         }
         let Some(engine) = &self.engine else { return };
         let covariance = engine.covariance();
-        match update.taken {
-            Taken::Ignored(reason) => {
+        match update.outcome {
+            ScanOutcome::Rejected(reason) => {
                 let words = format!("scans are left out: {reason}");
                 self.told.tell(&Diagnostic::error("bad-scan", words), node);
                 return;
             }
-            Taken::Lost => {
+            ScanOutcome::NoMatch => {
                 let words = "a scan does not fit what was seen before; odometry alone tells where \
                              the robot is";
                 let help = "when this goes on, the robot was carried or the wheels slip: say where \
                             it is with `initialpose`";
                 self.told.tell(&Diagnostic::warning("lost-scan", words).help(help), node);
             }
-            Taken::Kept | Taken::Passed => self.told.fine(),
+            ScanOutcome::Inserted | ScanOutcome::BelowMotionThreshold => self.told.fine(),
         }
-        self.health.count(update.taken);
+        self.health.count(update.outcome);
         self.last = Some(Last { time_ns, odom_from_base, corrected });
         let Some(outputs) = &self.outputs else { return };
         outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
-        if update.taken == Taken::Kept {
+        if update.outcome == ScanOutcome::Inserted {
             outputs.publish_scan(&placed.message);
         }
     }
@@ -559,7 +561,7 @@ impl State {
             self.said = Some(map_from_base);
         }
         let update = engine.add_scan(scan, corrected);
-        if !matches!(update.taken, Taken::Ignored(_)) {
+        if !matches!(update.outcome, ScanOutcome::Rejected(_)) {
             self.began_ns.get_or_insert(scan.time_ns);
             match (&mut self.anchor, self.said.take()) {
                 (anchor, Some(said)) => *anchor = Some(Anchor::new(said, odom_from_base)),
@@ -590,7 +592,7 @@ impl State {
         node: &Node,
     ) -> Option<(Update, Pose2)> {
         let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
-        let remedy = Remedy::of(remarks)?;
+        let remedy = MountingCorrection::of(remarks)?;
         let is_wanted = flag(&self.values, "correct_mounting").unwrap_or(false);
         if !is_wanted || self.is_continued || self.correction.is_some() {
             if !std::mem::replace(&mut self.is_refused, true) {

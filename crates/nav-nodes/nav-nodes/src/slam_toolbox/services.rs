@@ -96,7 +96,7 @@ pub(crate) fn serve(
         ClearResponse::default()
     })?;
     actor.serve::<LoopClosure>("slam_toolbox/manual_loop_closure", |state, _, io| {
-        state.close_by_hand(io.node());
+        state.add_manual_constraints(io.node());
         LoopClosureResponse::default()
     })
 }
@@ -250,7 +250,7 @@ impl State {
         node.log(Level::Info, format!("interactive mode is {words}"));
     }
 
-    fn close_by_hand(&mut self, node: &Node) {
+    fn add_manual_constraints(&mut self, node: &Node) {
         let moved = std::mem::take(&mut self.moved);
         if moved.is_empty() {
             let words = "no scan was moved: switch interactive mode on and drag one first";
@@ -262,7 +262,7 @@ impl State {
             node.log(Level::Warn, "the graph is stored and stays as it is; nothing is moved");
             return;
         };
-        let tied = slam.close_by_hand(&moved);
+        let tied = slam.add_manual_constraints(&moved);
         slam.work_slices(slices);
         node.log(Level::Info, format!("{tied} of {} moved scans are tied", moved.len()));
     }

@@ -22,7 +22,7 @@ use periplus_msgs::visualization_msgs::{
     MarkerArray,
 };
 use periplus_nav_nodes::slam_toolbox::Program;
-use periplus_slam::{Link, Slam};
+use periplus_slam::{ConstraintKind, Slam};
 
 /// What is where in the room, in the map: it begins at the start.
 fn in_map(room: Pose2) -> Pose2 {
@@ -75,7 +75,7 @@ fn a_robot_maps_a_room() {
     assert_eq!(kept.drain().len(), stage.poses().len());
     // Nothing is wrong, but for the wheels.
     let said = stage.said();
-    assert!(said.lines().all(|line| line.starts_with("odometry tells")), "{said}");
+    assert!(said.lines().all(|line| line.starts_with("odometry reports")), "{said}");
     assert_eq!(stage.slam.status().trouble, None);
 }
 
@@ -267,7 +267,8 @@ fn a_run_can_be_paused_reset_and_put_right_by_hand() {
     assert!(close(&stage).contains("no scan was moved"));
     drag(&mut stage, last.to_string());
     assert!(close(&stage).contains("1 of 1 moved scans are tied"));
-    let closures = |slam: &Slam| slam.links().filter(|it| it.2 == Link::Closure).count();
+    let closures =
+        |slam: &Slam| slam.links().filter(|it| it.2 == ConstraintKind::LoopClosure).count();
     assert_eq!(stage.slam.look(closures), Some(1));
 
     let reset = ResetRequest { pause_new_measurements: true };

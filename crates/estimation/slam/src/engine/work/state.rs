@@ -5,17 +5,17 @@ use crate::graph::{Graph, Solver};
 use crate::session::{Bytes, Fault, Pack, Reader, packed};
 
 packed!(Work {
-    ties,
-    thins,
-    tied_m,
+    proximity,
+    prunable,
+    proximity_m,
     solving,
     loose,
     is_strained,
     solved_at,
-    tied,
+    proximity_count,
     searches,
     slices,
-    bends,
+    map_revision,
     solves,
 });
 
@@ -42,19 +42,17 @@ impl Pack for Solving {
 impl Work {
     /// Whether all keys and edges that are named are there.
     pub(in crate::engine) fn fits(&self, graph: &Graph) -> bool {
-        let (keys, edges) = (graph.poses.len(), graph.edges.len());
-        self.ties.iter().chain(&self.thins).all(|&key| key < keys)
+        let (keyframes, edges) = (graph.poses.len(), graph.edges.len());
+        self.proximity.iter().chain(&self.prunable).all(|&keyframe| keyframe < keyframes)
             && self.solving.iter().all(|it| {
                 let (poses, count) = it.size;
                 let edges = graph.edges.get(..count).unwrap_or_default();
-                poses <= keys
+                poses <= keyframes
                     && edges.len() == count
                     && edges.iter().all(|edge| edge.from.max(edge.to) < poses)
             })
-            && self
-                .solving
-                .iter()
-                .flat_map(|it| &it.trial)
-                .all(|(poses, trial)| poses.len() <= keys && trial.iter().all(|&edge| edge < edges))
+            && self.solving.iter().flat_map(|it| &it.trial).all(|(poses, trial)| {
+                poses.len() <= keyframes && trial.iter().all(|&edge| edge < edges)
+            })
     }
 }

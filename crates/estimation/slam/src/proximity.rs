@@ -3,9 +3,9 @@
 use periplus_geometry::normalize_angle;
 use periplus_scan_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, register};
 
-use crate::drift::{Sighting, within};
-use crate::graph::{Edge, Graph, Kind};
-use crate::key::Key;
+use crate::drift::{RelativeUncertainty, within};
+use crate::graph::{ConstraintKind, Edge, Graph};
+use crate::keyframe::Keyframe;
 use crate::local::{
     apart, both_ways, close_by, floored, grouped, heading_step, points_of, sampled,
 };
@@ -40,39 +40,48 @@ const BESIDE: usize = 2;
 const VISITS: usize = 2;
 
 /// Ties a key to old ones nearby whose place it knows well; gives the new edges.
-pub(crate) fn ties(keys: &[Key], graph: &Graph, key: usize, settings: &Settings) -> Vec<Edge> {
+pub(crate) fn proximity(
+    keyframes: &[Keyframe],
+    graph: &Graph,
+    keyframe: usize,
+    settings: &Settings,
+) -> Vec<Edge> {
     // What leads to an old scan nearby goes back to where the way was last held, and along an old way.
-    let held = (0..key).rev().find(|&it| graph.is_held(it)).map_or(0.0, |it| keys[it].travel_m);
-    let reach_m = NEAR_M + (keys[key].travel_m - held).max(0.0);
-    let seen = within(graph, key, MOST_M, reach_m);
-    let here = graph.poses[key];
-    let mut candidates: Vec<(f64, Sighting)> = seen
+    let held =
+        (0..keyframe).rev().find(|&it| graph.is_held(it)).map_or(0.0, |it| keyframes[it].travel_m);
+    let reach_m = NEAR_M + (keyframes[keyframe].travel_m - held).max(0.0);
+    let seen = within(graph, keyframe, MOST_M, reach_m);
+    let here = graph.poses[keyframe];
+    let mut candidates: Vec<(f64, RelativeUncertainty)> = seen
         .into_iter()
-        .filter(|it| keys[key].travel_m - keys[it.key].travel_m > OLD_M)
+        .filter(|it| keyframes[keyframe].travel_m - keyframes[it.keyframe].travel_m > OLD_M)
         .filter_map(|it| {
-            let (metres, radians) = apart(here, graph.poses[it.key]);
+            let (metres, radians) = apart(here, graph.poses[it.keyframe]);
             (metres < REACH_M).then_some((metres + 1.2 * radians, it))
         })
         .collect();
-    candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.key.cmp(&b.1.key)));
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.keyframe.cmp(&b.1.keyframe)));
     let mut edges: Vec<Edge> = Vec::new();
     let mut tried: Vec<usize> = Vec::new();
     for (_, candidate) in candidates {
-        let is_same_visit =
-            |&other: &usize| (keys[other].travel_m - keys[candidate.key].travel_m).abs() < OLD_M;
+        let is_same_visit = |&other: &usize| {
+            (keyframes[other].travel_m - keyframes[candidate.keyframe].travel_m).abs() < OLD_M
+        };
         if tried.iter().any(is_same_visit) {
             continue;
         }
         let is_tied = |&edge: &u32| {
             let edge = &graph.edges[edge as usize];
-            edge.kind == Kind::Near && edge.to == key && is_same_visit(&edge.from)
+            edge.kind == ConstraintKind::Proximity
+                && edge.to == keyframe
+                && is_same_visit(&edge.from)
         };
-        if graph.at[key].iter().any(is_tied) {
-            tried.push(candidate.key);
+        if graph.at[keyframe].iter().any(is_tied) {
+            tried.push(candidate.keyframe);
             continue;
         }
-        tried.push(candidate.key);
-        edges.extend(tie(keys, graph, key, &candidate, settings));
+        tried.push(candidate.keyframe);
+        edges.extend(tie(keyframes, graph, keyframe, &candidate, settings));
         if edges.len() >= VISITS || tried.len() >= 2 * VISITS {
             break;
         }
@@ -82,20 +91,21 @@ pub(crate) fn ties(keys: &[Key], graph: &Graph, key: usize, settings: &Settings)
 
 /// Compares a key with an old one and those around it.
 pub(crate) fn tie(
-    keys: &[Key],
+    keyframes: &[Keyframe],
     graph: &Graph,
-    key: usize,
-    old: &Sighting,
+    keyframe: usize,
+    old: &RelativeUncertainty,
     settings: &Settings,
 ) -> Option<Edge> {
-    let (from, to) = (old.key.saturating_sub(BESIDE), (old.key + BESIDE).min(keys.len() - 1));
+    let (from, to) =
+        (old.keyframe.saturating_sub(BESIDE), (old.keyframe + BESIDE).min(keyframes.len() - 1));
     let group: Vec<usize> = (from..=to).collect();
-    let group = grouped(keys, graph, &group, old.key);
+    let group = grouped(keyframes, graph, &group, old.keyframe);
     let group = group.placed();
-    let expected = graph.between(old.key, key);
+    let expected = graph.between(old.keyframe, keyframe);
     // The sighting is as seen from the key; its size is what matters here.
     let (shift_m, turn_rad) = (old.shift_m(), old.turn_rad());
-    let cloud = &keys[key].cloud();
+    let cloud = &keyframes[keyframe].cloud();
     let moving = [Placed::alone(cloud)];
     let prior = Prior {
         target_from_moving: expected,
@@ -131,10 +141,10 @@ pub(crate) fn tie(
     }
     // What ties say must be possible by what is known, in every direction.
     let found = fit.target_from_moving;
-    let off = graph.between(key, old.key).inverse() * found.inverse();
+    let off = graph.between(keyframe, old.keyframe).inverse() * found.inverse();
     let off = [off.x_m, off.y_m, normalize_angle(off.yaw_rad)];
     let loose = Symmetric3::diagonal(1e-3, 1e-3, 1e-4);
-    let turned = old.covariance.turned(-graph.between(key, old.key).yaw_rad) + loose;
+    let turned = old.covariance.turned(-graph.between(keyframe, old.keyframe).yaw_rad) + loose;
     let is_possible = turned.inverse().is_some_and(|known| known.quadratic(off) < POSSIBLE);
     let is_ambiguous = rival.is_some_and(|rival| {
         apart(rival.target_from_moving, found).0 > 0.5 * OTHER_M
@@ -152,5 +162,10 @@ pub(crate) fn tie(
         return None;
     }
     let information = floored(&fit.information);
-    Some(Edge::new((old.key, key), fit.target_from_moving, information, Kind::Near))
+    Some(Edge::new(
+        (old.keyframe, keyframe),
+        fit.target_from_moving,
+        information,
+        ConstraintKind::Proximity,
+    ))
 }

@@ -8,7 +8,7 @@ use periplus_scan_matching::{Cloud, PackedCloud, PackedPlaces};
 
 /// A scan that is kept.
 #[derive(Clone, Debug)]
-pub(crate) struct Key {
+pub(crate) struct Keyframe {
     pub(crate) cloud: Arc<PackedCloud>,
     /// Ends of beams for drawing, in the base's frame; none where the cloud holds enough of them.
     pub(crate) ends: Option<Arc<PackedPlaces>>,
@@ -16,7 +16,7 @@ pub(crate) struct Key {
     pub(crate) travel_m: f64,
 }
 
-impl Key {
+impl Keyframe {
     pub(crate) fn new(cloud: &Cloud, ends: Option<PackedPlaces>, travel_m: f64) -> Self {
         Self { cloud: Arc::new(PackedCloud::new(cloud)), ends: ends.map(Arc::new), travel_m }
     }
@@ -34,15 +34,15 @@ impl Key {
 }
 
 /// Scans that were kept on a part of the way \[m\].
-pub(crate) fn between(keys: &[Key], from_m: f64, to_m: f64) -> Range<usize> {
-    let start = keys.partition_point(|key| key.travel_m < from_m);
-    start..keys.partition_point(|key| key.travel_m <= to_m)
+pub(crate) fn between(keyframes: &[Keyframe], from_m: f64, to_m: f64) -> Range<usize> {
+    let start = keyframes.partition_point(|keyframe| keyframe.travel_m < from_m);
+    start..keyframes.partition_point(|keyframe| keyframe.travel_m <= to_m)
 }
 
 /// Where a scan that came in was, relative to one that is kept.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Track {
+pub(crate) struct TrajectoryNode {
     pub(crate) time_ns: i64,
-    pub(crate) key: usize,
-    pub(crate) key_from_base: Pose2,
+    pub(crate) keyframe: usize,
+    pub(crate) keyframe_from_base: Pose2,
 }

@@ -6,12 +6,12 @@ use std::fmt;
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-use crate::doubts::{Doubt, Remark};
+use crate::remark::{Remark, RemarkKind};
 use crate::scan::Scan;
 
 /// What undoes a fault of a scanner's mounting or of odometry's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Remedy {
+pub enum MountingCorrection {
     /// The scanner is taken as one that hangs upside down, or the other way round.
     Flip,
     /// The scanner is turned by this \[rad\].
@@ -31,29 +31,31 @@ const QUARTER_RAD: f64 = 0.1;
 /// Smaller angles are told, and left to the person: wheels that pull to one side look the same \[rad\].
 const LEAST_TURN_RAD: f64 = 0.3;
 
-impl Remedy {
+impl MountingCorrection {
     /// What undoes the fault that remarks tell of, if they tell of one.
     ///
     /// A drive that is reversed looks mirrored as long as it has only turned, so that the more special
     /// fault counts.
     #[must_use]
     pub fn of(remarks: &[Remark]) -> Option<Self> {
-        let first = |pick: fn(&Doubt) -> Option<Self>| {
-            remarks.iter().find_map(|remark| pick(&remark.doubt))
+        let first = |pick: fn(&RemarkKind) -> Option<Self>| {
+            remarks.iter().find_map(|remark| pick(&remark.kind))
         };
-        first(|doubt| matches!(doubt, Doubt::Backwards).then_some(Self::Reverse))
+        first(|kind| matches!(kind, RemarkKind::OdometryReversed).then_some(Self::Reverse))
             .or_else(|| {
-                first(|doubt| match doubt {
-                    Doubt::AxesSwapped => Some(Self::SwapAxes),
-                    Doubt::XNegated => Some(Self::NegateX),
-                    Doubt::YNegated => Some(Self::NegateY),
+                first(|kind| match kind {
+                    RemarkKind::OdometryAxesSwapped => Some(Self::SwapAxes),
+                    RemarkKind::OdometryXNegated => Some(Self::NegateX),
+                    RemarkKind::OdometryYNegated => Some(Self::NegateY),
                     _ => None,
                 })
             })
-            .or_else(|| first(|doubt| matches!(doubt, Doubt::Mirrored).then_some(Self::Flip)))
             .or_else(|| {
-                first(|doubt| match *doubt {
-                    Doubt::ScannerTurned(turn_rad) if turn_rad.abs() > LEAST_TURN_RAD => {
+                first(|kind| matches!(kind, RemarkKind::ScanMirrored).then_some(Self::Flip))
+            })
+            .or_else(|| {
+                first(|kind| match *kind {
+                    RemarkKind::ScannerYaw(turn_rad) if turn_rad.abs() > LEAST_TURN_RAD => {
                         let quarter_rad = (turn_rad / FRAC_PI_2).round() * FRAC_PI_2;
                         let is_quarter = (turn_rad - quarter_rad).abs() < QUARTER_RAD;
                         Some(Self::Turn(if is_quarter { quarter_rad } else { turn_rad }))
@@ -78,7 +80,7 @@ impl Remedy {
     }
 
     /// Odometry without the fault. `before` is odometry at the scan before, as it came and as it was
-    /// corrected; [`Cure`] keeps it.
+    /// corrected; [`CorrectedInput`] keeps it.
     fn odometry(self, now: Pose2, before: &mut Option<(Pose2, Pose2)>) -> Pose2 {
         match self {
             Self::Flip | Self::Turn(_) => now,
@@ -101,12 +103,12 @@ impl Remedy {
     }
 }
 
-impl fmt::Display for Remedy {
+impl fmt::Display for MountingCorrection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Flip => f.write_str(
                 "scans are taken as those of a scanner that hangs upside down; if odometry turns with \
-                 the wrong sign instead (left and right wheels swapped), the map is a mirror image",
+                 the wrong sign instead (left and right odometry_monitor swapped), the map is a mirror image",
             ),
             Self::Turn(turn_rad) => write!(
                 f,
@@ -123,22 +125,22 @@ impl fmt::Display for Remedy {
 
 /// A remedy at work on a log, scan by scan.
 #[derive(Clone, Debug)]
-pub struct Cure {
-    remedy: Remedy,
+pub struct CorrectedInput {
+    remedy: MountingCorrection,
     /// Odometry at the scan before, as it came and as it was corrected.
     before: Option<(Pose2, Pose2)>,
 }
 
-impl Cure {
+impl CorrectedInput {
     /// For a log from its first scan on.
     #[must_use]
-    pub const fn new(remedy: Remedy) -> Self {
+    pub const fn new(remedy: MountingCorrection) -> Self {
         Self { remedy, before: None }
     }
 
     /// The fault that is undone.
     #[must_use]
-    pub const fn remedy(&self) -> Remedy {
+    pub const fn remedy(&self) -> MountingCorrection {
         self.remedy
     }
 
@@ -157,8 +159,8 @@ impl Cure {
 mod tests {
     use super::*;
 
-    fn remark(doubt: Doubt) -> Remark {
-        Remark { time_ns: 0, doubt }
+    fn remark(kind: RemarkKind) -> Remark {
+        Remark { time_ns: 0, kind }
     }
 
     /// A drive of 1 m ahead and 0.5 rad to the left, counted with the wrong sign, is what it was.
@@ -177,7 +179,7 @@ mod tests {
         };
         let step = Pose2::new(1.0, 0.0, 0.5);
         let counted = Pose2::new(-1.0, 0.0, -0.5);
-        let mut cure = Cure::new(Remedy::Reverse);
+        let mut cure = CorrectedInput::new(MountingCorrection::Reverse);
         let start = Pose2::new(2.0, 3.0, 0.3);
         let _ = cure.apply(&scan, Some(start));
         let (_, once) = cure.apply(&scan, Some(start * counted));
@@ -191,11 +193,11 @@ mod tests {
     /// What has only turned so far looks mirrored; a quarter turn that is 0.3 degrees off is one.
     #[test]
     fn the_more_special_fault_counts() {
-        let remarks = [remark(Doubt::Mirrored), remark(Doubt::Backwards)];
-        assert_eq!(Remedy::of(&remarks), Some(Remedy::Reverse));
-        let turned = [remark(Doubt::ScannerTurned(-FRAC_PI_2 + 0.005))];
-        assert_eq!(Remedy::of(&turned), Some(Remedy::Turn(-FRAC_PI_2)));
-        assert_eq!(Remedy::of(&[remark(Doubt::ScannerTurned(0.12))]), None);
-        assert_eq!(Remedy::of(&[remark(Doubt::WayScale(1.1))]), None);
+        let remarks = [remark(RemarkKind::ScanMirrored), remark(RemarkKind::OdometryReversed)];
+        assert_eq!(MountingCorrection::of(&remarks), Some(MountingCorrection::Reverse));
+        let turned = [remark(RemarkKind::ScannerYaw(-FRAC_PI_2 + 0.005))];
+        assert_eq!(MountingCorrection::of(&turned), Some(MountingCorrection::Turn(-FRAC_PI_2)));
+        assert_eq!(MountingCorrection::of(&[remark(RemarkKind::ScannerYaw(0.12))]), None);
+        assert_eq!(MountingCorrection::of(&[remark(RemarkKind::DistanceScale(1.1))]), None);
     }
 }

@@ -4,11 +4,11 @@
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, Symmetric3};
 
-use super::{Last, Look, Slam, TURN_WAY_M, Taken, drawn};
-use crate::doubts::Doubt;
-use crate::graph::{Edge, Kind};
-use crate::key::{Key, Track};
+use super::{Last, OdometryStep, ROTATION_ARM_M, ScanMatch, ScanOutcome, Slam, drawn_ends};
+use crate::graph::{ConstraintKind, Edge};
+use crate::keyframe::{Keyframe, TrajectoryNode};
 use crate::local::apart;
+use crate::remark::RemarkKind;
 use crate::scan::{Ends, Scan};
 
 /// The robot was set elsewhere: as far away as this from what was before, by way \[m\]. Old scans are
@@ -26,71 +26,75 @@ const STRANGE_SCANS: usize = 4;
 
 /// Scans in a row that fit nothing.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strange {
+pub(super) struct UnmatchedRun {
     scans: usize,
     way_m: f64,
 }
 
-crate::session::packed!(Strange { scans, way_m });
+crate::session::packed!(UnmatchedRun { scans, way_m });
 
 impl Slam {
     /// Whether a scan is of another place than those before: where the robot is now is not known.
-    pub(super) fn is_carried(&mut self, look: &Look, seconds: f64, jumped: bool) -> bool {
-        if look.is_blank || !self.settings.closes_loops {
+    pub(super) fn is_kidnapped(&mut self, scan_match: &ScanMatch, step: &OdometryStep) -> bool {
+        if scan_match.is_blank || !self.settings.closes_loops {
             return false;
         }
-        let is_interrupted = jumped || seconds > GAP_S;
-        if is_interrupted && look.agreeing < SURE {
+        let is_interrupted = step.jump_m.is_some() || step.seconds > GAP_S;
+        if is_interrupted && scan_match.agreeing < SURE {
             return true;
         }
-        if look.agreeing > STRANGE {
-            self.strange = Strange::default();
+        if scan_match.agreeing > STRANGE {
+            self.unmatched = UnmatchedRun::default();
             return false;
         }
-        let (metres, radians) = apart(look.motion, Pose2::IDENTITY);
-        self.strange.scans += 1;
-        self.strange.way_m += metres + TURN_WAY_M * radians;
-        self.strange.scans >= STRANGE_SCANS && self.strange.way_m > STRANGE_M
+        let (metres, radians) = apart(scan_match.motion, Pose2::IDENTITY);
+        self.unmatched.scans += 1;
+        self.unmatched.way_m += metres + ROTATION_ARM_M * radians;
+        self.unmatched.scans >= STRANGE_SCANS && self.unmatched.way_m > STRANGE_M
     }
 
     /// Begins a piece of map with a scan, where odometry has it.
-    pub(super) fn begin_piece(
+    pub(super) fn begin_component(
         &mut self,
         scan: &Scan,
         odom_from_base: Option<Pose2>,
-        look: &Look,
-    ) -> Taken {
-        let Some(last) = &self.last else { return Taken::Lost };
-        self.strange = Strange::default();
-        let key_from_base = (last.key_from_base * look.motion).normalized();
-        let before = last.key;
-        let pose = (self.graph.poses[before] * key_from_base).normalized();
-        let new = self.set_down((scan.time_ns, odom_from_base), (&look.cloud, &look.ends), pose);
-        self.graph.add_edge(Edge::gap((before, new), key_from_base));
-        self.piece = new;
-        self.doubts.remark(scan.time_ns, Doubt::Carried);
-        Taken::Kept
+        scan_match: &ScanMatch,
+    ) -> ScanOutcome {
+        let Some(last) = &self.last else { return ScanOutcome::NoMatch };
+        self.unmatched = UnmatchedRun::default();
+        let keyframe_from_base = (last.keyframe_from_base * scan_match.motion).normalized();
+        let before = last.keyframe;
+        let pose = (self.graph.poses[before] * keyframe_from_base).normalized();
+        let new = self.insert_disconnected(
+            (scan.time_ns, odom_from_base),
+            (&scan_match.cloud, &scan_match.ends),
+            pose,
+        );
+        self.graph.add_edge(Edge::gap((before, new), keyframe_from_base));
+        self.component = new;
+        self.diagnostics.remark(scan.time_ns, RemarkKind::Kidnapped);
+        ScanOutcome::Inserted
     }
 
     /// Keeps a scan at a place that the robot did not drive to, and goes on from there; gives its key.
-    pub(super) fn set_down(
+    pub(super) fn insert_disconnected(
         &mut self,
         (time_ns, odom_from_base): (i64, Option<Pose2>),
         (cloud, ends): (&Cloud, &Ends),
         map_from_base: Pose2,
     ) -> usize {
         let new = self.graph.add_pose(map_from_base);
-        let travel_m = self.keys[self.keys.len() - 1].travel_m + CARRIED_M;
-        self.keys.push(Key::new(cloud, drawn(ends, &self.settings), travel_m));
-        self.doubts.begin(odom_from_base);
+        let travel_m = self.keyframes[self.keyframes.len() - 1].travel_m + CARRIED_M;
+        self.keyframes.push(Keyframe::new(cloud, drawn_ends(ends, &self.settings), travel_m));
+        self.diagnostics.begin(odom_from_base);
         self.loops.restart(new, travel_m);
         let here = Pose2::IDENTITY;
-        self.tracks.push(Track { time_ns, key: new, key_from_base: here });
+        self.nodes.push(TrajectoryNode { time_ns, keyframe: new, keyframe_from_base: here });
         self.last = Some(Last {
             time_ns,
             odom_from_base,
-            key: new,
-            key_from_base: here,
+            keyframe: new,
+            keyframe_from_base: here,
             motion: None,
             covariance: Symmetric3::ZERO,
         });
@@ -98,12 +102,12 @@ impl Slam {
     }
 
     /// First scans of all pieces that no closure joins to those before.
-    pub(super) fn unjoined(&self) -> Vec<usize> {
+    pub(super) fn disconnected(&self) -> Vec<usize> {
         let edges = &self.graph.edges;
         let starts = edges.iter().filter(|edge| edge.is_gap()).map(|edge| edge.to);
         let is_across = |start: usize| {
             move |edge: &Edge| {
-                let joins = edge.kind != Kind::Chain && edge.weight > 0.5;
+                let joins = edge.kind != ConstraintKind::Sequential && edge.weight > 0.5;
                 joins && edge.from.min(edge.to) < start && edge.from.max(edge.to) >= start
             }
         };
@@ -112,8 +116,8 @@ impl Slam {
 
     /// Moves the pieces that new closures join to where they say, all that came after with them: bending
     /// would not find so far.
-    pub(super) fn lay_pieces(&mut self, closures: &[Edge]) {
-        let starts = self.unjoined();
+    pub(super) fn align_components(&mut self, closures: &[Edge]) {
+        let starts = self.disconnected();
         for edge in closures {
             let (old, new) = (edge.from.min(edge.to), edge.from.max(edge.to));
             let Some(&start) = starts.iter().rfind(|&&start| old < start && start <= new) else {

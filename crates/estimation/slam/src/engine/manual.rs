@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Placed, Prior, Symmetric3, register};
 
-use super::{LEAST_POINTS, Slam, Taken};
-use crate::graph::{Edge, Kind};
-use crate::local::{apart, close_by, floored, grouped, locate};
+use super::{MIN_POINTS_COUNT, ScanOutcome, Slam};
+use crate::graph::{ConstraintKind, Edge};
+use crate::local::{apart, close_by, floored, grouped, match_locally};
 use crate::loops::Closure;
 use crate::scan::Scan;
 
@@ -38,77 +38,94 @@ impl Slam {
     }
 
     /// A scan from where somebody says that the robot is.
-    pub(super) fn take_at(
+    pub(super) fn process_scan_at(
         &mut self,
         scan: &Scan,
         odom_from_base: Option<Pose2>,
         start: Pose2,
         covariance: Symmetric3,
-    ) -> Taken {
+    ) -> ScanOutcome {
         let Some(last) = &self.last else { return self.begin(scan, odom_from_base, start) };
         let ends = scan.ends(None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
-        if cloud.points().len() < LEAST_POINTS {
+        if cloud.points().len() < MIN_POINTS_COUNT {
             // It says nothing; the next one may.
             self.start = Some((start, covariance));
-            return Taken::Lost;
+            return ScanOutcome::NoMatch;
         }
         let near = nearest(&self.graph.poses, start, self.settings.local_scans);
-        let key = near.first().copied().unwrap_or(last.key);
-        let map_from_key = self.graph.poses[key];
-        let expected = (map_from_key.inverse() * start).normalized();
-        let turned = covariance.turned(-map_from_key.yaw_rad);
+        let keyframe = near.first().copied().unwrap_or(last.keyframe);
+        let map_from_keyframe = self.graph.poses[keyframe];
+        let expected = (map_from_keyframe.inverse() * start).normalized();
+        let turned = covariance.turned(-map_from_keyframe.yaw_rad);
         let claim = turned.inverse().unwrap_or(diagonal(HAND));
-        let (key_from_base, information, doubted, is_matched) = if near.is_empty() {
+        let (keyframe_from_base, information, doubted, is_matched) = if near.is_empty() {
             (expected, claim, claim, false)
         } else {
-            let group = grouped(&self.keys, &self.graph, &near, key);
+            let group = grouped(&self.keyframes, &self.graph, &near, keyframe);
             let group = group.placed();
-            let found = locate(&cloud, &group, expected, &turned, &self.settings, true, self.usual);
+            let found = match_locally(
+                &cloud,
+                &group,
+                expected,
+                &turned,
+                &self.settings,
+                true,
+                self.inlier_ratio,
+            );
             (found.fit.target_from_moving, found.information, found.doubted, found.is_matched)
         };
-        let pose = (map_from_key * key_from_base).normalized();
-        let new = self.set_down((scan.time_ns, odom_from_base), (&cloud, &ends), pose);
-        let edge = Edge::new((key, new), key_from_base, floored(&information), Kind::Chain);
+        let pose = (map_from_keyframe * keyframe_from_base).normalized();
+        let new = self.insert_disconnected((scan.time_ns, odom_from_base), (&cloud, &ends), pose);
+        let edge = Edge::new(
+            (keyframe, new),
+            keyframe_from_base,
+            floored(&information),
+            ConstraintKind::Sequential,
+        );
         self.graph.add_edge(edge.doubting(&floored(&doubted)));
-        self.work.ties.push_back(new);
+        self.work.proximity.push_back(new);
         // A scan that fits nothing is kept all the same: somebody knows where it is.
-        if is_matched || near.is_empty() { Taken::Kept } else { Taken::Lost }
+        if is_matched || near.is_empty() { ScanOutcome::Inserted } else { ScanOutcome::NoMatch }
     }
 
     /// Somebody has moved kept scans to where they belong: each is held against the scans that it now
     /// lies among, and the map is bent accordingly. Gives how many were tied. The work that follows
     /// is done in the background.
-    pub fn close_by_hand(&mut self, moved: &BTreeMap<usize, Pose2>) -> usize {
-        let mut tied = 0;
-        for (&key, &map_from_key) in moved {
-            if key < self.keys.len() && map_from_key.is_finite() {
-                tied += usize::from(self.tie_by_hand(key, map_from_key.normalized()));
+    pub fn add_manual_constraints(&mut self, moved: &BTreeMap<usize, Pose2>) -> usize {
+        let mut proximity_count = 0;
+        for (&keyframe, &map_from_keyframe) in moved {
+            if keyframe < self.keyframes.len() && map_from_keyframe.is_finite() {
+                proximity_count +=
+                    usize::from(self.tie_by_hand(keyframe, map_from_keyframe.normalized()));
             }
         }
-        if tied > 0 {
+        if proximity_count > 0 {
             self.solve_soon();
-            self.work.ties.extend(moved.keys().copied().filter(|&key| key < self.keys.len()));
+            self.work
+                .proximity
+                .extend(moved.keys().copied().filter(|&keyframe| keyframe < self.keyframes.len()));
         }
-        tied
+        proximity_count
     }
 
-    fn tie_by_hand(&mut self, key: usize, map_from_key: Pose2) -> bool {
+    fn tie_by_hand(&mut self, keyframe: usize, map_from_keyframe: Pose2) -> bool {
         let is_other = |&other: &usize| {
-            (self.keys[key].travel_m - self.keys[other].travel_m).abs() > SAME_VISIT_M
+            (self.keyframes[keyframe].travel_m - self.keyframes[other].travel_m).abs()
+                > SAME_VISIT_M
         };
-        let near = nearest(&self.graph.poses, map_from_key, self.keys.len());
+        let near = nearest(&self.graph.poses, map_from_keyframe, self.keyframes.len());
         let near: Vec<usize> = near.into_iter().filter(is_other).take(3).collect();
         // Where nothing else was seen, the place is relative to where the map began.
         let other = near.first().copied().unwrap_or(0);
-        if other == key {
+        if other == keyframe {
             return false;
         }
-        let expected = (self.graph.poses[other].inverse() * map_from_key).normalized();
-        let group = grouped(&self.keys, &self.graph, &near, other);
+        let expected = (self.graph.poses[other].inverse() * map_from_keyframe).normalized();
+        let group = grouped(&self.keyframes, &self.graph, &near, other);
         let group = group.placed();
         let prior = Prior { target_from_moving: expected, information: diagonal(HAND) };
-        let cloud = self.keys[key].cloud();
+        let cloud = self.keyframes[keyframe].cloud();
         let moving = [Placed::alone(&cloud)];
         let how = close_by(&self.settings.register);
         let fit = (!near.is_empty())
@@ -124,13 +141,18 @@ impl Slam {
                 (expected, diagonal(CLAIM), "scans do not tell there; taken as it was put".into())
             }
         };
-        let (from, to) = if other < key { (other, key) } else { (key, other) };
-        let from_from_to = if other < key { pose } else { pose.inverse().normalized() };
+        let (from, to) = if other < keyframe { (other, keyframe) } else { (keyframe, other) };
+        let from_from_to = if other < keyframe { pose } else { pose.inverse().normalized() };
         let information =
-            if other < key { information } else { information.turned(from_from_to.yaw_rad) };
-        self.graph.add_edge(Edge::new((from, to), from_from_to, information, Kind::Loop));
-        self.loops.told.push(Closure {
-            keys: (from, to),
+            if other < keyframe { information } else { information.turned(from_from_to.yaw_rad) };
+        self.graph.add_edge(Edge::new(
+            (from, to),
+            from_from_to,
+            information,
+            ConstraintKind::LoopClosure,
+        ));
+        self.loops.closures.push(Closure {
+            keyframes: (from, to),
             old_from_new: from_from_to,
             is_accepted: true,
             region_m: 0.0,
@@ -146,9 +168,9 @@ pub(crate) fn nearest(poses: &[Pose2], place: Pose2, most: usize) -> Vec<usize> 
     let mut near: Vec<(f64, usize)> = poses
         .iter()
         .enumerate()
-        .filter_map(|(key, &pose)| {
+        .filter_map(|(keyframe, &pose)| {
             let (metres, radians) = apart(pose, place);
-            (metres < REACH_M).then_some((metres + 0.6 * radians, key))
+            (metres < REACH_M).then_some((metres + 0.6 * radians, keyframe))
         })
         .collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

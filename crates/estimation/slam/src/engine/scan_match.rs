@@ -3,9 +3,9 @@
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, Symmetric3};
 
-use super::{LEAST_POINTS, Last, Slam};
-use crate::local::{apart, grouped, is_better, locate, neighbours, uncertain, weighed};
-use crate::odometry::Trust;
+use super::{MIN_POINTS_COUNT, Slam};
+use crate::local::{apart, grouped, is_better, match_locally, neighbours, reweighted, uncertain};
+use crate::odometry_noise::OdometryNoise;
 use crate::scan::{Ends, Scan};
 
 /// Less motion than this is standing still \[m, rad\].
@@ -18,16 +18,16 @@ const SEARCH_RAD: f64 = 0.05;
 const RECENT_S: f64 = 1.0;
 
 /// A scan among those before.
-pub(super) struct Look {
+pub(super) struct ScanMatch {
     pub(super) ends: Ends,
     pub(super) cloud: Cloud,
     /// The step that odometry tells; none when it is not believed.
-    pub(super) told: Option<Pose2>,
+    pub(super) odometry: Option<Pose2>,
     /// The step that was expected, and its covariance.
     pub(super) motion: Pose2,
     pub(super) covariance: Symmetric3,
     /// Where the scan was found, as seen from the last kept one.
-    pub(super) key_from_base: Pose2,
+    pub(super) keyframe_from_base: Pose2,
     /// What scans and odometry say together; and the same for asking how far off it may be.
     pub(super) information: Symmetric3,
     pub(super) doubted: Symmetric3,
@@ -37,7 +37,7 @@ pub(super) struct Look {
     pub(super) is_still: bool,
     pub(super) is_matched: bool,
     pub(super) is_doubted: bool,
-    /// Where it is small, it may be a scan of another place: see [`crate::local::Located`].
+    /// Where it is small, it may be a scan of another place: see [`crate::local::LocalMatch`].
     pub(super) agreeing: f64,
     /// From 0 where walls do not hold along some direction to 1.
     pub(super) firmness: f64,
@@ -54,29 +54,40 @@ pub(super) fn per_second(motion: Pose2, seconds: f64) -> Option<Pose2> {
 
 impl Slam {
     /// Looks for a scan among those just before.
-    pub(super) fn look(&self, scan: &Scan, last: &Last, told: Option<Pose2>, seconds: f64) -> Look {
-        // As the robot moved before.
-        let inertia = last
-            .motion
+    pub(super) fn match_scan(
+        &self,
+        scan: &Scan,
+        odometry: Option<Pose2>,
+        seconds: f64,
+    ) -> ScanMatch {
+        let (last_keyframe, last_from_base, last_motion) =
+            self.last.as_ref().map_or((0, Pose2::IDENTITY, None), |last| {
+                (last.keyframe, last.keyframe_from_base, last.motion)
+            });
+        // Constant velocity.
+        let inertia = last_motion
             .filter(|_| seconds > 0.0 && seconds < RECENT_S)
             .map(|it| Pose2::new(it.x_m * seconds, it.y_m * seconds, it.yaw_rad * seconds));
-        let motion = told.or(inertia).unwrap_or(Pose2::IDENTITY);
-        let covariance =
-            if told.is_some() { self.trust.covariance(motion, seconds) } else { Trust::blind() };
+        let motion = odometry.or(inertia).unwrap_or(Pose2::IDENTITY);
+        let covariance = if odometry.is_some() {
+            self.odometry_noise.covariance(motion, seconds)
+        } else {
+            OdometryNoise::blind()
+        };
         let ends = scan.ends(per_second(motion, seconds), self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         let (metres, radians) = apart(motion, Pose2::IDENTITY);
-        let expected = (last.key_from_base * motion).normalized();
+        let expected = (last_from_base * motion).normalized();
         let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
-        let mut look = Look {
-            is_blank: cloud.points().len() < LEAST_POINTS,
-            is_still: told.is_some() && metres < STILL_M && radians < STILL_RAD,
+        let mut scan_match = ScanMatch {
+            is_blank: cloud.points().len() < MIN_POINTS_COUNT,
+            is_still: odometry.is_some() && metres < STILL_M && radians < STILL_RAD,
             ends,
             cloud,
-            told,
+            odometry,
             motion,
             covariance,
-            key_from_base: expected,
+            keyframe_from_base: expected,
             information,
             doubted: information,
             is_matched: false,
@@ -85,44 +96,47 @@ impl Slam {
             firmness: 0.0,
             matched: 0.0,
         };
-        if look.is_blank {
-            return look;
+        if scan_match.is_blank {
+            return scan_match;
         }
-        let (cloud, settings) = (&look.cloud, &self.settings);
-        let group = neighbours(&self.keys, &self.graph, settings.local_scans, self.piece);
-        let group = grouped(&self.keys, &self.graph, &group, last.key);
+        let (cloud, settings) = (&scan_match.cloud, &self.settings);
+        let group = neighbours(&self.keyframes, &self.graph, settings.local_scans, self.component);
+        let group = grouped(&self.keyframes, &self.graph, &group, last_keyframe);
         let group = group.placed();
         // The prior is about a motion that began at the last scan.
-        let turned = covariance.turned(last.key_from_base.yaw_rad);
-        let searches = told.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
-        let mut found = locate(cloud, &group, expected, &turned, settings, searches, self.usual);
+        let turned = covariance.turned(last_from_base.yaw_rad);
+        let searches = odometry.is_none() || metres > SEARCH_M || radians > SEARCH_RAD;
+        let mut found =
+            match_locally(cloud, &group, expected, &turned, settings, searches, self.inlier_ratio);
         let is_against_inertia = |inertia: &Pose2| {
             let (metres, radians) = apart(motion, *inertia);
             metres > SEARCH_M || radians > SEARCH_RAD
         };
-        if let Some(inertia) = inertia.filter(|it| told.is_some() && is_against_inertia(it)) {
+        if let Some(inertia) = inertia.filter(|it| odometry.is_some() && is_against_inertia(it)) {
             // Odometry that is told late stands still first, and makes up for it in one step.
-            let expected = (last.key_from_base * inertia).normalized();
-            let turned = Trust::blind().turned(last.key_from_base.yaw_rad);
-            let other = locate(cloud, &group, expected, &turned, settings, true, self.usual);
+            let expected = (last_from_base * inertia).normalized();
+            let turned = OdometryNoise::blind().turned(last_from_base.yaw_rad);
+            let other =
+                match_locally(cloud, &group, expected, &turned, settings, true, self.inlier_ratio);
             if is_better(cloud, &group, &other, &found) {
                 found = other;
                 found.is_doubted = true;
-                look.told = None;
+                scan_match.odometry = None;
             }
         }
-        if look.told.is_some() && found.is_matched {
-            let typical = self.trust.typical(motion, seconds).turned(last.key_from_base.yaw_rad);
-            if !look.is_still {
-                found = weighed(found, cloud, &group, expected, &typical, settings);
+        if scan_match.odometry.is_some() && found.is_matched {
+            let typical =
+                self.odometry_noise.typical(motion, seconds).turned(last_from_base.yaw_rad);
+            if !scan_match.is_still {
+                found = reweighted(found, cloud, &group, expected, &typical, settings);
             }
             found.doubted = uncertain(&found, &typical);
         }
-        look.key_from_base = found.fit.target_from_moving;
-        (look.information, look.doubted) = (found.information, found.doubted);
-        (look.is_matched, look.is_doubted) = (found.is_matched, found.is_doubted);
-        (look.firmness, look.matched) = (found.fit.firmness, found.fit.matched);
-        look.agreeing = found.agreeing;
-        look
+        scan_match.keyframe_from_base = found.fit.target_from_moving;
+        (scan_match.information, scan_match.doubted) = (found.information, found.doubted);
+        (scan_match.is_matched, scan_match.is_doubted) = (found.is_matched, found.is_doubted);
+        (scan_match.firmness, scan_match.matched) = (found.fit.firmness, found.fit.matched);
+        scan_match.agreeing = found.agreeing;
+        scan_match
     }
 }

@@ -2,7 +2,7 @@
 
 use periplus_geometry::Stream;
 
-use super::{Graph, Kind, Size};
+use super::{ConstraintKind, Graph, Size};
 
 /// So many bodies are solved for, about.
 const MOST: usize = 6000;
@@ -16,11 +16,11 @@ const FIRM_M: f64 = 0.05;
 ///
 /// Where bodies begin is drawn anew with every turn, so that no step is stiff for ever. Drawn, because
 /// by turns of even and odd pairs a zigzag is hardly ever lost: every body is pulled to both sides.
-pub(crate) fn riders(graph: &Graph, (poses, edges): Size, turn: usize) -> Vec<u32> {
+pub(crate) fn pose_clusters(graph: &Graph, (poses, edges): Size, turn: usize) -> Vec<u32> {
     let together = poses.div_ceil(MOST).max(1);
     let mut is_firm = vec![false; poses];
     for edge in graph.edges[..edges].iter().filter(|edge| edge.weight > 0.0) {
-        let is_step = edge.kind == Kind::Chain && edge.to == edge.from + 1;
+        let is_step = edge.kind == ConstraintKind::Sequential && edge.to == edge.from + 1;
         is_firm[edge.to] |= is_step && edge.covariances[0].largest_shift() < FIRM_M * FIRM_M;
     }
     let mut dice = Stream::keyed(0, "riders", turn as u64);
@@ -54,7 +54,12 @@ mod tests {
             let information = Symmetric3::diagonal(known, known, 1e4);
             if pose > 0 {
                 let step = Pose2::new(1.0, 0.0, 0.0);
-                graph.add_edge(Edge::new((pose - 1, pose), step, information, Kind::Chain));
+                graph.add_edge(Edge::new(
+                    (pose - 1, pose),
+                    step,
+                    information,
+                    ConstraintKind::Sequential,
+                ));
             }
         }
         graph
@@ -63,7 +68,7 @@ mod tests {
     #[test]
     fn poses_of_small_maps_are_their_own() {
         let graph = way(MOST, 7);
-        let bodies = riders(&graph, (MOST, MOST - 1), 3);
+        let bodies = pose_clusters(&graph, (MOST, MOST - 1), 3);
         assert!(bodies.into_iter().eq(0..MOST as u32));
     }
 
@@ -71,7 +76,7 @@ mod tests {
     fn poses_of_large_maps_ride_with_others_and_not_over_loose_steps() {
         let graph = way(3 * MOST, 7);
         let size = (3 * MOST, 3 * MOST - 1);
-        let turns = [0, 1].map(|turn| riders(&graph, size, turn));
+        let turns = [0, 1].map(|turn| pose_clusters(&graph, size, turn));
         assert_ne!(turns[0], turns[1]);
         for bodies in turns {
             assert_ne!(bodies[6], bodies[7]);

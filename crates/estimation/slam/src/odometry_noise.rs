@@ -5,7 +5,7 @@ use periplus_scan_matching::Symmetric3;
 
 /// How odometry errs, learnt as the robot drives.
 #[derive(Clone, Debug)]
-pub(crate) struct Trust {
+pub(crate) struct OdometryNoise {
     /// Errors are so many times those of the model, squared: of place and of heading.
     place: f64,
     heading: f64,
@@ -46,13 +46,13 @@ const MOVED_RAD: f64 = 0.3;
 /// How fast it learns.
 const RATE: f64 = 0.04;
 
-impl Default for Trust {
+impl Default for OdometryNoise {
     fn default() -> Self {
         Self { place: 2.0, heading: 2.0, typical_place: 2.0, typical_heading: 2.0, step_m: JUMP_M }
     }
 }
 
-impl Trust {
+impl OdometryNoise {
     /// Covariance of a motion that odometry tells; errors as along the axes of where it began.
     pub(crate) fn covariance(&self, motion: Pose2, seconds: f64) -> Symmetric3 {
         let model = Self::model(motion, seconds);
@@ -117,4 +117,4 @@ impl Trust {
     }
 }
 
-crate::session::packed!(Trust { place, heading, typical_place, typical_heading, step_m });
+crate::session::packed!(OdometryNoise { place, heading, typical_place, typical_heading, step_m });
