@@ -21,6 +21,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
+use std::process::Command;
 
 use crate::step::{Failed, root};
 use checks::{Check, Finding, constants, results, types};
@@ -32,6 +33,8 @@ use source::{File, Rust, line_and_column};
 
 /// File of the words, below the root.
 const WORDS: &str = "xtask/tidy/words.yaml";
+/// Folder of the checks, below the root.
+const RULES: &str = "xtask/src/tidy";
 /// File of the counts that are left, below the root.
 const RATCHET: &str = "xtask/tidy/ratchet.yaml";
 /// Bytes shown on each side of a sampled finding.
@@ -64,6 +67,9 @@ pub(crate) struct Options {
     /// With --update: accept more findings in a package when others have as many fewer, since code moved
     #[arg(long, requires = "update")]
     moved: bool,
+    /// With --update: accept more findings, since this change makes a rule stricter
+    #[arg(long, requires = "update")]
+    stricter: bool,
 }
 
 /// Everything that was read and found.
@@ -107,6 +113,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     let packages: BTreeSet<String> = report.files.iter().map(|file| file.package.clone()).collect();
     let found = counts(&report);
     if options.update {
+        if options.stricter {
+            stricter(&root)?;
+            return write(&root, &ratchet::render(&found));
+        }
         let lowered = ratchet::lowered(&allowed, &found, &packages, options.moved)
             .map_err(|rises| refused(&rises))?;
         return write(&root, &ratchet::render(&lowered));
@@ -126,6 +136,20 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
 fn read(root: &Path, path: &str) -> Result<String, Failed> {
     fs::read_to_string(root.join(path))
         .map_err(|error| Failed(format!("{path}: {error}; restore it with `git checkout {path}`")))
+}
+
+/// Refuses where the rules are as committed.
+fn stricter(root: &Path) -> Result<(), Failed> {
+    let mut command = Command::new("git");
+    command.current_dir(root).args(["status", "--porcelain", "--", WORDS, RULES]);
+    let output = command.output().map_err(|error| {
+        Failed(format!("`git status` cannot be started ({error}): install Git"))
+    })?;
+    if output.stdout.is_empty() {
+        let why = format!("neither {WORDS} nor {RULES} has changed; mend the findings");
+        return Err(Failed(why));
+    }
+    Ok(())
 }
 
 /// Writes the counts, or removes their file when nothing is left.

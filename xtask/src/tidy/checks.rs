@@ -47,7 +47,7 @@ impl fmt::Display for Check {
     }
 }
 
-/// Place in a file that a check objects to.
+/// Part of a file that a check objects to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Finding {
     pub(crate) check: Check,

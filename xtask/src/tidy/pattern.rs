@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `word` | this word, in any case |
 //! | `a\|b` | one of these words |
-//! | `<name>` | one of the words of a class of the data file; may stand among `a\|b` |
+//! | `<name>` | one of the words of a class of the data file; allowed among `a\|b` |
 //! | `!...` | any atom except these words, also the end of a sentence; context, no part of the finding |
 //! | `=...` | these words, as context, no part of the finding |
 //! | `_`, `=_` | any word or piece of code; the second is context |

@@ -64,7 +64,8 @@ pub(crate) fn render(counts: &Counts) -> String {
     }
     format!(
         "# Findings of `cargo xtask tidy` that the tree still has, by check and package. They only fall:\n\
-         # `cargo xtask tidy --update` writes this file.\n{text}"
+         # `cargo xtask tidy --update` writes this file. After a conflict take the file of the main branch and\n\
+         # update it again.\n{text}"
     )
 }
 
@@ -98,7 +99,7 @@ pub(crate) fn rises(allowed: &Counts, found: &Counts, packages: &BTreeSet<String
 
 /// Counts to commit in place of the allowed ones.
 ///
-/// With `moved`, a package may have more when the others have so many fewer: code moved between them.
+/// With `moved`, a package may have more when the others have as many fewer: code moved between them.
 ///
 /// # Errors
 /// Those counts that would rise.

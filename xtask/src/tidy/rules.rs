@@ -32,9 +32,9 @@ impl Entry {
 pub(crate) struct ConstantRules {
     /// Folders that are checked.
     pub(crate) folders: BTreeSet<String>,
-    /// Last words of a name that say unit or kind.
+    /// Last words of names that are a unit or a kind.
     pub(crate) suffixes: BTreeSet<String>,
-    /// Last words of names of integers that say what is counted.
+    /// Last words of names of integers: the things that are counted.
     pub(crate) counts: BTreeSet<String>,
     /// Names that are right without, as `package name` or `name`.
     pub(crate) allowed: BTreeSet<String>,

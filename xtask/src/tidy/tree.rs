@@ -1,4 +1,4 @@
-//! What must be true of the source tree itself.
+//! Tests of the source tree: sizes, forbidden words, lints, the map in ARCHITECTURE.md.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,11 +10,11 @@ use crate::step::root;
 /// No file of the tree is larger; bytes.
 const LARGEST: u64 = 1 << 20;
 
-/// What no file may say, put together so that this one does not say it either, and why.
+/// Text that no file may contain, in two parts here so that this file does not contain it either, and why.
 const FORBIDDEN: [(&str, &str); 3] = [
     (concat!("/wo", "rk/"), "a path of one machine"),
     (concat!("/tmp/", "target"), "a path of one machine"),
-    (concat!("TO", "DO"), "say who will do it: (name) must follow, or open an issue"),
+    (concat!("TO", "DO"), "name the owner: (name) must follow, or open an issue"),
 ];
 
 /// Words with a slash that are not paths.
@@ -26,7 +26,7 @@ fn files() -> Vec<String> {
         .current_dir(root())
         .args(["ls-files", "-z"])
         .output()
-        .expect("git tells which files belong to the tree");
+        .expect("git lists the files of the tree");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let names = String::from_utf8(output.stdout).expect("file names are UTF-8");
     let exists = |name: &&str| !name.is_empty() && root().join(name).is_file();
@@ -82,7 +82,7 @@ fn no_line_ends_in_space() {
     none(&faults);
 }
 
-/// Whether a line says a forbidden word; a marked task with its owner is allowed.
+/// True for a line with a forbidden word; a marked task with its owner is allowed.
 fn says(line: &str, word: &str) -> bool {
     line.match_indices(word).any(|(at, _)| !line[at + word.len()..].starts_with('('))
 }
@@ -172,7 +172,7 @@ fn code_spans(markdown: &str) -> impl Iterator<Item = (&str, &str)> {
     prose.flat_map(|line| line.split('`').skip(1).step_by(2).map(move |span| (line, span)))
 }
 
-/// What a Markdown text names as paths: what has a slash, and under the heading "Code map" the
+/// Paths that a Markdown text names: code with a slash, and under the heading "Code map" the
 /// first piece of code of each entry.
 fn named_paths(markdown: &str) -> BTreeSet<String> {
     let map_at = markdown.find("Code map\n").unwrap_or(markdown.len());

@@ -70,7 +70,7 @@ impl Found<'_> {
         self.passages.push(passage);
     }
 
-    /// Template string; its expressions are scripts of their own. Returns the offset after it.
+    /// Template string; its expressions are scripts. Returns the offset after it.
     fn template(&mut self, start: usize, limit: usize) -> usize {
         let bytes = self.file.as_bytes();
         let mut passage = Passage::new(Source::Viewer);

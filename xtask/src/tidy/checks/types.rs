@@ -56,7 +56,7 @@ pub(crate) fn check(
         let findings = types.iter().map(|one| {
             let others = types.iter().filter(|other| !std::ptr::eq(**other, *one));
             let files: Vec<String> = others.map(|other| shown(other.file)).collect();
-            let advice = format!("a name that says which one; others are in {}", files.join(", "));
+            let advice = format!("a specific name; others are in {}", files.join(", "));
             let finding = Finding {
                 check: Check::Types,
                 entry: String::new(),
@@ -106,8 +106,8 @@ mod tests {
         assert_eq!(
             shown,
             [
-                "0 Kind -> a name that says which one; others are in crates/b/src/lib.rs",
-                "1 Kind -> a name that says which one; others are in crates/a/src/lib.rs",
+                "0 Kind -> a specific name; others are in crates/b/src/lib.rs",
+                "1 Kind -> a specific name; others are in crates/a/src/lib.rs",
             ]
         );
     }
