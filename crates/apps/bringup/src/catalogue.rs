@@ -100,7 +100,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "joint_state_publisher",
         Role::JointStatePublisher,
-        "the built-in node: `joint_states` of the robot that is described",
+        "the built-in node: `joint_states` of the described robot",
     ),
     entry(
         &["joint_state_publisher_gui"],
@@ -108,7 +108,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "joint_state_publisher_gui",
         Role::JointStatePublisher,
-        "the built-in node, without sliders: joints stay where they are at the start",
+        "the built-in node, without sliders: joints keep their initial positions",
     ),
     entry(
         &["tf2_ros", "tf"],
@@ -116,7 +116,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["tf2_ros::StaticTransformBroadcasterNode"],
         "static_transform_publisher",
         Role::StaticTransform,
-        "a frame on `/tf_static`; of ROS 1's `tf` on `/tf`, as often as it says",
+        "a transform on `/tf_static`; of ROS 1's `tf` on `/tf`, at its rate",
     ),
     entry(
         &["gazebo_ros", "gazebo"],
@@ -148,7 +148,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "spawn_entity",
         Role::Spawn,
-        "a robot or model in the simulation, there when the program would end",
+        "a robot or model in the simulation; the program ends when it is spawned",
     ),
     entry(
         &["ros_gz_sim", "ros_ign_gazebo"],
@@ -156,7 +156,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "ros_gz_sim",
         Role::Spawn,
-        "a robot or model in the simulation, there when the program would end",
+        "a robot or model in the simulation; the program ends when it is spawned",
     ),
     entry(
         &["ros_gz_bridge", "ros_ign_bridge"],
@@ -164,7 +164,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["ros_gz_bridge::RosGzBridge"],
         "ros_gz_bridge",
         Role::Bridge,
-        "topics of the simulation are topics of ROS already: those that get another name are passed on",
+        "simulated topics are ROS topics already; remapped ones are relayed",
     ),
     entry(
         &["ros_gz_image", "ros_ign_image"],
@@ -172,7 +172,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "ros_gz_image",
         Role::Bridge,
-        "pictures of the simulation are topics of ROS already",
+        "simulated images are ROS topics already",
     ),
     entry(
         &["rviz2", "rviz"],
@@ -188,7 +188,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["slam_toolbox::AsynchronousSlamToolbox"],
         "slam_toolbox",
         Role::Slam(Program::Async),
-        "the built-in mapper",
+        "the built-in SLAM node",
     ),
     entry(
         &["slam_toolbox"],
@@ -196,7 +196,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["slam_toolbox::SynchronousSlamToolbox"],
         "slam_toolbox",
         Role::Slam(Program::Sync),
-        "the built-in mapper; no scan is left out",
+        "the built-in SLAM node; every scan is processed",
     ),
     entry(
         &["slam_toolbox"],
@@ -204,7 +204,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["slam_toolbox::LocalizationSlamToolbox"],
         "slam_toolbox",
         Role::Slam(Program::Localization),
-        "the built-in mapper, on a stored graph",
+        "the built-in SLAM node, localizing on a stored pose graph",
     ),
     entry(
         &["slam_toolbox"],
@@ -212,7 +212,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["slam_toolbox::LifelongSlamToolbox"],
         "slam_toolbox",
         Role::Slam(Program::Lifelong),
-        "the built-in mapper; old scans go",
+        "the built-in SLAM node; old scans are pruned",
     ),
     entry(
         &["gmapping", "slam_gmapping"],
@@ -220,7 +220,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "slam_gmapping",
         Role::Slam(Program::Gmapping),
-        "the built-in mapper with particles",
+        "the built-in SLAM node with a particle filter",
     ),
     entry(
         &["nav2_map_server"],
@@ -236,7 +236,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "map_server",
         Role::MapServer { is_managed: false },
-        "the built-in node; `-f NAME`, a slip of a tutorial, saves the map as `map_saver` does",
+        "the built-in node; `-f NAME` saves the map, as `map_saver` does",
     ),
     entry(
         &["nav2_map_server"],
@@ -252,7 +252,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "map_saver",
         Role::MapSaver(Distro::Jazzy),
-        "saves the map of its topic, and ends",
+        "saves one map and ends",
     ),
     entry(
         &["map_server"],
@@ -260,7 +260,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "map_saver",
         Role::MapSaver(Distro::Noetic),
-        "saves the map of its topic, and ends",
+        "saves one map and ends",
     ),
     entry(
         &["nav2_amcl"],
@@ -284,7 +284,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["nav2_controller::ControllerServer"],
         "controller_server",
         Role::CostmapHost { costmap: "local_costmap", lacks: "controllers" },
-        "its `local_costmap`, configured and activated with it; there are no controllers",
+        "its `local_costmap`, in the same lifecycle state; controllers are missing",
     ),
     entry(
         &["nav2_planner"],
@@ -292,7 +292,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["nav2_planner::PlannerServer"],
         "planner_server",
         Role::CostmapHost { costmap: "global_costmap", lacks: "planners" },
-        "its `global_costmap`, configured and activated with it; there are no planners",
+        "its `global_costmap`, in the same lifecycle state; planners are missing",
     ),
     entry(
         &["nav2_costmap_2d"],
@@ -300,7 +300,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "costmap",
         Role::Costmap,
-        "a costmap by itself",
+        "a stand-alone costmap",
     ),
     entry(
         &["nav2_costmap_2d"],
@@ -324,8 +324,8 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["nav2_lifecycle_manager::LifecycleManager"],
         "lifecycle_manager",
         Role::LifecycleManager,
-        "configures and activates the nodes of `node_names`, in order; those that no program has are left \
-         out. It keeps bonds (`bond_timeout`) and starts the system again when its nodes come back \
+        "configures and activates the nodes of `node_names` in order; nodes that are missing are skipped. It \
+         keeps bonds (`bond_timeout`) and restarts the system when its nodes return \
          (`attempt_respawn_reconnection`, `bond_respawn_max_duration`)",
     ),
     entry(
@@ -334,7 +334,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "ekf_filter_node",
         Role::Ekf,
-        "the built-in filter of wheels, IMU and poses",
+        "the built-in extended Kalman filter",
     ),
     entry(
         &["topic_tools"],
@@ -342,7 +342,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["topic_tools::RelayNode"],
         "relay",
         Role::Relay,
-        "what comes on one topic goes out on another",
+        "the built-in relay from one topic to another",
     ),
     entry(
         &["rclcpp_components"],
@@ -355,7 +355,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "component_container",
         Role::Container,
-        "nothing by itself: its components are looked at one by one",
+        "nothing by itself: each component is a row of its own",
     ),
     entry(
         &["teleop_twist_keyboard"],
@@ -363,7 +363,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "teleop_twist_keyboard",
         Role::Lacking,
-        "nothing, since it wants a terminal of its own: type `periplus teleop` in one",
+        "nothing: it needs a terminal; run `periplus teleop` in one",
     ),
     entry(
         &[
@@ -382,7 +382,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "nav2",
         Role::Lacking,
-        "nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways",
+        "nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers",
     ),
     entry(
         &["move_base"],
@@ -390,7 +390,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "move_base",
         Role::Lacking,
-        "nothing: Periplus plans no ways; its costmaps run with `periplus costmap FILE`",
+        "nothing: Periplus has no planners; costmaps run with `periplus costmap FILE`",
     ),
     entry(
         &["controller_manager", "gazebo_ros2_control", "gz_ros2_control"],
@@ -432,7 +432,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "diagnostic_aggregator",
         Role::Needless,
-        "nothing: `/diagnostics` is there without it",
+        "nothing: `/diagnostics` is published without it",
     ),
 ];
 

@@ -366,7 +366,7 @@ fn maps(
     }
     if !is_managed && words.iter().any(|word| word == "-f") {
         made.notes.push("`-f` is for saving a map: this runs `map_saver`".into());
-        made.told = "saves the map of its topic, and ends".into();
+        made.told = "saves one map and ends".into();
         made.hand(Saver::new(&node, words, Distro::Noetic)?);
         return Ok(());
     }

@@ -115,7 +115,7 @@ fn the_robot_of_the_second_tutorial_in_its_world() {
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
         + gazebo ...: the simulation of TOP/worlds/cube_and_sphere.sdf
         + gazebo_ros spawn_entity.py: /spawn_entity: `sam_bot` from /robot_description at (0, 0, 0.15)
-        + robot_localization ekf_node: /ekf_filter_node: the built-in filter of wheels, IMU and poses
+        + robot_localization ekf_node: /ekf_filter_node: the built-in extended Kalman filter
         = rviz2 rviz2: the page (`--page`), which opens files of RViz
     "#]].assert_eq(&ran.became());
 }
@@ -150,7 +150,7 @@ fn gazebo_and_gmapping_of_ros_1() {
         + gazebo_ros spawn_model: /spawn_kbot: `kbot` from its parameter at (0, 0, 0)
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
         = rviz rviz: the page (`--page`), which opens files of RViz
-        + gmapping slam_gmapping: /slam_gmapping: the built-in mapper with particles
+        + gmapping slam_gmapping: /slam_gmapping: the built-in SLAM node with a particle filter
         + tf static_transform_publisher: /laser_to_nowhere: `nowhere` in `base_link`
     "#]].assert_eq(&ran.became());
 }
@@ -180,9 +180,9 @@ fn a_map_server_and_amcl_of_ros_1() {
         + package://gazebo_ros/launch/empty_world.launch: the simulation of TOP/worlds/closed_room.world
         + gazebo_ros spawn_model: /spawn_kbot: `kbot` from its parameter at (0, 0, 0)
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
-        + map_server map_server: /map_server: the built-in node; `-f NAME`, a slip of a tutorial, saves the map as `map_saver` does
+        + map_server map_server: /map_server: the built-in node; `-f NAME` saves the map, as `map_saver` does
         + amcl amcl: /amcl: the built-in node
-        - move_base move_base: nothing: Periplus plans no ways; its costmaps run with `periplus costmap FILE`
+        - move_base move_base: nothing: Periplus has no planners; costmaps run with `periplus costmap FILE`
     "#]].assert_eq(&ran.became());
 }
 
@@ -219,16 +219,16 @@ fn the_robot_maps_and_has_costmaps() {
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
         + gazebo ...: the simulation of TOP/worlds/cube_and_sphere.sdf
         + gazebo_ros spawn_entity.py: /spawn_entity: `sam_bot` from /robot_description at (0, 0, 0.15)
-        + robot_localization ekf_node: /ekf_filter_node: the built-in filter of wheels, IMU and poses
+        + robot_localization ekf_node: /ekf_filter_node: the built-in extended Kalman filter
         = rviz2 rviz2: the page (`--page`), which opens files of RViz
-        + slam_toolbox async_slam_toolbox_node: /slam_toolbox: the built-in mapper
-        + nav2_controller controller_server: /controller_server: its `local_costmap`, configured and activated with it; there are no controllers
-        - nav2_smoother smoother_server: nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways
-        + nav2_planner planner_server: /planner_server: its `global_costmap`, configured and activated with it; there are no planners
-        - nav2_behaviors behavior_server: nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways
-        - nav2_velocity_smoother velocity_smoother: nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways
-        - nav2_bt_navigator bt_navigator: nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways
-        - nav2_waypoint_follower waypoint_follower: nothing: Periplus has Nav2's maps, localization and costmaps, and plans no ways
+        + slam_toolbox async_slam_toolbox_node: /slam_toolbox: the built-in SLAM node
+        + nav2_controller controller_server: /controller_server: its `local_costmap`, in the same lifecycle state; controllers are missing
+        - nav2_smoother smoother_server: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
+        + nav2_planner planner_server: /planner_server: its `global_costmap`, in the same lifecycle state; planners are missing
+        - nav2_behaviors behavior_server: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
+        - nav2_velocity_smoother velocity_smoother: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
+        - nav2_bt_navigator bt_navigator: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
+        - nav2_waypoint_follower waypoint_follower: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
         + nav2_lifecycle_manager lifecycle_manager: /lifecycle_manager_navigation: brings up controller_server, planner_server
         + nav2_costmap_2d nav2_costmap_2d_markers: /costmap_2d_marker: voxels as cubes on `visualization_marker`
         + tf2_ros static_transform_publisher: /static_transform_publisher: `table` in `map`
