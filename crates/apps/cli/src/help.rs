@@ -135,4 +135,6 @@ fn first_clause(about: &str) -> &str {
 }
 
 #[cfg(test)]
+mod reference;
+#[cfg(test)]
 mod tests;

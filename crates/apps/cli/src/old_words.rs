@@ -3,7 +3,7 @@
 //!
 //! A plain table from words to words, before anything is parsed. What needs nothing done (installing,
 //! building) and what the shell does is answered; so is what Periplus does not have, with what there is
-//! instead. `docs/old-words.md` is made from the examples in its tests.
+//! instead. `docs/ros-and-gazebo-commands.md` is made from the examples in its tests.
 
 mod answers;
 mod gazebo;

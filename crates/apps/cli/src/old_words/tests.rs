@@ -64,9 +64,9 @@ fn becomes(line: &str) -> String {
 #[test]
 fn every_old_word_is_understood() {
     let mut page = String::from(
-        "# Words of ROS and Gazebo\n\nTyped behind `periplus`, these do what hands expect. Every \
-         translation says on the terminal which words it became. This page is made from the program by a \
-         test of `crates/apps/cli`.\n\n| behind `periplus` | is |\n|---|---|\n",
+        "# ROS and Gazebo commands\n\nPrefix the ROS or Gazebo command you know with `periplus`; it runs the \
+         equivalent and prints it. This page is generated: `UPDATE_EXPECT=1 cargo test -p periplus-cli \
+         old_word` rewrites it.\n\n| Command | Equivalent of `periplus` |\n|---|---|\n",
     );
     for line in include_str!("examples.txt").lines().filter(|line| !line.is_empty()) {
         if let Some(title) = line.strip_prefix("# ") {
@@ -75,7 +75,7 @@ fn every_old_word_is_understood() {
         }
         let _ = writeln!(page, "| `{line}` | {} |", becomes(line).replace('|', "\\|"));
     }
-    expect_file!["../../../../../docs/old-words.md"].assert_eq(&page);
+    expect_file!["../../../../../docs/ros-and-gazebo-commands.md"].assert_eq(&page);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn every_command_of_the_tutorials_is_understood() {
 
 #[test]
 fn no_command_of_the_tutorials_is_missing() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/tutorials");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/tutorials");
     if !folder.is_dir() {
         eprintln!("SKIPPED: the tutorials are not in {}", folder.display());
         return;
