@@ -38,7 +38,7 @@ const lidar = (more) => ['periplus/VisualizeLidar', { Topic: '/scan', ...more }]
 export const DISPLAYS = [
   {
     kind: rviz('RobotModel'),
-    text: 'A robot from its URDF, where its frames are; meshes come from the packages of the robot. Besides what it looks like: what it collides with, its masses as balls of lead, and its inertias as the boxes that have them.',
+    text: 'The robot of a URDF at the poses of its frames; meshes come from the packages of the robot. Optional: collision shapes, masses as spheres of lead, inertias as equivalent boxes.',
     shots: {
       robot: { with: [GRID, ROBOT], view: { ...NEAR, distance: 1.6 } },
       robot_inertia: {
@@ -60,7 +60,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('TF'),
-    text: 'All frames: axes, names, and arrows to their parents. What nobody told of for a while pales, and then goes.',
+    text: 'All frames: axes, names, and arrows to their parents. Stale frames fade out and are then removed.',
     shots: {
       tf: {
         with: [
@@ -81,7 +81,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('LaserScan'),
-    text: 'What a laser scanner met, in any style and colour of a cloud. By REP 117 only beams that met something are drawn.',
+    text: 'The points of a laser scan, in every style and colour of a point cloud. According to REP 117 only beams with a hit are drawn.',
     shots: {
       laserscan: {
         with: [GRID, ROBOT, WORLD, scan({ ...RED, Style: 'Points', 'Size (Pixels)': 4 })],
@@ -99,7 +99,7 @@ export const DISPLAYS = [
   },
   {
     kind: 'periplus/VisualizeLidar',
-    text: "Gazebo's Visualize Lidar: triangles, rays or points, in its colours; what meets nothing is drawn to the greatest range, and the dead zone below the least one is black.",
+    text: "Gazebo's Visualize Lidar: triangles, rays or points, in its colours. Beams without a hit are drawn up to the maximum range; the dead zone below the minimum range is black.",
     shots: {
       visualize_lidar: { with: [GRID, ROBOT, WORLD, lidar()], view: SEEN },
       visualize_lidar_points: {
@@ -110,7 +110,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('PointCloud2'),
-    text: 'Clouds in all six styles, coloured by height or any other axis, by any field, by the colours that come with them, or flat. The bytes of a message go to the GPU as they are.',
+    text: 'Point clouds in all six styles, coloured by an axis, by a field, by their own colours, or in one colour. The bytes of a message are uploaded to the GPU unchanged.',
     shots: {
       cloud_axis: {
         isDense: true,
@@ -149,7 +149,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('DepthCloud'),
-    text: 'A depth picture as points (REP 118: metres or millimetres), with the colours of another picture.',
+    text: 'A depth image as points (REP 118: metres or millimetres), with the colours of another image.',
     shots: {
       depthcloud: {
         with: [
@@ -169,7 +169,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Image'),
-    text: 'Pictures beside the scene, of every raw encoding and whatever the browser unpacks. Depth is grey between the least and the greatest number, by the median of the last pictures, or between yours.',
+    text: 'Images beside the scene, in every raw encoding and every compressed one that the browser decodes. Depth is grey between the minimum and the maximum, as the median of the last images, or between the values you set.',
     shots: {
       image: { with: [[rviz('Image'), { Topic: '/depth_camera/image_raw' }]], isPicture: true },
       image_depth: {
@@ -180,7 +180,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Camera'),
-    text: "A camera's picture with the scene over it, through the camera's eyes: the scan, the costmap and the frames lie where they are.",
+    text: "A camera image with the scene drawn over it from the pose of the camera: scan, costmap and frames appear at their positions.",
     shots: {
       camera: {
         with: [
@@ -194,7 +194,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Map'),
-    text: "Maps and costmaps in RViz's three palettes, or in two colours. Only the cells that changed come over the wire, and only they are drawn anew. Select (`s`) tells of a cell its value, what that means, and which layer of a costmap marked it.",
+    text: "Maps and costmaps in RViz's three palettes, or in two colours. Only changed cells are transferred and redrawn. Select (`s`) shows the value of a cell, its meaning, and the layer of a costmap that marked it.",
     shots: {
       map: { with: [ROBOT, MAP], view: ABOVE },
       map_costmap: { with: [ROBOT, costs()], view: ABOVE },
@@ -212,7 +212,7 @@ export const DISPLAYS = [
   },
   {
     kind: 'periplus/VoxelGrid',
-    text: "What Nav2's voxel layer has marked, or does not know.",
+    text: "Marked or unknown voxels of Nav2's voxel layer.",
     shots: {
       voxelgrid: {
         with: [MAP, ROBOT, ['periplus/VoxelGrid', { Topic: '/local_costmap/voxel_grid' }]],
@@ -222,7 +222,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Marker'),
-    text: 'All twelve shapes that a node can draw; here the voxels as `nav2_costmap_2d_markers` tells them.',
+    text: 'All twelve marker types; here the voxels that `nav2_costmap_2d_markers` publishes.',
     shots: {
       marker: {
         with: [MAP, ROBOT, [rviz('Marker'), { Topic: '/local_costmap/visualization_marker' }]],
@@ -232,7 +232,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('MarkerArray'),
-    text: "Many of them at once, switched by their namespaces; here the graph of `slam_toolbox`'s poses.",
+    text: "Many markers at once, switched on and off by namespace; here the pose graph of `slam_toolbox`.",
     run: 'demo',
     shots: {
       markerarray: {
@@ -243,7 +243,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Odometry'),
-    text: 'Where a robot says it was, with how sure it is.',
+    text: 'Odometry poses with their covariance.',
     run: 'demo',
     shots: {
       odometry: {
@@ -271,7 +271,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Path'),
-    text: 'A line through poses, with axes or arrows at each if wanted; here the way to what the robot has not seen yet.',
+    text: 'A line through poses, optionally with axes or arrows at each; here the path to a frontier of the exploration.',
     run: 'demo',
     shots: {
       path: {
@@ -295,7 +295,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Pose'),
-    text: 'One pose: a goal.',
+    text: 'One pose, such as a goal.',
     shots: {
       pose: {
         with: [MAP, ROBOT, [rviz('Pose'), { Topic: '/goal_pose', ...goal, Color: '255; 85; 255' }]],
@@ -306,7 +306,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('PoseWithCovariance'),
-    text: 'A pose and how sure it is: an ellipse of one standard deviation, and a sector for the heading. What nobody measured is not drawn, though a driver may call it a million square metres.',
+    text: 'A pose with its covariance: an ellipse of one standard deviation, and a sector for the heading. Components with the huge variance by which drivers mark unmeasured values are not drawn.',
     shots: {
       covariance: {
         with: [MAP, [rviz('PoseWithCovariance'), { Topic: '/amcl_pose', ...goal }]],
@@ -317,7 +317,7 @@ export const DISPLAYS = [
   },
   {
     kind: 'nav2_rviz_plugins/ParticleCloud',
-    text: 'What AMCL believes: the heavier a particle, the longer its arrow.',
+    text: 'The particles of AMCL; the length of an arrow shows the weight.',
     shots: {
       particles: {
         with: [MAP, ROBOT, ['nav2_rviz_plugins/ParticleCloud', { Topic: '/particle_cloud' }]],
@@ -328,7 +328,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('PoseArray'),
-    text: 'Many poses, as flat arrows, solid ones or axes.',
+    text: 'Many poses, as flat arrows, solid arrows or axes.',
     shots: {
       posearray: {
         with: [
@@ -351,7 +351,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Polygon'),
-    text: 'A closed line: the footprint of a robot.',
+    text: 'A closed polygon, such as the footprint of a robot.',
     shots: {
       polygon: {
         with: [MAP, ROBOT, [rviz('Polygon'), { Topic: '/local_costmap/published_footprint' }]],
@@ -361,7 +361,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Range'),
-    text: 'The cone of a sonar or an infrared sensor, as far as it sees.',
+    text: 'The cone of a sonar or infrared sensor, up to the measured range.',
     shots: {
       range: {
         with: [
@@ -377,12 +377,12 @@ export const DISPLAYS = [
   },
   {
     kind: 'periplus/World',
-    text: 'The simulated world as it truly is. It is laid where the robot believed to be at first; from there on the page tells how far belief and truth are apart. Walls in front of what one looks at become glass.',
+    text: 'The true simulated world. It is aligned with the first estimated pose of the robot; from then on the page shows the distance between estimate and truth. Walls in front of the focus are transparent.',
     shots: { world: { with: [ROBOT, WORLD], view: ROOM } },
   },
   {
     kind: rviz('Grid'),
-    text: 'Lines on the ground, or through space.',
+    text: 'Grid lines on the floor, or in space.',
     shots: {
       grid: {
         with: [

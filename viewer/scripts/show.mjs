@@ -144,13 +144,13 @@ function page(about) {
   });
   return `# Displays
 
-All pictures are of running examples, in a browser without a GPU. \`npm run pictures\` in \`viewer/\` takes
-them anew, and writes this page.
+All pictures show running examples, in a browser without a GPU. \`npm run pictures\` in \`viewer/\` takes the pictures
+and writes this page.
 
-Displays come by themselves when topics do, and can be added by topic or by kind. Their names, options and
-defaults are RViz's, so \`.rviz\` files of ROS 1 and ROS 2 open here and what is saved here opens in RViz; what
-this page does not know of a file it keeps. Each topic has RViz's policies of QoS too. They are kept for
-files: what the page hears fits by itself, and the last message of a latched topic always comes.
+Displays appear when their topics do, and can be added by topic or by type. Names, options and defaults are those of
+RViz: \`.rviz\` files of ROS 1 and ROS 2 can be opened here, and saved files can be opened in RViz; entries that the page
+does not know are kept. Each topic has RViz's QoS options. They are kept for files only: subscriptions of the page
+always get a compatible QoS, and the last message of a latched topic is always delivered.
 
 ${parts.join('\n')}`;
 }
