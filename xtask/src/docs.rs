@@ -1,79 +1,103 @@
-//! The documentation, with every warning an error, but for one: we write units in brackets,
-//! `[m]`, which rustdoc takes for links.
+//! `cargo xtask docs`: the documentation of the code, the links of every Markdown page, and the site.
 
-use std::io::{BufRead, BufReader};
-use std::process::Stdio;
+mod anchors;
+mod book;
+mod dependencies;
+mod links;
+mod page;
+mod rustdoc;
 
-use serde_json::Value;
+use std::fs;
+use std::process::Command;
 
-use crate::step::{Failed, cargo};
+use clap::ValueEnum;
 
-/// What stands in brackets as a unit and looks like a link; `[m/s]` does not.
-const UNITS: [&str; 20] = [
-    "m", "mm", "rad", "deg", "s", "ms", "ns", "Hz", "kg", "N", "Pa", "T", "K", "J", "W", "V", "A",
-    "px", "bytes", "MiB",
-];
+use crate::step::{Failed, root, timed};
+use page::Page;
 
-pub(crate) fn run() -> Result<(), Failed> {
-    let mut command = cargo();
-    command.args(["doc", "--workspace", "--no-deps", "--message-format=json"]);
-    let failed = |why: String| Failed(format!("cargo doc failed: {why}"));
-    let mut child =
-        command.stdout(Stdio::piped()).spawn().map_err(|error| failed(error.to_string()))?;
-    let mut findings = 0;
-    for line in child.stdout.take().map(BufReader::new).into_iter().flat_map(BufRead::lines) {
-        let line = line.map_err(|error| failed(error.to_string()))?;
-        let Ok(message) = serde_json::from_str::<Value>(&line) else { continue };
-        if let Some(rendered) = finding(&message) {
-            eprintln!("{rendered}");
-            findings += 1;
-        }
+/// One part of the task.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Part {
+    /// The documentation of the code, with every warning an error
+    Code,
+    /// Links and anchors of every Markdown page, the table of contents, the list of dependencies
+    Links,
+    /// The site in `target/site`, built by mdbook where it is installed
+    Site,
+}
+
+/// Runs all parts, or one.
+///
+/// # Errors
+/// When a part has findings; they are printed before.
+pub(crate) fn run(only: Option<Part>) -> Result<(), Failed> {
+    let is_wanted = |part| only.is_none_or(|only| only == part);
+    if is_wanted(Part::Links) {
+        timed("docs: links", check)?;
     }
-    let status = child.wait().map_err(|error| failed(error.to_string()))?;
-    match (status.success(), findings) {
-        (true, 0) => Ok(()),
-        (true, _) => Err(failed(format!("{findings} findings, see above"))),
-        (false, _) => Err(failed("see above".into())),
+    if is_wanted(Part::Site) {
+        timed("docs: site", || book::build(only == Some(Part::Site)))?;
+    }
+    if is_wanted(Part::Code) {
+        timed("docs: code", rustdoc::run)?;
+    }
+    Ok(())
+}
+
+/// Checks every page of the tree without the network.
+fn check() -> Result<(), Failed> {
+    let pages = pages()?;
+    let findings = findings(&pages);
+    findings.iter().for_each(|finding| eprintln!("{finding}"));
+    match findings.len() {
+        0 => Ok(()),
+        count => Err(Failed(format!("{count} findings in the documents, see above"))),
     }
 }
 
-/// What cargo has to say against the code, as it would print it; none for anything else.
-fn finding(message: &Value) -> Option<&str> {
-    let message = &message["message"];
-    let level = message["level"].as_str()?;
-    let rendered = message["rendered"].as_str().filter(|_| matches!(level, "warning" | "error"))?;
-    // "3 warnings emitted" and the like belong to no place, and only count what came before.
-    if level == "warning" && message["spans"].as_array().is_none_or(Vec::is_empty) {
-        return None;
+/// All findings about links, the table of contents and the list of dependencies.
+fn findings(pages: &[Page]) -> Vec<String> {
+    let exists = |path: &str| root().join(path).exists();
+    let mut findings = links::check(pages, &exists);
+    findings.extend(book::check(pages));
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap_or_default();
+    let list = pages.iter().find(|page| page.path == dependencies::PAGE);
+    findings.extend(dependencies::check(&manifest, list.map_or("", |page| &page.text)));
+    findings
+}
+
+/// Every tracked Markdown page. Templates of `periplus new` are not pages of this project.
+fn pages() -> Result<Vec<Page>, Failed> {
+    let failed = |why: String| Failed(format!("cannot list the Markdown pages: {why}"));
+    let listed = Command::new("git")
+        .current_dir(root())
+        .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md"])
+        .output()
+        .map_err(|error| failed(error.to_string()))?;
+    if !listed.status.success() {
+        return Err(failed(String::from_utf8_lossy(&listed.stderr).into_owned()));
     }
-    let is_link = message["code"]["code"] == "rustdoc::broken_intra_doc_links";
-    let target = message["message"].as_str().unwrap_or_default().split('`').nth(1);
-    let is_unit = target.is_some_and(|target| UNITS.contains(&target));
-    (!(is_link && is_unit)).then_some(rendered)
+    let names = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let mut pages = Vec::new();
+    for path in names.split('\0').filter(|path| !path.is_empty() && !path.contains("/templates/")) {
+        // A page that was deleted and not committed yet is still listed.
+        if let Ok(text) = fs::read_to_string(root().join(path)) {
+            pages.push(Page::read(path, text));
+        }
+    }
+    pages.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(pages)
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
-    fn is_finding(level: &str, code: &str, words: &str) -> bool {
-        let message = json!({"message": {
-            "level": level, "code": {"code": code}, "message": words, "rendered": words,
-            "spans": [{}],
-        }});
-        finding(&message).is_some()
-    }
-
     #[test]
-    fn units_are_not_links() {
-        let link = "rustdoc::broken_intra_doc_links";
-        assert!(!is_finding("warning", link, "unresolved link to `rad`"));
-        assert!(is_finding("warning", link, "unresolved link to `Robot`"));
-        assert!(is_finding("warning", "rustdoc::bare_urls", "this URL is not a hyperlink"));
-        assert!(is_finding("error", "E0425", "cannot find value `m`"));
-        assert!(!is_finding("note", "", "something"));
-        assert!(finding(&json!({"reason": "build-finished", "success": true})).is_none());
+    fn the_documents_have_no_findings() {
+        let pages = pages().unwrap();
+        assert!(pages.len() > 20, "{} pages found", pages.len());
+        let findings = findings(&pages);
+        assert!(findings.is_empty(), "\n{}\n", findings.join("\n"));
     }
 }
