@@ -1,5 +1,5 @@
 //! `docs/type-hashes.md`: which type hashes are checked, and against whom. With UPDATE_EXPECT=1 it is
-//! written anew.
+//! rewritten.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -17,22 +17,26 @@ const SOURCES: [(&str, &str); 5] = [
 ];
 
 const HEAD: &str = "\
-# Type hashes
+# Messages and type hashes
 
-Since ROS 2 Iron every endpoint says by a hash (RIHS01) what its type is. Ours are calculated from the
-texts in `crates/messages/msgs/interfaces`, and held against those of others by `crates/messages/msgs/tests/oracle.rs`.
-Each type, its hash and who says so stand in `crates/messages/msgs/tests/data/hashes.tsv` and `published.tsv`
-there; how they were got, in `make.py`.
+The messages, services and actions of these packages are built in, from the texts in
+`crates/messages/msgs/interfaces`. Types of other packages are read from folders: `--interfaces DIR` and
+`AMENT_PREFIX_PATH`.
+
+Since ROS 2 Iron every endpoint publishes the hash of its type (RIHS01). The hashes here are calculated from the
+texts and compared with those of other programs (`crates/messages/msgs/tests/oracle.rs`). Sources used to verify the
+type hashes, for each type in `crates/messages/msgs/tests/data/hashes.tsv` and `published.tsv`:
 
 - *A running system*: `ros2 topic info -v` and `ros2 service info` of ROS 2 Jazzy.
-- *Build of Jazzy*: the JSON that rosidl wrote for the packages on PyPI (`ros-sensor-msgs` and others),
-  which hold the binaries of ROS 2 Jazzy.
-- *Rosidl's code*: `*__description.c` as rosidl made it, in public workspaces built with Iron or later.
-- *Rosbags' own types*: the types that PyPI's `rosbags` 0.11.9 knows by itself for Jazzy.
-- *Rosbags over our text*: its calculation on our text. It judges how we calculate, not whether the text
-  is that of the release: where nothing stronger is known, a difference from it would not show here.
+- *Build of Jazzy*: the JSON that rosidl wrote for the packages on PyPI (`ros-sensor-msgs` and others), which contain
+  the binaries of ROS 2 Jazzy.
+- *Rosidl's code*: `*__description.c` as rosidl generated it, in public workspaces built with Iron or later.
+- *Rosbags' own types*: the types of PyPI's `rosbags` 0.11.9 for Jazzy.
+- *Rosbags over our text*: the calculation of `rosbags` on the text of this project. It verifies the calculation, not
+  that the text is that of the release: without a stronger source a difference from it would not show here.
 
-A service counts as itself, and by its request, its response and its event where somebody tells them.
+The table counts types by package and strongest source. A service counts as itself, and by its request, response and
+event if they have a source.
 
 ";
 
@@ -59,7 +63,7 @@ fn the_list_of_checked_hashes_is_true() {
     let unchecked: Vec<&String> = known.difference(&checked).collect();
     let mut text = HEAD.to_owned();
     let titles: Vec<&str> = SOURCES.iter().map(|(_, title)| *title).collect();
-    let _ = writeln!(text, "| package | {} |\n|---|{}", titles.join(" | "), "---|".repeat(5));
+    let _ = writeln!(text, "| Package | {} |\n|---|{}", titles.join(" | "), "---|".repeat(5));
     let mut sums = [0; SOURCES.len()];
     for (package, types) in &packages {
         let mut counts = [0; SOURCES.len()];
@@ -68,7 +72,8 @@ fn the_list_of_checked_hashes_is_true() {
         let _ = writeln!(text, "| `{package}` | {} |", row(&counts));
     }
     let _ = writeln!(text, "| all | {} |", row(&sums));
-    let _ = writeln!(text, "\nNot checked: {unchecked:?}.");
+    let unchecked: Vec<String> = unchecked.iter().map(|name| format!("`{name}`")).collect();
+    let _ = writeln!(text, "\nNot verified: {}.", unchecked.join(", "));
     expect_file!["../../../../docs/type-hashes.md"].assert_eq(&text);
 }
 

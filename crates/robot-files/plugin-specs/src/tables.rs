@@ -75,8 +75,8 @@ macro_rules! of_ros1 {
                 name: concat!("lib", $id, ".so"),
                 doc: $doc,
                 parameters: &[
-                    periplus_params::text("robotNamespace", "Before every topic and service."),
-                    periplus_params::text("alwaysOn", "Nobody reads it since Gazebo 1; harmless."),
+                    periplus_params::text("robotNamespace", "Prefix of every topic and service."),
+                    periplus_params::text("alwaysOn", "Unused since Gazebo 1."),
                     $($parameter),*
                 ],
             },
@@ -111,7 +111,7 @@ macro_rules! panel {
                 name: $id,
                 doc: $doc,
                 parameters: &[
-                    periplus_params::group("gz-gui", "Title, place and look of the panel.")
+                    periplus_params::group("gz-gui", "Title, position and style of the panel.")
                         .also(&["ignition-gui"]),
                     $($parameter),*
                 ],

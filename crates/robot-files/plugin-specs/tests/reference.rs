@@ -8,9 +8,10 @@ use periplus_plugin_specs::{Family, Flow, Support, known};
 #[test]
 fn the_reference_says_what_the_tables_say() {
     let mut out = String::from(
-        "# Plugins\n\nEvery plugin that `periplus check` knows, with the parameters it reads. Made from the \
-         tables in `crates/robot-files/plugin-specs/src/tables`.\nA parameter that is not here is not read; \"and more\" \
-         marks plugins whose list is not complete.\n",
+        "# Gazebo plugins\n\nPlugins of Gazebo that `periplus check` knows, with their parameters. This page is \
+         generated from tables: `UPDATE_EXPECT=1 cargo test -p periplus-plugin-specs reference` rewrites it.\n\
+         A parameter that is not listed is not read. \"and more\" marks plugins whose list is incomplete; \
+         \"kept, not run\" marks plugins that are preserved in files and not simulated.\n",
     );
     for family in [Family::ClassicRos2, Family::ClassicRos1, Family::Classic, Family::Gz] {
         let _ = writeln!(out, "\n## {family}");
@@ -28,10 +29,10 @@ fn the_reference_says_what_the_tables_say() {
             }
             out.push_str(".\n");
             for topic in plugin.topics {
-                let way = if topic.flow == Flow::Out { "publishes" } else { "listens to" };
+                let way = if topic.flow == Flow::Out { "publishes" } else { "subscribes to" };
                 let _ = write!(out, "\n- {way} `{}`", topic.name);
                 if let Some(parameter) = topic.set_by {
-                    let _ = write!(out, ", or what `{parameter}` says");
+                    let _ = write!(out, ", or the value of `{parameter}`");
                 }
                 if let Some(parameter) = topic.when {
                     let _ = write!(out, ", if `{parameter}`");

@@ -8,7 +8,8 @@ use crate::known::{listens, publishes};
 
 const TOPIC: Parameter = text("topic", "The topic.").naming(Names::Topic);
 
-const TOPIC_PICKER: Parameter = flag("topic_picker", "Whether the topic can be chosen.").or("true");
+const TOPIC_PICKER: Parameter =
+    flag("topic_picker", "If true, the topic can be chosen.").or("true");
 
 /// What both kinds of 3D view read.
 macro_rules! view {
@@ -22,15 +23,15 @@ macro_rules! view {
                 text("scene", "Name of the scene.").or("scene"),
                 numbers("ambient_light", "", "Red, green, blue.").or("0.3 0.3 0.3"),
                 numbers("background_color", "", "Red, green, blue of the sky.").or("0.3 0.3 0.3"),
-                numbers("camera_pose", "m", "Where the view starts.").or("0 0 5 0 0 0"),
-                group("camera_clip", "Nearest and farthest."),
-                group("camera_follow", "How the view follows a model."),
-                number("horizontal_fov", "deg", "Angle across.").above(0.0),
+                numbers("camera_pose", "m", "Initial pose of the view.").or("0 0 5 0 0 0"),
+                group("camera_clip", "Minimum and maximum distance."),
+                group("camera_follow", "Mode in which the view follows a model."),
+                number("horizontal_fov", "deg", "Horizontal field of view.").above(0.0),
                 text("view_controller", "`orbit` or `ortho`."),
-                group("sky", "Whether there is a sky."),
+                group("sky", "If true, a sky is drawn."),
                 text("graphics_api", "`opengl`, `vulkan` or `metal`."),
-                flag("fullscreen", "Whether it fills the screen.").or("false"),
-                flag("visible", "Whether it is shown."),
+                flag("fullscreen", "If true, it fills the screen.").or("false"),
+                flag("visible", "If true, it is shown."),
             ]
         )
         .open()
@@ -50,8 +51,8 @@ pub(super) static PLUGINS: &[Known] = &[
         "Follows models with the view.",
         [
             text("follow_target", "Followed from the start."),
-            numbers("follow_offset", "m", "From the model to the view."),
-            number("follow_pgain", "", "How fast it follows."),
+            numbers("follow_offset", "m", "Offset of the view from the model."),
+            number("follow_pgain", "", "Gain of the motion that follows."),
         ]
     )
     .open(),
@@ -60,25 +61,31 @@ pub(super) static PLUGINS: &[Known] = &[
     panel!("EntityContextMenuPlugin", Viewer, "The menu on a right click.", []),
     panel!("EntityContextMenu", Viewer, "The menu on a right click.", []),
     panel!("EntityTree", Viewer, "The tree of models.", []),
-    panel!("ComponentInspector", Viewer, "What is known of a model.", []),
+    panel!("ComponentInspector", Viewer, "Properties of a model.", []),
     panel!("ComponentInspectorEditor", Viewer, "Edits a model.", []),
     panel!("ModelEditor", Viewer, "Edits a model.", []).open(),
     panel!("SelectEntities", Viewer, "Selects by click.", []),
-    panel!("Spawn", Viewer, "Puts new models where one clicks.", []),
+    panel!("Spawn", Viewer, "Places new models at the clicked position.", []),
     panel!("Shapes", Viewer, "Adds shapes.", []),
     panel!("Lights", Viewer, "Adds lights.", []),
     panel!("TransformControl", Viewer, "Moves and turns models.", []).open(),
     panel!("MarkerManager", Viewer, "Draws markers.", []).open(),
     panel!("Screenshot", Viewer, "Saves a picture.", []).open(),
-    panel!("VideoRecorder", Viewer, "Records a video.", [group("record_video", "How.")]).open(),
+    panel!(
+        "VideoRecorder",
+        Viewer,
+        "Records a video.",
+        [group("record_video", "Format and bit rate of the video.")]
+    )
+    .open(),
     panel!("VisualizationCapabilities", Viewer, "Draws collisions, joints, masses.", []),
     panel!("VisualizeContacts", Viewer, "Draws contacts.", []).open(),
-    panel!("VisualizeFrustum", Viewer, "Draws what a camera sees.", []).open(),
-    panel!("VisualizeLidar", Viewer, "Draws what a lidar measures.", []).open(),
+    panel!("VisualizeFrustum", Viewer, "Draws the view of a camera.", []).open(),
+    panel!("VisualizeLidar", Viewer, "Draws the rays of a lidar.", []).open(),
     panel!("GlobalIlluminationVct", Viewer, "Indirect light.", []).open(),
     panel!("GlobalIlluminationCiVct", Viewer, "Indirect light.", []).open(),
     panel!("ViewAngle", Viewer, "Views from the sides.", []).open(),
-    panel!("ViewControl", Viewer, "How the view turns.", []).open(),
+    panel!("ViewControl", Viewer, "Mode in which the view rotates.", []).open(),
     panel!("AlignTool", Viewer, "Aligns models.", []),
     panel!("Grid3D", Viewer, "Draws a grid.", [group("insert", "A grid.").repeated()]).open(),
     panel!("GridConfig", Viewer, "Draws a grid.", [group("insert", "A grid.").repeated()]).open(),
@@ -86,7 +93,7 @@ pub(super) static PLUGINS: &[Known] = &[
     panel!("TapeMeasure", Viewer, "Measures distances.", []),
     panel!("MouseDrag", Viewer, "Drags models by mouse.", []).open(),
     panel!("ApplyForceTorque", Viewer, "Pushes models.", []),
-    panel!("BananaForScale", Viewer, "A banana for scale.", []),
+    panel!("BananaForScale", Viewer, "A banana as a size reference.", []),
     panel!("DropFromFuel", Viewer, "Drops models from Fuel.", []),
     panel!("ResourceSpawner", Viewer, "Adds models from disk and Fuel.", []),
     panel!(
@@ -97,7 +104,7 @@ pub(super) static PLUGINS: &[Known] = &[
     )
     .open(),
     panel!("PlaybackScrubber", Viewer, "Moves through a record.", []),
-    panel!("LogPlaybackStatistics", Viewer, "Tells the state of a playback.", []).open(),
+    panel!("LogPlaybackStatistics", Viewer, "Publishes the state of a playback.", []).open(),
     panel!("Plotting", Viewer, "Plots over time.", []).open(),
     panel!("TransportPlotting", Viewer, "Plots topics over time.", []).open(),
     panel!(
@@ -107,8 +114,8 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("entity_name", "The model or link."),
             numbers("color", "", "Red, green, blue."),
-            numbers("offset", "m", "From the model to the pen."),
-            number("minimum_distance", "m", "Between points.").min(0.0),
+            numbers("offset", "m", "Offset of the pen from the model."),
+            number("minimum_distance", "m", "Minimum distance between points.").min(0.0),
             number("maximum_points", "", "Points that are kept.").min(0.0),
         ]
     ),
@@ -126,7 +133,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("twist_arrows", "Topic that the arrows drive.").naming(Names::Topic),
             text("twist_wasd", "Topic that letters drive.").naming(Names::Topic),
-            group("scale_linear", "Speeds."),
+            group("scale_linear", "Scale of the speed."),
             group("scale_angular", "Turn rates."),
         ]
     )
@@ -137,10 +144,10 @@ pub(super) static PLUGINS: &[Known] = &[
         "Publishes a joystick.",
         [
             text("dev", "The device.").or("/dev/input/js0"),
-            flag("sticky_buttons", "Whether a button stays down.").or("false"),
+            flag("sticky_buttons", "If true, the button is a toggle.").or("false"),
             number("dead_zone", "", "Deflections below are ignored.").or("0.05").min(0.0),
             number("rate", "Hz", "Messages per second.").or("1").min(0.0),
-            number("accumulation_rate", "Hz", "How often deflections are gathered.")
+            number("accumulation_rate", "Hz", "Rate at which deflections are read.")
                 .or("1000")
                 .min(0.0),
         ]
@@ -162,11 +169,11 @@ pub(super) static PLUGINS: &[Known] = &[
         Viewer,
         "Plays, pauses, steps.",
         [
-            flag("play_pause", "Whether there is a button.").or("false"),
-            flag("step", "Whether there is a button.").or("false"),
-            flag("reset", "Whether there is a button."),
-            flag("start_paused", "Whether it starts paused.").or("false"),
-            flag("use_event", "Whether it tells the server within the process.").or("false"),
+            flag("play_pause", "If true, a button is shown.").or("false"),
+            flag("step", "If true, a button is shown.").or("false"),
+            flag("reset", "If true, a button is shown."),
+            flag("start_paused", "If true, it starts paused.").or("false"),
+            flag("use_event", "If true, it informs the server in the same process.").or("false"),
             text("service", "Service of the world.").naming(Names::Topic),
             text("stats_topic", "Topic of statistics.").naming(Names::Topic),
         ]
@@ -176,10 +183,10 @@ pub(super) static PLUGINS: &[Known] = &[
         Viewer,
         "Shows the time.",
         [
-            flag("sim_time", "Whether it is shown.").or("false"),
-            flag("real_time", "Whether it is shown.").or("false"),
-            flag("real_time_factor", "Whether it is shown.").or("false"),
-            flag("iterations", "Whether it is shown.").or("false"),
+            flag("sim_time", "If true, it is shown.").or("false"),
+            flag("real_time", "If true, it is shown.").or("false"),
+            flag("real_time_factor", "If true, it is shown.").or("false"),
+            flag("iterations", "If true, it is shown.").or("false"),
             TOPIC,
         ]
     ),

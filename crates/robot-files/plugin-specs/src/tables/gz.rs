@@ -22,7 +22,7 @@ pub(super) static PLUGINS: &[Known] = &[
             text("render_engine_api_backend", "`opengl`, `vulkan` or `metal`."),
             numbers("background_color", "", "Red, green, blue of the sky."),
             numbers("ambient_light", "", "Red, green, blue."),
-            flag("disable_on_drained_battery", "Whether sensors stop with the battery.")
+            flag("disable_on_drained_battery", "If true, sensors stop with the battery.")
                 .or("false"),
             group("global_illumination", "Indirect light."),
         ]
@@ -35,8 +35,9 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Runs `magnetometer` sensors.",
         [
-            flag("use_units_gauss", "Whether fields are in gauss instead of tesla.").or("true"),
-            flag("use_earth_frame_ned", "Whether the field is given north, east, down.").or("true"),
+            flag("use_units_gauss", "If true, fields are in gauss instead of tesla.").or("true"),
+            flag("use_earth_frame_ned", "If true, the field is given north, east, down.")
+                .or("true"),
         ]
     ),
     system!(
@@ -72,7 +73,7 @@ pub(super) static PLUGINS: &[Known] = &[
         World,
         Simulated,
         "Runs `logical_camera` sensors.",
-        [text("render_engine", "Not read.")]
+        [text("render_engine", "Ignored.")]
     ),
     system!(
         "gz-sim-thermal-system",
@@ -92,10 +93,10 @@ pub(super) static PLUGINS: &[Known] = &[
         ["ThermalSensor"],
         Sensor,
         Kept,
-        "Sets what a `thermal_camera` can tell apart.",
+        "Sets the resolution of a `thermal_camera`.",
         [
-            number("min_temp", "K", "Lowest temperature."),
-            number("max_temp", "K", "Highest temperature."),
+            number("min_temp", "K", "Minimum temperature."),
+            number("max_temp", "K", "Maximum temperature."),
             number("resolution", "K", "Temperature of one step.").above(0.0),
         ]
     ),
@@ -130,12 +131,12 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes the true pose of a model as odometry.",
         [
-            text("odom_frame", "Frame of the odometry; without it `<model>/odom`."),
+            text("odom_frame", "Frame of the odometry (default: `<model>/odom`)."),
             text(
                 "robot_base_frame",
-                "Frame that the odometry moves; without it `<model>/base_footprint`.",
+                "Frame that the odometry moves (default: `<model>/base_footprint`).",
             ),
-            number("odom_publish_frequency", "Hz", "Messages per second; 0 is one each step.")
+            number("odom_publish_frequency", "Hz", "Messages per second; 0: one per step.")
                 .or("50")
                 .min(0.0),
             topic("odom_topic", "Topic of the odometry."),
@@ -162,10 +163,8 @@ pub(super) static PLUGINS: &[Known] = &[
         "Publishes positions and velocities of joints.",
         [
             topic("topic", "Topic of the states."),
-            text("joint_name", "A joint; without any all.").repeated().naming(Names::Joint),
-            number("update_rate", "Hz", "Messages per second; 0 is one each step.")
-                .or("0")
-                .min(0.0),
+            text("joint_name", "A joint (default: all).").repeated().naming(Names::Joint),
+            number("update_rate", "Hz", "Messages per second; 0: one per step.").or("0").min(0.0),
         ]
     )
     .topics(&[publishes("/world/{world}/model/{model}/joint_state").set_by("topic")]),
@@ -176,21 +175,20 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes the poses of a model's parts.",
         [
-            flag("publish_link_pose", "Whether links are published.").or("true"),
-            flag("publish_visual_pose", "Whether visuals are published.").or("false"),
-            flag("publish_collision_pose", "Whether collisions are published.").or("false"),
-            flag("publish_sensor_pose", "Whether sensors are published.").or("false"),
-            flag("publish_model_pose", "Whether the model itself is published.").or("false"),
-            flag("publish_nested_model_pose", "Whether nested models are published.").or("false"),
-            flag("use_pose_vector_msg", "Whether all poses come in one message.").or("false"),
-            number("update_frequency", "Hz", "Messages per second; negative is one each step.")
+            flag("publish_link_pose", "If true, links are published.").or("true"),
+            flag("publish_visual_pose", "If true, visuals are published.").or("false"),
+            flag("publish_collision_pose", "If true, collisions are published.").or("false"),
+            flag("publish_sensor_pose", "If true, sensors are published.").or("false"),
+            flag("publish_model_pose", "If true, the model itself is published.").or("false"),
+            flag("publish_nested_model_pose", "If true, nested models are published.").or("false"),
+            flag("use_pose_vector_msg", "If true, all poses come in one message.").or("false"),
+            number("update_frequency", "Hz", "Messages per second; negative: one per step.")
                 .or("-1"),
-            flag("static_publisher", "Whether poses that never change have their own topic.")
-                .or("false"),
+            flag("static_publisher", "If true, static poses have their own topic.").or("false"),
             number(
                 "static_update_frequency",
                 "Hz",
-                "Messages per second there; negative is one each step.",
+                "Messages per second there; negative: one per step.",
             )
             .or("-1"),
         ]
@@ -214,18 +212,18 @@ pub(super) static PLUGINS: &[Known] = &[
         ["TouchPlugin"],
         State,
         Simulated,
-        "Publishes when a model has touched something for a while.",
+        "Publishes a message when a model has been in contact for some time.",
         [
             text("target", "Name, or part of it, of what must be touched.").required(),
-            text("collision", "A collision that must touch; without any all.").repeated(),
+            text("collision", "A collision that must touch (default: all).").repeated(),
             flag(
                 "create_contact_sensor_for_collision",
-                "Whether missing contact sensors are made.",
+                "If true, missing contact sensors are created.",
             )
             .or("false"),
-            number("time", "s", "How long it must touch.").required().min(0.0),
-            text("namespace", "Before the topics.").required(),
-            flag("enabled", "Whether it works from the start.").or("false"),
+            number("time", "s", "Minimum duration of the contact.").required().min(0.0),
+            text("namespace", "Prefix of the topics.").required(),
+            flag("enabled", "If true, it is active from the start.").or("false"),
         ]
     )
     .topics(&[publishes("/{namespace}/touched")]),
@@ -234,7 +232,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["LogicalAudioSensorPlugin"],
         Sensor,
         Kept,
-        "Tells which sources of sound a microphone hears.",
+        "Reports the sound sources within range of a microphone.",
         [
             group("source", "A source of sound.").repeated(),
             group("microphone", "A microphone.").repeated(),
@@ -245,15 +243,15 @@ pub(super) static PLUGINS: &[Known] = &[
         ["OpticalTactilePlugin"],
         Sensor,
         Kept,
-        "Publishes where a depth camera behind a skin is pressed.",
+        "Publishes contacts on a skin in front of a depth camera.",
         [
-            flag("enabled", "Whether it works from the start.").or("true"),
-            text("namespace", "Before the topics.").or("optical_tactile_sensor"),
+            flag("enabled", "If true, it is active from the start.").or("true"),
+            text("namespace", "Prefix of the topics.").or("optical_tactile_sensor"),
             integer("visualization_resolution", "Pixels between arrows.").or("30").min(1.0),
-            flag("visualize_forces", "Whether forces are drawn.").or("false"),
-            flag("visualize_contacts", "Whether contacts are drawn.").or("false"),
-            flag("visualize_sensor", "Whether the skin is drawn.").or("false"),
-            number("extended_sensing", "m", "How far beyond the skin it sees.").or("0.001"),
+            flag("visualize_forces", "If true, forces are drawn.").or("false"),
+            flag("visualize_contacts", "If true, contacts are drawn.").or("false"),
+            flag("visualize_sensor", "If true, the skin is drawn.").or("false"),
+            number("extended_sensing", "m", "Sensing distance beyond the skin.").or("0.001"),
             number("force_length", "m", "Length of an arrow.").or("0.01"),
         ]
     ),
@@ -262,11 +260,11 @@ pub(super) static PLUGINS: &[Known] = &[
         ["PerformerDetector"],
         State,
         Kept,
-        "Tells when a performer enters a volume.",
+        "Reports performers that enter a volume.",
         [
-            topic("topic", "Topic of the news."),
+            topic("topic", "Topic of the events."),
             group("geometry", "The volume."),
-            numbers("pose", "m", "Of the volume."),
+            numbers("pose", "m", "Pose of the volume."),
             group("header_data", "Added to the messages.").repeated(),
         ]
     ),
@@ -275,11 +273,11 @@ pub(super) static PLUGINS: &[Known] = &[
         ["KineticEnergyMonitor"],
         State,
         Kept,
-        "Tells when a link has lost energy at once.",
+        "Reports a sudden loss of energy of a link.",
         [
             text("link_name", "The link.").required().naming(Names::Link),
-            number("kinetic_energy_threshold", "J", "Loss that is told.").or("7"),
-            topic("topic", "Topic of the news."),
+            number("kinetic_energy_threshold", "J", "Loss of energy that is reported.").or("7"),
+            topic("topic", "Topic of the events."),
         ]
     ),
     system!(
@@ -290,11 +288,14 @@ pub(super) static PLUGINS: &[Known] = &[
         "Drops models on command.",
         [
             topic("topic", "Topic of commands."),
-            integer("max_deployments", "How many are dropped; negative is without limit."),
-            number("disable_physics_time", "s", "After it a dropped model is static."),
+            integer(
+                "max_deployments",
+                "Maximum number of models that are dropped; negative: unlimited."
+            ),
+            number("disable_physics_time", "s", "Time after which a dropped model is static."),
             group("performer_volume", "Volume of a performer."),
-            flag("allow_renaming", "Whether a taken name is changed.").or("false"),
-            text("topic_statistics", "Whether statistics are published."),
+            flag("allow_renaming", "If true, a name in use is changed.").or("false"),
+            text("topic_statistics", "If true, statistics are published."),
             group("breadcrumb", "The model."),
         ]
     ),

@@ -23,13 +23,13 @@ const ODOM_TOPIC: Parameter = text("odom_topic", "Topic of the odometry.").namin
 const TF_TOPIC: Parameter =
     text("tf_topic", "Topic of the transform from odometry to base.").naming(Names::Topic);
 
-const FRAME_ID: Parameter = text("frame_id", "Frame of the odometry; without it `<model>/odom`.");
+const FRAME_ID: Parameter = text("frame_id", "Frame of the odometry (default: `<model>/odom`).");
 
 const CHILD_FRAME_ID: Parameter =
-    text("child_frame_id", "Frame that the odometry moves; without it `<model>/<link>`.");
+    text("child_frame_id", "Frame that the odometry moves (default: `<model>/<link>`).");
 
 const ODOM_FREQUENCY: Parameter =
-    number("odom_publish_frequency", "Hz", "Odometry messages per second; 0 is one each step.")
+    number("odom_publish_frequency", "Hz", "Odometry messages per second; 0: one per step.")
         .or("50")
         .min(0.0);
 
@@ -40,18 +40,18 @@ const WHEEL_RADIUS: Parameter =
     number("wheel_radius", "m", "Radius of the wheels.").or("0.2").above(0.0);
 
 const fn limit(name: &'static str, unit: &'static str) -> Parameter {
-    number(name, unit, "Limit of commands; without it none.")
+    number(name, unit, "Limit of commands (default: none).")
 }
 
 /// Gains of a controller of one joint, with the defaults of Gazebo.
 const fn gain(name: &'static str, default: &'static str) -> Parameter {
-    number(name, "", "Of the controller.").or(default)
+    number(name, "", "Gain of the controller.").or(default)
 }
 
 const JOINT_INDEX: Parameter = integer("joint_index", "Axis of the joint.").or("0").min(0.0);
 
 const USE_ACTUATOR_MSG: Parameter =
-    flag("use_actuator_msg", "Whether commands come as `Actuators` messages.").or("false");
+    flag("use_actuator_msg", "If true, commands are `Actuators` messages.").or("false");
 
 const ACTUATOR_NUMBER: Parameter =
     integer("actuator_number", "Index in an `Actuators` message.").min(0.0);
@@ -151,17 +151,20 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             wheels("left_joint", "The joint of a left wheel.").unless("steering_only"),
             wheels("right_joint", "The joint of a right wheel.").unless("steering_only"),
-            joint("left_steering_joint", "Steers the left wheel.").required(),
-            joint("right_steering_joint", "Steers the right wheel.").required(),
+            joint("left_steering_joint", "Steering joint of the left wheel.").required(),
+            joint("right_steering_joint", "Steering joint of the right wheel.").required(),
             WHEEL_SEPARATION,
             number("kingpin_width", "m", "Distance between the steering axes.")
                 .or("0.8")
                 .above(0.0),
             number("wheel_base", "m", "Distance between front and back wheels.").or("1").above(0.0),
-            number("steering_limit", "rad", "Most angle of a wheel.").or("0.5").above(0.0),
+            number("steering_limit", "rad", "Maximum steering angle of a wheel.")
+                .or("0.5")
+                .above(0.0),
             WHEEL_RADIUS,
-            number("steer_p_gain", "1/s", "Steering speed per angle that is missing.").or("1"),
-            flag("steering_only", "Whether commands are steering angles.").or("false"),
+            number("steer_p_gain", "1/s", "Proportional gain from angle error to steering speed.")
+                .or("1"),
+            flag("steering_only", "If true, commands are steering angles.").or("false"),
             USE_ACTUATOR_MSG,
             ACTUATOR_NUMBER,
             ODOM_FREQUENCY,
@@ -205,10 +208,10 @@ pub(super) static PLUGINS: &[Known] = &[
             group("right_track", "Link and settings of a right track.").repeated(),
             number("tracks_separation", "m", "Distance between the tracks.").or("1").above(0.0),
             number("track_height", "m", "Height of the tracks.").or("0.2").above(0.0),
-            number("steering_efficiency", "", "Share of a turn that is not lost.")
+            number("steering_efficiency", "", "Fraction of a commanded turn that is executed.")
                 .or("0.5")
                 .within(0.0, 1.0),
-            flag("debug", "Whether it draws what it does.").or("false"),
+            flag("debug", "If true, it draws its activity.").or("false"),
             group("linear_velocity", "Limits."),
             group("angular_velocity", "Limits."),
             ODOM_FREQUENCY,
@@ -229,8 +232,9 @@ pub(super) static PLUGINS: &[Known] = &[
         "Moves the surface of a track or conveyor.",
         [
             text("link", "The link.").required().naming(Names::Link),
-            flag("debug", "Whether it draws what it does.").or("false"),
-            numbers("track_orientation", "rad", "Of the track on the link.").or("0 0 0"),
+            flag("debug", "If true, it draws its activity.").or("false"),
+            numbers("track_orientation", "rad", "Orientation of the track on the link.")
+                .or("0 0 0"),
             text("velocity_topic", "Topic of speeds.").naming(Names::Topic),
             text("center_of_rotation_topic", "Topic of turning points.").naming(Names::Topic),
             text("odometry_topic", "Topic of the distance run.").naming(Names::Topic),
@@ -243,9 +247,7 @@ pub(super) static PLUGINS: &[Known] = &[
             limit("max_acceleration", "m/s^2"),
             limit("min_jerk", "m/s^3"),
             limit("max_jerk", "m/s^3"),
-            number("max_command_age", "s", "After it a command is forgotten; 0 is never.")
-                .or("0")
-                .min(0.0),
+            number("max_command_age", "s", "Timeout of commands; 0: never.").or("0").min(0.0),
         ]
     ),
     system!(
@@ -267,7 +269,7 @@ pub(super) static PLUGINS: &[Known] = &[
             gain("cmd_max", "1000"),
             gain("cmd_min", "-1000"),
             gain("cmd_offset", "0"),
-            flag("use_velocity_commands", "Whether it moves without gains.").or("false"),
+            flag("use_velocity_commands", "If true, it moves without gains.").or("false"),
             TOPIC,
             SUB_TOPIC,
             number("initial_position", "rad", "Position at the start.").or("0"),
@@ -283,7 +285,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             joint("joint_name", "The joint.").required().repeated(),
             JOINT_INDEX,
-            flag("use_force_commands", "Whether it uses forces and gains.").or("false"),
+            flag("use_force_commands", "If true, it uses forces and gains.").or("false"),
             USE_ACTUATOR_MSG,
             ACTUATOR_NUMBER.also(&["actuatorNumber"]),
             TOPIC,
@@ -297,7 +299,7 @@ pub(super) static PLUGINS: &[Known] = &[
             gain("cmd_max", "1000"),
             gain("cmd_min", "-1000"),
             gain("cmd_offset", "0"),
-            flag("disable_braking", "Whether it never slows the joint.").or("false"),
+            flag("disable_braking", "If true, it never slows the joint.").or("false"),
         ]
     )
     .topics(&[listens("/model/{model}/joint/{joint_name}/cmd_vel").set_by("topic")]),
@@ -309,9 +311,9 @@ pub(super) static PLUGINS: &[Known] = &[
         "Moves joints along a trajectory.",
         [
             TOPIC,
-            flag("use_header_start_time", "Whether it starts at the time of the message.")
+            flag("use_header_start_time", "If true, it starts at the time of the message.")
                 .or("false"),
-            joint("joint_name", "A joint; without any all with one axis.").repeated(),
+            joint("joint_name", "A joint (default: all with one axis).").repeated(),
             number("initial_position", "rad", "Position at the start.").repeated(),
             gain("position_p_gain", "0").repeated(),
             gain("position_i_gain", "0").repeated(),
@@ -355,10 +357,15 @@ pub(super) static PLUGINS: &[Known] = &[
             text("robot_param_node", "Node that holds it.").or("robot_state_publisher"),
             text("controller_manager_name", "Name of the controller manager's node.")
                 .or("controller_manager"),
-            flag("hold_joints", "Whether joints hold still without a command.").or("true"),
-            number("position_proportional_gain", "1/s", "Speed per position that is missing.")
-                .or("0.1"),
-            text("controller_manager_prefix_node_name", "Before the node's name."),
+            flag("hold_joints", "If true, joints hold their position without a command.")
+                .or("true"),
+            number(
+                "position_proportional_gain",
+                "1/s",
+                "Proportional gain from position error to speed."
+            )
+            .or("0.1"),
+            text("controller_manager_prefix_node_name", "Prefix of the node's name."),
         ]
     ),
     system!(
@@ -368,7 +375,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Flies a multicopter at a velocity.",
         [
-            text("robotNamespace", "Before every topic."),
+            text("robotNamespace", "Prefix of every topic."),
             text("commandSubTopic", "Topic of velocities.").or("cmd_vel").naming(Names::Topic),
             text("enableSubTopic", "Topic that switches it.").or("enable").naming(Names::Topic),
             text("comLinkName", "The link at the centre of mass.").required().naming(Names::Link),
@@ -377,11 +384,11 @@ pub(super) static PLUGINS: &[Known] = &[
             numbers("angularRateGain", "", "Gains about x, y, z.").required(),
             numbers("maximumLinearVelocity", "m/s", "Along x, y, z."),
             numbers("maximumLinearAcceleration", "m/s^2", "Along x, y, z.").required(),
-            numbers("maximumAngularVelocity", "rad/s", "About x, y, z."),
+            numbers("maximumAngularVelocity", "rad/s", "Maximum about x, y, z."),
             numbers("linearVelocityNoiseMean", "m/s", "Along x, y, z."),
             numbers("linearVelocityNoiseStdDev", "m/s", "Along x, y, z."),
-            numbers("angularVelocityNoiseMean", "rad/s", "About x, y, z."),
-            numbers("angularVelocityNoiseStdDev", "rad/s", "About x, y, z."),
+            numbers("angularVelocityNoiseMean", "rad/s", "Maximum about x, y, z."),
+            numbers("angularVelocityNoiseStdDev", "rad/s", "Maximum about x, y, z."),
             group("rotorConfiguration", "Joint, force and direction of each rotor.").required(),
         ]
     ),
@@ -392,7 +399,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Turns thrust and drag of a rotor into forces.",
         [
-            text("robotNamespace", "Before every topic."),
+            text("robotNamespace", "Prefix of every topic."),
             joint("jointName", "The rotor's joint.").required(),
             text("linkName", "The rotor's link.").required().naming(Names::Link),
             choice("turningDirection", &["cw", "ccw"], "Seen from above."),
@@ -403,16 +410,20 @@ pub(super) static PLUGINS: &[Known] = &[
             integer("actuator_number", "Index in an `Actuators` message.")
                 .also(&["motorNumber"])
                 .min(0.0),
-            text("actuatorType", "Which field of an `Actuators` message is read."),
-            number("maxRotVelocity", "rad/s", "Most speed."),
+            text("actuatorType", "Field of an `Actuators` message that is read."),
+            number("maxRotVelocity", "rad/s", "Maximum speed."),
             number("motorConstant", "N s^2", "Thrust per squared speed."),
             number("momentConstant", "m", "Torque per thrust."),
             number("rotorDragCoefficient", "", "Drag per speed."),
             number("rollingMomentCoefficient", "", "Rolling moment per speed."),
-            number("rotorVelocitySlowdownSim", "", "The shown rotor turns so many times slower.")
-                .or("10"),
-            number("timeConstantUp", "s", "Of gaining speed."),
-            number("timeConstantDown", "s", "Of losing speed."),
+            number(
+                "rotorVelocitySlowdownSim",
+                "",
+                "Factor by which the displayed rotor turns more slowly."
+            )
+            .or("10"),
+            number("timeConstantUp", "s", "Time constant of acceleration."),
+            number("timeConstantDown", "s", "Time constant of deceleration."),
         ]
     ),
     system!(
@@ -422,11 +433,11 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives a model to a pose.",
         [
-            number("linear_p_gain", "1/s", "Speed per distance.").or("1"),
+            number("linear_p_gain", "1/s", "Proportional gain from distance to speed.").or("1"),
             number("angular_p_gain", "1/s", "Turn rate per angle.").or("2"),
-            number("linear_deviation", "m", "Within it the place counts as reached.").or("0.1"),
-            number("angular_deviation", "rad", "Within it the direction counts as reached.")
-                .or("0.05"),
+            number("linear_deviation", "m", "Distance at which the position counts as reached.")
+                .or("0.1"),
+            number("angular_deviation", "rad", "Tolerance of the heading.").or("0.05"),
         ]
     ),
     system!(
@@ -436,14 +447,16 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives a model along waypoints.",
         [
-            text("link_name", "The link that is pushed.").naming(Names::Link),
-            group("waypoints", "Places to visit."),
-            flag("loop", "Whether it starts over.").or("false"),
-            number("force", "N", "Push.").or("60"),
-            number("torque", "N m", "Turn.").or("50"),
-            number("range_tolerance", "m", "Within it a place counts as reached.").or("0.5"),
-            number("bearing_tolerance", "deg", "Within it the direction counts as right.").or("2"),
-            flag("zero_vel_on_bearing_reached", "Whether it stops turning then.").or("false"),
+            text("link_name", "Link on which the force acts.").naming(Names::Link),
+            group("waypoints", "Waypoints."),
+            flag("loop", "If true, it repeats.").or("false"),
+            number("force", "N", "Force.").or("60"),
+            number("torque", "N m", "Torque.").or("50"),
+            number("range_tolerance", "m", "Distance at which a position counts as reached.")
+                .or("0.5"),
+            number("bearing_tolerance", "deg", "Tolerance of the bearing.").or("2"),
+            flag("zero_vel_on_bearing_reached", "If true, it stops turning below the minimum.")
+                .or("false"),
             group("circle", "A circle instead of waypoints."),
             group("line", "A line instead of waypoints."),
             text("topic", "Topic that switches it.").naming(Names::Topic),

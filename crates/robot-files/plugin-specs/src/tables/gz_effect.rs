@@ -23,16 +23,16 @@ pub(super) static PLUGINS: &[Known] = &[
         ["DetachableJoint"],
         Effect,
         Simulated,
-        "Holds two models together until it is told to let go.",
+        "Attaches two models until a message detaches them.",
         [
             link("parent_link", "The link of this model.").required(),
             text("child_model", "The other model.").required(),
             text("child_link", "The link of the other model.").required(),
             topic("topic", "Older name of `detach_topic`."),
-            topic("detach_topic", "Topic that lets go."),
-            topic("attach_topic", "Topic that holds again."),
-            topic("output_topic", "Topic that tells the state."),
-            text("suppress_child_warning", "Whether a missing model is passed over."),
+            topic("detach_topic", "Topic that detaches."),
+            topic("attach_topic", "Topic that attaches again."),
+            topic("output_topic", "Topic of the state."),
+            text("suppress_child_warning", "If true, a missing model is ignored."),
         ]
     ),
     system!(
@@ -40,7 +40,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["WheelSlip"],
         Effect,
         Kept,
-        "Lets wheels slip in proportion to their load.",
+        "Simulates wheel slip in proportion to the load.",
         [group("wheel", "A wheel's link, radius, load and compliances.").repeated()]
     ),
     system!(
@@ -50,22 +50,23 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Pushes a boat by a propeller.",
         [
-            text("namespace", "Before the topics."),
+            text("namespace", "Prefix of the topics."),
             topic("topic", "Topic of commands."),
             text("joint_name", "The propeller's joint.").required().naming(Names::Joint),
-            flag("use_angvel_cmd", "Whether commands are speeds instead of thrusts.").or("false"),
-            number("fluid_density", "kg/m^3", "Of the water.").or("1000").above(0.0),
-            number("propeller_diameter", "m", "Across.").or("0.02").above(0.0),
+            flag("use_angvel_cmd", "If true, commands are speeds instead of thrusts.").or("false"),
+            number("fluid_density", "kg/m^3", "Density of the water.").or("1000").above(0.0),
+            number("propeller_diameter", "m", "Diameter.").or("0.02").above(0.0),
             number("thrust_coefficient", "", "Thrust against speed.").or("1"),
-            flag("velocity_control", "Whether the joint turns without gains.").or("false"),
-            number("p_gain", "", "Of the controller.").or("0.1"),
-            number("i_gain", "", "Of the controller.").or("0"),
-            number("d_gain", "", "Of the controller.").or("0"),
-            number("max_thrust_cmd", "N", "Most thrust.").or("1000"),
-            number("min_thrust_cmd", "N", "Least thrust.").or("-1000"),
-            number("wake_fraction", "", "Share of the speed that the hull takes.").or("0.2"),
+            flag("velocity_control", "If true, the joint turns without gains.").or("false"),
+            number("p_gain", "", "Gain of the controller.").or("0.1"),
+            number("i_gain", "", "Gain of the controller.").or("0"),
+            number("d_gain", "", "Gain of the controller.").or("0"),
+            number("max_thrust_cmd", "N", "Maximum thrust.").or("1000"),
+            number("min_thrust_cmd", "N", "Minimum thrust.").or("-1000"),
+            number("wake_fraction", "", "Fraction of the speed that the hull takes.").or("0.2"),
             number("alpha_1", "", "Constant part of the thrust coefficient.").or("1"),
-            number("alpha_2", "", "Part that grows with the advance.").or("0"),
+            number("alpha_2", "", "Part of the coefficient that grows with the advance ratio.")
+                .or("0"),
             number("deadband", "N", "Commands below are ignored.").or("0").min(0.0),
         ]
     ),
@@ -74,11 +75,12 @@ pub(super) static PLUGINS: &[Known] = &[
         ["Buoyancy"],
         Effect,
         Kept,
-        "Lets links float.",
+        "Simulates buoyancy of links.",
         [
-            number("uniform_fluid_density", "kg/m^3", "Of the water everywhere.").or("1000"),
+            number("uniform_fluid_density", "kg/m^3", "Density of the water everywhere.")
+                .or("1000"),
             group("graded_buoyancy", "Densities by height."),
-            text("enable", "A model that floats; without any all.").repeated(),
+            text("enable", "A model that floats (default: all).").repeated(),
         ]
     ),
     system!(
@@ -89,13 +91,13 @@ pub(super) static PLUGINS: &[Known] = &[
         "Pumps a bladder to rise or sink.",
         [
             link("link_name", "The bladder's link.").required(),
-            text("namespace", "Before the topics."),
-            number("min_volume", "m^3", "Least.").or("0.00003"),
-            number("neutral_volume", "m^3", "At which it hovers.").or("0.0003"),
-            number("default_volume", "m^3", "At the start.").or("0.0003"),
-            number("max_volume", "m^3", "Most.").or("0.00099"),
-            number("max_inflation_rate", "m^3/s", "Most change.").or("0.000003"),
-            number("fluid_density", "kg/m^3", "Of the water.").or("1000"),
+            text("namespace", "Prefix of the topics."),
+            number("min_volume", "m^3", "Minimum.").or("0.00003"),
+            number("neutral_volume", "m^3", "Volume at which the model is neutral.").or("0.0003"),
+            number("default_volume", "m^3", "Initial value.").or("0.0003"),
+            number("max_volume", "m^3", "Maximum.").or("0.00099"),
+            number("max_inflation_rate", "m^3/s", "Maximum rate of change.").or("0.000003"),
+            number("fluid_density", "kg/m^3", "Density of the water.").or("1000"),
             number("surface", "m", "Height of the surface."),
         ]
     ),
@@ -104,14 +106,14 @@ pub(super) static PLUGINS: &[Known] = &[
         ["Hydrodynamics"],
         Effect,
         Kept,
-        "Slows a link in water.",
+        "Simulates hydrodynamic drag of a link.",
         [
             link("link_name", "The link.").required(),
-            text("namespace", "Before the topics."),
-            number("water_density", "kg/m^3", "Of the water.").or("998"),
+            text("namespace", "Prefix of the topics."),
+            number("water_density", "kg/m^3", "Density of the water.").or("998"),
             numbers("default_current", "m/s", "Current of the water.").or("0 0 0"),
-            flag("disable_coriolis", "Whether Coriolis forces are left out.").or("false"),
-            flag("disable_added_mass", "Whether added mass is left out.").or("false"),
+            flag("disable_coriolis", "If true, Coriolis forces are left out.").or("false"),
+            flag("disable_added_mass", "If true, added mass is left out.").or("false"),
             text("lookup_current_x", "Column of the current."),
             text("lookup_current_y", "Column of the current."),
             text("lookup_current_z", "Column of the current."),
@@ -147,11 +149,11 @@ pub(super) static PLUGINS: &[Known] = &[
         ["LiftDrag"],
         Effect,
         Kept,
-        "Lifts and drags a link by its speed.",
+        "Simulates lift and drag of a link.",
         [
             link("link_name", "The link.").required(),
-            number("air_density", "kg/m^3", "Of the air or water.").or("1.2041"),
-            number("area", "m^2", "Of the wing.").or("1"),
+            number("air_density", "kg/m^3", "Density of the air or water.").or("1.2041"),
+            number("area", "m^2", "Area of the wing.").or("1"),
             number("a0", "rad", "Angle without lift.").or("0"),
             number("cla", "1/rad", "Slope of the lift.").or("1"),
             number("cda", "1/rad", "Slope of the drag.").or("0.01"),
@@ -160,10 +162,10 @@ pub(super) static PLUGINS: &[Known] = &[
             number("cda_stall", "1/rad", "Slope of the drag after the stall.").or("1"),
             number("cma_stall", "1/rad", "Slope of the moment after the stall.").or("0"),
             number("alpha_stall", "rad", "Angle of the stall.").or("1.570796"),
-            numbers("cp", "m", "Where the forces act.").or("0 0 0"),
+            numbers("cp", "m", "Point at which the forces act.").or("0 0 0"),
             numbers("forward", "", "Direction of flight.").or("1 0 0"),
             numbers("upward", "", "Direction of lift.").or("0 0 1"),
-            flag("radial_symmetry", "Whether the upward direction follows the flow.").or("false"),
+            flag("radial_symmetry", "If true, the upward direction follows the flow.").or("false"),
             text("control_joint_name", "The joint of the flap.").naming(Names::Joint),
             number("control_joint_rad_to_cl", "1/rad", "Lift of the flap.").or("1"),
             number("cm_delta", "", "Moment of the flap.").or("0"),
@@ -174,7 +176,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["AdvancedLiftDrag"],
         Effect,
         Kept,
-        "Lifts and drags an aircraft by stability derivatives.",
+        "Simulates lift and drag of an aircraft from stability derivatives.",
         []
     )
     .open(),
@@ -186,27 +188,26 @@ pub(super) static PLUGINS: &[Known] = &[
         "Drains and charges a battery.",
         [
             text("battery_name", "Name of the battery.").required(),
-            number("voltage", "V", "At the start.").required(),
+            number("voltage", "V", "Initial value.").required(),
             number("open_circuit_voltage_constant_coef", "V", "Voltage when full."),
             number("open_circuit_voltage_linear_coef", "V", "Voltage lost until empty."),
-            number("initial_charge", "A h", "At the start; without it full.").min(0.0),
-            number("capacity", "A h", "When full.").min(0.0),
-            number("resistance", "ohm", "Inside.").min(0.0),
-            number("smooth_current_tau", "s", "Of the smoothed current.").above(0.0),
-            flag("fix_issue_225", "Whether charge is counted in hours."),
+            number("initial_charge", "A h", "Initial charge (default: full).").min(0.0),
+            number("capacity", "A h", "Capacity when full.").min(0.0),
+            number("resistance", "ohm", "Internal resistance.").min(0.0),
+            number("smooth_current_tau", "s", "Time constant of the smoothed current.").above(0.0),
+            flag("fix_issue_225", "If true, charge is counted in hours."),
             number("power_load", "W", "Drawn all the time.").min(0.0),
-            flag("start_draining", "Whether it drains from the start.").or("false"),
-            flag("start_on_motion", "Whether it drains from the first motion.").or("false"),
+            flag("start_draining", "If true, it drains from the start.").or("false"),
+            flag("start_on_motion", "If true, it drains from the first motion.").or("false"),
             topic("power_draining_topic", "Topic that starts it.").repeated(),
             topic("stop_power_draining_topic", "Topic that stops it.").repeated(),
-            flag("enable_recharge", "Whether it can be charged.").or("false"),
-            flag("recharge_by_topic", "Whether charging is by topic instead of service.")
+            flag("enable_recharge", "If true, it can be charged.").or("false"),
+            flag("recharge_by_topic", "If true, charging is by topic instead of service.")
                 .or("false"),
-            number("charging_time", "h", "From empty to full.").above(0.0),
+            number("charging_time", "h", "Time from empty to full.").above(0.0),
             number("soc_rate", "Hz", "Messages per second.").min(0.0),
-            number("soc_threshold", "", "Share of charge at which drones come back.")
-                .within(0.0, 1.0),
-            flag("invert_current_sign", "Whether a drawn current is negative.").or("false"),
+            number("soc_threshold", "", "Charge fraction at which drones return.").within(0.0, 1.0),
+            flag("invert_current_sign", "If true, a drawn current is negative.").or("false"),
         ]
     ),
     system!(
@@ -214,7 +215,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["WindEffects"],
         Effect,
         Kept,
-        "Lets the wind push links.",
+        "Applies wind forces to links.",
         [
             group("horizontal", "Strength and direction of gusts."),
             group("vertical", "Rising and sinking gusts."),
@@ -229,7 +230,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "Applies forces to links.",
         [
             group("persistent", "A force that acts from the start.").repeated(),
-            flag("verbose", "Whether it tells what it does.").or("true"),
+            flag("verbose", "If true, it logs its activity.").or("true"),
         ]
     ),
     system!(
@@ -238,7 +239,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Effect,
         Kept,
         "Runs emitters of smoke and dust.",
-        [flag("allow_renaming", "Whether a taken name is changed.").or("false")]
+        [flag("allow_renaming", "If true, a name in use is changed.").or("false")]
     ),
     system!(
         "gz-sim-particle-emitter2-system",
@@ -254,13 +255,13 @@ pub(super) static PLUGINS: &[Known] = &[
         ["FollowActor"],
         Effect,
         Kept,
-        "Lets an actor follow a model.",
+        "Makes an actor follow a model.",
         [
             text("target", "The model.").required(),
-            number("min_distance", "m", "Nearer it stops.").or("1.2"),
-            number("max_distance", "m", "Farther it gives up.").or("4"),
-            number("velocity", "m/s", "Of walking.").or("0.8"),
-            text("animation", "Of walking."),
+            number("min_distance", "m", "Distance at which it stops.").or("1.2"),
+            number("max_distance", "m", "Distance beyond which it stops following.").or("4"),
+            number("velocity", "m/s", "Walking speed.").or("0.8"),
+            text("animation", "Walking speed."),
             number("animation_x_vel", "m/s", "Speed that fits the animation.").or("2"),
         ]
     ),
@@ -271,14 +272,14 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives an elevator to a floor.",
         [
-            number("update_rate", "Hz", "Of the controller.").or("10"),
-            text("floor_link_prefix", "Names of floors start so.").or("floor_"),
-            text("door_joint_prefix", "Names of doors start so.").or("door_"),
-            text("cabin_joint", "The joint that lifts.").or("lift").naming(Names::Joint),
+            number("update_rate", "Hz", "Gain of the controller.").or("10"),
+            text("floor_link_prefix", "Prefix of the names of floors.").or("floor_"),
+            text("door_joint_prefix", "Prefix of the names of doors.").or("door_"),
+            text("cabin_joint", "Joint of the lift.").or("lift").naming(Names::Joint),
             topic("cmd_topic", "Topic of commands."),
             topic("state_topic", "Topic of the state."),
-            number("state_publish_rate", "Hz", "Of the state.").or("5"),
-            number("open_door_wait_duration", "s", "How long doors stay open.").or("5"),
+            number("state_publish_rate", "Hz", "Rate of the published state.").or("5"),
+            number("open_door_wait_duration", "s", "Time for which doors stay open.").or("5"),
         ]
     ),
     system!(
@@ -286,7 +287,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["LookupWheelSlip"],
         Effect,
         Kept,
-        "Lets wheels slip by a map of the ground.",
+        "Simulates wheel slip from a map of the floor.",
         []
     )
     .open(),
@@ -295,7 +296,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["DynamicDetachableJoint"],
         Effect,
         Kept,
-        "Holds models together on command.",
+        "Attaches and detaches models on command.",
         []
     )
     .open(),
@@ -315,9 +316,9 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Adds lens flares to a camera.",
         [
-            number("scale", "", "Size.").or("1"),
+            number("scale", "", "Scale.").or("1"),
             numbers("color", "", "Red, green, blue.").or("1.4 1.2 1"),
-            integer("occlusion_steps", "How finely cover is tested.").or("10"),
+            integer("occlusion_steps", "Number of steps of the occlusion test.").or("10"),
             text("light_name", "The light."),
         ]
     ),

@@ -14,7 +14,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "Moves bodies.",
         [
             group("engine", "Library of the engine: `<filename>`."),
-            flag("include_entity_names", "Whether contacts name what touches.").or("true"),
+            flag("include_entity_names", "If true, contacts contain entity names.").or("true"),
         ]
     ),
     system!(
@@ -30,7 +30,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["SceneBroadcaster"],
         World,
         BuiltIn,
-        "Tells windows what is in the world.",
+        "Publishes the content of the world to windows.",
         [
             number("dynamic_pose_hertz", "Hz", "Poses per second.").or("60").above(0.0),
             number("state_hertz", "Hz", "States per second.").or("60").above(0.0),
@@ -44,9 +44,9 @@ pub(super) static PLUGINS: &[Known] = &[
         "Records or plays back the world.",
         [
             text("record_path", "Folder of the record.").also(&["path"]),
-            flag("record_resources", "Whether meshes are kept too.").or("false"),
-            number("record_period", "s", "Time between states; 0 is each step.").or("0"),
-            flag("compress", "Whether the folder is packed.").or("false"),
+            flag("record_resources", "If true, meshes are recorded too.").or("false"),
+            number("record_period", "s", "Time between states; 0: each step.").or("0"),
+            flag("compress", "If true, the folder is packed.").or("false"),
             text("compress_path", "The packed file."),
             text("record_topic", "A topic that is recorded too.").repeated().naming(Names::Topic),
             text("playback_path", "Folder that is played back."),
@@ -60,7 +60,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "Records the video of a camera.",
         [
             text("service", "Service that starts and stops it.").naming(Names::Topic),
-            flag("use_sim_time", "Whether it follows simulated time.").or("false"),
+            flag("use_sim_time", "If true, it follows simulated time.").or("false"),
             integer("fps", "Images per second.").or("25"),
             integer("bitrate", "Bits per second.").or("2070000"),
         ]
@@ -90,7 +90,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "Loads a table of environmental data.",
         [
             text("data", "Path of the table.").required(),
-            group("dimensions", "Columns of time and place."),
+            group("dimensions", "Columns of time and position."),
         ]
     ),
     system!(
@@ -109,8 +109,8 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Carries messages by sound.",
         [
-            number("max_range", "m", "How far.").or("1000").above(0.0),
-            number("speed_of_sound", "m/s", "How fast.").or("343").above(0.0),
+            number("max_range", "m", "Maximum range.").or("1000").above(0.0),
+            number("speed_of_sound", "m/s", "Speed.").or("343").above(0.0),
             number("collision_time_per_byte", "s", "Silence after a byte.").or("0"),
             number("collision_time_packet_drop", "s", "Silence after a lost packet.").or("0"),
             group("propagation_model", "Power, noise and seed."),
@@ -149,7 +149,7 @@ pub(super) static PLUGINS: &[Known] = &[
         ["FreeSpaceExplorer"],
         World,
         Kept,
-        "Maps free space by moving a lidar about.",
+        "Maps free space by moving a lidar.",
         []
     )
     .open(),

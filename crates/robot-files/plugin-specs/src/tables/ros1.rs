@@ -7,7 +7,7 @@ use crate::Known;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
-    number("updateRate", "Hz", "Messages per second; 0 is one each step.").or("0").min(0.0);
+    number("updateRate", "Hz", "Messages per second; 0: one per step.").or("0").min(0.0);
 
 const fn link(name: &'static str, doc: &'static str) -> Parameter {
     text(name, doc).naming(Names::Link)
@@ -24,9 +24,9 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes the true pose of a link as odometry.",
         [
-            link("bodyName", "The link that is watched.").required(),
+            link("bodyName", "Link whose pose is published.").required(),
             topic("topicName", "Topic of the odometry.").required(),
-            text("frameName", "The link against which it is measured, or `world` or `map`.")
+            text("frameName", "Reference link of the measurement, or `world` or `map`.")
                 .or("world")
                 .naming(Names::Frame),
             UPDATE_RATE,
@@ -46,7 +46,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes positions of joints.",
         [
-            text("jointName", "The joints, separated by commas; without it all."),
+            text("jointName", "The joints, separated by commas (default: all)."),
             number("updateRate", "Hz", "Messages per second.").or("100").min(0.0),
         ]
     )
@@ -95,9 +95,9 @@ pub(super) static PLUGINS: &[Known] = &[
                 .or("gazebo_ros_control/DefaultRobotHWSim"),
             text("robotParam", "Parameter that holds the robot description.")
                 .or("robot_description"),
-            number("controlPeriod", "s", "Step of the controllers; without it each step.")
+            number("controlPeriod", "s", "Step of the controllers (default: each step).")
                 .above(0.0),
-            flag("legacyModeNS", "Whether PID gains lie where they did before Kinetic."),
+            flag("legacyModeNS", "If true, PID gains are read from their location before Kinetic."),
             topic("eStopTopic", "Topic of an emergency stop."),
         ]
     ),
@@ -105,7 +105,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_wheel_slip",
         Effect,
         Kept,
-        "Lets wheels slip in proportion to their load.",
+        "Simulates wheel slip in proportion to the load.",
         [group("wheel", "A wheel's link and compliances.").repeated()]
     ),
     of_ros1!(
@@ -126,12 +126,12 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_harness",
         Effect,
         Kept,
-        "Lowers a model on a rope and lets it go.",
+        "Lowers a model on a rope and releases it.",
         [
             number("init_vel", "m/s", "Speed of the rope at the start.").or("0"),
             group("joint", "A joint that holds the model.").repeated(),
-            group("winch", "Which joint is wound, and its gains."),
-            text("detach", "The joint that lets go."),
+            group("winch", "Joint of the winch, and its gains."),
+            text("detach", "Joint that is detached."),
         ]
     ),
     of_ros1!(
@@ -140,14 +140,14 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives an elevator to a floor.",
         [
-            text("lift_joint", "The joint that lifts."),
+            text("lift_joint", "Joint of the lift."),
             text("door_joint", "The joint of the door."),
             number("floor_height", "m", "Height of a storey.").or("3").above(0.0),
-            number("door_wait_time", "s", "How long the door stays open.").or("5").min(0.0),
-            number("speed", "m/s", "How fast it lifts."),
+            number("door_wait_time", "s", "Time for which the door stays open.").or("5").min(0.0),
+            number("speed", "m/s", "Lifting speed."),
             numbers("force_pid", "", "Gains of the force."),
-            integer("bottomFloor", "Lowest floor."),
-            integer("topFloor", "Highest floor."),
+            integer("bottomFloor", "Number of the lowest floor."),
+            integer("topFloor", "Number of the highest floor."),
             topic("topic", "Topic of commands."),
         ]
     ),
@@ -155,24 +155,24 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_hand_of_god",
         Effect,
         Kept,
-        "Pulls a link to where a frame is.",
+        "Pulls a link to a frame.",
         [
             link("linkName", "The link.").required(),
             text("frameId", "The frame's parent.").or("hog"),
             number("kl", "N/m", "Spring constant of the pull.").or("200"),
             number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
-            number("cl", "N s/m", "Damping of the pull; without it critical."),
-            number("ca", "N m s/rad", "Damping of the turn; without it critical."),
+            number("cl", "N s/m", "Damping of the pull (default: critical)."),
+            number("ca", "N m s/rad", "Damping of the turn (default: critical)."),
         ]
     ),
     of_ros1!(
         "gazebo_ros_vacuum_gripper",
         Effect,
         Kept,
-        "Pulls near things to a link.",
+        "Pulls nearby objects to a link.",
         [
-            link("bodyName", "The link that pulls.").required(),
-            topic("topicName", "Topic that tells whether it holds something.").required(),
+            link("bodyName", "Link that pulls.").required(),
+            topic("topicName", "Topic of the gripper's state.").required(),
         ]
     ),
     of_ros1!(

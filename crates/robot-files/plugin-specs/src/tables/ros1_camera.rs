@@ -18,15 +18,15 @@ const fn distortion(name: &'static str, alias: &'static [&'static str]) -> Param
 macro_rules! camera {
     ($id:literal, $doc:literal, [$($parameter:expr),* $(,)?]) => {
         of_ros1!($id, Sensor, Simulated, $doc, [
-            text("cameraName", "Before every topic."),
+            text("cameraName", "Prefix of every topic."),
             topic("imageTopicName", "Topic of images.", "image_raw"),
             topic("cameraInfoTopicName", "Topic of the camera info.", "camera_info"),
             text("frameName", "Frame of the messages.").or("world").naming(Names::Frame),
-            number("updateRate", "Hz", "Images per second; 0 is the sensor's rate.").or("0").min(0.0),
-            number("CxPrime", "px", "Column of the rectified principal point; 0 is the middle.")
+            number("updateRate", "Hz", "Images per second; 0: the sensor's rate.").or("0").min(0.0),
+            number("CxPrime", "px", "Column of the rectified principal point; 0: the middle.")
                 .or("0"),
-            number("Cx", "px", "Column of the principal point; 0 is the middle.").or("0"),
-            number("Cy", "px", "Row of the principal point; 0 is the middle.").or("0"),
+            number("Cx", "px", "Column of the principal point; 0: the middle.").or("0"),
+            number("Cy", "px", "Row of the principal point; 0: the middle.").or("0"),
             number("focalLength", "px", "0 is from the field of view.").or("0").min(0.0),
             number("hackBaseline", "m", "Distance from the left camera of a stereo pair.").or("0"),
             distortion("distortionK1", &["distortion_k1"]),
@@ -34,8 +34,8 @@ macro_rules! camera {
             distortion("distortionK3", &["distortion_k3"]),
             distortion("distortionT1", &["distortion_t1"]),
             distortion("distortionT2", &["distortion_t2"]),
-            flag("autoDistortion", "Whether the sensor's distortion goes into the camera info."),
-            flag("borderCrop", "Whether the black border of a distortion is cut off.").or("true"),
+            flag("autoDistortion", "If true, the sensor's distortion goes into the camera info."),
+            flag("borderCrop", "If true, the black border of a distortion is cut off.").or("true"),
             $($parameter),*
         ])
         .topics(&[
@@ -55,10 +55,10 @@ const DEPTH_INFO_TOPIC: Parameter = topic(
 
 const CLOUD_TOPIC: Parameter = topic("pointCloudTopicName", "Topic of points.", "points");
 
-const CUTOFF: Parameter = number("pointCloudCutoff", "m", "Nearest depth.").or("0.4").min(0.0);
+const CUTOFF: Parameter = number("pointCloudCutoff", "m", "Minimum depth.").or("0.4").min(0.0);
 
 const fn cutoff_max(default: &'static str) -> Parameter {
-    number("pointCloudCutoffMax", "m", "Farthest depth.").or(default).min(0.0)
+    number("pointCloudCutoffMax", "m", "Maximum depth.").or(default).min(0.0)
 }
 
 const BASELINE: Parameter =
@@ -78,8 +78,8 @@ pub(super) static PLUGINS: &[Known] = &[
             BASELINE,
             topic("normalsTopicName", "Topic of surface normals.", "normals"),
             topic("reflectanceTopicName", "Topic of reflectances.", "reflectance"),
-            number("reduceNormals", "", "One of so many normals is shown.").or("50"),
-            flag("useDepth16UC1Format", "Whether depths are millimetres in 16 bits.").or("false"),
+            number("reduceNormals", "", "Every Nth normal is shown.").or("50"),
+            flag("useDepth16UC1Format", "If true, depths are millimetres in 16 bits.").or("false"),
         ]
     ),
     camera!(
@@ -92,7 +92,7 @@ pub(super) static PLUGINS: &[Known] = &[
             CUTOFF,
             cutoff_max("5"),
             BASELINE,
-            flag("useDepth16UC1Format", "Whether depths are millimetres in 16 bits.").or("false"),
+            flag("useDepth16UC1Format", "If true, depths are millimetres in 16 bits.").or("false"),
         ]
     ),
     camera!("gazebo_ros_multicamera", "Publishes the images of a `multicamera` sensor.", []),
@@ -110,7 +110,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_prosilica",
         "Publishes an image of a `camera` sensor on request.",
         [
-            text("pollServiceName", "Service that requests an image."),
+            text("pollServiceName", "Service that triggers an image."),
             DEPTH_TOPIC,
             DEPTH_INFO_TOPIC,
             CLOUD_TOPIC,

@@ -7,7 +7,7 @@ use crate::Known;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
-    number("updateRate", "Hz", "Steps of the controller per second; 0 is each step.")
+    number("updateRate", "Hz", "Steps of the controller per second; 0: each step.")
         .or("100")
         .min(0.0);
 
@@ -26,13 +26,13 @@ const ROBOT_BASE_FRAME: Parameter = text("robotBaseFrame", "Frame that the odome
     .or("base_footprint")
     .naming(Names::Frame);
 
-const ROS_DEBUG_LEVEL: Parameter = text("rosDebugLevel", "How much the plugin tells.").or("na");
+const ROS_DEBUG_LEVEL: Parameter = text("rosDebugLevel", "Verbosity of the log.").or("na");
 
 const PUBLISH_WHEEL_TF: Parameter =
-    flag("publishWheelTF", "Whether the transforms of the wheels are published.").or("false");
+    flag("publishWheelTF", "If true, the transforms of the wheels are published.").or("false");
 
 const PUBLISH_WHEEL_JOINT_STATE: Parameter =
-    flag("publishWheelJointState", "Whether the wheels' joint states are published.").or("false");
+    flag("publishWheelJointState", "If true, the wheels' joint states are published.").or("false");
 
 const fn joint(name: &'static str, doc: &'static str) -> Parameter {
     text(name, doc).naming(Names::Joint)
@@ -53,14 +53,10 @@ pub(super) static PLUGINS: &[Known] = &[
             joint("rightJoint", "The joint of the right wheel.").or("right_joint"),
             number("wheelSeparation", "m", "Distance between the wheels.").or("0.34").above(0.0),
             number("wheelDiameter", "m", "Diameter of the wheels.").or("0.15").above(0.0),
-            number("wheelTorque", "N m", "Most torque of a wheel.").or("5").min(0.0),
-            number(
-                "wheelAcceleration",
-                "m/s^2",
-                "Most acceleration at the rim; 0 is without limit.",
-            )
-            .or("0")
-            .min(0.0),
+            number("wheelTorque", "N m", "Maximum torque of a wheel.").or("5").min(0.0),
+            number("wheelAcceleration", "m/s^2", "Maximum acceleration at the rim; 0: unlimited.",)
+                .or("0")
+                .min(0.0),
             UPDATE_RATE,
             COMMAND_TOPIC,
             ODOMETRY_TOPIC,
@@ -69,10 +65,10 @@ pub(super) static PLUGINS: &[Known] = &[
             ROBOT_BASE_FRAME,
             PUBLISH_WHEEL_TF,
             PUBLISH_WHEEL_JOINT_STATE,
-            flag("publishOdomTF", "Whether the transform from odometry to base is published.")
+            flag("publishOdomTF", "If true, the transform from odometry to base is published.")
                 .or("true"),
-            flag("publishTf", "Whether transforms are published at all.").or("true"),
-            flag("legacyMode", "Whether left and right are swapped, as before Indigo."),
+            flag("publishTf", "If true, transforms are published at all.").or("true"),
+            flag("legacyMode", "If true, left and right are swapped, as before Indigo."),
             ROS_DEBUG_LEVEL,
         ]
     )
@@ -93,13 +89,13 @@ pub(super) static PLUGINS: &[Known] = &[
             joint("rightRearJoint", "The joint of the wheel.").or("right_rear_joint"),
             number("wheelSeparation", "m", "Distance between the wheels.").or("0.4").above(0.0),
             number("wheelDiameter", "m", "Diameter of the wheels.").or("0.15").above(0.0),
-            number("torque", "N m", "Most torque of a wheel.").or("5").min(0.0),
+            number("torque", "N m", "Maximum torque of a wheel.").or("5").min(0.0),
             UPDATE_RATE,
             COMMAND_TOPIC,
             ODOMETRY_TOPIC,
             ODOMETRY_FRAME,
             ROBOT_BASE_FRAME,
-            flag("broadcastTF", "Whether the transform from odometry to base is published.")
+            flag("broadcastTF", "If true, the transform from odometry to base is published.")
                 .or("false"),
             covariance("covariance_x", "m^2", "0.0001"),
             covariance("covariance_y", "m^2", "0.0001"),
@@ -121,10 +117,9 @@ pub(super) static PLUGINS: &[Known] = &[
             ODOMETRY_FRAME,
             ROBOT_BASE_FRAME,
             number("odometryRate", "Hz", "Odometry messages per second.").or("20").min(0.0),
-            number("cmdTimeout", "s", "After it a command is forgotten; negative is never.")
-                .or("-1"),
-            flag("publishOdometry", "Whether odometry is published.").or("true"),
-            flag("publishTF", "Whether the transform from odometry to base is published.")
+            number("cmdTimeout", "s", "Timeout of commands; negative: never.").or("-1"),
+            flag("publishOdometry", "If true, odometry is published.").or("true"),
+            flag("publishTF", "If true, the transform from odometry to base is published.")
                 .or("true"),
         ]
     )
@@ -138,31 +133,27 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Drives and steers the front wheel of a tricycle.",
         [
-            joint("steeringJoint", "Steers the front wheel.").or("front_steering_joint"),
-            joint("actuatedWheelJoint", "Turns the driven wheel.").or("actuated_wheel_joint"),
-            joint("encoderWheelLeftJoint", "Turns the left wheel that is counted.")
+            joint("steeringJoint", "Steering joint of the front wheel.").or("front_steering_joint"),
+            joint("actuatedWheelJoint", "Joint of the driven wheel.").or("actuated_wheel_joint"),
+            joint("encoderWheelLeftJoint", "Joint of the left encoder wheel.")
                 .or("encoder_left_wheel_joint"),
-            joint("encoderWheelRightJoint", "Turns the right wheel that is counted.")
+            joint("encoderWheelRightJoint", "Joint of the right encoder wheel.")
                 .or("encoder_right_wheel_joint"),
             number("actuatedWheelDiameter", "m", "Diameter of the driven wheel.")
                 .or("0.15")
                 .above(0.0),
-            number("encoderWheelDiameter", "m", "Diameter of the counted wheels.")
+            number("encoderWheelDiameter", "m", "Diameter of the encoder wheels.")
                 .or("0.15")
                 .above(0.0),
-            number("encoderWheelSeparation", "m", "Distance between the counted wheels.")
+            number("encoderWheelSeparation", "m", "Distance between the encoder wheels.")
                 .or("0.5")
                 .above(0.0),
             number("wheelAcceleration", "m/s^2", "0 is without limit.").or("0").min(0.0),
-            number("wheelDeceleration", "m/s^2", "Without it as the acceleration.").min(0.0),
-            number("wheelSpeedTolerance", "m/s", "Within it the speed counts as reached.")
-                .or("0.01")
-                .min(0.0),
-            number("wheelTorque", "N m", "Most torque of a wheel.").or("5").min(0.0),
+            number("wheelDeceleration", "m/s^2", "Default: equal to the acceleration.").min(0.0),
+            number("wheelSpeedTolerance", "m/s", "Tolerance of the speed.").or("0.01").min(0.0),
+            number("wheelTorque", "N m", "Maximum torque of a wheel.").or("5").min(0.0),
             number("steeringSpeed", "rad/s", "0 is without limit.").or("0").min(0.0),
-            number("steeringAngleTolerance", "rad", "Within it the angle counts as reached.")
-                .or("0.01")
-                .min(0.0),
+            number("steeringAngleTolerance", "rad", "Tolerance of the angle.").or("0.01").min(0.0),
             UPDATE_RATE,
             COMMAND_TOPIC,
             ODOMETRY_TOPIC,

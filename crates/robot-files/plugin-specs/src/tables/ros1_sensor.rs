@@ -8,7 +8,7 @@ use crate::Known;
 use crate::known::publishes;
 
 const UPDATE_RATE: Parameter =
-    number("updateRate", "Hz", "Messages per second; 0 is one each step.").or("0").min(0.0);
+    number("updateRate", "Hz", "Messages per second; 0: one per step.").or("0").min(0.0);
 
 const NOISE: Parameter =
     number("gaussianNoise", "", "Standard deviation of the noise.").or("0").min(0.0);
@@ -19,7 +19,7 @@ const XYZ_OFFSET: Parameter =
 const RPY_OFFSET: Parameter =
     numbers("rpyOffset", "rad", "Added to the orientation.").or("0 0 0").also(&["rpyOffsets"]);
 
-const BODY_NAME: Parameter = text("bodyName", "The link that is watched.").naming(Names::Link);
+const BODY_NAME: Parameter = text("bodyName", "Link whose pose is published.").naming(Names::Link);
 
 const fn frame(default: &'static str) -> Parameter {
     text("frameName", "Frame of the messages.").or(default).naming(Names::Frame)
@@ -37,7 +37,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_laser",
         Sensor,
         Simulated,
-        "Publishes what a `ray` sensor measures.",
+        "Publishes the measurements of a `ray` sensor.",
         [
             topic("/world"),
             frame("/world"),
@@ -51,7 +51,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_gpu_laser",
         Sensor,
         Simulated,
-        "Publishes what a `gpu_ray` sensor measures.",
+        "Publishes the measurements of a `gpu_ray` sensor.",
         [topic("/world"), frame("/world"), UPDATE_RATE, NOISE]
     )
     .topics(&[publishes("/world").set_by("topicName")]),
@@ -89,7 +89,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_imu",
         Sensor,
         Simulated,
-        "Publishes how a link turns and accelerates.",
+        "Publishes angular velocity and acceleration of a link.",
         [
             BODY_NAME.required(),
             topic("/default_imu"),
@@ -105,18 +105,18 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_imu_sensor",
         Sensor,
         Simulated,
-        "Publishes what an `imu` sensor measures.",
+        "Publishes the measurements of an `imu` sensor.",
         [
             topic("/default_imu"),
             BODY_NAME,
-            text("frameName", "Frame of the messages; without it the link.").naming(Names::Frame),
+            text("frameName", "Frame of the messages (default: the link).").naming(Names::Frame),
             number("updateRateHZ", "Hz", "Messages per second.").or("1").min(0.0),
             NOISE,
             XYZ_OFFSET,
             RPY_OFFSET,
             flag(
                 "initialOrientationAsReference",
-                "Whether orientations are against the start; REP 145 wants them against the world.",
+                "If true, orientations are relative to the start; REP 145 requires them relative to the world.",
             ),
         ]
     )
@@ -125,7 +125,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_bumper",
         Sensor,
         Simulated,
-        "Publishes what a `contact` sensor touches.",
+        "Publishes the contacts of a `contact` sensor.",
         [
             text("bumperTopicName", "Topic of the contacts.")
                 .or("bumper_states")
@@ -160,7 +160,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "hector_gazebo_ros_imu",
         Sensor,
         Simulated,
-        "Publishes how a link turns and accelerates, with drift.",
+        "Publishes angular velocity and acceleration of a link, with drift.",
         []
     )
     .open(),
@@ -168,7 +168,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "hector_gazebo_ros_gps",
         Sensor,
         Simulated,
-        "Publishes where on Earth a link is, with drift.",
+        "Publishes the geographic position of a link, with drift.",
         []
     )
     .open(),

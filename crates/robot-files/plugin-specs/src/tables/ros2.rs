@@ -7,16 +7,16 @@ use crate::Known;
 use crate::known::{listens, publishes};
 
 const FRAME_NAME: Parameter =
-    text("frame_name", "Frame of the messages; without it the sensor's link.").naming(Names::Frame);
+    text("frame_name", "Frame of the messages (default: the sensor's link).").naming(Names::Frame);
 
-const BODY_NAME: Parameter = text("body_name", "The link that is watched.").naming(Names::Link);
+const BODY_NAME: Parameter = text("body_name", "Link whose pose is published.").naming(Names::Link);
 
 pub(super) static PLUGINS: &[Known] = &[
     of_ros2!(
         "gazebo_ros_ray_sensor",
         Sensor,
         Simulated,
-        "Publishes what a `ray` or `gpu_ray` sensor measures.",
+        "Publishes the measurements of a `ray` or `gpu_ray` sensor.",
         [
             choice(
                 "output_type",
@@ -42,26 +42,26 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes the images of a `camera`, `depth` or `multicamera` sensor.",
         [
-            text("camera_name", "Before every topic; without it the sensor's name."),
+            text("camera_name", "Prefix of every topic (default: the sensor's name)."),
             FRAME_NAME,
-            flag("triggered", "Whether an image is taken only on a message on `image_trigger`.")
+            flag("triggered", "If true, an image is taken only on a message on `image_trigger`.")
                 .or("false"),
-            number("cx", "px", "Column of the principal point; without it (width + 1) / 2."),
-            number("cy", "px", "Row of the principal point; without it (height + 1) / 2."),
-            number("focal_length", "px", "Without it width / (2 tan(horizontal_fov / 2)).")
+            number("cx", "px", "Column of the principal point (default: (width + 1) / 2)."),
+            number("cy", "px", "Row of the principal point (default: (height + 1) / 2)."),
+            number("focal_length", "px", "Default: width / (2 tan(horizontal_fov / 2)).")
                 .min(0.0),
-            flag("border_crop", "Whether the black border of a distortion is cut off.").or("true"),
+            flag("border_crop", "If true, the black border of a distortion is cut off.").or("true"),
             number("hack_baseline", "m", "Distance from the left camera of a stereo pair.").or("0"),
             numbers("rectification_matrix", "", "The nine numbers of the rectification, by row.")
                 .or("1 0 0 0 1 0 0 0 1"),
-            number("P_fx", "px", "First entry of the projection; without it the focal length."),
-            number("P_fy", "px", "Sixth entry of the projection; without it the focal length."),
-            number("P_cx", "px", "Third entry of the projection; without it `cx`."),
-            number("P_cy", "px", "Seventh entry of the projection; without it `cy`."),
-            number("Tx", "px m", "Fourth entry of the projection; without it from the baseline."),
+            number("P_fx", "px", "First entry of the projection (default: the focal length)."),
+            number("P_fy", "px", "Sixth entry of the projection (default: the focal length)."),
+            number("P_cx", "px", "Third entry of the projection (default: `cx`)."),
+            number("P_cy", "px", "Seventh entry of the projection (default: `cy`)."),
+            number("Tx", "px m", "Fourth entry of the projection (default: from the baseline)."),
             number("Ty", "px m", "Eighth entry of the projection.").or("0"),
-            number("min_depth", "m", "Nearest depth; nearer pixels are -inf.").or("0.4").min(0.0),
-            number("max_depth", "m", "Farthest depth; farther pixels are inf.").or("inf").min(0.0),
+            number("min_depth", "m", "Minimum depth; pixels below are -inf.").or("0.4").min(0.0),
+            number("max_depth", "m", "Maximum depth; pixels beyond are inf.").or("inf").min(0.0),
         ]
     )
     .topics(&[
@@ -76,12 +76,12 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_imu_sensor",
         Sensor,
         Simulated,
-        "Publishes what an `imu` sensor measures.",
+        "Publishes the measurements of an `imu` sensor.",
         [
             FRAME_NAME,
             flag(
                 "initial_orientation_as_reference",
-                "Whether orientations are against the start; REP 145 wants them against the world.",
+                "If true, orientations are relative to the start; REP 145 requires them relative to the world.",
             )
             .or("false"),
         ]
@@ -91,7 +91,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_gps_sensor",
         Sensor,
         Simulated,
-        "Publishes what a `gps` sensor measures.",
+        "Publishes the measurements of a `gps` sensor.",
         [FRAME_NAME]
     )
     .topics(&[publishes("~/out"), publishes("~/vel")]),
@@ -99,7 +99,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_bumper",
         Sensor,
         Simulated,
-        "Publishes what a `contact` sensor touches.",
+        "Publishes the contacts of a `contact` sensor.",
         [text("frame_name", "Frame in which contacts are given.").or("world").naming(Names::Frame)]
     )
     .topics(&[publishes("bumper_states")]),
@@ -121,10 +121,10 @@ pub(super) static PLUGINS: &[Known] = &[
         "Publishes the true pose of a link as odometry.",
         [
             BODY_NAME.required(),
-            text("frame_name", "The link against which it is measured, or `world` or `map`.")
+            text("frame_name", "Reference link of the measurement, or `world` or `map`.")
                 .or("world")
                 .naming(Names::Frame),
-            number("update_rate", "Hz", "Messages per second; 0 is one each step.")
+            number("update_rate", "Hz", "Messages per second; 0: one per step.")
                 .or("0")
                 .min(0.0),
             numbers("xyz_offset", "m", "Added to the position.").or("0 0 0").also(&["xyz_offsets"]),
@@ -147,7 +147,7 @@ pub(super) static PLUGINS: &[Known] = &[
             text("joint_name", "The joint to measure in, when no link is named.")
                 .naming(Names::Joint),
             text("frame_name", "Frame of the messages of a link.").or("world").naming(Names::Frame),
-            number("update_rate", "Hz", "Messages per second; 0 is one each step.")
+            number("update_rate", "Hz", "Messages per second; 0: one per step.")
                 .or("0")
                 .min(0.0),
             number("gaussian_noise", "N", "Standard deviation of the noise.").or("0").min(0.0),
@@ -170,7 +170,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_wheel_slip",
         Effect,
         Kept,
-        "Lets wheels slip in proportion to their load.",
+        "Simulates wheel slip in proportion to the load.",
         [periplus_params::group("wheel", "A wheel's link and compliances.").repeated()]
     ),
     of_ros2!(
@@ -190,12 +190,12 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_harness",
         Effect,
         Kept,
-        "Lowers a model on a rope and lets it go.",
+        "Lowers a model on a rope and releases it.",
         [
             number("init_vel", "m/s", "Speed of the rope at the start.").or("0"),
             periplus_params::group("joint", "A joint that holds the model.").repeated(),
-            periplus_params::group("winch", "Which joint is wound, and its gains."),
-            text("detach", "The joint that lets go."),
+            periplus_params::group("winch", "Joint of the winch, and its gains."),
+            text("detach", "Joint that is detached."),
         ]
     ),
     of_ros2!(
@@ -204,14 +204,14 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives an elevator to a floor.",
         [
-            text("lift_joint", "The joint that lifts.").naming(Names::Joint),
+            text("lift_joint", "Joint of the lift.").naming(Names::Joint),
             text("door_joint", "The joint of the door.").naming(Names::Joint),
             number("floor_height", "m", "Height of a storey.").or("3").above(0.0),
-            number("door_wait_time", "s", "How long the door stays open.").or("5").min(0.0),
-            number("speed", "m/s", "How fast it lifts."),
+            number("door_wait_time", "s", "Time for which the door stays open.").or("5").min(0.0),
+            number("speed", "m/s", "Lifting speed."),
             numbers("force_pid", "", "Gains of the force."),
-            integer("bottom_floor", "Lowest floor."),
-            integer("top_floor", "Highest floor."),
+            integer("bottom_floor", "Number of the lowest floor."),
+            integer("top_floor", "Number of the highest floor."),
             text("topic", "Gazebo topic of commands.").naming(Names::Topic),
         ]
     )
@@ -220,14 +220,14 @@ pub(super) static PLUGINS: &[Known] = &[
         "gazebo_ros_hand_of_god",
         Effect,
         Kept,
-        "Pulls a link to where a frame is.",
+        "Pulls a link to a frame.",
         [
             text("link_name", "The link.").required().naming(Names::Link),
             text("frame_id", "The frame's parent.").or("world"),
             number("kl", "N/m", "Spring constant of the pull.").or("200"),
             number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
-            number("cl", "N s/m", "Damping of the pull; without it critical."),
-            number("ca", "N m s/rad", "Damping of the turn; without it critical."),
+            number("cl", "N s/m", "Damping of the pull (default: critical)."),
+            number("ca", "N m s/rad", "Damping of the turn (default: critical)."),
         ]
     ),
     of_ros2!(
@@ -235,18 +235,18 @@ pub(super) static PLUGINS: &[Known] = &[
         Control,
         Kept,
         "Sets joints to the positions of a trajectory.",
-        [number("update_rate", "Hz", "Steps per second; 0 is one each step.").or("0").min(0.0)]
+        [number("update_rate", "Hz", "Steps per second; 0: one per step.").or("0").min(0.0)]
     )
     .topics(&[listens("set_joint_trajectory")]),
     of_ros2!(
         "gazebo_ros_vacuum_gripper",
         Effect,
         Kept,
-        "Pulls near things to a link.",
+        "Pulls nearby objects to a link.",
         [
-            text("link_name", "The link that pulls.").required().naming(Names::Link),
-            text("fixed", "A thing that is not pulled.").repeated(),
-            number("max_distance", "m", "How far it reaches.").or("0.05").min(0.0),
+            text("link_name", "Link that pulls.").required().naming(Names::Link),
+            text("fixed", "Object that is not pulled.").repeated(),
+            number("max_distance", "m", "Maximum distance of the effect.").or("0.05").min(0.0),
         ]
     )
     .topics(&[publishes("grasping")]),
@@ -266,7 +266,7 @@ pub(super) static PLUGINS: &[Known] = &[
         World,
         BuiltIn,
         "Publishes and sets the states of models and links.",
-        [number("update_rate", "Hz", "Messages per second; 0 is one each step.")
+        [number("update_rate", "Hz", "Messages per second; 0: one per step.")
             .or("100")
             .min(0.0)]
     ),
@@ -291,7 +291,7 @@ pub(super) static PLUGINS: &[Known] = &[
             text("robot_param", "Parameter that holds the robot description.")
                 .or("robot_description"),
             text("robot_param_node", "Node that holds it.").or("robot_state_publisher"),
-            flag("hold_joints", "Whether joints hold still without a command.").or("true"),
+            flag("hold_joints", "If true, joints hold their position without a command.").or("true"),
             text("robot_sim_type", "Class that connects the joints, before ros2_control."),
             number("control_period", "s", "Step of the controllers.").above(0.0),
             text("e_stop_topic", "Topic of an emergency stop.").naming(Names::Topic),

@@ -7,7 +7,7 @@ use crate::Known;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
-    number("update_rate", "Hz", "Steps of the controller per second; 0 is each step.")
+    number("update_rate", "Hz", "Steps of the controller per second; 0: each step.")
         .or("100")
         .min(0.0);
 
@@ -17,14 +17,14 @@ const ROBOT_BASE_FRAME: Parameter = text("robot_base_frame", "Frame that the odo
     .or("base_footprint")
     .naming(Names::Frame);
 
-const PUBLISH_ODOM: Parameter = flag("publish_odom", "Whether odometry is published.").or("false");
+const PUBLISH_ODOM: Parameter = flag("publish_odom", "If true, odometry is published.").or("false");
 
 const PUBLISH_ODOM_TF: Parameter =
-    flag("publish_odom_tf", "Whether the transform from odometry to base is published.")
+    flag("publish_odom_tf", "If true, the transform from odometry to base is published.")
         .or("false");
 
 const PUBLISH_WHEEL_TF: Parameter =
-    flag("publish_wheel_tf", "Whether the transforms of the wheels are published.").or("false");
+    flag("publish_wheel_tf", "If true, the transforms of the wheels are published.").or("false");
 
 const fn covariance(name: &'static str, unit: &'static str, default: &'static str) -> Parameter {
     number(name, unit, "Entry of the covariance of pose and velocity.").or(default).min(0.0)
@@ -56,11 +56,11 @@ pub(super) static PLUGINS: &[Known] = &[
                 .or("0.15")
                 .above(0.0)
                 .repeated(),
-            number("max_wheel_torque", "N m", "Most torque of a wheel.").or("5").min(0.0),
+            number("max_wheel_torque", "N m", "Maximum torque of a wheel.").or("5").min(0.0),
             number(
                 "max_wheel_acceleration",
                 "m/s^2",
-                "Most acceleration at the rim; 0 is without limit.",
+                "Maximum acceleration at the rim; 0: unlimited.",
             )
             .or("0")
             .min(0.0),
@@ -85,14 +85,14 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Slides the whole model over the plane.",
         [
-            number("update_rate", "Hz", "Steps of the controller per second; 0 is each step.")
+            number("update_rate", "Hz", "Steps of the controller per second; 0: each step.")
                 .or("20")
                 .min(0.0),
-            number("publish_rate", "Hz", "Odometry messages per second; 0 is one each step.")
+            number("publish_rate", "Hz", "Odometry messages per second; 0: one per step.")
                 .or("20")
                 .min(0.0),
-            flag("publish_odom", "Whether odometry is published.").or("true"),
-            flag("publish_odom_tf", "Whether the transform from odometry to base is published.")
+            flag("publish_odom", "If true, odometry is published.").or("true"),
+            flag("publish_odom_tf", "If true, the transform from odometry to base is published.")
                 .or("true"),
             ODOMETRY_FRAME,
             ROBOT_BASE_FRAME,
@@ -109,28 +109,33 @@ pub(super) static PLUGINS: &[Known] = &[
         "Drives and steers a car.",
         [
             UPDATE_RATE,
-            joint("front_left_joint", "Turns the front left wheel.").or("front_left_joint"),
-            joint("front_right_joint", "Turns the front right wheel.").or("front_right_joint"),
-            joint("rear_left_joint", "Turns the rear left wheel.").or("rear_left_joint"),
-            joint("rear_right_joint", "Turns the rear right wheel.").or("rear_right_joint"),
-            joint("left_steering_joint", "Steers the left wheel.").or("left_steering_joint"),
-            joint("right_steering_joint", "Steers the right wheel.").or("right_steering_joint"),
-            joint("steering_wheel_joint", "Turns the steering wheel, if there is one."),
-            number("max_steer", "rad", "Most angle of a wheel.").or("0.6").above(0.0),
-            number("max_steering_angle", "rad", "Most angle of the steering wheel.")
+            joint("front_left_joint", "Joint of the front left wheel.").or("front_left_joint"),
+            joint("front_right_joint", "Joint of the front right wheel.").or("front_right_joint"),
+            joint("rear_left_joint", "Joint of the rear left wheel.").or("rear_left_joint"),
+            joint("rear_right_joint", "Joint of the rear right wheel.").or("rear_right_joint"),
+            joint("left_steering_joint", "Steering joint of the left wheel.")
+                .or("left_steering_joint"),
+            joint("right_steering_joint", "Steering joint of the right wheel.")
+                .or("right_steering_joint"),
+            joint("steering_wheel_joint", "Joint of the steering wheel, if there is one."),
+            number("max_steer", "rad", "Maximum steering angle of a wheel.").or("0.6").above(0.0),
+            number("max_steering_angle", "rad", "Maximum angle of the steering wheel.")
                 .or("7.85")
                 .above(0.0),
-            number("max_speed", "m/s", "Most speed.").or("20").above(0.0),
+            number("max_speed", "m/s", "Maximum speed.").or("20").above(0.0),
             numbers("left_steering_pid_gain", "", "Gains p i d.").or("0 0 0"),
-            numbers("left_steering_i_range", "", "Least and most of the integral.").or("0 0"),
+            numbers("left_steering_i_range", "", "Minimum and maximum of the integral term.")
+                .or("0 0"),
             numbers("right_steering_pid_gain", "", "Gains p i d.").or("0 0 0"),
-            numbers("right_steering_i_range", "", "Least and most of the integral.").or("0 0"),
+            numbers("right_steering_i_range", "", "Minimum and maximum of the integral term.")
+                .or("0 0"),
             numbers("linear_velocity_pid_gain", "", "Gains p i d.").or("0 0 0"),
-            numbers("linear_velocity_i_range", "", "Least and most of the integral.").or("0 0"),
+            numbers("linear_velocity_i_range", "", "Minimum and maximum of the integral term.")
+                .or("0 0"),
             PUBLISH_ODOM,
             PUBLISH_ODOM_TF,
             PUBLISH_WHEEL_TF,
-            flag("publish_distance", "Whether the distance driven is published.").or("false"),
+            flag("publish_distance", "If true, the distance driven is published.").or("false"),
             ODOMETRY_FRAME,
             text("robot_base_frame", "Frame that the odometry moves.")
                 .or("base_link")
@@ -152,29 +157,31 @@ pub(super) static PLUGINS: &[Known] = &[
         "Drives and steers the front wheel of a tricycle.",
         [
             UPDATE_RATE,
-            joint("steering_joint", "Steers the front wheel.").or("front_steering_joint"),
-            joint("actuated_wheel_joint", "Turns the driven wheel.").or("actuated_wheel_joint"),
-            joint("encoder_wheel_left_joint", "Turns the left wheel that is counted.")
+            joint("steering_joint", "Steering joint of the front wheel.")
+                .or("front_steering_joint"),
+            joint("actuated_wheel_joint", "Joint of the driven wheel.").or("actuated_wheel_joint"),
+            joint("encoder_wheel_left_joint", "Joint of the left encoder wheel.")
                 .or("encoder_left_wheel_joint"),
-            joint("encoder_wheel_right_joint", "Turns the right wheel that is counted.")
+            joint("encoder_wheel_right_joint", "Joint of the right encoder wheel.")
                 .or("encoder_right_wheel_joint"),
-            number("wheel_separation", "m", "Distance between the counted wheels.")
+            number("wheel_separation", "m", "Distance between the encoder wheels.")
                 .or("0.5")
                 .above(0.0),
-            number("encoder_wheel_diameter", "m", "Diameter of the counted wheels.")
+            number("encoder_wheel_diameter", "m", "Diameter of the encoder wheels.")
                 .or("0.15")
                 .above(0.0),
             number("actuated_wheel_diameter", "m", "Diameter of the driven wheel.")
                 .or("0.15")
                 .above(0.0),
-            number("max_wheel_torque", "N m", "Most torque of a wheel.").min(0.0),
+            number("max_wheel_torque", "N m", "Maximum torque of a wheel.").min(0.0),
             number("max_wheel_acceleration", "m/s^2", "0 is without limit.").or("0").min(0.0),
-            number("max_wheel_deceleration", "m/s^2", "Without it as the acceleration.").min(0.0),
-            number("max_wheel_speed_tolerance", "m/s", "Within it the speed counts as reached.")
+            number("max_wheel_deceleration", "m/s^2", "Default: equal to the acceleration.")
+                .min(0.0),
+            number("max_wheel_speed_tolerance", "m/s", "Tolerance of the speed.")
                 .or("0.01")
                 .min(0.0),
             number("max_steering_speed", "rad/s", "0 is without limit.").or("0").min(0.0),
-            number("max_steering_angle_tolerance", "rad", "Within it the angle counts as reached.")
+            number("max_steering_angle_tolerance", "rad", "Tolerance of the angle.")
                 .or("0.01")
                 .min(0.0),
             integer("odometry_source", "0 counts wheel turns, 1 is the true pose.")
@@ -182,7 +189,7 @@ pub(super) static PLUGINS: &[Known] = &[
                 .within(0.0, 1.0),
             PUBLISH_ODOM,
             PUBLISH_WHEEL_TF,
-            flag("publish_wheel_joint_state", "Whether the wheels' joint states are published.")
+            flag("publish_wheel_joint_state", "If true, the wheels' joint states are published.")
                 .or("false"),
             ODOMETRY_FRAME,
             text("robot_base_frame", "Frame that the odometry moves.")
