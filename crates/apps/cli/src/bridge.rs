@@ -34,24 +34,26 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 /// What `parameter_bridge` answers to words that it does not understand.
 const NOT_UNDERSTOOD: u8 = 255;
 
-/// Topics and services in ROS 2 and in Gazebo, as `ros_gz_bridge`'s `parameter_bridge` has them
+/// Bridge topics and services between ROS 2 and Gazebo, as `parameter_bridge` of `ros_gz_bridge`
+/// does
 ///
-/// A topic is `/topic@ROS_TYPE@GZ_TYPE` both ways, with `[` before the type of Gazebo from Gazebo to ROS,
-/// with `]` from ROS to Gazebo. A service is `/service@ROS_TYPE`, with `@GZ_REQUEST@GZ_RESPONSE` if need
-/// be: ROS calls what Gazebo answers. `-r /lidar:=/laser_scan` renames in ROS alone. All of `--ros-args`
-/// is understood; of parameters `config_file`, `lazy` and `expand_gz_topic_names`.
+/// A topic is `/topic@ROS_TYPE@GZ_TYPE` for both directions; `[` before the Gazebo type means from
+/// Gazebo to ROS, `]` from ROS to Gazebo. A service is `/service@ROS_TYPE`, optionally with
+/// `@GZ_REQUEST@GZ_RESPONSE`: ROS nodes call services of Gazebo. `-r /lidar:=/laser_scan` remaps on
+/// the ROS side only. `--ros-args` is understood; parameters are `config_file`, `lazy` and
+/// `expand_gz_topic_names`.
 #[derive(Debug, Args)]
 pub(crate) struct BridgeOptions {
-    /// Topics and services
+    /// Topics and services to bridge
     #[arg(value_name = "/TOPIC@ROS_TYPE(@|[|])GZ_TYPE")]
     words: Vec<String>,
-    /// Topics as YAML, as the parameter `config_file` names it
+    /// Topics as YAML, like the parameter `config_file`
     #[arg(long, value_name = "FILE.yaml")]
     config: Option<PathBuf>,
-    /// Rename a topic, service or node in ROS: `from:=to`
+    /// Remap a topic, service or node on the ROS side: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
-    /// A parameter: `name:=value`
+    /// Parameter: `name:=value`
     #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE")]
     parameters: Vec<String>,
 }

@@ -10,13 +10,13 @@ use periplus_os::Machine;
 
 use crate::terminal::complain;
 
-/// Run case files, each of which says how a program of ROS behaves, against this one
+/// Run conformance cases: files that describe the behaviour of ROS programs
 ///
-/// Prints a table of kinds, and what is wrong. A kind that is not checked yet counts as not passed.
-/// Exit code 1 unless every case is passed.
+/// Prints a table of case kinds, and the failures. An unknown kind counts as not passed. Exit code
+/// 1 unless every case passes.
 #[derive(Debug, Args)]
 pub(crate) struct ConformanceOptions {
-    /// A folder of case files (JSON), or one of them
+    /// Folder of case files (JSON), or one file
     #[arg(value_name = "DIR")]
     path: PathBuf,
     /// Print JSON

@@ -21,18 +21,18 @@ use file::{File, read, read_text};
 /// What `periplus sim` takes for costmaps.
 #[derive(Debug, Args)]
 pub(crate) struct CostmapOptions {
-    /// Run the costmaps of a file with Nav2's parameters beside the robot: `local_costmap` and
-    /// `global_costmap`, as far as they are in it
+    /// Run the costmaps of a Nav2 parameter file beside the robot: `local_costmap` and
+    /// `global_costmap`, if the file has them
     #[arg(long, value_name = "nav2_params.yaml")]
     costmap: Option<PathBuf>,
-    /// At the end tell why the cell at this place is marked, or is not; of each costmap, in its own
+    /// At the end explain why the cell at this position is marked or free, for each costmap, in its
     /// frame [m]
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true, requires = "costmap")]
     costmap_cell: Vec<Place>,
-    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
+    /// At the end write each costmap to a folder as images in RViz's colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER", requires = "costmap")]
     costmap_picture: Option<PathBuf>,
-    /// Whose habits the costmaps have where distributions differ
+    /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main", requires = "costmap")]
     costmap_compat: Option<Compat>,
 }

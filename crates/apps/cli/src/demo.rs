@@ -33,26 +33,25 @@ const USUAL_S: f64 = 60.0;
 /// Where its results go, where nobody says.
 const USUAL_OUT: &str = "periplus-demo";
 
-/// Show a room with a robot: rays, pictures, a map that grows, costmaps
+/// Show a robot in a room: sensors, mapping, costmaps
 ///
-/// Opens a page in the browser, where the robot is driven with keys or the mouse. With `--headless` it
-/// drives by itself to what it has not seen yet, and writes a map, a bag, a report and pictures.
+/// Opens a page in the browser, where the robot is driven with keys or the mouse. With `--headless`
+/// it explores autonomously and writes a map, a bag, a report and images.
 #[derive(Debug, Args)]
 pub(crate) struct DemoOptions {
-    /// Without a page, as fast as can be, driving by itself
+    /// Run without a page, as fast as possible, exploring autonomously
     #[arg(long)]
     headless: bool,
-    /// Simulated seconds to run; without a page 60 where nothing is said
+    /// Duration of the run in simulated seconds [default with --headless: 60]
     #[arg(long, value_name = "SECONDS", value_parser = crate::sim::positive)]
     duration: Option<f64>,
-    /// The folder that map, bag, report and pictures are written to; without a page `periplus-demo`
-    /// where nothing is said
+    /// Folder for map, bag, report and images [default with --headless: `periplus-demo`]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Let it drive by itself though there is a page
+    /// Explore autonomously although there is a page
     #[arg(long)]
     explore: bool,
-    /// Open no browser
+    /// Do not open a browser
     #[arg(long)]
     no_browser: bool,
     /// Seed of all noise

@@ -21,23 +21,23 @@ use crate::sim::Robots;
 use crate::terminal;
 use crate::verbs::{Common, seconds, with_session};
 
-/// Tell what is wrong with what somebody set up, and which parameter to change
+/// Diagnose a running system or a file, and name the parameter to change
 ///
-/// Without a file it listens to what is running: ends of topics that do not fit, frames that nobody
-/// places, time that nobody tells, sensors that say nothing, who is in which domain. A world or robot
-/// (SDF, URDF, xacro) is simulated for two seconds and listened to likewise, before anything runs; of a
-/// YAML with parameters costmaps and times are looked at; a launch file is planned, and nothing is started. Exit code 1 when something is found.
+/// Without a file it examines the running system: QoS mismatches, missing transforms, missing
+/// /clock, silent sensors, programs in other domains. A world or robot (SDF, URDF, xacro) is
+/// simulated for two seconds and examined likewise; of a parameter file costmaps and clocks are
+/// examined; a launch file is planned, and nothing is started. Exit code 1: findings.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub(crate) struct DoctorOptions {
     #[command(subcommand)]
     command: Option<DoctorCommand>,
-    /// A world, a robot, a launch file, or a YAML with parameters; in place of what is running
+    /// World, robot, launch file or parameter file to examine, in place of the running system
     #[arg(value_name = "FILE|NAME:=VALUE")]
     words: Vec<String>,
     #[command(flatten)]
     robots: Robots,
-    /// Listen so long
+    /// Duration of the measurement [s]
     #[arg(long, short = 't', value_name = "SECONDS", default_value_t = 3.0, value_parser = seconds)]
     time: f64,
     #[command(flatten)]

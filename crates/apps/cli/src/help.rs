@@ -14,7 +14,7 @@ use examples::{EXAMPLES, Example};
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
-    ("Map, localize, avoid", &["slam", "localize", "map", "costmap"]),
+    ("Maps, localization, costmaps", &["slam", "localize", "map", "costmap"]),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

@@ -28,27 +28,26 @@ use crate::terminal::{self, working_folder};
 
 /// Run a launch file of ROS 1 or ROS 2
 ///
-/// Takes XML of roslaunch, and XML, YAML and Python of ROS 2, with no ROS on the machine; files in Python
-/// are evaluated by the python3 that is found on the PATH. Gazebo becomes the simulation, and nodes that
-/// are known become built-in ones; other programs run if the machine has them, and what is missing is
-/// told. With `--duration` it runs as fast as the machine can, and the same files, options and seed give
-/// the same bag, byte for byte; without it at the world's own pace until Ctrl-C, with ROS 2 on this
-/// machine.
+/// Runs XML of roslaunch, and XML, YAML and Python of ROS 2, without a ROS installation; Python files are
+/// evaluated by the python3 on the PATH. Gazebo becomes the simulation, and known nodes become built-in
+/// ones; other programs run if they are installed, and missing ones are reported. With `--duration` it runs
+/// as fast as possible, and the same files, options and seed give the same bag, byte for byte; without it
+/// at the world's real-time factor until Ctrl-C, on ROS 2 on this machine.
 #[derive(Debug, Args)]
 pub(crate) struct LaunchOptions {
-    /// A launch file, or a package and the name of one in it; then `name:=value`
+    /// Launch file, or a package and the name of a launch file in it; then `name:=value`
     #[arg(required = true, value_name = "PACKAGE FILE|FILE|NAME:=VALUE")]
     words: Vec<String>,
-    /// List the arguments that the file takes, and start nothing
+    /// List the arguments of the file without starting anything
     #[arg(short, long, visible_alias = "show-arguments")]
     show_args: bool,
-    /// Print the plan as JSON, and start nothing
+    /// Print the plan as JSON without starting anything
     #[arg(short, long, conflicts_with = "show_args")]
     print: bool,
     /// Run no code of the launch file: no Python, and no program that it names; xacro is built in
     #[arg(long)]
     no_code: bool,
-    /// Seconds that Python and each program may take while the launch file is evaluated
+    /// Time limit of Python and of each program while the launch file is evaluated [s]
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value = "60")]
     evaluation_limit: f64,
     #[command(flatten)]

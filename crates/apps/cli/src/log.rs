@@ -16,13 +16,13 @@ use crate::paths;
 /// What of a log is meant.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LogOptions {
-    /// The topic with the scans; without it the one with the most
+    /// Topic of the scans [default: the scan topic with the most messages]
     #[arg(long, value_name = "TOPIC")]
     pub(crate) scan_topic: Option<String>,
-    /// The frame in which odometry tells where the robot is
+    /// Frame of odometry
     #[arg(long, default_value = "odom", value_name = "FRAME")]
     pub(crate) odom_frame: String,
-    /// The frame of the robot; without it `base_footprint` or `base_link`, whichever the log has
+    /// Frame of the robot [default: `base_footprint` or `base_link`, whichever the log has]
     #[arg(long, value_name = "FRAME")]
     pub(crate) base_frame: Option<String>,
     /// Topic and frame that a file of parameters tells: they count where the log has them.

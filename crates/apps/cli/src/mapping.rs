@@ -24,8 +24,8 @@ const MOST_TOLD: usize = 10;
 /// What `periplus sim` takes for mapping.
 #[derive(Debug, Args)]
 pub(crate) struct MappingOptions {
-    /// Map while the robot drives, with the parameters of a file as `slam_toolbox` or `slam_gmapping`
-    /// have it; without a file with the defaults. In a run at full speed every scan counts
+    /// Build a map while the robot drives, with a parameter file of `slam_toolbox` or
+    /// `slam_gmapping` [default: default parameters]. At full speed every scan is processed
     #[arg(long, value_name = "FILE.yaml", num_args = 0..=1)]
     slam: Option<Option<PathBuf>>,
     #[command(flatten)]
@@ -35,12 +35,12 @@ pub(crate) struct MappingOptions {
 /// What goes with it.
 #[derive(Debug, Args)]
 pub(crate) struct MoreMapping {
-    /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
-    /// one that the file is for
+    /// Node to run: async, sync, localization, lifelong or gmapping [default: the one of the
+    /// parameter file]
     #[arg(long, value_name = "PROGRAM")]
     slam_node: Option<Program>,
-    /// At the end write map.yaml, map.pgm, map.png with the graph's poses and a red ring where passes
-    /// contradict each other, and map.session to a folder
+    /// At the end write map.yaml, map.pgm, map.session, and map.png with the poses of the graph and
+    /// red rings at contradictions to a folder
     #[arg(long, value_name = "DIR")]
     slam_out: Option<PathBuf>,
 }

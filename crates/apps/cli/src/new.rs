@@ -14,11 +14,11 @@ use periplus_resources::Host as _;
 use crate::{paths, terminal};
 use files::NewFile;
 
-/// Write a robot, a world or a package to start from
+/// Create a robot, a world or a package
 ///
-/// The files are small, commented and complete: `periplus check --strict` has nothing to say about them,
-/// `periplus sim` and `periplus launch` run them, and they work unchanged in ROS 2 with Gazebo. Nothing
-/// that exists is overwritten.
+/// The files are small, commented and complete: they pass `periplus check --strict`, `periplus sim`
+/// and `periplus launch` run them, and they work unchanged in ROS 2 with Gazebo. Existing files are
+/// never overwritten.
 #[derive(Debug, Subcommand)]
 pub(crate) enum NewCommand {
     Robot(RobotOptions),
@@ -53,8 +53,8 @@ pub(crate) struct WorldOptions {
 
 /// Write the folder NAME: a ROS 2 package with a robot, a room, a launch file and parameters
 ///
-/// `periplus launch NAME simulation.launch.py` starts the simulation, the filter of wheels and IMU,
-/// slam_toolbox or localization, and RViz; so does `ros2 launch` after `colcon build`.
+/// `periplus launch NAME simulation.launch.py` starts the simulation, the EKF, slam_toolbox or
+/// localization, and RViz; so does `ros2 launch` after `colcon build`.
 #[derive(Debug, Args)]
 pub(crate) struct PackageOptions {
     /// Name of the package, its folder and its robot
@@ -69,7 +69,7 @@ pub(crate) struct PackageOptions {
 /// Parts of a robot.
 #[derive(Debug, Args)]
 struct Parts {
-    /// Leave out a sensor; may be given several times
+    /// Omit a sensor; repeatable
     #[arg(long, value_enum, value_name = "SENSOR")]
     without: Vec<Sensor>,
 }
@@ -77,10 +77,10 @@ struct Parts {
 /// Destination and simulator.
 #[derive(Debug, Args)]
 struct Placement {
-    /// Simulator that the plugins are for, besides Periplus: Gazebo (Harmonic) or Gazebo Classic 11
+    /// Simulator for the plugins, besides Periplus: Gazebo Harmonic or Gazebo Classic 11
     #[arg(long, value_enum, value_name = "gz|classic", default_value_t = Simulator::Gz)]
     sim: Simulator,
-    /// Folder to write to [default: the working folder]
+    /// Output folder [default: the working folder]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -25,14 +25,15 @@ use crate::verbs::{
 };
 use crate::view::ViewOptions;
 
-/// Loads robots and worlds (URDF, xacro, SDF), says exactly what is wrong with them, converts between
-/// them, and simulates robots with all their sensors.
+/// Simulates mobile robots, builds maps, localizes and keeps costmaps from existing URDF, SDF and
+/// launch files. It needs no ROS, Gazebo or GPU, and appears on the network as ordinary ROS 2,
+/// Gazebo and Foxglove nodes.
 ///
-/// Without a command it shows a room with a robot in the browser, as `periplus demo` does.
+/// Without a command it runs `periplus demo`: a robot in a room, on a page in the browser.
 #[derive(Debug, Parser)]
 #[command(name = "periplus", version, max_term_width = 100)]
 pub(crate) struct Options {
-    /// When to use colours
+    /// Use of colours
     #[arg(long = "color", value_enum, default_value_t = Colour::Auto, global = true, value_name = "WHEN")]
     pub(crate) colour: Colour,
     #[command(subcommand)]
@@ -61,14 +62,14 @@ pub(crate) enum Command {
     Lifecycle(LifecycleOptions),
     Interface(InterfaceOptions),
     Tf(TfOptions),
-    /// Print the script that completes words of this command in a shell
+    /// Print the completion script for a shell
     Completions {
-        /// Which shell
+        /// Shell
         shell: clap_complete::Shell,
     },
-    /// Print the manual page, or write one for every command into a folder
+    /// Print the manual page, or write one per command to a folder
     Man {
-        /// The folder, such as /usr/local/share/man/man1
+        /// Output folder, such as /usr/local/share/man/man1
         folder: Option<PathBuf>,
     },
     Teleop(TeleopOptions),
@@ -81,10 +82,11 @@ pub(crate) enum Command {
     Doctor(Box<DoctorOptions>),
 }
 
-/// Tell what files hold and what is wrong with them
+/// Check robots, worlds and other files, and show their contents
 ///
 /// Reads URDF, xacro (expanded with `name:=value`), SDF and worlds of every version, launch files,
-/// and meshes (STL, OBJ, COLLADA, glTF). Exit code 1 when a file has an error.
+/// map YAML, parameter files, RViz files, and meshes (STL, OBJ, COLLADA, glTF). Exit code 1: an
+/// error.
 #[derive(Debug, Args)]
 pub(crate) struct CheckOptions {
     /// Files, and `name:=value` for xacro
@@ -93,7 +95,7 @@ pub(crate) struct CheckOptions {
     /// Print findings and contents as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print findings only, not what the files hold
+    /// Print findings only, without the contents
     #[arg(long, short)]
     pub(crate) quiet: bool,
     /// Exit with 1 for warnings too
@@ -106,27 +108,27 @@ pub(crate) struct CheckOptions {
 /// Convert a file: expand xacro, turn URDF into SDF, upgrade old SDF, resolve every pose, make a
 /// world of a map or floor plan
 ///
-/// The result goes to stdout or to `--output`, findings to stderr. Of the YAML of a map, or of a
-/// picture with `--resolution`, the occupied cells become walls, merged to boxes; the world's frame
-/// is that of the map.
+/// The result is written to stdout or to `--output`, findings to stderr. The occupied cells of a
+/// map YAML, or of an image with `--resolution`, become walls, merged to boxes, in the frame of the
+/// map.
 #[derive(Debug, Args)]
 pub(crate) struct ConvertOptions {
-    /// The file, and `name:=value` for xacro
+    /// File, and `name:=value` for xacro
     #[arg(required = true, value_name = "FILE|NAME:=VALUE")]
     pub(crate) words: Vec<String>,
-    /// What to write
+    /// Output format
     #[arg(long, value_enum)]
     pub(crate) to: Format,
     /// Convert only this model of the file
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
-    /// Where to write it
+    /// Output file
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// Side of a pixel of a floor plan [m]; dark pixels become walls
+    /// Pixel size of a floor plan [m]; dark pixels become walls
     #[arg(long, value_name = "METRES", value_parser = positive_metres)]
     pub(crate) resolution: Option<f64>,
-    /// Height of the walls of a map or floor plan [m]
+    /// Height of the walls [m]
     #[arg(long, value_name = "METRES", default_value_t = 2.5, value_parser = positive_metres)]
     pub(crate) wall_height: f64,
     #[command(flatten)]
@@ -145,9 +147,9 @@ fn positive_metres(text: &str) -> Result<f64, String> {
 
 #[derive(Debug, Args)]
 pub(crate) struct SearchOptions {
-    /// A folder to look in for packages, models and meshes, before GZ_SIM_RESOURCE_PATH,
+    /// Folder to search for packages, models and meshes, before GZ_SIM_RESOURCE_PATH,
     /// GAZEBO_MODEL_PATH, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and the folders around the file;
-    /// may be given several times
+    /// repeatable
     #[arg(long, value_name = "DIR")]
     pub(crate) resource_path: Vec<PathBuf>,
 }
@@ -155,7 +157,7 @@ pub(crate) struct SearchOptions {
 /// What a file is converted to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// A robot description; of a xacro file its expansion
+    /// A robot description; a xacro file is expanded
     Urdf,
     /// A world or model
     Sdf,
@@ -163,7 +165,7 @@ pub(crate) enum Format {
     Json,
 }
 
-/// When to use colours.
+/// Use of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Colour {
     /// On a terminal, unless NO_COLOR is set

@@ -24,8 +24,8 @@ pub(crate) const PORT: u16 = 8765;
 /// Where it is shown.
 #[derive(Debug, Args)]
 pub(crate) struct PageOptions {
-    /// Show it in a browser, at 127.0.0.1:8765 or where you say; Lichtblick and Foxglove attach there
-    /// too
+    /// Serve the page at 127.0.0.1:8765 or at another address; Lichtblick and Foxglove connect
+    /// there too
     #[arg(
         long,
         value_name = "ADDRESS:PORT",
@@ -35,8 +35,8 @@ pub(crate) struct PageOptions {
         value_parser = address
     )]
     pub(crate) page: Option<SocketAddr>,
-    /// What lets other machines, and pages from elsewhere, come in; where they reach the address and
-    /// none is given, one is made
+    /// Token that admits other machines and pages from elsewhere [default: a new one if other
+    /// machines reach the address]
     #[arg(long, value_name = "TOKEN", requires = "page")]
     pub(crate) token: Option<String>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct About {
     pub(crate) files: Vec<PathBuf>,
     /// Folders in which packages and models are looked for.
     pub(crate) resource_path: Vec<PathBuf>,
-    /// A file of RViz that the page opens.
+    /// RViz file that the page opens.
     pub(crate) view: Option<PathBuf>,
     /// Frame that the page draws in, in place of the one in `view`.
     pub(crate) fixed_frame: Option<String>,

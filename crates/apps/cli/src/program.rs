@@ -11,16 +11,16 @@ use periplus_resources::Store as _;
 use crate::options::{Command, Options};
 use crate::{launch, terminal};
 
-/// Run one program of a package, as `ros2 run` does: a node that is built in, or one of the machine's
+/// Run one program of a package, as `ros2 run` does: a built-in node, or an installed program
 ///
-/// It is a launch of one node, so the same programs are known.
+/// It launches one node, so the same programs are built in as for `periplus launch`.
 #[derive(Debug, Args)]
 pub(crate) struct RunOptions {
-    /// The package, such as nav2_costmap_2d
+    /// Package, such as nav2_costmap_2d
     package: String,
-    /// The program, such as nav2_costmap_2d_markers
+    /// Program, such as nav2_costmap_2d_markers
     program: String,
-    /// Its own words; names and parameters stand behind `--ros-args`
+    /// Arguments of the program; names and parameters follow `--ros-args`
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "WORD")]
     words: Vec<String>,
 }

@@ -41,22 +41,22 @@ pub(crate) use recording::RecordingWatch;
 pub(crate) use report::Report;
 pub(crate) use robots::Robots;
 
-/// Run a world with robots in it: physics, sensors, topics, and a bag of what was said
+/// Simulate robots in a world: physics, sensors, topics, and a recording
 ///
-/// The world is an SDF or a saved world; a robot's own file stands on a plane in the sun. Runs as
-/// fast as the machine can when `--duration` is given, otherwise at the world's own pace until
+/// The world is an SDF file or a saved world; a robot file alone is put on a plane under a sun.
+/// Runs as fast as possible with `--duration`, otherwise at the world's real-time factor until
 /// Ctrl-C. The same files, options and seed give the same bag, byte for byte.
 #[derive(Debug, Args)]
 pub(crate) struct SimOptions {
-    /// The world, and `name:=value` for its xacro
+    /// World, and `name:=value` for its xacro
     #[arg(value_name = "WORLD|NAME:=VALUE")]
     words: Vec<String>,
     #[command(flatten)]
     robots: Robots,
-    /// Simulated seconds to run; without it until Ctrl-C
+    /// Duration of the run in simulated seconds [default: until Ctrl-C]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
-    /// Write what is published to a bag: FILE.mcap, or a folder as `ros2 bag` makes it
+    /// Record published topics to a bag: FILE.mcap, or a folder in the format of `ros2 bag`
     #[arg(long, value_name = "FILE.mcap|FOLDER")]
     record: Option<std::path::PathBuf>,
     /// Record only topics that match this regular expression
@@ -65,42 +65,42 @@ pub(crate) struct SimOptions {
     /// Do not record topics that match this regular expression
     #[arg(long, value_name = "REGEX")]
     exclude: Option<regex::Regex>,
-    /// Measure topics that match this regular expression though nobody hears them, to see what they
-    /// cost
+    /// Simulate sensors of topics that match this regular expression even without subscribers, to
+    /// measure their cost
     #[arg(long, value_name = "REGEX")]
     hear: Option<regex::Regex>,
-    /// Drive by a script (YAML) or by the commands of a bag
+    /// Drive by a script (YAML) or by the velocity commands of a bag
     #[arg(long, value_name = "FILE")]
     cmd: Option<std::path::PathBuf>,
     /// Seed of all noise
     #[arg(long, default_value_t = 0, value_name = "NUMBER")]
     seed: u64,
-    /// How things move: with forces and contacts, or exactly as told on flat ground
+    /// Motion model: rigid bodies, or motion exactly as commanded on a flat floor
     #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
     dynamics: Dynamics,
-    /// Simulated seconds per second of the wall, or `max`
+    /// Real-time factor, or `max` for full speed
     #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
     rtf: Option<Factor>,
-    /// Step of the simulation in seconds, in place of the world's own
+    /// Simulation step [s] [default: that of the world]
     #[arg(long, value_name = "SECONDS", value_parser = step)]
     step: Option<f64>,
-    /// Threads for rays; the answers do not depend on it
+    /// Number of threads for rays; results do not depend on it
     #[arg(long, value_name = "NUMBER")]
     threads: Option<usize>,
-    /// Copy the oddities of Gazebo too, such as periods of whole milliseconds
+    /// Reproduce quirks of Gazebo, such as periods of whole milliseconds
     #[arg(long)]
     gz_quirks: bool,
-    /// Measure the beams of a lidar one after the other while the robot moves, as real ones do
+    /// Simulate the beams of a lidar one after the other while the robot moves, as real scanners do
     #[arg(long)]
     rolling_scans: bool,
-    /// Rename a topic, service or node: `from:=to`
+    /// Remap a topic, service or node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
-    /// Who can see the run: its topics, services and nodes; without it `loopback` where the run
-    /// keeps pace with the wall, or what ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
+    /// Visibility of the run on ROS 2: topics, services and nodes [default: at real time `loopback`
+    /// or ROS_AUTOMATIC_DISCOVERY_RANGE, at full speed `off`]
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
-    /// Let programs of Gazebo see the run: its topics, and the services of the world; `--gz=network`
+    /// Publish the run on Gazebo Transport: topics, and the services of the world; `--gz=network`
     /// beyond this machine
     #[arg(
         long,
@@ -111,19 +111,19 @@ pub(crate) struct SimOptions {
         default_missing_value = "loopback"
     )]
     gz: Option<GzReach>,
-    /// Which names types have for programs of Gazebo: those since Garden, or those of Fortress and of
+    /// Names of message types on Gazebo Transport: those since Garden, or those of Fortress and of
     /// Debian's `ign`
     #[arg(long, value_enum, value_name = "gz|ignition", default_value_t = GzTypes::Gz)]
     gz_types: GzTypes,
-    /// A parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
+    /// Parameter for all nodes that have it, or for one: `name:=value`, `node:name:=value`
     #[arg(long = "param", short = 'p', value_name = "[NODE:]NAME:=VALUE")]
     parameters: Vec<String>,
-    /// Parameters for nodes, as ROS 2 writes them; later ones win. All of `--ros-args` is understood too
+    /// Parameter file of ROS 2; later files win. `--ros-args` is understood too
     #[arg(long, value_name = "FILE")]
     params_file: Vec<String>,
-    /// Run the usual stack beside the robot: a filter of odometry and IMU where the robot publishes no
-    /// transform of its odometry, mapping (or with `--localize MAP.yaml` localization), and both
-    /// costmaps. Topics and frames are those of the robot
+    /// Run the usual nodes beside the robot: an EKF of odometry and IMU if the robot publishes no
+    /// odometry transform, SLAM (or localization with `--localize MAP.yaml`), and both costmaps.
+    /// Topics and frames are those of the robot
     #[arg(long)]
     stack: bool,
     #[command(flatten)]
@@ -134,13 +134,13 @@ pub(crate) struct SimOptions {
     mapping: MappingOptions,
     #[command(flatten)]
     page: PageOptions,
-    /// Open no browser on the page
+    /// Do not open a browser
     #[arg(long, requires = "page")]
     no_browser: bool,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]
@@ -151,7 +151,7 @@ pub(crate) struct SimOptions {
 enum Dynamics {
     /// Bodies, joints, contacts and friction
     Rigid,
-    /// Robots move exactly as commanded, through anything
+    /// Robots move exactly as commanded, without collisions
     Kinematic,
 }
 

@@ -31,37 +31,37 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 /// Longest time without looking whether anything is due.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Drive a robot by the keyboard, with the keys of `teleop_twist_keyboard`
+/// Drive a robot with the keyboard, with the keys of `teleop_twist_keyboard`
 ///
-/// Publishes on `cmd_vel`; `-r cmd_vel:=/demo/cmd_vel` names another topic. All of `--ros-args` is
-/// understood, and so are the parameters of `teleop_twist_keyboard`.
+/// Publishes on `cmd_vel`; `-r cmd_vel:=/demo/cmd_vel` selects another topic. `--ros-args` and the
+/// parameters of `teleop_twist_keyboard` are understood.
 #[derive(Debug, Args)]
 pub(crate) struct TeleopOptions {
-    /// Speed of straight motion at the start [m/s]
+    /// Initial linear speed [m/s]
     #[arg(long, value_name = "SPEED")]
     speed: Option<String>,
-    /// Speed of turns at the start [rad/s]
+    /// Initial angular speed [rad/s]
     #[arg(long, value_name = "SPEED")]
     turn: Option<String>,
-    /// The speed goes no higher [m/s]
+    /// Maximum linear speed [m/s]
     #[arg(long, value_name = "SPEED")]
     speed_limit: Option<String>,
-    /// The turn goes no higher [rad/s]
+    /// Maximum angular speed [rad/s]
     #[arg(long, value_name = "SPEED")]
     turn_limit: Option<String>,
-    /// Send velocities with a time and a frame (TwistStamped), as Nav2 and controllers want them
+    /// Publish stamped velocities (TwistStamped), as Nav2 and controllers expect
     #[arg(long)]
     stamped: bool,
-    /// The frame of velocities with a time
+    /// Frame of stamped velocities
     #[arg(long, value_name = "FRAME")]
     frame_id: Option<String>,
-    /// How often a velocity is sent again [Hz]; without it only once for each key
+    /// Rate at which the velocity is repeated [Hz] [default: once per key press]
     #[arg(long, value_name = "RATE")]
     repeat_rate: Option<String>,
-    /// Without a key for so long the robot stands still [s]
+    /// Time without a key after which the robot stops [s]
     #[arg(long, value_name = "SECONDS")]
     key_timeout: Option<String>,
-    /// Rename a topic or the node: `from:=to`
+    /// Remap a topic or the node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
 }

@@ -28,25 +28,24 @@ const LOOK_AROUND: Duration = Duration::from_millis(200);
 /// How long the last words may take to arrive.
 const LAST_WORD: Duration = Duration::from_millis(300);
 
-/// Show a running system in the browser: Periplus, or anything that speaks ROS 2
+/// Show a running ROS 2 system in the browser
 ///
-/// It joins the network as a node and brings only what the page asks for. Where somebody tells `/clock`,
-/// it lives by that.
+/// It joins the network as a node and subscribes only to what the page shows. It uses simulated
+/// time if `/clock` is published.
 #[derive(Debug, Args)]
 pub(crate) struct ViewOptions {
     #[command(flatten)]
     page: PageOptions,
-    /// Open no browser
+    /// Do not open a browser
     #[arg(long)]
     no_browser: bool,
-    /// A file of RViz that the page opens
+    /// RViz file that the page opens
     #[arg(long, short = 'd', value_name = "FILE.rviz")]
     display_config: Option<PathBuf>,
-    /// Frame that everything is drawn in, in place of the one that the file of RViz names
+    /// Fixed frame, in place of the one in the RViz file
     #[arg(long, short = 'f', value_name = "FRAME")]
     fixed_frame: Option<String>,
-    /// A folder to look in for packages with meshes, before those of the environment; may be given
-    /// several times
+    /// Folder to search for packages with meshes, before those of the environment; repeatable
     #[arg(long, value_name = "DIR")]
     resource_path: Vec<PathBuf>,
 }

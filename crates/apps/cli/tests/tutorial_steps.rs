@@ -38,7 +38,7 @@ fn tables() -> BTreeMap<String, Table> {
     for line in text.lines() {
         if let Some(title) = line.strip_prefix("## ") {
             title.clone_into(&mut name);
-        } else if let Some(list) = line.strip_prefix("Only to be read: ") {
+        } else if let Some(list) = line.strip_prefix("Lines without instructions: ") {
             tables.entry(name.clone()).or_default().read_only = numbers(list.trim_end_matches('.'));
         } else if line.starts_with("| ") && !line.starts_with("| lines") {
             let cells = line.trim_matches('|').split(" | ").map(|cell| cell.trim().to_owned());

@@ -6,10 +6,10 @@ use clap::{Args, Subcommand, ValueEnum};
 use periplus_bagfiles::{ChunkPacking, Packing, PackingMode, Storage};
 use periplus_bags::Style;
 
-/// Recordings: look into them, play and record, convert, cut, check and mend them
+/// Record, play, convert, cut, check and repair bags
 ///
-/// A recording is a folder of `ros2 bag` (MCAP or sqlite3, split, packed, with or without its
-/// metadata.yaml), a single .mcap or .db3, or a .bag of ROS 1, whole or cut.
+/// A recording is a folder of `ros2 bag` (MCAP or sqlite3, split, compressed, with or without
+/// metadata.yaml), a single .mcap or .db3 file, or a .bag file of ROS 1, complete or truncated.
 #[derive(Debug, Subcommand)]
 pub(crate) enum BagCommand {
     Info(InfoOptions),
@@ -21,35 +21,35 @@ pub(crate) enum BagCommand {
     Reindex(ReindexOptions),
 }
 
-/// Tell what recordings hold, as `ros2 bag info` does
+/// Show the contents of recordings, as `ros2 bag info` does
 #[derive(Debug, Args)]
 pub(crate) struct InfoOptions {
-    /// The recordings
+    /// Recordings
     #[arg(required = true, value_name = "BAG")]
     pub(crate) bags: Vec<PathBuf>,
     /// Print only the names of the topics
     #[arg(long, short)]
     pub(crate) topic_name: bool,
-    /// Print it as JSON
+    /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
 
-/// Convert recordings, several into one, between ROS 1 and ROS 2 and all their kinds of files
+/// Convert and merge recordings, between ROS 1 and ROS 2 and all their file formats
 ///
-/// The ending of the result says what it becomes: .mcap, .db3, .bag, or a folder as `ros2 bag`
-/// makes it. Messages stay in the order of their times. What ROS 1 and ROS 2 hold differently is
-/// translated; what cannot be is left out and named.
+/// The extension of the output selects the format: .mcap, .db3, .bag, or a folder of `ros2 bag`.
+/// Messages stay in the order of their times. Messages are translated between ROS 1 and ROS 2;
+/// those that cannot be translated are omitted and reported.
 #[derive(Debug, Args)]
 pub(crate) struct ConvertOptions {
-    /// The recordings
+    /// Recordings
     #[arg(value_name = "BAG", required_unless_present = "input")]
     pub(crate) bags: Vec<PathBuf>,
-    /// A recording, as `ros2 bag convert` has it; may be given several times
+    /// Input recording, as for `ros2 bag convert`; repeatable
     #[arg(long, short, value_name = "BAG")]
     pub(crate) input: Vec<PathBuf>,
-    /// The new file or folder; or a YAML file with `output_bags`, as `ros2 bag convert` reads it, which
-    /// names one or many and says what each holds and how
+    /// Output file or folder; or a YAML file with `output_bags`, as for `ros2 bag convert`, with
+    /// one or several outputs
     #[arg(long, short, visible_alias = "output-options", value_name = "FILE|FOLDER|YAML")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
@@ -58,13 +58,13 @@ pub(crate) struct ConvertOptions {
     pub(crate) write: WriteOptions,
 }
 
-/// Copy a part of a recording: some time, some topics
+/// Copy a part of a recording: an interval, or some topics
 #[derive(Debug, Args)]
 pub(crate) struct CutOptions {
-    /// The recording
+    /// Recording
     #[arg(value_name = "BAG")]
     pub(crate) bag: PathBuf,
-    /// The new file or folder
+    /// Output file or folder
     #[arg(long, short, value_name = "FILE|FOLDER")]
     pub(crate) output: PathBuf,
     #[command(flatten)]
@@ -73,13 +73,13 @@ pub(crate) struct CutOptions {
     pub(crate) write: WriteOptions,
 }
 
-/// Read every byte and decode every message; exit code 1 when anything is wrong
+/// Read every byte and decode every message; exit code 1 on any error
 #[derive(Debug, Args)]
 pub(crate) struct CheckOptions {
-    /// The recordings
+    /// Recordings
     #[arg(required = true, value_name = "BAG")]
     pub(crate) bags: Vec<PathBuf>,
-    /// Print what is wrong as JSON
+    /// Print findings as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -87,49 +87,49 @@ pub(crate) struct CheckOptions {
 /// Play a recording to ROS 2, also one of ROS 1
 #[derive(Debug, Args)]
 pub(crate) struct PlayOptions {
-    /// The recording
+    /// Recording
     #[arg(value_name = "BAG")]
     pub(crate) bag: PathBuf,
-    /// Seconds of the recording per second
+    /// Playback rate: seconds of the recording per second
     #[arg(long, short, default_value_t = 1.0, value_name = "FACTOR")]
     pub(crate) rate: f64,
-    /// Begin again at the end
+    /// Restart at the end
     #[arg(long = "loop", short)]
     pub(crate) is_looped: bool,
     #[command(flatten)]
     pub(crate) names: NameOptions,
-    /// From so many seconds after the beginning
+    /// Start this many seconds after the beginning
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) start_offset: Option<i64>,
-    /// So many seconds of the recording
+    /// Duration to play, in seconds of the recording
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) playback_duration: Option<i64>,
-    /// Until this time of the recording, in seconds
+    /// End of playback, in seconds of the recording
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "playback_duration")]
     pub(crate) playback_until_sec: Option<i64>,
-    /// Names of topics to change: `from:=to`
+    /// Remap topics: `from:=to`
     #[arg(long, short = 'm', num_args = 1.., value_name = "FROM:=TO")]
     pub(crate) remap: Vec<String>,
-    /// Tell the time of the recording on /clock, so often a second of it
+    /// Publish the time of the recording on /clock, at this rate [Hz]
     #[arg(long, num_args = 0..=1, default_missing_value = "40", value_name = "HZ")]
     pub(crate) clock: Option<f64>,
-    /// So many messages are read ahead
+    /// Number of messages that are read ahead
     #[arg(long, default_value_t = 1000, value_name = "NUMBER")]
     pub(crate) read_ahead_queue_size: usize,
-    /// Wait for the key ENTER, and stop and go on by it
+    /// Start paused; the ENTER key resumes and pauses
     #[arg(long, short = 'p')]
     pub(crate) start_paused: bool,
-    /// Wait so many seconds at first
+    /// Delay before the start [s]
     #[arg(long, short, default_value = "0", value_name = "SECONDS", value_parser = seconds)]
     pub(crate) delay: i64,
 }
 
-/// Record what is said on ROS 2
+/// Record topics of ROS 2
 ///
-/// What is a second old is on the disk, however the program ends. Ctrl-C ends the recording.
+/// Data is flushed every second. Ctrl-C ends the recording.
 #[derive(Debug, Args)]
 pub(crate) struct RecordOptions {
-    /// The topics to record
+    /// Topics to record
     #[arg(value_name = "TOPIC")]
     pub(crate) topics: Vec<String>,
     /// Record all topics
@@ -138,32 +138,32 @@ pub(crate) struct RecordOptions {
     /// Record topics that match this regular expression
     #[arg(long, short = 'e', value_name = "REGEX")]
     pub(crate) regex: Option<regex::Regex>,
-    /// Not those that match this regular expression
+    /// Exclude names that match this regular expression
     #[arg(long, short = 'x', visible_alias = "exclude-regex", value_name = "REGEX")]
     pub(crate) exclude: Option<regex::Regex>,
-    /// Not these topics
+    /// Exclude these topics
     #[arg(long, num_args = 1.., value_name = "TOPIC")]
     pub(crate) exclude_topics: Vec<String>,
-    /// Topics too whose names begin with an underscore
+    /// Include topics whose names begin with an underscore
     #[arg(long)]
     pub(crate) include_hidden_topics: bool,
-    /// The new file or folder; named by the time if not given
+    /// Output file or folder [default: named by the time]
     #[arg(long, short, value_name = "FILE|FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// The times are those of /clock
+    /// Use simulated time (/clock)
     #[arg(long)]
     pub(crate) use_sim_time: bool,
     #[command(flatten)]
     pub(crate) write: WriteOptions,
 }
 
-/// Write the metadata.yaml of a folder anew, from what is in its files
+/// Rewrite the metadata.yaml of a folder from its files
 #[derive(Debug, Args)]
 pub(crate) struct ReindexOptions {
-    /// The folder
+    /// Folder
     #[arg(value_name = "FOLDER")]
     pub(crate) bag: PathBuf,
-    /// For which readers
+    /// Format of the metadata
     #[arg(long, value_enum, default_value_t = Readers::Jazzy)]
     pub(crate) style: Readers,
 }
@@ -171,16 +171,16 @@ pub(crate) struct ReindexOptions {
 /// Which topics.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct NameOptions {
-    /// Only these topics
+    /// Include only these topics
     #[arg(long, num_args = 1.., value_name = "TOPIC")]
     pub(crate) topics: Vec<String>,
-    /// Only topics that match this regular expression
+    /// Include only topics that match this regular expression
     #[arg(long, short = 'e', value_name = "REGEX")]
     pub(crate) regex: Option<regex::Regex>,
-    /// Not these topics
+    /// Exclude these topics
     #[arg(long, num_args = 1.., value_name = "TOPIC")]
     pub(crate) exclude_topics: Vec<String>,
-    /// No topics that match this regular expression
+    /// Exclude topics that match this regular expression
     #[arg(long, short = 'x', value_name = "REGEX")]
     pub(crate) exclude_regex: Option<regex::Regex>,
 }
@@ -190,16 +190,16 @@ pub(crate) struct NameOptions {
 pub(crate) struct SelectOptions {
     #[command(flatten)]
     pub(crate) names: NameOptions,
-    /// From so many seconds after the beginning
+    /// Start this many seconds after the beginning
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) start_offset: Option<i64>,
-    /// So many seconds from there
+    /// Duration of the part [s]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) duration: Option<i64>,
-    /// From this time, in seconds since 1970 or of the simulation
+    /// Start time, in seconds since 1970 or of the simulation
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "start_offset")]
     pub(crate) start: Option<i64>,
-    /// Until this time, in seconds since 1970 or of the simulation
+    /// End time, in seconds since 1970 or of the simulation
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "duration")]
     pub(crate) end: Option<i64>,
 }
@@ -207,25 +207,25 @@ pub(crate) struct SelectOptions {
 /// How recordings are written.
 #[derive(Debug, Default, Args)]
 pub(crate) struct WriteOptions {
-    /// How files are stored, where the ending does not say it
+    /// Storage format, if the extension does not define it
     #[arg(long, short, value_enum)]
     pub(crate) storage: Option<StorageId>,
-    /// How the chunks inside of files are packed: MCAP has none, lz4, zstd, ROS 1 none, lz4, bz2
+    /// Compression of chunks: none, lz4 or zstd for MCAP; none, lz4 or bz2 for ROS 1
     #[arg(long, value_enum)]
     pub(crate) chunks: Option<Chunks>,
-    /// Pack whole files or every message besides
+    /// Compress whole files or each message
     #[arg(long, value_enum, default_value_t = Mode::None)]
     pub(crate) compression_mode: Mode,
-    /// How files or messages are packed
+    /// Compression of files or messages
     #[arg(long, value_enum, default_value_t = Format::Zstd)]
     pub(crate) compression_format: Format,
-    /// A new file begins when one has so many bytes
+    /// Maximum size of a file [bytes]
     #[arg(long, short = 'b', value_name = "BYTES")]
     pub(crate) max_bag_size: Option<u64>,
-    /// A new file begins when one spans so many seconds
+    /// Maximum duration of a file [s]
     #[arg(long, short = 'd', value_name = "SECONDS", value_parser = seconds)]
     pub(crate) max_bag_duration: Option<i64>,
-    /// For which readers the metadata is written
+    /// Format of the metadata
     #[arg(long, value_enum, default_value_t = Readers::Jazzy)]
     pub(crate) style: Readers,
 }
@@ -289,10 +289,10 @@ impl From<Mode> for PackingMode {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// The one that `ros2 bag` comes with
+    /// The default of `ros2 bag`
     #[default]
     Zstd,
-    /// For `ros2 bag` with a plugin
+    /// LZ4; `ros2 bag` needs a plugin for it
     Lz4,
 }
 

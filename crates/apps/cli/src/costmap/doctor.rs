@@ -11,17 +11,17 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use super::file::{File, read, read_text};
 use crate::terminal;
 
-/// Tell what is wrong with a file of Nav2's parameters for its costmaps
+/// Check the costmaps of a Nav2 parameter file
 ///
-/// Parameters nobody reads, layers that are not known, sources that can never mark or clear; each with
-/// its place and what to write. With `periplus sim WORLD --costmap FILE` the costmaps run and tell
-/// where points get lost. Exit code 1 when something is an error.
+/// Reports unread parameters, unknown layers, and sources that can never mark or clear, each with
+/// its line and a correction. `periplus sim WORLD --costmap FILE` runs the costmaps and reports
+/// dropped points. Exit code 1: an error.
 #[derive(Debug, Args)]
 pub(crate) struct DoctorCostmapOptions {
-    /// The file
+    /// Parameter file
     #[arg(value_name = "nav2_params.yaml")]
     file: PathBuf,
-    /// Whose habits the costmaps have where distributions differ
+    /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main")]
     compat: Option<Compat>,
 }

@@ -23,35 +23,34 @@ const LOOK: Duration = Duration::from_millis(5);
 /// How long the last words may take to arrive.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
-/// Run the costmaps of a file with Nav2's parameters for a robot on ROS 2: `local_costmap` and
-/// `global_costmap`, as far as they are in it
+/// Run the costmaps of a Nav2 parameter file for a robot on ROS 2: `local_costmap` and
+/// `global_costmap`, if the file has them
 ///
-/// Managed nodes that configure and activate themselves, unless `--managed` leaves that to a lifecycle
-/// manager. They hear and tell what Nav2's do. Ctrl-C ends them, and tells what they lived on: which
-/// topics were silent, where points got lost, and the parameter to change. All of `--ros-args` is
-/// understood.
+/// Lifecycle nodes that configure and activate themselves; with `--managed` they wait for a
+/// lifecycle manager. They have the topics and services of Nav2's. Ctrl-C stops them and prints a
+/// report: silent topics, dropped points, and the parameter to change. `--ros-args` is understood.
 #[derive(Debug, Args)]
 pub(crate) struct CostmapServeOptions {
-    /// The file
+    /// Parameter file
     #[arg(value_name = "nav2_params.yaml")]
     file: PathBuf,
-    /// Whose habits the costmaps have where distributions differ
+    /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main")]
     compat: Option<Compat>,
-    /// Wait until others configure and activate them
+    /// Wait for a lifecycle manager to configure and activate them
     #[arg(long)]
     managed: bool,
-    /// At the end tell why the cell at this place is marked, or is not; of each costmap, in its own
+    /// At the end explain why the cell at this position is marked or free, for each costmap, in its
     /// frame [m]
     #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     cell: Vec<Place>,
-    /// At the end write each costmap to a folder as pictures in RViz' colours: costmap, map and raw
+    /// At the end write each costmap to a folder as images in RViz's colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER")]
     picture: Option<PathBuf>,
-    /// Time is that of /clock, also if the file does not say so
+    /// Use simulated time (/clock), even if the file does not set it
     #[arg(long)]
     use_sim_time: bool,
-    /// Rename a topic or a node: `from:=to`
+    /// Remap a topic or node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
 }

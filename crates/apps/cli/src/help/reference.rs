@@ -78,7 +78,7 @@ fn index(program: &Command) -> String {
 
 /// A command and all below it, under headings of a level.
 fn write_command(page: &mut String, command: &Command, path: &str, level: usize) {
-    let _ = write!(page, "{} periplus {path}\n", "#".repeat(level));
+    let _ = writeln!(page, "{} periplus {path}", "#".repeat(level));
     if let Some(about) = command.get_long_about().or_else(|| command.get_about()) {
         let text = paragraphs(&about.to_string()).join("\n\n");
         let stop = if text.ends_with(['.', ':', '!', '?']) { "" } else { "." };
@@ -168,7 +168,7 @@ fn write_argument(page: &mut String, argument: &Arg) {
         page.push('\n');
         for value in possible.iter().filter(|value| !value.is_hide_set()) {
             let help = value.get_help().map(|help| escaped(&help.to_string())).unwrap_or_default();
-            let _ = write!(page, "  - `{}`: {help}\n", value.get_name());
+            let _ = writeln!(page, "  - `{}`: {help}", value.get_name());
         }
         return;
     }

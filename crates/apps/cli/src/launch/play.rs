@@ -46,10 +46,10 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 /// How a plan is run.
 #[derive(Debug, Args)]
 pub(crate) struct PlayOptions {
-    /// Seconds to run, simulated ones where a world is; without it until Ctrl-C
+    /// Duration of the run [s]; simulated seconds if there is a world [default: until Ctrl-C]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
-    /// Write what is published to a bag: FILE.mcap, or a folder as `ros2 bag` makes it
+    /// Record published topics to a bag: FILE.mcap, or a folder in the format of `ros2 bag`
     #[arg(long, visible_alias = "out", value_name = "FILE.mcap|FOLDER")]
     record: Option<PathBuf>,
     /// Record only topics that match this regular expression
@@ -58,31 +58,31 @@ pub(crate) struct PlayOptions {
     /// Do not record topics that match this regular expression
     #[arg(long, value_name = "REGEX")]
     exclude: Option<regex::Regex>,
-    /// Simulated seconds per second of the wall, or `max`
+    /// Real-time factor, or `max` for full speed
     #[arg(long, visible_alias = "speed", value_name = "FACTOR|max", value_parser = factor)]
     rtf: Option<Factor>,
-    /// Seed of all noise, in place of the one that Gazebo is given
+    /// Seed of all noise, in place of Gazebo's
     #[arg(long, value_name = "NUMBER")]
     seed: Option<u64>,
-    /// Who can see the run; without it `loopback` where the run keeps pace with the wall, or what
-    /// ROS_AUTOMATIC_DISCOVERY_RANGE says, and `off` at full speed
+    /// Visibility of the run on ROS 2 [default: at real time `loopback` or
+    /// ROS_AUTOMATIC_DISCOVERY_RANGE, at full speed `off`]
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
     #[command(flatten)]
     page: PageOptions,
-    /// Show nothing where the launch file starts RViz or a window of Gazebo
+    /// Show no page when the launch file starts RViz or a window of Gazebo
     #[arg(long)]
     headless: bool,
-    /// Open the page for them, and no browser
+    /// Serve the page, but do not open a browser
     #[arg(long)]
     no_browser: bool,
-    /// Threads for rays; the answers do not depend on it
+    /// Number of threads for rays; results do not depend on it
     #[arg(long, value_name = "NUMBER")]
     threads: Option<usize>,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(long, short)]
     pub(super) quiet: bool,
 }

@@ -18,8 +18,8 @@ use crate::sim::stack::RobotProfile;
 /// What `periplus sim` takes for localization.
 #[derive(Debug, Args)]
 pub(crate) struct BesideOptions {
-    /// Find the robot on a map beside it, as `map_server` and `amcl` of Nav2 do: the YAML of a map, a
-    /// file with their parameters, or both, one after the other
+    /// Run `map_server` and `amcl` of Nav2 beside the robot: the YAML of a map, a file with their
+    /// parameters, or both, separated by a space
     #[arg(long, value_name = "MAP.yaml|FILE")]
     localize: Vec<PathBuf>,
 }

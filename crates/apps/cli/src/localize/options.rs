@@ -15,45 +15,44 @@ use periplus_yaml::Node;
 use crate::log::LogOptions;
 use crate::terminal;
 
-/// Find where a robot was on a known map from a log of laser scans, or where it is
+/// Localize a robot on a known map, from a log of laser scans or live
 ///
-/// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
-/// bag`). DIR receives trajectory.txt (a line for each scan: `stamp x y theta`), trajectory.png and
-/// report.json, which tells when the robot knew where it was, when it did not, and why. With `--live`
-/// it is the node `amcl` among the programs of ROS 2. The exit code is 1 when the robot never knew
-/// where it was.
+/// LOG is a CARMEN log or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
+/// bag`). DIR receives trajectory.txt (one line per scan: `stamp x y theta`), trajectory.png and
+/// report.json with each change of the localization state and its reason. With `--live` it runs as
+/// the node `amcl` on ROS 2. The exit code is 1 if the robot was never localized.
 #[derive(Debug, Args)]
 pub(crate) struct LocalizeOptions {
-    /// The log
+    /// Log
     #[arg(value_name = "LOG", required_unless_present = "live", conflicts_with = "live")]
     pub(crate) log: Option<PathBuf>,
-    /// Join ROS 2 as the node `amcl` and stay
+    /// Run as the node `amcl` on ROS 2
     #[arg(long)]
     pub(crate) live: bool,
-    /// The YAML of the map; with `--live` it is served, too, and without it comes from the topic
+    /// YAML of the map; with `--live` it is also served [default with --live: the map topic]
     #[arg(long, value_name = "MAP.yaml", required_unless_present = "live")]
     pub(crate) map: Option<PathBuf>,
-    /// Where the results go
+    /// Output folder
     #[arg(long, short, value_name = "DIR", required_unless_present = "live")]
     pub(crate) out: Option<PathBuf>,
-    /// A file with parameters of `amcl`, as Nav2 or ROS 1 have them
+    /// Parameter file of `amcl`, in the format of Nav2 or ROS 1
     #[arg(long, value_name = "FILE")]
     pub(crate) params_file: Option<PathBuf>,
-    /// A parameter of `amcl`; goes before those of the file
+    /// Parameter of `amcl`; overrides the file
     #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE", value_parser = word)]
     pub(crate) parameters: Vec<(String, String)>,
-    /// Seed of all randomness
+    /// Seed of the random numbers
     #[arg(long, value_name = "NUMBER")]
     pub(crate) seed: Option<i64>,
-    /// Where the robot is at first [m, rad]; without it, it looks for itself
+    /// Initial pose of the robot [m, rad] [default: global localization]
     #[arg(long, value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true)]
     pub(crate) initial_pose: Option<Pose2>,
-    /// Leave out so many seconds of the log at its beginning
+    /// Skip this many seconds at the beginning of the log
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0)]
     pub(crate) skip: f64,
     #[command(flatten)]
     pub(crate) input: LogOptions,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }

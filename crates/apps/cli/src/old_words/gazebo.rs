@@ -29,15 +29,15 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
         "param" => become_words(&["param"], vec!["list".into()]),
         "joint" | "physics" | "camera" => lacking(
             &format!("{program} {verb}"),
-            "the world's services do that: `periplus service list`",
+            "use the services of the world: `periplus service list`",
         ),
         "msg" => lacking(
             &format!("{program} msg"),
-            "messages are those of ROS: `periplus interface show sensor_msgs/msg/LaserScan`",
+            "message types are those of ROS: `periplus interface show sensor_msgs/msg/LaserScan`",
         ),
         "fuel" => lacking(
             &format!("{program} fuel"),
-            "nothing is fetched: put the model's folder on GZ_SIM_RESOURCE_PATH or beside the world",
+            "nothing is downloaded: put the folder of the model on GZ_SIM_RESOURCE_PATH or beside the world",
         ),
         "gui" => become_words(&["view"], Vec::new()),
         "world" => lacking(
@@ -47,7 +47,7 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
         ),
         "plugin" => lacking(
             &format!("{program} plugin"),
-            "plugins are built in: `periplus check WORLD` tells which are known",
+            "plugins are built in: `periplus check WORLD` reports unknown ones",
         ),
         "--help" | "-h" => {
             needless(format!("`{program}` takes {}; see `periplus --help`", WORDS.join(", ")))

@@ -43,10 +43,10 @@ const fn tool(
     Program { packages, names, words, is_node: false, note }
 }
 
-const PAGE: &str = "the page in the browser is what RViz and rqt show: displays are added there, and files \
-                    of RViz are opened there";
+const PAGE: &str =
+    "the page in the browser replaces RViz and rqt: it has their displays and opens `.rviz` files";
 const ACTIVE: &str =
-    "it configures and activates itself; `--managed` leaves that to a lifecycle manager";
+    "it configures and activates itself; with `--managed` it waits for a lifecycle manager";
 
 /// All that have one. Whatever else is run becomes `periplus run PACKAGE PROGRAM`.
 const PROGRAMS: &[Program] = &[
@@ -231,9 +231,9 @@ fn mistaken_saver(package: &str, words: Words) -> Reading {
         &["map", "save"]
     };
     let rest = words.own.iter().cloned().chain(words.ros()).collect();
-    words.remark(become_words(ours, rest)).noting(format!(
-        "`map_server` serves maps; the one that saves is `{saver} -f NAME`, which is taken"
-    ))
+    words
+        .remark(become_words(ours, rest))
+        .noting(format!("`map_server` serves maps; to save one, `{saver} -f NAME` runs instead"))
 }
 
 /// That of ROS 1's `tf` has a period at the end: 9 words with angles, 10 with a quaternion.
@@ -398,8 +398,8 @@ impl Words {
     fn remark(&self, reading: Reading) -> Reading {
         if self.is_old {
             return reading.noting(
-                "`from:=to` alone is ROS 1's way, and programs of ROS 2 do not hear it; theirs is \
-                 `--ros-args -r from:=to`, which is taken",
+                "`from:=to` is the syntax of ROS 1, which ROS 2 programs ignore; `--ros-args -r from:=to` is \
+                 used instead",
             );
         }
         reading

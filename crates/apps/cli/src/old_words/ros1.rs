@@ -122,12 +122,11 @@ fn service(verb: &str, rest: &[String]) -> Reading {
     match (verb, rest) {
         ("call", [name]) => {
             let call = [name.clone(), "std_srvs/srv/Empty".to_owned()];
-            become_words(&["service", "call"], call.to_vec()).noting(
-                "of a service without words behind it the type is taken to be std_srvs/srv/Empty",
-            )
+            become_words(&["service", "call"], call.to_vec())
+                .noting("a call without values has the type std_srvs/srv/Empty")
         }
         ("call", [name, ..]) => elsewhere(format!(
-            "calls name the type of the service: `periplus service type {name}` tells it, then \
+            "a call needs the type of the service: `periplus service type {name}` prints it, then \
              `periplus service call {name} TYPE VALUES`"
         )),
         ("list" | "type" | "info" | "find", _) => become_words(&["service", verb], rest.to_vec()),
@@ -154,7 +153,7 @@ fn parameter(verb: &str, rest: &[String]) -> Reading {
             }
             None => elsewhere(format!(
                 "parameters belong to nodes: `periplus param {verb} NODE {}`; `periplus param list` \
-                 tells which have it",
+                 lists them",
                 name.trim_start_matches('/')
             )),
         },

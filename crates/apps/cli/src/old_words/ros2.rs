@@ -40,8 +40,8 @@ pub(super) fn read(words: &[String]) -> Reading {
         },
         "doctor" | "wtf" => become_words(&["doctor"], doctored(rest)),
         "multicast" => become_words(&["doctor"], Vec::new())
-            .noting("the doctor looks whether multicast works, and who is there"),
-        "daemon" => needless("there is no daemon: every command looks for itself"),
+            .noting("the doctor tests multicast and lists other programs"),
+        "daemon" => needless("there is no daemon: every command discovers the network itself"),
         "pkg" => package(rest),
         "component" => lacking(
             "ros2 component",
@@ -51,9 +51,7 @@ pub(super) fn read(words: &[String]) -> Reading {
             "ros2 control",
             "the simulation drives robots by Gazebo's own plugins, not by ros2_control",
         ),
-        "security" => {
-            lacking("ros2 security", "no keys are made here, and topics are not encrypted")
-        }
+        "security" => lacking("ros2 security", "DDS Security is not supported"),
         "test" => lacking("ros2 test", "run tests of launch files where ROS 2 is installed"),
         "--help" | "-h" => needless(format!(
             "`ros2` takes {}; `periplus ros2 WORD --help` explains one of them",
@@ -91,7 +89,7 @@ pub(super) fn without(reading: Reading, dropped: &[String]) -> Reading {
     if dropped.is_empty() {
         return reading;
     }
-    reading.noting(format!("`{}` has no meaning here and is left out", dropped.join(" ")))
+    reading.noting(format!("`{}` has no effect here and is omitted", dropped.join(" ")))
 }
 
 fn doctored(rest: &[String]) -> Vec<String> {

@@ -3,8 +3,8 @@
 use super::Reading;
 use super::answers::{elsewhere, needless, with_packages};
 
-const NOT_BUILT: &str = "nothing needs building: packages are found by their package.xml, under the \
-                         working folder and on --resource-path; here are those that are found";
+const NOT_BUILT: &str = "nothing needs building: packages are found by their package.xml below the working \
+                         folder and on --resource-path; packages found";
 
 /// Variables of the environment that mean something to Periplus.
 const VARIABLES: [&str; 14] = [
@@ -36,7 +36,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
         | "make"
         | "rosmake" => with_packages(NOT_BUILT),
         "rosdep" | "vcs" | "rosinstall" | "wstool" => needless(format!(
-            "nothing needs installing: what `{program}` would bring, Periplus has built in"
+            "nothing needs installing: the dependencies that `{program}` installs are built in"
         )),
         "apt" | "apt-get" | "snap" | "brew" | "dnf" | "pacman" | "aptitude" | "dpkg"
         | "apt-key" | "add-apt-repository" => installed(verb, rest),
@@ -46,7 +46,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
         },
         "pip" | "pip3" | "conda" | "mamba" | "pixi" => installed(verb, rest),
         "source" | "." => needless(
-            "nothing needs to be sourced: Periplus needs no setup file; type the command that follows",
+            "nothing needs to be sourced: Periplus has no setup file; type the next command",
         ),
         "export" | "set" | "setenv" => exported(rest),
         "unset" | "alias" | "echo" | "cd" | "mkdir" | "git" | "code" | "nano" | "gedit" | "vim"
@@ -54,7 +54,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
         | "curl" | "unzip" | "tar" | "pwd" | "less" | "head" | "tail" | "evince" | "xdg-open"
         | "eog" | "killall" | "kill" | "ps" | "which" | "python" | "python3" | "bash" | "sh" => {
             let line = [&[program.to_owned()], rest].concat().join(" ");
-            elsewhere(format!("`{program}` is the shell's: type `{line}` without `periplus`"))
+            elsewhere(format!("`{program}` is a shell command: type `{line}` without `periplus`"))
         }
         _ => return None,
     })
@@ -63,7 +63,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
 fn installed(verb: &str, rest: &[String]) -> Reading {
     if !matches!(verb, "install" | "update" | "upgrade" | "reinstall" | "full-upgrade" | "" | "-i")
     {
-        return elsewhere("that is for the package manager: type it without `periplus`");
+        return elsewhere("this is a command of the package manager: type it without `periplus`");
     }
     let wanted: Vec<&str> = rest
         .iter()
@@ -79,14 +79,11 @@ fn installed(verb: &str, rest: &[String]) -> Reading {
     };
     let others: Vec<&str> = wanted.iter().copied().filter(|name| !built_in(name)).collect();
     let mut text = String::from(
-        "nothing needs installing: simulator, mapping, localization, costmaps, bridge and viewer are \
-         in this one program",
+        "nothing needs installing: simulator, SLAM, localization, costmaps, bridge and viewer are built \
+         in",
     );
     if !others.is_empty() {
-        text += &format!(
-            "; if you need {} for something else, install it without `periplus`",
-            others.join(", ")
-        );
+        text += &format!("; to install {}, type the command without `periplus`", others.join(", "));
     }
     needless(text)
 }
@@ -96,10 +93,12 @@ fn exported(rest: &[String]) -> Reading {
     let name = assignment.split('=').next().unwrap_or_default().trim();
     let line = format!("type `export {assignment}` without `periplus`");
     if VARIABLES.contains(&name) {
-        return elsewhere(format!("variables are the shell's: {line}; Periplus reads {name}"));
+        return elsewhere(format!("variables are set in the shell: {line}; Periplus reads {name}"));
     }
     if name == "TURTLEBOT3_MODEL" {
-        return elsewhere(format!("variables are the shell's: {line}; launch files read {name}"));
+        return elsewhere(format!(
+            "variables are set in the shell: {line}; launch files read {name}"
+        ));
     }
-    elsewhere(format!("variables are the shell's: {line}; Periplus does not read {name} itself"))
+    elsewhere(format!("variables are set in the shell: {line}; Periplus does not read {name}"))
 }

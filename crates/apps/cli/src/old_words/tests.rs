@@ -55,7 +55,7 @@ fn becomes(line: &str) -> String {
             format!("`periplus {}`{notes}", shown(&words))
         }
         Reading::Answer(answer) => {
-            let packages = if answer.lists_packages { ": and the list" } else { "" };
+            let packages = if answer.lists_packages { ": (a list)" } else { "" };
             format!("{}{packages}", answer.text)
         }
     }
@@ -91,7 +91,7 @@ fn own_words_stay() {
 fn a_line_of_several_commands_is_its_last_one() {
     let line = "source /opt/ros/jazzy/setup.bash && ros2 topic echo /laser_scan";
     assert_eq!(becomes(line), "`periplus topic echo /laser_scan`");
-    assert!(becomes("mkdir x && ros2 topic list").contains("is the shell's"));
+    assert!(becomes("mkdir x && ros2 topic list").contains("is a shell command"));
 }
 
 /// A printed command: tutorial, line, command.

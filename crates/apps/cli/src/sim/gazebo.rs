@@ -18,9 +18,9 @@ const OF_ROS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"]
 /// Who can see a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GzReach {
-    /// Programs of Gazebo on this machine
+    /// Gazebo programs on this machine
     Loopback,
-    /// Programs of Gazebo wherever multicast reaches
+    /// Gazebo programs in the range of multicast
     Network,
 }
 

@@ -27,21 +27,21 @@ impl Args for Robots {
                 option(ROBOT)
                     .value_names(["FILE", "NAME:=VALUE"])
                     .num_args(1..)
-                    .help("A robot to put into the world: URDF, xacro with `name:=value`, or SDF; may be given several times, the next three options belong to the robot before them"),
+                    .help("Robot to add to the world: URDF, xacro with `name:=value`, or SDF; repeatable. The next three options apply to the robot before them"),
             )
             .arg(
                 option(NAME)
                     .value_name("NAME")
-                    .help("What the robot is called, if not as in its file"),
+                    .help("Name of the robot [default: the name in its file]"),
             )
             .arg(option(NAMESPACE).value_name("NAMESPACE").help(
-                "Namespace of the robot's topics; each of several robots has its name by default",
+                "Namespace of the robot's topics [default for several robots: the robot's name]",
             ))
             .arg(
                 option(POSE)
                     .value_name("X,Y,YAW")
                     .allow_hyphen_values(true)
-                    .help("Where it stands on the ground [m, rad], X,Y with a yaw of 0; or X,Y,Z,ROLL,PITCH,YAW"),
+                    .help("Initial pose on the floor [m, rad]: X,Y (yaw 0), X,Y,YAW, or X,Y,Z,ROLL,PITCH,YAW"),
             )
     }
 

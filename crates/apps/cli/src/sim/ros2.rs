@@ -20,13 +20,13 @@ const LOOK: Duration = Duration::from_millis(500);
 /// Who can see a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Reach {
-    /// Nobody
+    /// No program
     Off,
-    /// Programs of ROS 2 on this machine
+    /// ROS 2 programs on this machine
     Loopback,
-    /// Programs of ROS 2 wherever multicast, or `ROS_STATIC_PEERS`, reaches
+    /// ROS 2 programs in the range of multicast or named by `ROS_STATIC_PEERS`
     Network,
-    /// Programs of ROS 2 that use `rmw_zenoh`, by way of its router
+    /// ROS 2 programs that use `rmw_zenoh`, through its router
     Zenoh,
 }
 

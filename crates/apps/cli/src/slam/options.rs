@@ -9,18 +9,18 @@ use periplus_slam::Method;
 
 use crate::log::LogOptions;
 
-/// Make a map and a trajectory from a log of laser scans
+/// Build a map and a trajectory from a log of laser scans
 ///
-/// By default with a graph of poses, which takes the parameters of slam_toolbox; with `--method
-/// gmapping` by particles with a map each, and the parameters of slam_gmapping.
+/// The default method is a pose graph with the parameters of slam_toolbox; `--method gmapping` is a
+/// particle filter with one map per particle and the parameters of slam_gmapping.
 ///
-/// LOG is a log of CARMEN or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
-/// bag`). DIR receives map.yaml and map.pgm, trajectory.txt (a line for each scan: `stamp x y
-/// theta`), trajectory.png and report.json. What is damaged is told, the rest is used, and the exit
-/// code is 1.
+/// LOG is a CARMEN log or a recording of ROS 1 or ROS 2 (.bag, .mcap, .db3, a folder of `ros2
+/// bag`). DIR receives map.yaml and map.pgm, trajectory.txt (one line per scan: `stamp x y theta`),
+/// trajectory.png and report.json. Damaged parts are reported, the rest is used, and the exit code
+/// is 1.
 #[derive(Debug, Args)]
 pub(crate) struct SlamOptions {
-    /// The log
+    /// Log
     #[arg(
         value_name = "LOG",
         required_unless_present = "live",
@@ -29,7 +29,7 @@ pub(crate) struct SlamOptions {
         value_parser = OsStringValueParser::new().map(PathBuf::from)
     )]
     pub(crate) log: PathBuf,
-    /// Where the results go
+    /// Output folder
     #[arg(
         long,
         short,
@@ -42,22 +42,22 @@ pub(crate) struct SlamOptions {
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) live: LiveOptions,
-    /// How the map is made; without it as the parameters say, or `graph`
+    /// SLAM method [default: that of the parameters, or `graph`]
     #[arg(long, value_name = "graph|gmapping")]
     pub(crate) method: Option<Method>,
-    /// One parameter; it wins over files
+    /// Parameter; overrides files
     #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE")]
     pub(crate) parameters: Vec<String>,
-    /// Seed of all randomness; `graph` has none
+    /// Seed of the random numbers; `graph` uses none
     #[arg(long)]
     pub(crate) seed: Option<u64>,
-    /// Threads for `gmapping`; the result is the same
+    /// Number of threads for `gmapping`; results do not depend on it
     #[arg(long)]
     pub(crate) threads: Option<usize>,
-    /// Side of a cell of the map, 0.05 by default [m]
+    /// Cell size of the map [m] [default: 0.05]
     #[arg(long, value_name = "M", value_parser = side)]
     pub(crate) resolution: Option<f64>,
-    /// Readings from farther away are not used [m]
+    /// Maximum range of readings that are used [m]
     #[arg(long, value_name = "M")]
     pub(crate) max_range: Option<f32>,
     /// Close no loops (`graph`)
@@ -65,16 +65,16 @@ pub(crate) struct SlamOptions {
     pub(crate) no_loops: bool,
     #[command(flatten)]
     pub(crate) input: LogOptions,
-    /// Go on with the map of a session, as if the logs were one
+    /// Continue the map of a session, as if both logs were one
     #[arg(long, value_name = "FILE")]
     pub(crate) session: Option<PathBuf>,
-    /// Save a session, to go on with later; the last refinement is not part of it
+    /// Save a session to continue later; it does not contain the final refinement
     #[arg(long, value_name = "FILE")]
     pub(crate) save_session: Option<PathBuf>,
-    /// Write the graph for g2o: poses, edges, information
+    /// Write the pose graph in the format of g2o: poses, edges, information matrices
     #[arg(long, value_name = "FILE")]
     pub(crate) g2o: Option<PathBuf>,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
@@ -82,14 +82,15 @@ pub(crate) struct SlamOptions {
 /// Mapping of what is heard on ROS 2.
 #[derive(Debug, Args)]
 pub(crate) struct LiveOptions {
-    /// Map what is heard on ROS 2: scans, `/tf` and `/tf_static`; publish `/map` and `map -> odom`
+    /// Run as a SLAM node on ROS 2: subscribe to scans, `/tf` and `/tf_static`; publish `/map` and
+    /// `map -> odom`
     #[arg(long, conflicts_with = "log")]
     pub(crate) live: bool,
-    /// Parameters as `slam_toolbox` or `slam_gmapping` have them in files
+    /// Parameter file of `slam_toolbox` or `slam_gmapping`
     #[arg(long, value_name = "FILE")]
     pub(crate) params_file: Option<PathBuf>,
-    /// Which program's part it plays: async, sync, localization, lifelong or gmapping; without it the
-    /// one that the file is for
+    /// Node to run: async, sync, localization, lifelong or gmapping [default: the one of the
+    /// parameter file]
     #[arg(long, value_name = "PROGRAM", requires = "live")]
     pub(crate) node: Option<Program>,
 }

@@ -10,7 +10,7 @@ use super::common::Common;
 use super::service::read_stdin;
 use super::with_session;
 
-/// See actions and send goals, as `ros2 action` does
+/// List actions and send goals, as `ros2 action` does
 #[derive(Debug, Args)]
 pub(crate) struct ActionOptions {
     #[command(subcommand)]
@@ -19,56 +19,56 @@ pub(crate) struct ActionOptions {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// The actions of a type
+    /// List the actions of a type
     Find {
         action_type: String,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_actions: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Who works on an action and who asks for it
+    /// Show servers and clients of an action
     Info {
         action_name: String,
-        /// Show the types, too
+        /// Show types
         #[arg(long, short = 't')]
         show_types: bool,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c')]
         count: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Which actions there are
+    /// List actions
     List {
-        /// Show the types, too
+        /// Show types
         #[arg(long, short = 't')]
         show_types: bool,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_actions: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Send a goal and wait for its end; Ctrl-C cancels it
+    /// Send a goal and wait for its result; Ctrl-C cancels it
     #[command(name = "send_goal", alias = "send-goal")]
     SendGoal {
         action_name: String,
         action_type: String,
-        /// The goal, as YAML; what is not given has its default
+        /// Goal, as YAML; missing fields have their defaults
         #[arg(default_value = "{}")]
         goal: String,
         /// Read the goal from standard input
         #[arg(long, conflicts_with = "goal")]
         stdin: bool,
-        /// Say how far it is
+        /// Print feedback
         #[arg(long, short = 'f')]
         feedback: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// The type of an action
+    /// Print the type of an action
     Type {
         action_name: String,
         #[command(flatten)]

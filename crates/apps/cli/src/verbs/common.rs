@@ -5,14 +5,14 @@ use periplus_ros2cli::QosWish;
 
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct Common {
-    /// Print JSON: one object, or one on each line of a stream
+    /// Print JSON: one object, or one object per line of a stream
     #[arg(long)]
     pub(crate) json: bool,
-    /// Seconds that others have to be found; without it as long as they take
+    /// Discovery time [s] [default: as long as discovery takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) spin_time: Option<f64>,
-    /// A folder of packages with .msg, .srv and .action files, besides those on AMENT_PREFIX_PATH;
-    /// may be given several times
+    /// Folder of packages with .msg, .srv and .action files, in addition to AMENT_PREFIX_PATH;
+    /// repeatable
     #[arg(long, value_name = "DIR")]
     pub(crate) interfaces: Vec<std::path::PathBuf>,
     /// Taken for the sake of scripts; there is no daemon
@@ -43,25 +43,25 @@ const LIVELINESSES: [&str; 4] =
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Quality of service")]
 pub(crate) struct QosOptions {
-    /// Profile that the other policies start from
+    /// Profile with the default of the other policies
     #[arg(long, value_name = "NAME", value_parser = PROFILES)]
     qos_profile: Option<String>,
-    /// Messages that wait at most
+    /// Maximum number of queued messages
     #[arg(long, value_name = "COUNT")]
     qos_depth: Option<usize>,
-    /// Whether old messages are dropped or kept
+    /// History: old messages are dropped or kept
     #[arg(long, value_name = "POLICY", value_parser = HISTORIES)]
     qos_history: Option<String>,
-    /// Whether lost messages are sent again
+    /// Reliability: retransmission of lost messages
     #[arg(long, value_name = "POLICY", value_parser = RELIABILITIES)]
     qos_reliability: Option<String>,
-    /// Whether late subscribers receive earlier messages
+    /// Durability: delivery of earlier messages to late subscribers
     #[arg(long, value_name = "POLICY", value_parser = DURABILITIES)]
     qos_durability: Option<String>,
-    /// How publishers assert that they are alive
+    /// Liveliness: assertion by publishers that they are alive
     #[arg(long, value_name = "POLICY", value_parser = LIVELINESSES)]
     qos_liveliness: Option<String>,
-    /// How long a publisher may be silent about being alive
+    /// Maximum time between liveliness assertions of a publisher [s]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     qos_liveliness_lease_duration_seconds: Option<f64>,
 }

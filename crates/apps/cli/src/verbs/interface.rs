@@ -10,7 +10,7 @@ use periplus_rosidl::Kind;
 use super::common::Common;
 use super::without_network;
 
-/// See the types of messages, services and actions, as `ros2 interface` does
+/// Show types of messages, services and actions, as `ros2 interface` does
 #[derive(Debug, Args)]
 pub(crate) struct InterfaceOptions {
     #[command(subcommand)]
@@ -20,13 +20,13 @@ pub(crate) struct InterfaceOptions {
 /// Which kinds; all when none is named.
 #[derive(Clone, Debug, Args)]
 struct Kinds {
-    /// Messages
+    /// Show messages
     #[arg(long, short = 'm')]
     only_msgs: bool,
-    /// Services
+    /// Show services
     #[arg(long, short = 's')]
     only_srvs: bool,
-    /// Actions
+    /// Show actions
     #[arg(long, short = 'a')]
     only_actions: bool,
 }
@@ -44,42 +44,42 @@ impl Kinds {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// All types
+    /// List all types
     List {
         #[command(flatten)]
         kinds: Kinds,
         #[command(flatten)]
         common: InterfaceCommon,
     },
-    /// The types of a package
+    /// List the types of a package
     Package {
         package_name: String,
         #[command(flatten)]
         common: InterfaceCommon,
     },
-    /// The packages that have types
+    /// List packages with types
     Packages {
         #[command(flatten)]
         kinds: Kinds,
         #[command(flatten)]
         common: InterfaceCommon,
     },
-    /// A message with its defaults, to be changed and sent
+    /// Print a message with default values, to edit and publish
     Proto {
         r#type: String,
-        /// Without the quotes around it
+        /// Omit the quotes of strings
         #[arg(long)]
         no_quotes: bool,
         #[command(flatten)]
         common: InterfaceCommon,
     },
-    /// What a type says
+    /// Show the definition of a type
     Show {
         r#type: String,
-        /// The comments of types in it as well
+        /// Show the comments of nested types too
         #[arg(long)]
         all_comments: bool,
-        /// No comments
+        /// Omit comments
         #[arg(long, conflicts_with = "all_comments")]
         no_comments: bool,
         #[command(flatten)]
@@ -93,8 +93,8 @@ struct InterfaceCommon {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// A folder of packages with .msg, .srv and .action files, besides those on AMENT_PREFIX_PATH;
-    /// may be given several times
+    /// Folder of packages with .msg, .srv and .action files, in addition to AMENT_PREFIX_PATH;
+    /// repeatable
     #[arg(long, value_name = "DIR")]
     interfaces: Vec<std::path::PathBuf>,
 }

@@ -9,7 +9,7 @@ use periplus_ros2cli::lifecycle;
 use super::common::Common;
 use super::with_session;
 
-/// Lead managed nodes through their lives, as `ros2 lifecycle` does
+/// Manage lifecycle nodes, as `ros2 lifecycle` does
 #[derive(Debug, Args)]
 pub(crate) struct LifecycleOptions {
     #[command(subcommand)]
@@ -18,33 +18,33 @@ pub(crate) struct LifecycleOptions {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// The state of a node, or of all managed nodes
+    /// Print the state of a node, or of all lifecycle nodes
     Get {
         node_name: Option<String>,
         #[command(flatten)]
         common: Common,
     },
-    /// The transitions that a node can make now
+    /// List the transitions that are available to a node
     List {
         node_name: String,
-        /// All of its life
+        /// Show all transitions
         #[arg(long, short = 'a')]
         all: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Which nodes are managed
+    /// List lifecycle nodes
     Nodes {
-        /// Hidden ones as well
+        /// Include hidden ones
         #[arg(long, short = 'a')]
         all: bool,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_nodes: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Let a node make a transition, by name or number
+    /// Trigger a transition of a node, by name or number
     Set {
         node_name: String,
         transition: String,

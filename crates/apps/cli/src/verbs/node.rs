@@ -9,7 +9,7 @@ use periplus_ros2cli::node;
 use super::common::Common;
 use super::with_session;
 
-/// See nodes, as `ros2 node` does
+/// List nodes, as `ros2 node` does
 #[derive(Debug, Args)]
 pub(crate) struct NodeOptions {
     #[command(subcommand)]
@@ -18,21 +18,21 @@ pub(crate) struct NodeOptions {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// What a node publishes, hears, answers and calls
+    /// Show topics, services and actions of a node
     Info {
         node_name: String,
-        /// Hidden topics, services and actions as well
+        /// Include hidden topics, services and actions
         #[arg(long)]
         include_hidden: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Which nodes there are
+    /// List nodes
     List {
-        /// Hidden ones as well
+        /// Include hidden ones
         #[arg(long, short = 'a')]
         all: bool,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_nodes: bool,
         #[command(flatten)]

@@ -11,7 +11,7 @@ use super::common::Common;
 use super::with_session;
 use crate::{paths, terminal};
 
-/// See and set parameters, as `ros2 param` does
+/// List, get and set parameters, as `ros2 param` does
 #[derive(Debug, Args)]
 pub(crate) struct ParamOptions {
     #[command(subcommand)]
@@ -20,14 +20,14 @@ pub(crate) struct ParamOptions {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// Take a parameter from a node
+    /// Delete a parameter of a node
     Delete {
         node_name: String,
         name: String,
         #[command(flatten)]
         common: Common,
     },
-    /// What parameters are for, and which values they may have
+    /// Describe parameters: purpose, type and range
     Describe {
         node_name: String,
         #[arg(required = true)]
@@ -35,42 +35,42 @@ enum Verb {
         #[command(flatten)]
         common: Common,
     },
-    /// All parameters of a node, as a file for `--params-file`
+    /// Print all parameters of a node, as a file for `--params-file`
     Dump {
         node_name: String,
         #[command(flatten)]
         common: Common,
     },
-    /// The value of a parameter
+    /// Print the value of a parameter
     Get {
         node_name: String,
         parameter_name: String,
-        /// Only the value
+        /// Print only the value
         #[arg(long)]
         hide_type: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// The parameters of a node, or of all
+    /// List the parameters of a node, or of all nodes
     List {
         node_name: Option<String>,
-        /// Hidden nodes as well
+        /// Include hidden nodes
         #[arg(long)]
         include_hidden_nodes: bool,
-        /// Only those whose names begin so
+        /// Include only parameters with this prefix
         #[arg(long, num_args = 1.., value_name = "PREFIX")]
         param_prefixes: Vec<String>,
-        /// Show the types, too
+        /// Show types
         #[arg(long)]
         param_type: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Set the parameters that a file has for a node
+    /// Load the parameters of a file into a node
     Load {
         node_name: String,
         parameter_file: PathBuf,
-        /// Not what the file has for nodes of any name
+        /// Ignore the wildcard section of the file
         #[arg(long)]
         no_use_wildcard: bool,
         #[command(flatten)]

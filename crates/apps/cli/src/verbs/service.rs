@@ -10,10 +10,10 @@ use periplus_ros2cli::topic::{self, Echo};
 use super::common::{Common, rate};
 use super::{gazebo, with_session};
 
-/// See and call services, as `ros2 service` does
+/// List and call services, as `ros2 service` does
 #[derive(Debug, Args)]
 pub(crate) struct ServiceOptions {
-    /// Consider hidden services as well: those with a part that begins with `_`
+    /// Include hidden services: those with a part that begins with `_`
     #[arg(long)]
     include_hidden_services: bool,
     #[command(subcommand)]
@@ -28,54 +28,54 @@ enum Verb {
     Call {
         service_name: String,
         service_type: String,
-        /// What is asked; what is not given has its default
+        /// Request, as YAML; missing fields have their defaults
         #[arg(default_value = "{}")]
         values: String,
         /// Read the values from standard input
         #[arg(long, conflicts_with = "values")]
         stdin: bool,
-        /// Call it again and again, so many times in a second
+        /// Repeat the call at this rate [Hz]
         #[arg(long, short = 'r', value_name = "HZ", value_parser = rate)]
         rate: Option<f64>,
         #[command(flatten)]
         common: Common,
     },
-    /// Print what is asked and answered, where a node tells of it
+    /// Print requests and responses of a service with introspection enabled
     Echo {
         service_name: String,
         #[command(flatten)]
         common: Common,
     },
-    /// The services of a type
+    /// List the services of a type
     Find {
         service_type: String,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_services: bool,
-        /// Hidden ones as well
+        /// Include hidden ones
         #[arg(long)]
         include_hidden_services: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// How many answer a service and how many call it
+    /// Print the number of servers and clients of a service
     Info {
         service_name: String,
-        /// Their names
+        /// Show their names
         #[arg(long, short = 'v')]
         verbose: bool,
         #[command(flatten)]
         common: Common,
     },
-    /// Which services there are
+    /// List services
     List {
-        /// Show the types, too
+        /// Show types
         #[arg(long, short = 't')]
         show_types: bool,
-        /// Only say how many there are
+        /// Print only the count
         #[arg(long, short = 'c', alias = "count")]
         count_services: bool,
-        /// Hidden ones as well
+        /// Include hidden ones
         #[arg(long)]
         include_hidden_services: bool,
         /// List the services of Gazebo Transport instead of those of ROS 2
@@ -84,7 +84,7 @@ enum Verb {
         #[command(flatten)]
         common: Common,
     },
-    /// The type of a service
+    /// Print the type of a service
     Type {
         service_name: String,
         #[command(flatten)]

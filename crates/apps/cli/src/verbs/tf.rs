@@ -14,7 +14,7 @@ use periplus_ros2cli::tf::{self, Echo, Monitor, Pictures, Tree, read_broadcast};
 use super::common::{Common, rate, seconds};
 use super::with_session;
 
-/// See where frames are, and say where one is, as the programs of tf2 do
+/// Inspect and publish transforms, as the programs of tf2 do
 #[derive(Debug, Args)]
 pub(crate) struct TfOptions {
     #[command(subcommand)]
@@ -30,28 +30,28 @@ enum Verb {
     Tree(TreeOptions),
 }
 
-/// Draw the tree of frames as `view_frames` does: a .gv for Graphviz and a .pdf
+/// Draw the frame tree as `view_frames` does: a .gv file for Graphviz and a .pdf file
 ///
-/// Listens to what is running, or reads a recording. What is wrong with the tree (several trees, a frame
-/// with two parents, circles) is said.
+/// Subscribes to the running system, or reads a recording. Errors of the tree (several trees, a
+/// frame with two parents, cycles) are reported.
 #[derive(Debug, Args)]
 struct TreeOptions {
-    /// A recording, in place of what is running
+    /// Recording to examine, in place of the running system
     #[arg(value_name = "BAG")]
     recording: Option<PathBuf>,
-    /// Listen so long
+    /// Duration of the measurement [s]
     #[arg(long, short = 't', value_name = "SECONDS", default_value_t = 5.0, value_parser = seconds)]
     wait_time: f64,
-    /// The files' name without ending; `frames_` and the date (UTC) without it
+    /// Name of the output files, without extension [default: `frames_` and the date (UTC)]
     #[arg(long, short, value_name = "NAME")]
     output: Option<PathBuf>,
-    /// Write an .svg too
+    /// Write an .svg file too
     #[arg(long)]
     svg: bool,
-    /// The topic of frames that move
+    /// Topic of dynamic transforms
     #[arg(long, value_name = "TOPIC", default_value = "/tf", alias = "tf_topic")]
     tf_topic: String,
-    /// The topic of frames that do not
+    /// Topic of static transforms
     #[arg(long, value_name = "TOPIC", default_value = "/tf_static", alias = "tf_static_topic")]
     tf_static_topic: String,
     #[command(flatten)]
@@ -72,45 +72,45 @@ fn dated(time_ns: i64) -> PathBuf {
     format!("frames_{}_{}", date.replace('_', "-"), time.replace('_', ".")).into()
 }
 
-/// Print the pose of a frame in another, again and again, as `tf2_echo` does
+/// Print the pose of a frame in another frame repeatedly, as `tf2_echo` does
 ///
-/// As there, the first frame is that in which the pose of the second is told.
+/// The pose of the second frame is printed in the first frame.
 #[derive(Debug, Args)]
 struct EchoOptions {
-    /// The frame in which the pose is, such as `map`
+    /// Reference frame, such as `map`
     source_frame: String,
-    /// The frame whose pose it is, such as `base_link`
+    /// Frame whose pose is printed, such as `base_link`
     target_frame: String,
-    /// Times in a second
+    /// Rate [Hz]
     #[arg(default_value_t = 1.0, value_parser = rate)]
     echo_rate: f64,
-    /// Print one pose and end
+    /// Print one pose and exit
     #[arg(long)]
     once: bool,
     #[command(flatten)]
     common: Common,
 }
 
-/// Report how late frames come and how often, as `tf2_monitor` does
+/// Report delays and rates of transforms, as `tf2_monitor` does
 #[derive(Debug, Args)]
 struct MonitorOptions {
-    /// Two frames: only the chain between them
+    /// Two frames: report only the chain between them
     #[arg(num_args = 2, value_name = "FRAME")]
     frames: Vec<String>,
-    /// Gather so long for a report
+    /// Collect data for this time before each report [s]
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
     gather: f64,
-    /// Print one report and end
+    /// Print one report and exit
     #[arg(long)]
     once: bool,
     #[command(flatten)]
     common: Common,
 }
 
-/// Say where a frame is that never moves, with the words of `static_transform_publisher`
+/// Publish a static transform, with the arguments of `static_transform_publisher`
 ///
-/// `--x --y --z --roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id PARENT
-/// --child-frame-id CHILD`; or, as it was before, `X Y Z YAW PITCH ROLL PARENT CHILD`.
+/// `--x --y --z --roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id PARENT --child-frame-id
+/// CHILD`; or the old form `X Y Z YAW PITCH ROLL PARENT CHILD`.
 #[derive(Debug, Args)]
 struct StaticOptions {
     #[arg(

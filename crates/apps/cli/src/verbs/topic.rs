@@ -12,10 +12,10 @@ use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
 use super::common::{Common, QosOptions, count, rate, seconds};
 use super::{gazebo, with_session};
 
-/// See, measure and publish topics, as `ros2 topic` does
+/// List, print, measure and publish topics, as `ros2 topic` does
 #[derive(Debug, Args)]
 pub(crate) struct TopicOptions {
-    /// Consider hidden topics as well: those with a part that begins with `_`
+    /// Include hidden topics: those with a part that begins with `_`
     #[arg(long)]
     include_hidden_topics: bool,
     #[command(subcommand)]
@@ -37,19 +37,19 @@ enum Verb {
     Type(TypeOptions),
 }
 
-/// Which topics there are
+/// List topics
 #[derive(Debug, Args)]
 struct ListOptions {
-    /// Show the types, too
+    /// Show types
     #[arg(long, short = 't')]
     show_types: bool,
-    /// Only say how many there are
+    /// Print only the count
     #[arg(long, short = 'c', alias = "count")]
     count_topics: bool,
-    /// Hidden ones as well
+    /// Include hidden ones
     #[arg(long = "include-hidden-topics", short = 'a', alias = "all")]
     include_hidden: bool,
-    /// How many publish and subscribe
+    /// Show the number of publishers and subscribers
     #[arg(long, short = 'v')]
     verbose: bool,
     /// List the topics of Gazebo Transport instead of those of ROS 2
@@ -59,18 +59,18 @@ struct ListOptions {
     common: Common,
 }
 
-/// Who publishes a topic and who subscribes to it
+/// Show publishers and subscribers of a topic
 #[derive(Debug, Args)]
 struct InfoOptions {
     topic_name: String,
-    /// Nodes, types, hashes and quality of service
+    /// Show nodes, types, hashes and QoS
     #[arg(long, short = 'v')]
     verbose: bool,
     #[command(flatten)]
     common: Common,
 }
 
-/// The type of a topic
+/// Print the type of a topic
 #[derive(Debug, Args)]
 struct TypeOptions {
     topic_name: String,
@@ -78,15 +78,15 @@ struct TypeOptions {
     common: Common,
 }
 
-/// The topics of a type
+/// List the topics of a type
 #[derive(Debug, Args)]
 struct FindOptions {
-    /// Such as `sensor_msgs/msg/LaserScan`
+    /// Type, such as `sensor_msgs/msg/LaserScan`
     topic_type: String,
-    /// Only say how many there are
+    /// Print only the count
     #[arg(long, short = 'c', alias = "count")]
     count_topics: bool,
-    /// Hidden ones as well
+    /// Include hidden ones
     #[arg(long)]
     include_hidden_topics: bool,
     #[command(flatten)]
@@ -95,47 +95,47 @@ struct FindOptions {
 
 /// Print the messages of a topic
 ///
-/// Quality of service is chosen so that all publishers are heard. Lists and texts longer than 128
-/// are cut, unless it is JSON. `--filter` takes a Python expression over the message `m`.
+/// The QoS is chosen to be compatible with all publishers. Lists and strings longer than 128 are
+/// truncated, except in JSON. `--filter` takes a Python expression over the message `m`.
 #[derive(Debug, Args)]
 struct EchoOptions {
     topic_name: String,
-    /// The type; without it, that of the topic
+    /// Message type [default: that of the topic]
     message_type: Option<String>,
-    /// Only this part of the message, such as `pose.pose.position` or `ranges[0]`
+    /// Print only this part of the message, such as `pose.pose.position` or `ranges[0]`
     #[arg(long, value_name = "FIELD")]
     field: Option<String>,
-    /// All values on one line, with commas between
+    /// Print all values on one line, separated by commas
     #[arg(long, conflicts_with_all = ["json", "raw"])]
     csv: bool,
-    /// Cut nothing
+    /// Do not truncate
     #[arg(long, short = 'f')]
     full_length: bool,
-    /// Cut lists and texts behind so many
+    /// Truncate lists and strings after this many elements
     #[arg(long, short = 'l', value_name = "COUNT")]
     truncate_length: Option<usize>,
-    /// Only say how long lists are
+    /// Print only the lengths of lists
     #[arg(long)]
     no_arr: bool,
-    /// Only say how long texts are
+    /// Print only the lengths of strings
     #[arg(long)]
     no_str: bool,
-    /// Each message on one line, in braces
+    /// Print each message on one line, in braces
     #[arg(long)]
     flow_style: bool,
-    /// Say nothing of lost messages
+    /// Do not report lost messages
     #[arg(long)]
     no_lost_messages: bool,
-    /// Print the bytes
+    /// Print the serialized bytes
     #[arg(long, conflicts_with_all = ["json", "field", "filter"])]
     raw: bool,
-    /// Only messages for which this is true, such as `m.range < 0.5`
+    /// Print only messages that match an expression, such as `m.range < 0.5`
     #[arg(long, value_name = "EXPR")]
     filter: Option<String>,
-    /// Print one message and end
+    /// Print one message and exit
     #[arg(long)]
     once: bool,
-    /// End when no message comes for so many seconds; with 1 if none came at all
+    /// Exit after this many seconds without a message; exit code 1 if none came at all
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     timeout: Option<f64>,
     #[command(flatten)]
@@ -144,15 +144,15 @@ struct EchoOptions {
     common: Common,
 }
 
-/// How often messages come
+/// Measure the rate of messages
 #[derive(Debug, Args)]
 struct HzOptions {
     #[arg(required = true)]
     topic_name: Vec<String>,
-    /// Measure over so many messages
+    /// Number of messages in the measurement window
     #[arg(long, short = 'w', value_name = "COUNT", value_parser = count)]
     window: Option<usize>,
-    /// Count only messages for which this is true, such as `m.data > 3`
+    /// Count only messages that match an expression, such as `m.data > 3`
     #[arg(long, value_name = "EXPR")]
     filter: Option<String>,
     /// Taken for the sake of scripts; it always does
@@ -168,7 +168,7 @@ struct HzOptions {
 #[derive(Debug, Args)]
 struct RateOptions {
     topic_name: String,
-    /// Measure over so many messages
+    /// Number of messages in the measurement window
     #[arg(long, short = 'w', value_name = "COUNT", value_parser = count)]
     window: Option<usize>,
     #[command(flatten)]
@@ -177,36 +177,36 @@ struct RateOptions {
     common: Common,
 }
 
-/// Publish a message, again and again or once
+/// Publish a message repeatedly or once
 ///
-/// Values are YAML: `periplus topic pub /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}'`.
-/// In the place of a header `auto`, and in that of a stamp `now`, stand for the time.
+/// Values are YAML: `periplus topic pub /cmd_vel geometry_msgs/msg/Twist '{linear: {x: 0.5}}'`. A
+/// header `auto` and a stamp `now` are replaced by the current time.
 #[derive(Debug, Args)]
 struct PubOptions {
     topic_name: String,
     message_type: String,
-    /// What is in the message; what is not given has its default
+    /// Message, as YAML; missing fields have their defaults
     #[arg(default_value = "{}")]
     values: String,
-    /// Times in a second
+    /// Rate [Hz]
     #[arg(long, short = 'r', value_name = "HZ", default_value_t = 1.0, value_parser = rate)]
     rate: f64,
-    /// Print only every so many
+    /// Print only every Nth message
     #[arg(long, short = 'p', value_name = "N", default_value_t = 1)]
     print: u64,
-    /// Publish one message and end
+    /// Publish one message and exit
     #[arg(long, short = '1', conflicts_with = "times")]
     once: bool,
-    /// Publish so many messages and end
+    /// Publish this many messages and exit
     #[arg(long, short = 't', value_name = "N")]
     times: Option<u64>,
-    /// Begin when so many listen; 1 with `--once` and `--times`, else 0
+    /// Wait for this many subscribers [default: 1 with `--once` and `--times`, else 0]
     #[arg(long, short = 'w', value_name = "N")]
     wait_matching_subscriptions: Option<usize>,
-    /// Give up when not so many listen after this
+    /// Give up after this time without enough subscribers [s]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     max_wait_time_secs: Option<f64>,
-    /// How long to stay after the last message
+    /// Time to keep running after the last message [s]
     #[arg(long, value_name = "SECONDS", default_value_t = 0.1, value_parser = seconds)]
     keep_alive: f64,
     /// Name of the node that publishes
