@@ -230,7 +230,7 @@ const TUTORIALS = {
       ),
       async (page) => {
         await until(page, 'periplus.tf.has("odom")', 'odometry');
-        await follow('nav2-sensors.md', 'The guide adds the display by hand', [
+        await follow('nav2-sensors.md', 'The guide adds the display manually', [
           (step) => addByKind(page, step),
           (step) => set(page, step),
           (step) => set(page, step),
@@ -246,7 +246,7 @@ const TUTORIALS = {
     beside(chrome, url, ['sim', 'worlds/pong.sdf', '--rtf', '1', ...PLAIN], async (page) => {
       const panels = side(page, 'Panels');
       const lidar = 'periplus.displays.find((d) => d.kind.title === "Visualize Lidar")';
-      await follow('gz-lidar.md', "Key Publisher and Visualize Lidar of Gazebo's window", [
+      await follow('gz-lidar.md', "Gazebo's Key Publisher and Visualize Lidar are", [
         async ({ names: [tab, keys] }) => {
           await panels.getByRole('tab', { name: tab }).click();
           await panels.getByLabel(keys).check();
