@@ -5,6 +5,7 @@ mod book;
 mod dependencies;
 mod links;
 mod page;
+mod paths;
 mod rustdoc;
 
 use std::fs;
@@ -55,10 +56,11 @@ fn check() -> Result<(), Failed> {
     }
 }
 
-/// All findings about links, the table of contents and the list of dependencies.
+/// All findings about links, named paths, the table of contents and the list of dependencies.
 fn findings(pages: &[Page]) -> Vec<String> {
     let exists = |path: &str| root().join(path).exists();
     let mut findings = links::check(pages, &exists);
+    findings.extend(paths::check(pages, &exists));
     findings.extend(book::check(pages));
     let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap_or_default();
     let list = pages.iter().find(|page| page.path == dependencies::PAGE);

@@ -16,6 +16,8 @@ pub(crate) struct Page {
     pub(crate) links: Vec<Link>,
     /// Files that mdbook includes by `{{#include PATH}}`.
     pub(crate) includes: Vec<Link>,
+    /// Text between backticks.
+    pub(crate) code: Vec<Link>,
 }
 
 /// A link or picture of a page.
@@ -52,6 +54,7 @@ impl Page {
             anchors: Vec::new(),
             links: Vec::new(),
             includes: Vec::new(),
+            code: Vec::new(),
         };
         let mut undefined = Vec::new();
         let mut on_broken = |broken: BrokenLink<'_>| -> Option<(CowStr<'_>, CowStr<'_>)> {
@@ -72,6 +75,9 @@ impl Page {
                     page.anchors.push(anchors.add(&heading.take().unwrap_or_default()));
                 }
                 Event::Text(words) | Event::Code(words) => {
+                    if text[range.start..].starts_with('`') {
+                        page.code.push(link(&text, range.start, &words));
+                    }
                     if let Some(heading) = &mut heading {
                         heading.push_str(&words);
                     } else {
