@@ -355,7 +355,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "component_container",
         Role::Container,
-        "nothing by itself: each component is a row of its own",
+        "nothing by itself: each component has its own row",
     ),
     entry(
         &["teleop_twist_keyboard"],

@@ -19,7 +19,7 @@ macro_rules! view {
             Viewer,
             $doc,
             [
-                choice("engine", &["ogre", "ogre2", "optix"], "Who draws.").or("ogre2"),
+                choice("engine", &["ogre", "ogre2", "optix"], "Rendering engine.").or("ogre2"),
                 text("scene", "Name of the scene.").or("scene"),
                 numbers("ambient_light", "", "Red, green, blue.").or("0.3 0.3 0.3"),
                 numbers("background_color", "", "Red, green, blue of the sky.").or("0.3 0.3 0.3"),
@@ -65,7 +65,7 @@ pub(super) static PLUGINS: &[Known] = &[
     panel!("ComponentInspectorEditor", Viewer, "Edits a model.", []),
     panel!("ModelEditor", Viewer, "Edits a model.", []).open(),
     panel!("SelectEntities", Viewer, "Selects by click.", []),
-    panel!("Spawn", Viewer, "Places new models at the clicked position.", []),
+    panel!("Spawn", Viewer, "Adds new models at the clicked position.", []),
     panel!("Shapes", Viewer, "Adds shapes.", []),
     panel!("Lights", Viewer, "Adds lights.", []),
     panel!("TransformControl", Viewer, "Moves and turns models.", []).open(),

@@ -18,7 +18,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Runs cameras and lidars.",
         [
-            choice("render_engine", &["ogre", "ogre2", "optix"], "Who draws.").or("ogre2"),
+            choice("render_engine", &["ogre", "ogre2", "optix"], "Rendering engine.").or("ogre2"),
             text("render_engine_api_backend", "`opengl`, `vulkan` or `metal`."),
             numbers("background_color", "", "Red, green, blue of the sky."),
             numbers("ambient_light", "", "Red, green, blue."),

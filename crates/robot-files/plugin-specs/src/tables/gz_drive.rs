@@ -193,7 +193,7 @@ pub(super) static PLUGINS: &[Known] = &[
             TOPIC,
             numbers("initial_linear", "m/s", "Velocity at the start.").or("0 0 0"),
             numbers("initial_angular", "rad/s", "Velocity at the start.").or("0 0 0"),
-            text("link_name", "A link with a topic of its own.").repeated().naming(Names::Link),
+            text("link_name", "A link with its own topic.").repeated().naming(Names::Link),
         ]
     )
     .topics(&[listens("/model/{model}/cmd_vel").set_by("topic")]),
