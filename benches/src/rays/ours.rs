@@ -10,7 +10,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use periplus_geometry::{DQuat, DVec3, Pose};
-use periplus_raycast::{Filter, Ray, Shape, Tags, TriangleMesh, World, WorldBuilder};
+use periplus_raycast::{
+    Filter, Ray, RaycastShape, RaycastWorld, RaycastWorldBuilder, Tags, TriangleMesh,
+};
 use rustix::time::{ClockId, clock_gettime};
 use serde_json::{Value, json};
 
@@ -44,7 +46,7 @@ pub(crate) fn run(scenes: &Path, scene: &str, out: &Path) -> std::io::Result<()>
             dynamic(&json(&scenes.join("dynamic.json"))?, &positions, &triangles)
         } else {
             let build = |threads| {
-                let mut builder = World::builder();
+                let mut builder = RaycastWorld::builder();
                 let (pose, tags) = (Pose::IDENTITY, Tags::default());
                 builder.add_fixed(&positions, &triangles, &pose, tags).expect(SOUND);
                 let start = Instant::now();
@@ -103,7 +105,7 @@ struct Times {
     distances_m: Vec<f32>,
 }
 
-fn measure(world: &World, rays: &[Ray], columns: usize, threads: usize) -> Times {
+fn measure(world: &RaycastWorld, rays: &[Ray], columns: usize, threads: usize) -> Times {
     let mut distances_m = vec![0.0_f32; rays.len()];
     let inner = if rays.len() < 10_000 { 20 } else { 1 };
     let (mut walls, mut cpus) = (Vec::new(), Vec::new());
@@ -121,15 +123,15 @@ fn measure(world: &World, rays: &[Ray], columns: usize, threads: usize) -> Times
 }
 
 /// The shapes of a scene, in closed form.
-fn primitives(scene: &Value) -> World {
-    let mut builder = World::builder();
+fn primitives(scene: &Value) -> RaycastWorld {
+    let mut builder = RaycastWorld::builder();
     for each in list(&scene["primitives"]) {
         let number = |name: &str| each[name].as_f64().unwrap_or_default();
         let shape = match each["type"].as_str() {
-            Some("plane") => Shape::Plane { size_m: None },
-            Some("box") => Shape::Box { size_m: DVec3::from_array(three(&each["size"])) },
-            Some("sphere") => Shape::Sphere { radius_m: number("radius") },
-            _ => Shape::Cylinder { radius_m: number("radius"), length_m: number("length") },
+            Some("plane") => RaycastShape::Plane { size_m: None },
+            Some("box") => RaycastShape::Box { size_m: DVec3::from_array(three(&each["size"])) },
+            Some("sphere") => RaycastShape::Sphere { radius_m: number("radius") },
+            _ => RaycastShape::Cylinder { radius_m: number("radius"), length_m: number("length") },
         };
         let middle = if each["center"].is_null() { [0.0; 3] } else { three(&each["center"]) };
         let pose = Pose::from_xyz(middle[0], middle[1], middle[2]);
@@ -151,8 +153,8 @@ fn three(value: &Value) -> [f64; 3] {
 }
 
 /// The house with its moving instances, after some frames; tells what a frame's update takes.
-fn dynamic(scene: &Value, positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> World {
-    let mut builder: WorldBuilder = World::builder();
+fn dynamic(scene: &Value, positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RaycastWorld {
+    let mut builder: RaycastWorldBuilder = RaycastWorld::builder();
     builder.add_fixed(positions, triangles, &Pose::IDENTITY, Tags::default()).expect(SOUND);
     let shape = |value: &Value, size: [f64; 3]| {
         let positions: Vec<[f64; 3]> = list(&value["v"])

@@ -1,4 +1,4 @@
-//! A tree of boxes, eight to a node.
+//! Bounding volume hierarchy with eight children per node.
 
 mod build;
 
@@ -6,36 +6,36 @@ pub(crate) use build::{Bounds, build};
 
 use crate::simd::Row;
 
-/// Marks a child that holds primitives instead of a node.
-pub(crate) const LEAF: u32 = 1 << 31;
-const COUNT_SHIFT: u32 = 28;
-const FIRST_MASK: u32 = (1 << COUNT_SHIFT) - 1;
+/// Bit of a child word that marks a leaf.
+pub(crate) const LEAF_MASK: u32 = 1 << 31;
+const COUNT_SHIFT_BITS: u32 = 28;
+const FIRST_MASK: u32 = (1 << COUNT_SHIFT_BITS) - 1;
 
-/// The largest number of primitives that a child word can name.
-pub(crate) const MAX_PRIMITIVES: usize = FIRST_MASK as usize;
-/// The most primitives in a leaf: one vector of triangles.
-pub(crate) const MAX_LEAF: usize = 8;
+/// Maximum number of primitives that a child word can address.
+pub(crate) const MAX_PRIMITIVE_COUNT: usize = FIRST_MASK as usize;
+/// Maximum number of primitives in a leaf: one vector of triangles.
+pub(crate) const MAX_LEAF_TRIANGLES: usize = 8;
 
-/// Nodes on the way down are at most this many: see `build`, which stops to look for good splits
-/// where a tree gets this deep, and halves.
+/// Maximum depth of a tree: near it, `build` no longer searches for good splits and halves the
+/// ranges.
 const MAX_DEPTH: usize = 40;
-/// Room for the siblings of every node on the way down, a power of two.
-pub(crate) const STACK: usize = 512;
-const _: () = assert!(7 * MAX_DEPTH + 8 <= STACK);
+/// Capacity for the siblings of every node on a path, a power of two.
+pub(crate) const MAX_STACK_ENTRIES: usize = 512;
+const _: () = assert!(7 * MAX_DEPTH + 8 <= MAX_STACK_ENTRIES);
 
-/// A node: rows 0 to 2 the lower, 3 to 5 the upper corners of the children's boxes, row 6 the
-/// children's words as bits. Four cache lines.
+/// A node: rows 0 to 2 the lower, 3 to 5 the upper corners of the children's boxes, row 6 the child
+/// words as bits. Four cache lines.
 #[repr(C, align(64))]
 #[derive(Clone, Debug)]
 pub(crate) struct Node(pub(crate) [Row; 8]);
 
-/// Far outside of everything, on the wrong side, and still harmless when multiplied by zero.
-const NOWHERE: f32 = 1e30;
+/// Coordinate of an empty box: far outside, inverted, and finite when multiplied by zero.
+const EMPTY_BOX_COORDINATE_M: f32 = 1e30;
 
 impl Node {
-    /// A node whose children no ray meets.
+    /// A node whose children are never hit.
     pub(crate) const EMPTY: Self = {
-        let (low, high) = (Row([NOWHERE; 8]), Row([-NOWHERE; 8]));
+        let (low, high) = (Row([EMPTY_BOX_COORDINATE_M; 8]), Row([-EMPTY_BOX_COORDINATE_M; 8]));
         Self([low, low, low, high, high, high, Row([0.0; 8]), Row([0.0; 8])])
     };
 
@@ -60,14 +60,14 @@ impl Node {
     }
 }
 
-/// The word of a leaf: `count` (1 to 8) primitives from `first` on.
+/// Returns the child word of a leaf: `count` (1 to 8) primitives from `first` on.
 #[expect(clippy::cast_possible_truncation, reason = "`build` asserts the limits")]
 pub(crate) fn leaf(first: usize, count: usize) -> u32 {
-    LEAF | (count as u32 - 1) << COUNT_SHIFT | first as u32
+    LEAF_MASK | (count as u32 - 1) << COUNT_SHIFT_BITS | first as u32
 }
 
-/// First primitive and count of a leaf's word.
+/// Returns the first primitive and the count of a leaf's child word.
 #[inline(always)]
 pub(crate) fn leaf_range(child: u32) -> (usize, usize) {
-    ((child & FIRST_MASK) as usize, ((child >> COUNT_SHIFT) & 7) as usize + 1)
+    ((child & FIRST_MASK) as usize, ((child >> COUNT_SHIFT_BITS) & 7) as usize + 1)
 }

@@ -1,76 +1,80 @@
-//! Ground over a regular grid.
+//! Terrain over a regular grid.
 
 use std::fmt;
 
 use periplus_geometry::DVec3;
 
-/// Heights over a regular grid, two triangles to a cell, in double precision. The grid lies about
-/// the origin of its frame, x along columns, y along rows; every cell is cut from its corner of low
-/// x and low y to the opposite one. Triangles count cell by cell, row by row: `2 * cell` is the one
-/// with the corner of high x, `2 * cell + 1` that of high y.
+/// Heights over a regular grid, two triangles per cell, in double precision. The grid is centred on
+/// the origin of its frame, x along columns, y along rows. Each cell is split from its corner of low
+/// x and low y to the opposite corner. Triangles are numbered cell by cell, row by row: `2 * cell`
+/// has the corner of high x, `2 * cell + 1` the corner of high y.
 #[derive(Clone, Debug)]
 pub struct Heightfield {
     columns: usize,
     rows: usize,
-    /// From one sample to the next \[m\].
+    /// Distance between samples along x and y \[m\].
     step_m: [f64; 2],
     heights_m: Vec<f64>,
     low_m: f64,
     high_m: f64,
-    /// Least and greatest height of every cell.
+    /// Minimum and maximum height of each cell.
     ranges_m: Vec<[f64; 2]>,
 }
 
-/// Why heights make no ground.
+/// Reasons that heights cannot form a height field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BadHeightfield {
+pub enum HeightfieldError {
     /// Fewer than two columns or rows, more than 2^30 cells, or not columns times rows heights.
     Count,
     /// The size is not positive, or beyond 1e9 m.
     Size,
     /// This height is not finite, or beyond 1e9 m.
     Height {
-        /// Its place in the list.
+        /// Index of the height.
         sample: usize,
     },
 }
 
-impl fmt::Display for BadHeightfield {
+impl fmt::Display for HeightfieldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Count => {
-                write!(f, "a height field needs columns times rows heights, two of each at least")
+                write!(
+                    f,
+                    "a height field needs at min_lane two columns and two rows, and columns x rows heights"
+                )
             }
-            Self::Size => write!(f, "the size of a height field has to lie between 0 and 1e9 m"),
-            Self::Height { sample } => write!(f, "height {sample} is not a number within 1e9 m"),
+            Self::Size => write!(f, "the size of a height field must be between 0 and 1e9 m"),
+            Self::Height { sample } => write!(f, "height {sample} is not finite or beyond 1e9 m"),
         }
     }
 }
 
-impl std::error::Error for BadHeightfield {}
+impl std::error::Error for HeightfieldError {}
 
 impl Heightfield {
-    /// From heights \[m\] row by row, from low y to high, over a rectangle of a size along x and y.
+    /// Builds a height field from heights \[m\] row by row, from low y to high, over a rectangle of
+    /// this size along x and y.
     ///
     /// # Errors
-    /// When numbers do not fit together or are none.
+    /// When the counts do not match or a value is not finite.
     pub fn new(
         columns: usize,
         rows: usize,
         size_m: [f64; 2],
         heights_m: Vec<f64>,
-    ) -> Result<Self, BadHeightfield> {
+    ) -> Result<Self, HeightfieldError> {
         if columns < 2
             || rows < 2
             || columns.checked_mul(rows).is_none_or(|n| n != heights_m.len() || n > 1 << 30)
         {
-            return Err(BadHeightfield::Count);
+            return Err(HeightfieldError::Count);
         }
         if !size_m.iter().all(|&size| 1e-6 < size && size <= 1e9) {
-            return Err(BadHeightfield::Size);
+            return Err(HeightfieldError::Size);
         }
         if let Some(sample) = heights_m.iter().position(|h| h.is_nan() || h.abs() > 1e9) {
-            return Err(BadHeightfield::Height { sample });
+            return Err(HeightfieldError::Height { sample });
         }
         let fold = |with: fn(f64, f64) -> f64, from| heights_m.iter().copied().fold(from, with);
         let (low_m, high_m) = (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY));
@@ -89,7 +93,7 @@ impl Heightfield {
         Ok(field)
     }
 
-    /// Lower and upper corner of the box around it \[m\].
+    /// Returns the lower and upper corners of the bounding box \[m\].
     #[must_use]
     pub fn bounds_m(&self) -> (DVec3, DVec3) {
         let [x, y] = self.half();
@@ -114,7 +118,7 @@ impl Heightfield {
         )
     }
 
-    /// Low x low y, high x low y, high both, low x high y.
+    /// Returns the corners: low x low y, high x low y, high x high y, low x high y.
     fn corners(&self, column: usize, row: usize) -> [DVec3; 4] {
         [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(right, up)| self.corner(column + right, row + up))
     }
@@ -124,7 +128,7 @@ impl Heightfield {
         if upper { [a, c, d] } else { [a, b, c] }
     }
 
-    /// Unit normal of a triangle, upwards.
+    /// Returns the upward unit normal of a triangle.
     pub(crate) fn normal(&self, primitive: u32) -> DVec3 {
         let cell = primitive as usize / 2;
         let (column, row) = (cell % (self.columns - 1), cell / (self.columns - 1));
@@ -132,11 +136,11 @@ impl Heightfield {
         (b - a).cross(c - a).normalize_or_zero()
     }
 
-    /// The nearest triangle in `min..=max`, and its number.
+    /// Returns the distance and index of the nearest triangle in `min..=max`.
     ///
-    /// The ray's shadow on the grid is walked cell by cell (Amanatides and Woo 1987). Where it
-    /// comes within rounding of a cell's border, the neighbour is looked at as well, so that
-    /// nothing is lost at seams.
+    /// The ray's projection onto the grid is traversed cell by cell (Amanatides and Woo 1987). Near
+    /// the border of a cell, within rounding, the neighbour is tested as well, so that no hit is
+    /// lost at seams.
     pub(crate) fn cast(&self, o: DVec3, d: DVec3, min: f64, max: f64) -> Option<(f64, u32)> {
         let (low, high) = self.bounds_m();
         let mut from = min;
@@ -157,18 +161,19 @@ impl Heightfield {
         if from > to {
             return None;
         }
-        let ray = Sheared::new(o, d);
+        let ray = ShearedRay::new(o, d);
         let mut best: Option<(f64, u32)> = None;
         let last = [self.columns - 2, self.rows - 2];
         let half = self.half();
-        let place = |axis: usize, t: f64| (o[axis] + t * d[axis] + half[axis]) / self.step_m[axis];
+        let index = |axis: usize, t: f64| (o[axis] + t * d[axis] + half[axis]) / self.step_m[axis];
         let rounding =
             |axis: usize| 1e-11 * (1.0 + (o[axis].abs() + half[axis]) / self.step_m[axis]);
         let slack = [rounding(0), rounding(1)];
-        // Through the grid column by column (or row by row) of the axis the shadow goes most along.
+        // Traverse the grid column by column (or row by row) along the dominant axis of the
+        // projection.
         let main = if (d.x / self.step_m[0]).abs() >= (d.y / self.step_m[1]).abs() { 0 } else { 1 };
         let side = 1 - main;
-        let (start, end) = (place(main, from), place(main, to));
+        let (start, end) = (index(main, from), index(main, to));
         let (first, after) = (
             cell_of(start.min(end) - slack[main], last[main]),
             cell_of(start.max(end) + slack[main], last[main]),
@@ -176,23 +181,23 @@ impl Heightfield {
         let forward = end >= start;
         for step in 0..=after - first {
             let line = if forward { first + step } else { after - step };
-            // Where the ray is over this line of cells, with room on both sides.
+            // Interval of the ray over this line of cells, with a margin on both sides.
             let (near, far) = if d[main] == 0.0 {
                 (from, to)
             } else {
                 #[expect(clippy::cast_precision_loss, reason = "at most 2³⁰")]
                 let line = line as f64;
-                let border = |place: f64| {
-                    ((place * self.step_m[main] - half[main] - o[main]) / d[main]).clamp(from, to)
+                let border = |index: f64| {
+                    ((index * self.step_m[main] - half[main] - o[main]) / d[main]).clamp(from, to)
                 };
                 let (a, b) = (border(line - slack[main]), border(line + 1.0 + slack[main]));
                 (a.min(b), a.max(b))
             };
-            // Nothing nearer can come once the walk is past the hit.
+            // No nearer hit is possible beyond the hit.
             if best.is_some_and(|(t, _)| t < near) {
                 break;
             }
-            let (a, b) = (place(side, near), place(side, far));
+            let (a, b) = (index(side, near), index(side, far));
             let (one, other) = (
                 cell_of(a.min(b) - slack[side], last[side]),
                 cell_of(a.max(b) + slack[side], last[side]),
@@ -203,8 +208,8 @@ impl Heightfield {
             for across in one..=other {
                 let (column, row) = if main == 0 { (line, across) } else { (across, line) };
                 let cell = row * (self.columns - 1) + column;
-                let [least, most] = self.ranges_m[cell];
-                if least > z_high || most < z_low {
+                let [min_lane, most] = self.ranges_m[cell];
+                if min_lane > z_high || most < z_low {
                     continue;
                 }
                 for upper in [false, true] {
@@ -224,18 +229,18 @@ impl Heightfield {
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-fn cell_of(place: f64, last: usize) -> usize {
-    if place > 0.0 { (place as usize).min(last) } else { 0 }
+fn cell_of(index: f64, last: usize) -> usize {
+    if index > 0.0 { (index as usize).min(last) } else { 0 }
 }
 
-/// The triangle test of `triangle::intersect`, in double precision.
-struct Sheared {
+/// Ray-triangle test of `triangle::intersect`, in double precision.
+struct ShearedRay {
     origin: DVec3,
     axes: [usize; 3],
     shear: [f64; 3],
 }
 
-impl Sheared {
+impl ShearedRay {
     fn new(origin: DVec3, d: DVec3) -> Self {
         let [x, y, z] = d.abs().to_array();
         let along = if x > y && x > z {

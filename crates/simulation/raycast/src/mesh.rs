@@ -1,41 +1,41 @@
-//! Triangles and the tree over them.
+//! Triangle meshes with a bounding volume hierarchy.
 
-mod together;
-mod turns;
+mod interleaved;
+mod packet_trace;
 
 use std::fmt;
 
 use periplus_geometry::DVec3;
 
-use crate::bvh::{self, Bounds, LEAF, MAX_LEAF, Node, build, leaf_range};
-use crate::local::{BoxTest, LocalRay, distance_margin, reach};
+use crate::bvh::{self, Bounds, LEAF_MASK, MAX_LEAF_TRIANGLES, Node, build, leaf_range};
+use crate::local_ray::{BoxTest, LocalRay, distance_margin, reach};
 use crate::simd::{Row, V8, splat3};
+use crate::traversal::{Leaves, Stack, Step, traverse};
 use crate::triangle;
-use crate::walk::{Leaves, Stack, Step, walk};
 
-pub(crate) use together::Best;
-pub(crate) use turns::Queue;
+pub(crate) use interleaved::RayQueue;
+pub(crate) use packet_trace::Best;
 
-/// Coordinates beyond this are no place \[m\].
-const FARTHEST_M: f64 = 1e12;
+/// Maximum absolute value of a coordinate \[m\].
+const MAX_COORDINATE_M: f64 = 1e12;
 
-/// Triangles with a tree over them, in a frame of their own. Single precision about the middle of
-/// the mesh: distances are good to about 1e-7 of the mesh's size and of themselves.
+/// Triangles with a tree over them, in a local frame. Single precision about the middle of the mesh:
+/// the error of a distance is about 1e-7 of the mesh's size and of the distance.
 #[derive(Clone, Debug)]
 pub struct TriangleMesh {
-    /// Of the tree's frame \[m\].
+    /// Origin of the tree's frame \[m\].
     pub(crate) middle_m: DVec3,
     pub(crate) low_m: DVec3,
     pub(crate) high_m: DVec3,
     pub(crate) nodes: Vec<Node>,
     pub(crate) blocks: Vec<Block>,
-    /// Block and lane of every triangle.
-    places: Vec<u32>,
-    /// The longest side of a triangle's box \[m\].
+    /// Block and lane of each triangle.
+    slots: Vec<u32>,
+    /// Maximum extent of a triangle's bounding box \[m\].
     pub(crate) extent: f32,
 }
 
-/// Up to eight triangles: `corners[corner][axis]`. What is not used has no area.
+/// Up to eight triangles: `corners[corner][axis]`. Unused lanes have zero area.
 #[repr(C, align(64))]
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
@@ -43,42 +43,42 @@ pub(crate) struct Block {
     pub(crate) ids: [u32; 8],
 }
 
-/// Why triangles make no mesh.
+/// Reasons that triangles cannot form a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshError {
-    /// This triangle names a corner that is not there.
+pub enum TriangleMeshError {
+    /// A triangle refers to a corner that does not exist.
     NoSuchCorner {
-        /// The triangle's place in the list.
+        /// Index of the triangle.
         triangle: usize,
     },
-    /// This position is not finite or farther than 1e12 m.
+    /// A position is not finite or beyond 1e12 m.
     BadPosition {
-        /// The position's place in the list.
+        /// Index of the position.
         position: usize,
     },
     /// More than 2^28 triangles.
     TooMany,
 }
 
-impl fmt::Display for MeshError {
+impl fmt::Display for TriangleMeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSuchCorner { triangle } => {
-                write!(f, "triangle {triangle} names a position that is not in the list")
+                write!(f, "triangle {triangle} refers to a position that is not in the list")
             }
             Self::BadPosition { position } => {
-                write!(f, "position {position} is not a number within 1e12 m of the origin")
+                write!(f, "position {position} is not finite or beyond 1e12 m from the origin")
             }
             Self::TooMany => {
-                write!(f, "more than {} triangles; split the mesh", bvh::MAX_PRIMITIVES)
+                write!(f, "more than {} triangles; split the mesh", bvh::MAX_PRIMITIVE_COUNT)
             }
         }
     }
 }
 
-impl std::error::Error for MeshError {}
+impl std::error::Error for TriangleMeshError {}
 
-/// The nearest triangle found so far; `id` is `u32::MAX` when there is none.
+/// The nearest triangle so far; `id` is `u32::MAX` when there is none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) distance: f32,
@@ -93,9 +93,9 @@ impl Nearest {
 }
 
 impl TriangleMesh {
-    /// From positions \[m\] and corners of triangles, with `threads` (0 counts as 1) threads. The
-    /// same triangles make the same mesh, whatever their number. Triangles without area are kept
-    /// and never hit.
+    /// Builds a mesh from positions \[m\] and triangle corners with `threads` threads (0 counts as
+    /// 1). The mesh does not depend on the number of threads. Degenerate triangles are kept and
+    /// never hit.
     ///
     /// # Errors
     /// When a corner or a position is unusable.
@@ -103,17 +103,17 @@ impl TriangleMesh {
         positions_m: &[[f64; 3]],
         triangles: &[[u32; 3]],
         threads: usize,
-    ) -> Result<Self, MeshError> {
-        if triangles.len() > bvh::MAX_PRIMITIVES {
-            return Err(MeshError::TooMany);
+    ) -> Result<Self, TriangleMeshError> {
+        if triangles.len() > bvh::MAX_PRIMITIVE_COUNT {
+            return Err(TriangleMeshError::TooMany);
         }
-        let usable = |p: &[f64; 3]| p.iter().all(|x| x.abs() <= FARTHEST_M);
+        let usable = |p: &[f64; 3]| p.iter().all(|x| x.abs() <= MAX_COORDINATE_M);
         if let Some(position) = positions_m.iter().position(|p| !usable(p)) {
-            return Err(MeshError::BadPosition { position });
+            return Err(TriangleMeshError::BadPosition { position });
         }
         let known = |t: &[u32; 3]| t.iter().all(|&corner| (corner as usize) < positions_m.len());
         if let Some(triangle) = triangles.iter().position(|t| !known(t)) {
-            return Err(MeshError::NoSuchCorner { triangle });
+            return Err(TriangleMeshError::NoSuchCorner { triangle });
         }
         let (mut low_m, mut high_m) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &p in positions_m {
@@ -136,13 +136,13 @@ impl TriangleMesh {
             extent = extent.max(size);
             boxes.push(bounds);
         }
-        let mut nodes = build(&mut boxes, MAX_LEAF, threads);
+        let mut nodes = build(&mut boxes, MAX_LEAF_TRIANGLES, threads);
         let mut blocks = Vec::with_capacity(triangles.len() / 4);
-        let mut places = vec![0; triangles.len()];
+        let mut slots = vec![0; triangles.len()];
         for node in &mut nodes {
             for slot in 0..8 {
                 let word = node.child(slot);
-                if !node.is_used(slot) || word & LEAF == 0 {
+                if !node.is_used(slot) || word & LEAF_MASK == 0 {
                     continue;
                 }
                 let (first, count) = leaf_range(word);
@@ -156,68 +156,68 @@ impl TriangleMesh {
                         }
                     }
                     #[expect(clippy::cast_possible_truncation, reason = "fewer than 2³¹")]
-                    let place = (blocks.len() * 8 + lane) as u32;
-                    places[id as usize] = place;
+                    let index = (blocks.len() * 8 + lane) as u32;
+                    slots[id as usize] = index;
                 }
                 node.set_child(slot, bvh::leaf(blocks.len(), count));
                 blocks.push(block);
             }
         }
-        Ok(Self { middle_m, low_m, high_m, nodes, blocks, places, extent })
+        Ok(Self { middle_m, low_m, high_m, nodes, blocks, slots, extent })
     }
 
-    /// How many triangles there are.
+    /// Returns the number of triangles.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.places.len()
+        self.slots.len()
     }
 
-    /// Whether there is none.
+    /// Returns true if there are no triangles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.places.is_empty()
+        self.slots.is_empty()
     }
 
-    /// What tree and triangles take in memory.
+    /// Returns the memory used by tree and triangles.
     #[must_use]
     pub fn size_bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.places)
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks) + size_of_val(&*self.slots)
     }
 
-    /// Middle and half sides of the box around it \[m\].
+    /// Returns the middle and half extents of the bounding box \[m\].
     pub(crate) fn bounds_m(&self) -> (DVec3, DVec3) {
         ((self.low_m + self.high_m) / 2.0, (self.high_m - self.low_m) / 2.0)
     }
 
-    /// Takes the area of triangles, so that no ray meets them any more.
+    /// Collapses triangles to zero area, so that no ray hits them.
     pub(crate) fn erase(&mut self, ids: std::ops::Range<u32>) {
         for id in ids {
-            let place = self.places[id as usize] as usize;
-            for row in self.blocks[place / 8].corners.as_flattened_mut() {
-                row.0[place % 8] = 0.0;
+            let index = self.slots[id as usize] as usize;
+            for row in self.blocks[index / 8].corners.as_flattened_mut() {
+                row.0[index % 8] = 0.0;
             }
         }
     }
 
-    /// Unit normal of a triangle by the right-hand rule, zero for one without area.
+    /// Returns the unit normal of a triangle by the right-hand rule; zero for a degenerate triangle.
     pub(crate) fn normal(&self, id: u32) -> DVec3 {
-        let place = self.places[id as usize] as usize;
-        let block = &self.blocks[place / 8];
+        let index = self.slots[id as usize] as usize;
+        let block = &self.blocks[index / 8];
         let [a, b, c] = [0, 1, 2].map(|corner: usize| {
-            let [x, y, z] = [0, 1, 2].map(|axis: usize| block.corners[corner][axis].0[place % 8]);
+            let [x, y, z] = [0, 1, 2].map(|axis: usize| block.corners[corner][axis].0[index % 8]);
             DVec3::new(x.into(), y.into(), z.into())
         });
         (b - a).cross(c - a).normalize_or_zero()
     }
 
-    /// A ray given in the mesh's frame \[m\], in that of its tree.
+    /// Transforms a ray from the mesh's frame \[m\] to the tree's frame.
     #[inline(always)]
     pub(crate) fn localize(&self, origin_m: DVec3, direction: DVec3, min_m: f64) -> LocalRay {
         LocalRay::new(origin_m - self.middle_m, direction, min_m)
     }
 
-    /// Makes `nearest` the nearest triangle that `accept` lets pass, if one is as near. With `ANY`
-    /// the first found will do.
+    /// Updates `nearest` with the nearest triangle that `accept` permits. With `ANY` the first
+    /// triangle found ends the search.
     #[inline(always)]
     pub(crate) fn trace<V: V8, const ANY: bool>(
         &self,
@@ -230,12 +230,12 @@ impl TriangleMesh {
         let limit = reach(nearest.distance, margin);
         let rows = RayRows::<V>::new(ray);
         let mut leaves =
-            OneRay::<V, _, ANY> { blocks: &self.blocks, rows: &rows, margin, nearest, accept };
-        walk(&self.nodes, &BoxTest::<V>::new(ray, margin), limit, stack, &mut leaves);
+            RayLeaves::<V, _, ANY> { blocks: &self.blocks, rows: &rows, margin, nearest, accept };
+        traverse(&self.nodes, &BoxTest::<V>::new(ray, margin), limit, stack, &mut leaves);
     }
 }
 
-/// A ray as the triangle test wants it.
+/// Precomputed terms of the triangle test of a ray.
 struct RayRows<V> {
     axes: [usize; 3],
     origin: [V; 3],
@@ -266,7 +266,7 @@ impl<V: V8> RayRows<V> {
 }
 
 /// One ray against eight triangles at a time.
-struct OneRay<'a, V, A, const ANY: bool> {
+struct RayLeaves<'a, V, A, const ANY: bool> {
     blocks: &'a [Block],
     rows: &'a RayRows<V>,
     margin: f32,
@@ -274,7 +274,7 @@ struct OneRay<'a, V, A, const ANY: bool> {
     accept: A,
 }
 
-impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for OneRay<'_, V, A, ANY> {
+impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for RayLeaves<'_, V, A, ANY> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let block = &self.blocks[leaf_range(word).0];
@@ -303,8 +303,8 @@ impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for OneRay<'_, V, A, ANY
     }
 }
 
-/// The box of a triangle, with room for what rounding does to the triangle test, and its longest
-/// side.
+/// Returns the bounding box of a triangle, with a margin for the rounding of the triangle test, and
+/// its longest side.
 fn bounds(corners: [[f32; 3]; 3], number: u32) -> (Bounds, f32) {
     let [a, b, c] = corners;
     let mut low = [0.0_f32; 3];

@@ -1,69 +1,72 @@
-//! Rays of one origin, together.
+//! Packets of rays with a common origin.
 
 use periplus_geometry::DVec3;
 
 use crate::bvh::Node;
-use crate::local::{FLAT, ROUND, reach};
+use crate::local_ray::{MIN_DIRECTION_RATIO, ROUNDING_RATIO, reach};
 use crate::simd::{Row, V8};
-use crate::walk::NodeTest;
+use crate::traversal::NodeTest;
 
-/// So many packets go through a tree together, at most.
-pub(crate) const GROUP: usize = 8;
+/// Maximum number of packets that traverse a tree together.
+pub(crate) const MAX_GROUP_COUNT: usize = 8;
 
-/// All half lines from one point that go most along one axis, with slopes within intervals.
+/// All half lines from one point with a common dominant axis and slopes within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pyramid {
     pub(crate) origin: [f32; 3],
     /// As in `LocalRay::axes`.
     pub(crate) axes: [usize; 3],
     forward: bool,
-    /// The least and the greatest shear along both lesser axes.
+    /// Minimum and maximum shear along both minor axes.
     pub(crate) low: [f32; 2],
     pub(crate) high: [f32; 2],
-    /// The least depth along the main axis that counts.
+    /// Minimum depth of a hit along the dominant axis.
     min: f32,
 }
 
 impl Pyramid {
-    /// The pyramid around both, if they have the same top and axis.
+    /// Returns the pyramid around both, if they have the same apex and axis.
     #[inline(always)]
     pub(crate) fn with(&self, other: &Self) -> Option<Self> {
         let fits = self.origin == other.origin
             && self.axes[2] == other.axes[2]
             && self.forward == other.forward;
         fits.then(|| Self {
-            low: [least(self.low[0], other.low[0]), least(self.low[1], other.low[1])],
-            high: [-least(-self.high[0], -other.high[0]), -least(-self.high[1], -other.high[1])],
-            min: least(self.min, other.min),
+            low: [min_lane(self.low[0], other.low[0]), min_lane(self.low[1], other.low[1])],
+            high: [
+                -min_lane(-self.high[0], -other.high[0]),
+                -min_lane(-self.high[1], -other.high[1]),
+            ],
+            min: min_lane(self.min, other.min),
             ..*self
         })
     }
 
-    /// How far the slopes lie apart, the larger of both axes.
+    /// Returns the spread of the slopes, the larger of both axes.
     #[inline(always)]
     pub(crate) fn spread(&self) -> f32 {
-        -least(self.low[0] - self.high[0], self.low[1] - self.high[1])
+        -min_lane(self.low[0] - self.high[0], self.low[1] - self.high[1])
     }
 }
 
 #[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
+fn min_lane(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Eight rays that start at one point and go most along the same axis, the same way. Nodes are
-/// tested against the pyramid around all of them, triangles against each.
+/// Eight rays with a common origin, dominant axis and sign. Nodes are tested against the pyramid
+/// around all of them, triangles against each ray.
 pub(crate) struct Packet {
     pub(crate) pyramid: Pyramid,
     pub(crate) shear: [Row; 3],
-    /// Depth along the main axis per distance.
+    /// Depth along the dominant axis per distance.
     pub(crate) steep: Row,
     pub(crate) min: Row,
 }
 
 impl Packet {
-    /// From the directions of eight rays, if they fit together; each comes out as
-    /// `LocalRay::new` makes it.
+    /// Builds a packet from the directions of eight rays if they fit together, each with the values
+    /// of `LocalRay::new`.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
     pub(crate) fn new<V: V8>(origin: DVec3, directions: &[DVec3; 8], min: Row) -> Option<Self> {
@@ -75,19 +78,19 @@ impl Packet {
         }
         let (x, y, z) = (size::<V>(&rows[0]), size::<V>(&rows[1]), size::<V>(&rows[2]));
         let (x_least, x_less, y_less) = (x.le(y).bits(), x.le(z).bits(), y.le(z).bits());
-        // The same choice in every lane.
+        // The same choice of axes in every lane.
         let along = match (x_least, x_less, y_less) {
             (0, 0, _) => 0,
-            (ALL, _, 0) => 1,
-            (0, ALL, _) | (ALL, _, ALL) => 2,
-            _ if (!x_least & x_less | x_least & y_less) & ALL == ALL => 2,
+            (ALL_LANES_MASK, _, 0) => 1,
+            (0, ALL_LANES_MASK, _) | (ALL_LANES_MASK, _, ALL_LANES_MASK) => 2,
+            _ if (!x_least & x_less | x_least & y_less) & ALL_LANES_MASK == ALL_LANES_MASK => 2,
             _ => return None,
         };
         let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][along];
         let length = V::load(&rows[axes[2]]);
         let zero = V::splat(0.0);
         let forward = match zero.le(length).bits() {
-            ALL => true,
+            ALL_LANES_MASK => true,
             0 => false,
             _ => return None,
         };
@@ -98,24 +101,24 @@ impl Packet {
             origin: [origin.x as f32, origin.y as f32, origin.z as f32],
             axes,
             forward,
-            low: [first.least(), second.least()],
-            high: [-zero.sub(first).least(), -zero.sub(second).least()],
-            min: V::load(&min).mul(steep).least(),
+            low: [first.min_lane(), second.min_lane()],
+            high: [-zero.sub(first).min_lane(), -zero.sub(second).min_lane()],
+            min: V::load(&min).mul(steep).min_lane(),
         };
         let shear = [first.store(), second.store(), V::splat(1.0).div(length).store()];
         Some(Self { pyramid, shear, steep: steep.store(), min })
     }
 
-    /// The depth up to which boxes have to be looked into when hits at these distances are known.
+    /// Returns the depth up to which boxes must be visited when hits at these distances are known.
     #[inline(always)]
     pub(crate) fn reach<V: V8>(&self, best: V, margin: f32) -> f32 {
         let depth = best.mul(V::load(&self.steep));
-        reach(-V::splat(0.0).sub(depth).least(), margin)
+        reach(-V::splat(0.0).sub(depth).min_lane(), margin)
     }
 }
 
-/// The bits of a mask that is set in every lane.
-const ALL: u32 = 0xff;
+/// Bits of a mask with every lane set.
+const ALL_LANES_MASK: u32 = 0xff;
 
 #[inline(always)]
 fn size<V: V8>(row: &Row) -> V {
@@ -123,7 +126,7 @@ fn size<V: V8>(row: &Row) -> V {
     row.max(V::splat(0.0).sub(row))
 }
 
-/// One condition on the depth: a row of a node times a factor plus an offset.
+/// One bound on the depth: a row of a node times a factor plus an offset.
 #[derive(Clone, Copy)]
 struct Bound<V> {
     row: usize,
@@ -132,13 +135,13 @@ struct Bound<V> {
 }
 
 impl<V: V8> Bound<V> {
-    /// Where the slope `1 / inverse` from `origin` reaches the coordinate in a row, rounded
-    /// towards the eye (`-1.0`) or away (`1.0`).
+    /// Depth at which the slope `1 / inverse` from `origin` reaches the coordinate in a row, rounded
+    /// towards the origin (`-1.0`) or away (`1.0`).
     #[inline(always)]
     fn new(row: usize, inverse: f32, origin: f32, away: f32) -> Self {
-        let factor = inverse * (1.0 + away * (4.0 * ROUND));
+        let factor = inverse * (1.0 + away * (4.0 * ROUNDING_RATIO));
         let start = origin * factor;
-        let offset = -start + away * start.abs() * (4.0 * ROUND);
+        let offset = -start + away * start.abs() * (4.0 * ROUNDING_RATIO);
         Self { row, factor: V::splat(factor), offset: V::splat(offset) }
     }
 
@@ -148,12 +151,12 @@ impl<V: V8> Bound<V> {
     }
 }
 
-/// A pyramid as conditions on the depth along its main axis: the slab test with
-/// intervals of slopes for slopes.
+/// A pyramid as bounds on the depth along its dominant axis: the slab test with intervals of slopes
+/// instead of slopes.
 pub(crate) struct Frustum<V> {
     enter: Bound<V>,
     leave: Bound<V>,
-    /// For both lesser axes the depths at which the pyramid can have come to the box ...
+    /// For both minor axes the depths at which the pyramid can have entered the box ...
     from: [[Bound<V>; 2]; 2],
     /// ... and at which it has left.
     to: [Bound<V>; 2],
@@ -161,7 +164,7 @@ pub(crate) struct Frustum<V> {
 }
 
 impl<V: V8> Frustum<V> {
-    /// `margin` is that of depths.
+    /// `margin` applies to depths.
     #[inline(always)]
     pub(crate) fn new(pyramid: &Pyramid, margin: f32) -> Self {
         let [first, second, along] = pyramid.axes;
@@ -170,7 +173,7 @@ impl<V: V8> Frustum<V> {
         let origin = pyramid.origin[along];
         let (from_first, to_first) = Self::side(pyramid, 0, first);
         let (from_second, to_second) = Self::side(pyramid, 1, second);
-        let min = pyramid.min * (1.0 - 32.0 * ROUND) - margin;
+        let min = pyramid.min * (1.0 - 32.0 * ROUNDING_RATIO) - margin;
         Self {
             enter: Bound::new(row_of(along, back), sign, origin, -1.0),
             leave: Bound::new(row_of(along, !back), sign, origin, 1.0),
@@ -180,23 +183,23 @@ impl<V: V8> Frustum<V> {
         }
     }
 
-    /// The bounds of one lesser axis.
+    /// Returns the bounds of one minor axis.
     #[inline(always)]
     fn side(pyramid: &Pyramid, which: usize, axis: usize) -> ([Bound<V>; 2], Bound<V>) {
         let (low, high) = (pyramid.low[which], pyramid.high[which]);
         let (low, high) = if pyramid.forward { (low, high) } else { (-high, -low) };
         let start = pyramid.origin[axis];
-        // Slopes themselves are rounded.
-        let (low, high) = (low - low.abs() * ROUND, high + high.abs() * ROUND);
+        // Slopes are rounded themselves.
+        let (low, high) = (low - low.abs() * ROUNDING_RATIO, high + high.abs() * ROUNDING_RATIO);
         let (lower, upper) = (row_of(axis, false), row_of(axis, true));
-        if low > FLAT {
+        if low > MIN_DIRECTION_RATIO {
             let from = Bound::new(lower, 1.0 / high, start, -1.0);
             ([from, from], Bound::new(upper, 1.0 / low, start, 1.0))
-        } else if high < -FLAT {
+        } else if high < -MIN_DIRECTION_RATIO {
             let from = Bound::new(upper, 1.0 / low, start, -1.0);
             ([from, from], Bound::new(lower, 1.0 / high, start, 1.0))
         } else {
-            let (low, high) = (low.min(-FLAT), high.max(FLAT));
+            let (low, high) = (low.min(-MIN_DIRECTION_RATIO), high.max(MIN_DIRECTION_RATIO));
             let never =
                 Bound { row: lower, factor: V::splat(0.0), offset: V::splat(f32::INFINITY) };
             let right = Bound::new(lower, 1.0 / high, start, -1.0);
@@ -211,7 +214,7 @@ impl<V: V8> Frustum<V> {
     }
 }
 
-/// The row of a node with the lower or the upper corners along an axis.
+/// Returns the row of a node with the lower or upper corners along an axis.
 #[inline(always)]
 fn row_of(axis: usize, upper: bool) -> usize {
     axis + 3 * usize::from(upper)

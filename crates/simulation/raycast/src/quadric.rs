@@ -1,69 +1,70 @@
-//! Where a line crosses a surface of second order.
+//! Intersection of a line with a quadric surface.
 
 use periplus_geometry::DVec3;
 
-use crate::wide::Wide;
+use crate::double_double::DoubleDouble;
 
 /// The surface `w.x x² + w.y y² + w.z z² = c` about a centre on the z axis: spheres, ellipsoids,
-/// endless cylinders and double cones.
+/// infinite cylinders and double cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quadric {
-    weights: [Wide; 3],
-    constant: Wide,
-    /// Height of the centre.
+    weights: [DoubleDouble; 3],
+    constant: DoubleDouble,
+    /// Z coordinate of the centre.
     centre_z: f64,
 }
 
-/// How a line meets a [`Quadric`].
+/// Intersection of a line with a [`Quadric`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Crossing {
-    /// It stays outside.
+    /// The line is outside everywhere.
     Outside,
-    /// It stays inside.
+    /// The line is inside everywhere.
     Inside,
-    /// It is inside from the first to the second.
+    /// The line is inside between the two.
     Between(f64, f64),
-    /// It is outside from the first to the second: a cone met steeply.
+    /// The line is outside between the two: a line steeper than a cone's side.
     Beyond(f64, f64),
 }
 
 impl Quadric {
-    pub(crate) fn new(weights: [Wide; 3], constant: Wide, centre_z: f64) -> Self {
+    pub(crate) fn new(weights: [DoubleDouble; 3], constant: DoubleDouble, centre_z: f64) -> Self {
         Self { weights, constant, centre_z }
     }
 
     pub(crate) fn sphere(radius: f64, centre_z: f64) -> Self {
-        let one = Wide::of(1.0);
-        Self::new([one; 3], Wide::product(radius, radius), centre_z)
+        let one = DoubleDouble::of(1.0);
+        Self::new([one; 3], DoubleDouble::product(radius, radius), centre_z)
     }
 
     pub(crate) fn cylinder(radius: f64) -> Self {
-        let one = Wide::of(1.0);
-        Self::new([one, one, Wide::ZERO], Wide::product(radius, radius), 0.0)
+        let one = DoubleDouble::of(1.0);
+        Self::new([one, one, DoubleDouble::ZERO], DoubleDouble::product(radius, radius), 0.0)
     }
 
     /// A double cone about its tip.
     pub(crate) fn cone(radius: f64, length: f64, tip_z: f64) -> Self {
-        let (r2, h2) = (Wide::product(radius, radius), Wide::product(length, length));
-        Self::new([h2, h2, Wide::ZERO.sub(r2)], Wide::ZERO, tip_z)
+        let (r2, h2) =
+            (DoubleDouble::product(radius, radius), DoubleDouble::product(length, length));
+        Self::new([h2, h2, DoubleDouble::ZERO.sub(r2)], DoubleDouble::ZERO, tip_z)
     }
 
     pub(crate) fn ellipsoid(radii: DVec3) -> Self {
-        let [x, y, z] = radii.to_array().map(|r| Wide::product(r, r));
+        let [x, y, z] = radii.to_array().map(|r| DoubleDouble::product(r, r));
         Self::new([y.mul(z), x.mul(z), x.mul(y)], x.mul(y).mul(z), 0.0)
     }
 
-    /// The gradient at a point, outwards, of any length.
+    /// Returns the gradient at a point: outwards, of any length.
     pub(crate) fn gradient(&self, point: DVec3) -> DVec3 {
         let [x, y, z] = self.weights.map(|w| w.high);
         DVec3::new(x * point.x, y * point.y, z * (point.z - self.centre_z))
     }
 
-    /// Where the line `origin + t direction` is inside.
+    /// Returns the part of the line `origin + t direction` that is inside.
     ///
     /// With `a t² + 2 b t + c = 0` the roots are `q / a` and `c / q`, `q = -b - sign(b) √(b² - ac)`.
-    /// What cancels in `b² - ac` (a near miss, a far origin) or in `c` (an origin on the surface)
-    /// is computed again with twice the digits.
+    /// Cancellation in `b² - ac` (a near miss, a far origin) or in `c` (an origin on the surface)
+    /// triggers a second computation in double-double precision.
     #[inline]
     pub(crate) fn crossing(&self, origin: DVec3, direction: DVec3) -> Crossing {
         let [wx, wy, wz] = self.weights.map(|w| w.high);
@@ -75,7 +76,7 @@ impl Quadric {
         let c = oo - self.constant.high;
         let discriminant = b * b - a * c;
         let scale = b * b + (a * c).abs();
-        // Terms of both signs (a cone's) or a cone's tip need care as well.
+        // Terms of both signs (a cone) and the tip of a cone need double-double precision as well.
         let magnitude = (w * o).abs().dot(o.abs()) + self.constant.high;
         let steep = (w * direction).abs().dot(direction.abs());
         if discriminant.abs() <= 1e-8 * scale.max(magnitude * steep)
@@ -93,9 +94,13 @@ impl Quadric {
 
     #[cold]
     fn crossing_wide(&self, origin: DVec3, direction: DVec3) -> Crossing {
-        let o = [Wide::of(origin.x), Wide::of(origin.y), Wide::sum(origin.z, -self.centre_z)];
-        let d = direction.to_array().map(Wide::of);
-        let form = |p: &[Wide; 3], q: &[Wide; 3]| {
+        let o = [
+            DoubleDouble::of(origin.x),
+            DoubleDouble::of(origin.y),
+            DoubleDouble::sum(origin.z, -self.centre_z),
+        ];
+        let d = direction.to_array().map(DoubleDouble::of);
+        let form = |p: &[DoubleDouble; 3], q: &[DoubleDouble; 3]| {
             let term = |axis: usize| self.weights[axis].mul(p[axis]).mul(q[axis]);
             term(0).add(term(1)).add(term(2))
         };
@@ -103,7 +108,7 @@ impl Quadric {
         let c = form(&o, &o).sub(self.constant);
         let discriminant = b.mul(b).sub(a.mul(c));
         if a.high == 0.0 {
-            // Along a cylinder's axis or a cone's side.
+            // Parallel to a cylinder's axis or a cone's side.
             if b.high == 0.0 {
                 return if c.high <= 0.0 { Crossing::Inside } else { Crossing::Outside };
             }
@@ -117,10 +122,11 @@ impl Quadric {
         if discriminant.high < 0.0 && a.high > 0.0 {
             return Crossing::Outside;
         }
-        // A cone met steeply is met: a root of less than nothing is rounding at the tip.
+        // A line steeper than the cone's side always meets it: a negative root is rounding at the
+        // tip.
         let root = discriminant.sqrt();
         let sum = if b.high < 0.0 { b.sub(root) } else { b.add(root) };
-        let q = Wide::ZERO.sub(sum);
+        let q = DoubleDouble::ZERO.sub(sum);
         let first = q.div(a).high;
         let second = if q.high == 0.0 { first } else { c.div(q).high };
         order(a.high, first, second)

@@ -1,23 +1,23 @@
-//! What is asked and what is answered.
+//! Rays and hits.
 
 use periplus_geometry::DVec3;
 
-/// A half line, or a piece of it. Distances count in lengths of the direction: in metres when that
-/// is of length 1, as all of this crate's own scans and images make it.
+/// A half line, or a segment of it. Distances are multiples of the length of the direction: metres
+/// when the direction has length 1, as in all scans and images of this workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts \[m\].
+    /// Origin \[m\].
     pub origin_m: DVec3,
-    /// Where it goes.
+    /// Direction.
     pub direction: DVec3,
-    /// Nothing nearer counts \[m\].
+    /// Minimum distance of a hit \[m\].
     pub min_m: f64,
-    /// Nothing farther counts \[m\].
+    /// Maximum distance of a hit \[m\].
     pub max_m: f64,
 }
 
 impl Ray {
-    /// An endless ray.
+    /// Returns a ray without a maximum distance.
     #[must_use]
     pub fn new(origin_m: DVec3, direction: DVec3) -> Self {
         Self { origin_m, direction, min_m: 0.0, max_m: f64::INFINITY }
@@ -29,11 +29,12 @@ impl Ray {
         self.origin_m + self.direction * distance_m
     }
 
-    /// Whether there is anything to ask: finite numbers, some direction, a range. All others hit
-    /// nothing.
+    /// Returns true if the numbers are finite, the direction is not zero and the range is not empty.
+    /// Any other ray hits nothing.
     #[inline]
     pub(crate) fn is_sound(&self) -> bool {
-        // No number is less or more than anything; without short cuts, as all are sound in practice.
+        // Comparisons with NaN are false. No short-circuit operators: in practice all rays are
+        // sound.
         let length_squared = self.direction.length_squared();
         let near = |coordinate: f64| coordinate.abs() < 1e15;
         near(self.origin_m.x)
@@ -45,21 +46,21 @@ impl Ray {
     }
 }
 
-/// An instance in a [`crate::World`].
+/// Index of an instance in a [`crate::RaycastWorld`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct InstanceId(pub u32);
 
-/// The nearest thing a ray meets. Faces are hit from both sides, and a ray that starts inside a
-/// solid hits its far wall. Of several hits at the very same distance the one of the lowest
-/// instance counts, and of that the lowest primitive.
+/// The first hit of a ray. Faces are hit from both sides, and a ray that starts inside a solid hits
+/// its far wall. Among hits at equal distance the lowest instance wins, then the lowest primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// How far along the ray \[m\].
+    /// Distance along the ray \[m\].
     pub distance_m: f64,
-    /// Unit normal of the surface, on the side the ray comes from.
+    /// Unit normal of the surface, on the side of the ray's origin.
     pub normal: DVec3,
-    /// What was hit.
+    /// Instance that was hit.
     pub instance: InstanceId,
-    /// Which triangle of a mesh, in the order given; which face of a shape (see [`crate::Shape`]).
+    /// Index of a mesh triangle in the order of input, or of a face of a shape (see
+    /// [`crate::RaycastShape`]).
     pub primitive: u32,
 }

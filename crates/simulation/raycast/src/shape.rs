@@ -1,4 +1,4 @@
-//! Shapes with closed forms, in double precision.
+//! Shapes with closed-form ray intersections, in double precision.
 
 use std::fmt;
 
@@ -6,11 +6,11 @@ use periplus_geometry::DVec3;
 
 use crate::quadric::{Crossing, Quadric};
 
-/// A shape centred on its own frame, its axis along z. Lengths in metres; the number after a face's
-/// name is what [`crate::Hit::primitive`] says.
+/// A shape centred on its own frame, its axis along z. Lengths in metres. The number after a face's
+/// name is its [`crate::Hit::primitive`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    /// The plane z = 0, endless or a rectangle of this size about the origin. One face, 0.
+pub enum RaycastShape {
+    /// The plane z = 0, infinite or a rectangle of this size about the origin. One face, 0.
     Plane {
         /// Lengths along x and y.
         size_m: Option<[f64; 2]>,
@@ -32,7 +32,7 @@ pub enum Shape {
         /// Length along z.
         length_m: f64,
     },
-    /// A cylinder with a half sphere at either end. Faces: round 0, lower 1, upper 2.
+    /// A cylinder with a hemisphere at either end. Faces: round 0, lower 1, upper 2.
     Capsule {
         /// Radius.
         radius_m: f64,
@@ -53,23 +53,23 @@ pub enum Shape {
     },
 }
 
-/// A size that makes no shape: not finite, negative, or beyond 1e9 m; or a half axis, a radius or a
-/// height that has to be more than nothing.
+/// Error for a size that is not finite, is negative, or exceeds 1e9 m, and for a half axis, radius
+/// or height of zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BadSize {
+pub struct ShapeSizeError {
     /// The size.
     pub size_m: f64,
 }
 
-impl fmt::Display for BadSize {
+impl fmt::Display for ShapeSizeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} m is no size for a shape: it has to lie between 0 and 1e9", self.size_m)
+        write!(f, "{} m is not a valid size of a shape; use a value from 0 to 1e9 m", self.size_m)
     }
 }
 
-impl std::error::Error for BadSize {}
+impl std::error::Error for ShapeSizeError {}
 
-/// A shape made ready for rays.
+/// A shape with the terms of its intersection tests precomputed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Solid {
     Plane { half: Option<[f64; 2]> },
@@ -102,7 +102,7 @@ impl Span {
         Some(Self { enter, enter_face: face, leave, leave_face: face })
     }
 
-    /// What lies in `-half..=half` of one axis as well.
+    /// Intersects with `-half..=half` along one axis.
     #[inline]
     fn slab(self, half: f64, origin: f64, direction: f64, faces: [u32; 2]) -> Option<Self> {
         if direction == 0.0 {
@@ -117,7 +117,7 @@ impl Span {
         self.common(own)
     }
 
-    /// What lies in both.
+    /// Returns the intersection of both.
     #[inline]
     fn common(self, other: Self) -> Option<Self> {
         let mut both = self;
@@ -130,7 +130,7 @@ impl Span {
         (both.enter <= both.leave).then_some(both)
     }
 
-    /// The stretch over both, for solids that overlap and are convex together.
+    /// Returns the interval over both, for overlapping solids whose union is convex.
     #[inline]
     fn joined(a: Option<Self>, b: Option<Self>) -> Option<Self> {
         let (Some(mut all), Some(b)) = (a, b) else { return a.or(b) };
@@ -145,29 +145,29 @@ impl Span {
 }
 
 impl Solid {
-    pub(crate) fn new(shape: &Shape) -> Result<Self, BadSize> {
+    pub(crate) fn new(shape: &RaycastShape) -> Result<Self, ShapeSizeError> {
         let length = |size_m: f64| {
-            if (0.0..=1e9).contains(&size_m) { Ok(size_m) } else { Err(BadSize { size_m }) }
+            if (0.0..=1e9).contains(&size_m) { Ok(size_m) } else { Err(ShapeSizeError { size_m }) }
         };
-        // What a quadric divides by.
+        // Divisors of the quadric must not be zero.
         let some = |size_m: f64| {
-            if size_m >= 1e-9 { length(size_m) } else { Err(BadSize { size_m }) }
+            if size_m >= 1e-9 { length(size_m) } else { Err(ShapeSizeError { size_m }) }
         };
         Ok(match *shape {
-            Shape::Plane { size_m: None } => Self::Plane { half: None },
-            Shape::Plane { size_m: Some([x, y]) } => {
+            RaycastShape::Plane { size_m: None } => Self::Plane { half: None },
+            RaycastShape::Plane { size_m: Some([x, y]) } => {
                 Self::Plane { half: Some([length(x)? / 2.0, length(y)? / 2.0]) }
             }
-            Shape::Box { size_m } => {
+            RaycastShape::Box { size_m } => {
                 size_m.to_array().into_iter().try_for_each(|size| length(size).map(drop))?;
                 Self::Box { half: size_m / 2.0 }
             }
-            Shape::Sphere { radius_m } => Self::Round(Quadric::sphere(some(radius_m)?, 0.0)),
-            Shape::Cylinder { radius_m, length_m } => Self::Cylinder {
+            RaycastShape::Sphere { radius_m } => Self::Round(Quadric::sphere(some(radius_m)?, 0.0)),
+            RaycastShape::Cylinder { radius_m, length_m } => Self::Cylinder {
                 side: Quadric::cylinder(some(radius_m)?),
                 half: length(length_m)? / 2.0,
             },
-            Shape::Capsule { radius_m, length_m } => {
+            RaycastShape::Capsule { radius_m, length_m } => {
                 let (radius, half) = (some(radius_m)?, length(length_m)? / 2.0);
                 Self::Capsule {
                     side: Quadric::cylinder(radius),
@@ -176,19 +176,19 @@ impl Solid {
                     upper: Quadric::sphere(radius, half),
                 }
             }
-            Shape::Cone { radius_m, length_m } => {
+            RaycastShape::Cone { radius_m, length_m } => {
                 let (radius, height) = (some(radius_m)?, some(length_m)?);
                 let half = height / 2.0;
                 Self::Cone { side: Quadric::cone(radius, height, half), half }
             }
-            Shape::Ellipsoid { radii_m } => {
+            RaycastShape::Ellipsoid { radii_m } => {
                 radii_m.to_array().into_iter().try_for_each(|size| some(size).map(drop))?;
                 Self::Round(Quadric::ellipsoid(radii_m))
             }
         })
     }
 
-    /// The nearest surface in `min..=max` along a ray, and its face.
+    /// Returns the distance and face of the nearest surface in `min..=max` along a ray.
     #[inline]
     pub(crate) fn cast(&self, o: DVec3, d: DVec3, min: f64, max: f64) -> Option<(f64, u32)> {
         let within = |t: f64| min <= t && t <= max;
@@ -218,7 +218,7 @@ impl Solid {
                 .slab(half.z, o.z, d.z, [4, 5]),
             Self::Round(quadric) => Span::of(quadric.crossing(o, d), 0),
             Self::Cylinder { side, half } => {
-                // The ends are cheaper to miss.
+                // The end caps are cheaper to reject.
                 let ends = Span::WHOLE.slab(*half, o.z, d.z, [1, 2])?;
                 Span::of(side.crossing(o, d), 0)?.common(ends)
             }
@@ -233,9 +233,9 @@ impl Solid {
             Self::Cone { side, half } => {
                 let ends = Span::WHOLE.slab(*half, o.z, d.z, [1, 0])?;
                 let round = match side.crossing(o, d) {
-                    // Two half lines, one in the cone, one in its mirror image above the tip.
+                    // Two half lines: one in the cone, one in its mirror image above the tip.
                     Crossing::Beyond(first, second) => {
-                        // The one that goes down on and on is ours.
+                        // The half line that goes down is in the cone.
                         let own = if d.z > 0.0 {
                             Span { leave: first, ..Span::WHOLE }
                         } else {
@@ -250,7 +250,7 @@ impl Solid {
         }
     }
 
-    /// The outward normal of a flat face; none of a round one.
+    /// Returns the outward normal of a flat face; `None` for a curved face.
     pub(crate) fn flat_normal(&self, face: u32) -> Option<DVec3> {
         let along_z = |up: bool| if up { DVec3::Z } else { DVec3::NEG_Z };
         match self {
@@ -265,7 +265,7 @@ impl Solid {
         }
     }
 
-    /// The outward normal where a ray met a face.
+    /// Returns the outward normal at a point of a face.
     pub(crate) fn normal(&self, point: DVec3, face: u32) -> DVec3 {
         if let Some(normal) = self.flat_normal(face) {
             return normal;
@@ -282,22 +282,23 @@ impl Solid {
         normal.try_normalize().unwrap_or(DVec3::Z)
     }
 
-    /// Half the sides of the box around it; `None` when it is endless.
-    pub(crate) fn half_extents(shape: &Shape) -> Option<DVec3> {
+    /// Returns the half extents of the bounding box; `None` for an infinite plane.
+    pub(crate) fn half_extents(shape: &RaycastShape) -> Option<DVec3> {
         Some(match *shape {
-            Shape::Plane { size_m } => {
+            RaycastShape::Plane { size_m } => {
                 let [x, y] = size_m?;
                 DVec3::new(x, y, 0.0) / 2.0
             }
-            Shape::Box { size_m } => size_m / 2.0,
-            Shape::Sphere { radius_m } => DVec3::splat(radius_m),
-            Shape::Cylinder { radius_m, length_m } | Shape::Cone { radius_m, length_m } => {
+            RaycastShape::Box { size_m } => size_m / 2.0,
+            RaycastShape::Sphere { radius_m } => DVec3::splat(radius_m),
+            RaycastShape::Cylinder { radius_m, length_m }
+            | RaycastShape::Cone { radius_m, length_m } => {
                 DVec3::new(radius_m, radius_m, length_m / 2.0)
             }
-            Shape::Capsule { radius_m, length_m } => {
+            RaycastShape::Capsule { radius_m, length_m } => {
                 DVec3::new(radius_m, radius_m, length_m / 2.0 + radius_m)
             }
-            Shape::Ellipsoid { radii_m } => radii_m,
+            RaycastShape::Ellipsoid { radii_m } => radii_m,
         })
     }
 }

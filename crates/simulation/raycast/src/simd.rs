@@ -1,15 +1,15 @@
-//! Eight numbers at a time.
+//! Eight single-precision numbers at a time.
 //!
-//! [`V8`] is the small set of operations that traversal, triangle test and builder are written in,
-//! once, for every kind of processor: [`Portable`] is plain Rust, [`Avx2`] the same with x86-64
-//! vector registers. Every operation but [`V8::mul_add_about`] rounds as IEEE 754 says, so both give
-//! the same bits. The only unsafe code of this crate is here.
+//! [`V8`] is the small set of operations in which traversal, triangle test and builder are written,
+//! once for every kind of processor: [`Portable`] is plain Rust, [`Avx2`] the same with x86-64
+//! vector registers. Every operation but [`V8::mul_add_about`] rounds as IEEE 754 requires, so both
+//! give the same bits. The only unsafe code of this crate is here.
 
-#![allow(unsafe_code, reason = "vector instructions; each use says why it is sound")]
+#![allow(unsafe_code, reason = "vector instructions; each use states why it is sound")]
 
-mod four;
+mod simd4;
 
-pub(crate) use four::V4;
+pub(crate) use simd4::V4;
 
 /// Eight f32 in memory, aligned for a vector load.
 #[repr(C, align(32))]
@@ -18,7 +18,7 @@ pub(crate) struct Row(pub(crate) [f32; 8]);
 
 /// Eight f32 in registers. A comparison gives a mask: all bits of a lane set, or none.
 pub(crate) trait V8: Copy {
-    /// Half as many numbers of double precision, in the same instructions.
+    /// Four double-precision numbers with the same instructions.
     type Four: V4;
 
     /// All lanes the same.
@@ -29,11 +29,11 @@ pub(crate) trait V8: Copy {
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
     fn div(self, other: Self) -> Self;
-    /// The smaller; `other` where one is no number.
+    /// Lane-wise minimum; `other` where a lane is NaN.
     fn min(self, other: Self) -> Self;
-    /// The larger; `other` where one is no number.
+    /// Lane-wise maximum; `other` where a lane is NaN.
     fn max(self, other: Self) -> Self;
-    /// `self * a + b`, rounded once or twice: only where a margin covers the difference.
+    /// `self * a + b`, rounded once or twice: use only where a margin covers the difference.
     fn mul_add_about(self, a: Self, b: Self) -> Self;
     fn le(self, other: Self) -> Self;
     fn and(self, other: Self) -> Self;
@@ -42,35 +42,35 @@ pub(crate) trait V8: Copy {
     fn select(self, other: Self, mask: Self) -> Self;
     /// Lanes 4 to 7, then 0 to 3.
     fn swap_halves(self) -> Self;
-    /// The smallest of all lanes, if all are numbers.
-    fn least(self) -> f32;
-    /// Bit `i` tells lane `i` of a mask.
+    /// Minimum of all lanes, if no lane is NaN.
+    fn min_lane(self) -> f32;
+    /// Bit `i` is set if lane `i` of a mask is.
     fn bits(self) -> u32;
-    /// Whole numbers towards zero. Every lane must lie within ±2³¹.
+    /// Rounds towards zero. Every lane must be within ±2³¹.
     fn truncate(self) -> [i32; 8];
 
-    /// Asks for something to be in the cache soon.
-    fn fetch<T>(what: &T);
+    /// Prefetches into the cache.
+    fn prefetch<T>(what: &T);
 
     /// Runs a task with this type's instructions enabled throughout.
     fn run<T: Task>(task: T) -> T::Output;
 }
 
-/// All lanes of three vectors the same.
+/// Broadcasts three values to all lanes.
 #[inline(always)]
 pub(crate) fn splat3<V: V8>(values: [f32; 3]) -> [V; 3] {
     [V::splat(values[0]), V::splat(values[1]), V::splat(values[2])]
 }
 
-/// Work that is compiled once for every kind of processor.
+/// A task compiled once for every kind of processor.
 pub(crate) trait Task {
     type Output;
     fn run<V: V8>(self) -> Self::Output;
 }
 
-/// Runs a task with the best instructions of this machine. Implementations of [`Task::run`] have
-/// to be `#[inline(always)]` down to the vector operations, or they lose their instructions; that
-/// rules out closures with vector operations, which cannot be told so.
+/// Runs a task with the best instructions of this machine. Implementations of [`Task::run`] must be
+/// `#[inline(always)]` down to the vector operations, or they lose their target features; this rules
+/// out closures with vector operations, which cannot be annotated.
 #[inline]
 pub(crate) fn dispatch<T: Task>(task: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
@@ -80,7 +80,7 @@ pub(crate) fn dispatch<T: Task>(task: T) -> T::Output {
     portable(task)
 }
 
-/// Apart from [`dispatch`], whose frame would hold all that this one does.
+/// Separate from [`dispatch`], whose stack frame would otherwise include this one.
 #[inline(never)]
 fn portable<T: Task>(task: T) -> T::Output {
     Portable::run(task)
@@ -111,7 +111,7 @@ fn force_portable() -> bool {
     PORTABLE.get()
 }
 
-/// What `work` gives without vector instructions.
+/// Runs `work` without vector instructions.
 #[cfg(test)]
 pub(crate) fn without_vectors<R>(work: impl FnOnce() -> R) -> R {
     PORTABLE.set(true);
@@ -120,7 +120,7 @@ pub(crate) fn without_vectors<R>(work: impl FnOnce() -> R) -> R {
     result
 }
 
-/// Plain Rust; compilers vectorise it for the processor they are told of.
+/// Plain Rust; compilers vectorise it for their target processor.
 #[derive(Clone, Copy)]
 pub(crate) struct Portable([f32; 8]);
 
@@ -137,7 +137,7 @@ fn mask(set: bool) -> f32 {
 }
 
 impl V8 for Portable {
-    type Four = four::Portable4;
+    type Four = simd4::Portable4;
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -200,12 +200,12 @@ impl V8 for Portable {
         Self(std::array::from_fn(|i| self.0[i ^ 4]))
     }
     #[inline(always)]
-    fn least(self) -> f32 {
-        let mut least = self.0[0];
+    fn min_lane(self) -> f32 {
+        let mut min_lane = self.0[0];
         for &value in &self.0[1..] {
-            least = if value < least { value } else { least };
+            min_lane = if value < min_lane { value } else { min_lane };
         }
-        least
+        min_lane
     }
     #[inline(always)]
     fn bits(self) -> u32 {
@@ -217,7 +217,7 @@ impl V8 for Portable {
         self.0.map(|value| value as i32)
     }
     #[inline(always)]
-    fn fetch<T>(_: &T) {}
+    fn prefetch<T>(_: &T) {}
     #[inline(always)]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Self>()
@@ -252,7 +252,7 @@ mod avx2 {
     }
 
     impl V8 for Avx2 {
-        type Four = super::four::avx2::Four;
+        type Four = super::simd4::avx2::Four;
 
         #[inline(always)]
         fn splat(value: f32) -> Self {
@@ -294,7 +294,7 @@ mod avx2 {
             Self(unsafe { _mm256_permute2f128_ps::<1>(self.0, self.0) })
         }
         #[inline(always)]
-        fn least(self) -> f32 {
+        fn min_lane(self) -> f32 {
             // SAFETY: on registers only; the machine has AVX (see `Avx2`).
             unsafe {
                 let halves =
@@ -318,12 +318,13 @@ mod avx2 {
             result
         }
         #[inline(always)]
-        fn fetch<T>(what: &T) {
-            const LINE: usize = 64;
-            for line in 0..size_of::<T>().div_ceil(LINE) {
-                let place = std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * LINE);
+        fn prefetch<T>(what: &T) {
+            const CACHE_LINE_BYTES: usize = 64;
+            for line in 0..size_of::<T>().div_ceil(CACHE_LINE_BYTES) {
+                let index =
+                    std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
                 // SAFETY: a hint, which reads nothing, at whatever place.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(place) };
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(index) };
             }
         }
         #[inline(always)]
@@ -390,17 +391,17 @@ mod tests {
         type Output = f32;
         #[inline(always)]
         fn run<V: V8>(self) -> f32 {
-            V::load(&self.0).least()
+            V::load(&self.0).min_lane()
         }
     }
 
     proptest! {
         #[test]
         fn the_least_of_eight(values in prop::array::uniform8(-1e30_f32..1e30)) {
-            let least = values.iter().copied().fold(f32::INFINITY, f32::min);
-            prop_assert_eq!(Portable::run(Least(Row(values))), least);
+            let min_lane = values.iter().copied().fold(f32::INFINITY, f32::min);
+            prop_assert_eq!(Portable::run(Least(Row(values))), min_lane);
             if super::has_avx2() {
-                prop_assert_eq!(Avx2::run(Least(Row(values))), least);
+                prop_assert_eq!(Avx2::run(Least(Row(values))), min_lane);
             }
         }
 

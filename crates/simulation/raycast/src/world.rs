@@ -1,34 +1,35 @@
-//! Everything rays can meet, in two levels.
+//! Two-level scene of everything that rays can hit.
 
+mod batch;
 mod builder;
 mod change;
-mod company;
-mod dark;
 mod instances;
 mod lanes;
-mod many;
-mod near;
+mod occlusion;
+mod packet_group;
+mod partition;
+mod proximity;
 mod query;
-mod shares;
 
 use std::sync::Arc;
 
 use periplus_geometry::{DVec3, Pose};
 
-pub use builder::{BadInstance, WorldBuilder};
-pub use change::BadChange;
+pub use builder::{InstanceError, RaycastWorldBuilder};
+pub use change::InstanceChangeError;
 
 use self::instances::InstanceTree;
 use crate::heightfield::Heightfield;
 use crate::mesh::TriangleMesh;
 use crate::shape::Solid;
 
-/// Who sees an instance.
+/// Visibility of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tags {
-    /// A ray sees it when its mask and this have a bit in common (SDF `visibility_flags`).
+    /// An instance is visible to a ray when this and the ray's mask have a bit in common (SDF
+    /// `visibility_flags`).
     pub mask: u32,
-    /// The link or robot it belongs to, so that a sensor can look past its own; 0 is nobody's.
+    /// Link or robot of the instance, so that a sensor can ignore its own robot; 0 means no group.
     pub group: u32,
 }
 
@@ -38,12 +39,12 @@ impl Default for Tags {
     }
 }
 
-/// What rays look for.
+/// Visibility filter of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Compared with [`Tags::mask`] (SDF `visibility_mask`).
     pub mask: u32,
-    /// Instances of this group are not there; 0 is nobody.
+    /// InstanceLeaves of this group are invisible; 0 excludes none.
     pub except_group: u32,
 }
 
@@ -55,36 +56,37 @@ impl Default for Filter {
 
 impl Filter {
     #[inline(always)]
-    fn lets_pass(self, tags: Tags) -> bool {
+    fn accepts(self, tags: Tags) -> bool {
         self.mask & tags.mask != 0 && (tags.group == 0 || tags.group != self.except_group)
     }
 }
 
-/// Everything rays can meet, in three trees: triangles that never move; instances of shapes, meshes
-/// and height fields that have not moved yet; and those that have. Only the last is touched when
-/// something moves, so a robot costs the same in an empty room and among a thousand walls.
+/// Everything that rays can hit, in three trees: triangles that never move, instances of shapes,
+/// meshes and height fields that have not moved yet, and instances that have moved. Only the last
+/// tree is updated when something moves, so a moving robot costs the same in an empty room and among
+/// a thousand walls.
 ///
-/// Answers do not depend on the number of threads, on the processor, on the history of the trees,
-/// or on whether a ray is asked alone or among others.
+/// Results do not depend on the number of threads, on the processor, on the history of the trees, or
+/// on batching.
 #[derive(Clone, Debug)]
-pub struct World {
-    /// Triangles fixed from the start.
+pub struct RaycastWorld {
+    /// Triangles that never move.
     fixed: TriangleMesh,
-    /// For every part of `fixed`, in order: the first triangle, the instance.
+    /// First triangle and instance of each part of `fixed`, in order.
     parts: Vec<Part>,
-    /// Bits that all parts have.
+    /// Intersection of the masks of all parts.
     parts_mask: u32,
-    /// Groups of parts, sorted.
+    /// Groups of the parts, sorted.
     parts_groups: Vec<u32>,
-    /// Instances in the order of their numbers.
+    /// InstanceLeaves by id.
     instances: Vec<Instance>,
-    /// Over instances with an end that have not moved.
+    /// Tree over bounded instances that have not moved.
     resting: InstanceTree,
-    /// Over instances with an end that have.
+    /// Tree over bounded instances that have moved.
     moving: InstanceTree,
-    /// Instances without an end.
+    /// Unbounded instances.
     endless: Vec<u32>,
-    /// Origin of the frame of the trees over instances \[m\]: that of the fixed triangles.
+    /// Origin of the frame of the instance trees \[m\]: that of the fixed triangles.
     middle_m: DVec3,
 }
 
@@ -95,11 +97,11 @@ struct Part {
     instance: u32,
 }
 
-/// What an instance is made of.
+/// Geometry of an instance.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "most instances are solids, and close at hand")]
-enum Body {
-    /// Its triangles are part of [`World::fixed`].
+enum InstanceGeometry {
+    /// The triangles are part of [`RaycastWorld::fixed`].
     Fixed,
     Solid(Solid),
     Mesh(Arc<TriangleMesh>),
@@ -108,23 +110,23 @@ enum Body {
 
 #[derive(Clone, Debug)]
 struct Instance {
-    body: Body,
-    state: State,
+    body: InstanceGeometry,
+    state: Mobility,
     tags: Tags,
     world_from_body: Frame,
-    /// Middle and half sides of the box in the body's frame; `None` when endless.
+    /// Middle and half extents of the bounding box in the body's frame; `None` when unbounded.
     bounds_m: Option<(DVec3, DVec3)>,
 }
 
-/// What becomes of an instance.
+/// Mobility of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    /// It cannot move.
+enum Mobility {
+    /// Cannot move.
     Pinned,
-    /// It can, and has not so far.
+    /// Can move, and has not moved yet.
     Resting,
     Moving,
-    /// It was taken away.
+    /// Removed.
     Gone,
 }
 
@@ -143,45 +145,45 @@ impl Frame {
         }
     }
 
-    /// From the world into the body.
+    /// Rotates a vector from the world into the body.
     #[inline(always)]
-    fn unturn(&self, v: DVec3) -> DVec3 {
+    fn rotate_into_body(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.columns;
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
     #[inline(always)]
-    fn turn(&self, v: DVec3) -> DVec3 {
+    fn rotate_into_world(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.columns;
         x * v.x + y * v.y + z * v.z
     }
 
     #[inline(always)]
     fn point_in_body(&self, point: DVec3) -> DVec3 {
-        self.unturn(point - self.translation)
+        self.rotate_into_body(point - self.translation)
     }
 }
 
-impl World {
-    /// Starts a world.
+impl RaycastWorld {
+    /// Returns a builder of a world.
     #[must_use]
-    pub fn builder() -> WorldBuilder {
-        WorldBuilder::default()
+    pub fn builder() -> RaycastWorldBuilder {
+        RaycastWorldBuilder::default()
     }
 
-    /// How many instances there are, without those taken away.
+    /// Returns the number of instances, without removed ones.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.instances.iter().filter(|instance| instance.state != State::Gone).count()
+        self.instances.iter().filter(|instance| instance.state != Mobility::Gone).count()
     }
 
-    /// Whether there is nothing.
+    /// Returns true if there are no instances.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.instances.iter().all(|instance| instance.state == State::Gone)
+        self.instances.iter().all(|instance| instance.state == Mobility::Gone)
     }
 
-    /// What trees and fixed triangles take in memory.
+    /// Returns the memory used by trees and fixed triangles.
     #[must_use]
     pub fn size_bytes(&self) -> usize {
         self.fixed.size_bytes()

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use periplus_geometry::{DVec3, Pose, Rpy, Stream};
 use periplus_raycast::{
-    BadChange, Filter, InstanceId, Ray, Shape, Tags, TriangleMesh, World, WorldBuilder,
+    Filter, InstanceChangeError, InstanceId, Ray, RaycastShape, RaycastWorld, RaycastWorldBuilder,
+    Tags, TriangleMesh,
 };
 use proptest::prelude::*;
 use support::unit;
@@ -21,16 +22,16 @@ fn at(x: f64) -> Pose {
     Pose::from_xyz(x, 0.0, 0.0)
 }
 
-fn wall(builder: &mut WorldBuilder, x: f64) -> InstanceId {
+fn wall(builder: &mut RaycastWorldBuilder, x: f64) -> InstanceId {
     builder.add_fixed(&SHEET, &CORNERS, &at(x), Tags::default()).unwrap()
 }
 
-fn ball(builder: &mut WorldBuilder, x: f64) -> InstanceId {
-    builder.add_shape(&Shape::Sphere { radius_m: 0.5 }, &at(x), Tags::default()).unwrap()
+fn ball(builder: &mut RaycastWorldBuilder, x: f64) -> InstanceId {
+    builder.add_shape(&RaycastShape::Sphere { radius_m: 0.5 }, &at(x), Tags::default()).unwrap()
 }
 
 /// Along x from the origin: how far and what.
-fn ahead(world: &World) -> Option<(f64, InstanceId)> {
+fn ahead(world: &RaycastWorld) -> Option<(f64, InstanceId)> {
     let ray = Ray::new(DVec3::new(0.0, 0.1, -0.3), DVec3::X);
     world
         .cast(&ray, Filter::default())
@@ -39,14 +40,14 @@ fn ahead(world: &World) -> Option<(f64, InstanceId)> {
 
 #[test]
 fn walls_come_and_go() {
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     let (near, far) = (wall(&mut builder, 2.0), wall(&mut builder, 4.0));
     let mut world = builder.build(1).unwrap();
     assert_eq!(ahead(&world), Some((2.0, near)));
     world.remove(&[near]).unwrap();
     assert_eq!((ahead(&world), world.len()), (Some((4.0, far)), 1));
 
-    let mut more = World::builder();
+    let mut more = RaycastWorld::builder();
     ball(&mut more, 9.0);
     wall(&mut more, 8.0);
     wall(&mut more, 3.0);
@@ -61,36 +62,40 @@ fn walls_come_and_go() {
 
 #[test]
 fn what_cannot_be_changed_is_said_and_nothing_moves() {
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     let (fixed, one, other) =
         (wall(&mut builder, 9.0), ball(&mut builder, 2.0), ball(&mut builder, 5.0));
     let mut world = builder.build(1).unwrap();
     let nowhere = Pose::from_xyz(f64::NAN, 0.0, 0.0);
-    let moves = |world: &mut World, id, pose| world.move_to(&[(one, at(7.0)), (id, pose)]);
-    assert_eq!(moves(&mut world, other, nowhere), Err(BadChange::Pose(other)));
-    assert_eq!(moves(&mut world, fixed, at(1.0)), Err(BadChange::Fixed(fixed)));
+    let moves = |world: &mut RaycastWorld, id, pose| world.move_to(&[(one, at(7.0)), (id, pose)]);
+    assert_eq!(moves(&mut world, other, nowhere), Err(InstanceChangeError::Pose(other)));
+    assert_eq!(moves(&mut world, fixed, at(1.0)), Err(InstanceChangeError::Fixed(fixed)));
     let unknown = InstanceId(3);
-    assert_eq!(moves(&mut world, unknown, at(1.0)), Err(BadChange::NoSuchInstance(unknown)));
-    assert_eq!(world.remove(&[one, one]), Err(BadChange::NoSuchInstance(one)));
+    assert_eq!(
+        moves(&mut world, unknown, at(1.0)),
+        Err(InstanceChangeError::NoSuchInstance(unknown))
+    );
+    assert_eq!(world.remove(&[one, one]), Err(InstanceChangeError::NoSuchInstance(one)));
     assert_eq!(ahead(&world).map(|(_, id)| id), Some(one));
     world.remove(&[one]).unwrap();
-    assert_eq!(moves(&mut world, other, at(1.0)), Err(BadChange::NoSuchInstance(one)));
+    assert_eq!(moves(&mut world, other, at(1.0)), Err(InstanceChangeError::NoSuchInstance(one)));
     assert_eq!(ahead(&world).map(|(_, id)| id), Some(other));
 }
 
 fn anywhere(stream: &mut Stream) -> Pose {
-    let turn = Rpy { roll: stream.unit(), pitch: stream.unit(), yaw: 6.0 * stream.unit() };
-    Pose::from_xyz_rpy((unit(stream) * 6.0 * stream.unit()).to_array(), turn)
+    let rotate_into_world =
+        Rpy { roll: stream.unit(), pitch: stream.unit(), yaw: 6.0 * stream.unit() };
+    Pose::from_xyz_rpy((unit(stream) * 6.0 * stream.unit()).to_array(), rotate_into_world)
 }
 
 /// One of several things that can move.
-fn thing(builder: &mut WorldBuilder, kind: u64, pose: &Pose) {
+fn thing(builder: &mut RaycastWorldBuilder, kind: u64, pose: &Pose) {
     let tags = Tags::default();
     let shape = match kind {
-        0 => Shape::Sphere { radius_m: 0.4 },
-        1 => Shape::Box { size_m: DVec3::new(0.5, 1.0, 0.2) },
-        2 => Shape::Cylinder { radius_m: 0.2, length_m: 1.5 },
-        3 => Shape::Plane { size_m: None },
+        0 => RaycastShape::Sphere { radius_m: 0.4 },
+        1 => RaycastShape::Box { size_m: DVec3::new(0.5, 1.0, 0.2) },
+        2 => RaycastShape::Cylinder { radius_m: 0.2, length_m: 1.5 },
+        3 => RaycastShape::Plane { size_m: None },
         _ => {
             let mesh = TriangleMesh::new(&SHEET, &CORNERS, 1).unwrap();
             builder.add_mesh(Arc::new(mesh), pose, tags).unwrap();
@@ -109,8 +114,8 @@ fn kind(stream: &mut Stream) -> u64 {
 type Things = Vec<Option<(u64, Pose)>>;
 
 /// Built at once: ids without holes, and the ids they stand for.
-fn built(things: &Things) -> (World, Vec<InstanceId>) {
-    let mut builder = World::builder();
+fn built(things: &Things) -> (RaycastWorld, Vec<InstanceId>) {
+    let mut builder = RaycastWorld::builder();
     let mut ids = vec![InstanceId(0)];
     wall(&mut builder, 1.0);
     for (id, each) in (1..).map(InstanceId).zip(&things[1..]) {
@@ -134,7 +139,7 @@ proptest! {
         for _ in 0..12 {
             match stream.bits() % 4 {
                 0 => {
-                    let mut more = World::builder();
+                    let mut more = RaycastWorld::builder();
                     let first = things.len();
                     for _ in 0..stream.bits() % 5 {
                         let (kind, pose) = (kind(&mut stream), anywhere(&mut stream));

@@ -3,45 +3,52 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use periplus_geometry::{DVec3, Pose, Rpy};
-use periplus_raycast::{BadInstance, Filter, Hit, Ray, Shape, Tags, World};
+use periplus_raycast::{Filter, Hit, InstanceError, Ray, RaycastShape, RaycastWorld, Tags};
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-fn world(shape: &Shape) -> World {
-    let mut builder = World::builder();
+fn world(shape: &RaycastShape) -> RaycastWorld {
+    let mut builder = RaycastWorld::builder();
     builder.add_shape(shape, &Pose::IDENTITY, Tags::default()).unwrap();
     builder.build(1).unwrap()
 }
 
-fn cast(shape: &Shape, origin: DVec3, direction: DVec3) -> Option<Hit> {
+fn cast(shape: &RaycastShape, origin: DVec3, direction: DVec3) -> Option<Hit> {
     world(shape).cast(&Ray::new(origin, direction), Filter::default())
 }
 
 /// Distance, face and normal.
 #[track_caller]
-fn check(shape: &Shape, origin: DVec3, direction: DVec3, distance: f64, face: u32, normal: DVec3) {
+fn check(
+    shape: &RaycastShape,
+    origin: DVec3,
+    direction: DVec3,
+    distance: f64,
+    face: u32,
+    normal: DVec3,
+) {
     let hit = cast(shape, origin, direction).expect("a hit");
     assert!((hit.distance_m - distance).abs() <= 1e-12 * (1.0 + distance), "{hit:?}");
     assert_eq!(hit.primitive, face, "{hit:?}");
     assert!(hit.normal.distance(normal) < 1e-9, "{hit:?}");
 }
 
-const BOX: Shape = Shape::Box { size_m: DVec3::new(2.0, 4.0, 6.0) };
-const BALL: Shape = Shape::Sphere { radius_m: 0.1 };
-const CAN: Shape = Shape::Cylinder { radius_m: 1.0, length_m: 2.0 };
-const PILL: Shape = Shape::Capsule { radius_m: 1.0, length_m: 2.0 };
-const HAT: Shape = Shape::Cone { radius_m: 1.0, length_m: 2.0 };
-const EGG: Shape = Shape::Ellipsoid { radii_m: DVec3::new(1.0, 2.0, 3.0) };
+const BOX: RaycastShape = RaycastShape::Box { size_m: DVec3::new(2.0, 4.0, 6.0) };
+const BALL: RaycastShape = RaycastShape::Sphere { radius_m: 0.1 };
+const CAN: RaycastShape = RaycastShape::Cylinder { radius_m: 1.0, length_m: 2.0 };
+const PILL: RaycastShape = RaycastShape::Capsule { radius_m: 1.0, length_m: 2.0 };
+const HAT: RaycastShape = RaycastShape::Cone { radius_m: 1.0, length_m: 2.0 };
+const EGG: RaycastShape = RaycastShape::Ellipsoid { radii_m: DVec3::new(1.0, 2.0, 3.0) };
 
 #[test]
 fn planes() {
-    let endless = Shape::Plane { size_m: None };
+    let endless = RaycastShape::Plane { size_m: None };
     check(&endless, v(0.0, 0.0, 2.0), DVec3::NEG_Z, 2.0, 0, DVec3::Z);
     check(&endless, v(1e6, 0.0, -2.0), DVec3::Z, 2.0, 0, DVec3::NEG_Z);
     assert_eq!(cast(&endless, v(0.0, 0.0, 2.0), DVec3::X), None);
-    let small = Shape::Plane { size_m: Some([2.0, 4.0]) };
+    let small = RaycastShape::Plane { size_m: Some([2.0, 4.0]) };
     check(&small, v(0.5, 1.5, 2.0), DVec3::NEG_Z, 2.0, 0, DVec3::Z);
     check(&small, v(1.0, 2.0, 2.0), DVec3::NEG_Z, 2.0, 0, DVec3::Z);
     assert_eq!(cast(&small, v(1.1, 0.0, 2.0), DVec3::NEG_Z), None);
@@ -123,18 +130,21 @@ fn ranges_count() {
 
 #[test]
 fn no_size_no_shape_and_flat_is_fine() {
-    let mut builder = World::builder();
-    let mut add = |shape: Shape| builder.add_shape(&shape, &Pose::IDENTITY, Tags::default());
+    let mut builder = RaycastWorld::builder();
+    let mut add = |shape: RaycastShape| builder.add_shape(&shape, &Pose::IDENTITY, Tags::default());
     for size in [f64::NAN, -1.0, f64::INFINITY, 0.0] {
-        assert!(matches!(add(Shape::Sphere { radius_m: size }), Err(BadInstance::Size(_))));
-        let cone = Shape::Cone { radius_m: 1.0, length_m: size };
-        assert!(matches!(add(cone), Err(BadInstance::Size(_))));
+        assert!(matches!(
+            add(RaycastShape::Sphere { radius_m: size }),
+            Err(InstanceError::Size(_))
+        ));
+        let cone = RaycastShape::Cone { radius_m: 1.0, length_m: size };
+        assert!(matches!(add(cone), Err(InstanceError::Size(_))));
     }
-    let sheet = Shape::Box { size_m: v(0.0, 1.0, 1.0) };
+    let sheet = RaycastShape::Box { size_m: v(0.0, 1.0, 1.0) };
     check(&sheet, v(-1.0, 0.2, 0.2), DVec3::X, 1.0, 0, DVec3::NEG_X);
-    let coin = Shape::Cylinder { radius_m: 1.0, length_m: 0.0 };
+    let coin = RaycastShape::Cylinder { radius_m: 1.0, length_m: 0.0 };
     assert_eq!(cast(&coin, v(0.5, 0.0, 1.0), DVec3::NEG_Z).map(|hit| hit.distance_m), Some(1.0));
-    let ball = Shape::Capsule { radius_m: 1.0, length_m: 0.0 };
+    let ball = RaycastShape::Capsule { radius_m: 1.0, length_m: 0.0 };
     assert_eq!(cast(&ball, v(-2.0, 0.0, 0.0), DVec3::X).map(|hit| hit.distance_m), Some(1.0));
 }
 
@@ -160,27 +170,27 @@ fn near_tangents_keep_their_digits() {
         let chord = ((1.0 - height) * (1.0 + height)).sqrt();
         for far in [2.0, 1000.0, 1e6] {
             let expected = far - chord;
-            let one = |shape: &Shape, origin: DVec3, what: &str| {
+            let one = |shape: &RaycastShape, origin: DVec3, what: &str| {
                 let hit = cast(shape, origin, DVec3::X).expect(what);
                 let off = (hit.distance_m - expected).abs();
                 assert!(off < 1e-12 * far, "{what} at {height}: off by {off}");
             };
-            let wide = Shape::Cylinder { radius_m: 1.0, length_m: 1.0 };
-            one(&Shape::Sphere { radius_m: 1.0 }, v(-far, height, 0.0), "sphere");
+            let wide = RaycastShape::Cylinder { radius_m: 1.0, length_m: 1.0 };
+            one(&RaycastShape::Sphere { radius_m: 1.0 }, v(-far, height, 0.0), "sphere");
             one(&wide, v(-far, height, 0.1), "cylinder");
             one(&PILL, v(-far, 0.0, 1.0 + height), "capsule");
             one(&EGG, v(-far, 2.0 * height, 0.0), "ellipsoid");
-            let tall = Shape::Ellipsoid { radii_m: v(1.0, 2.0, 4.0) };
+            let tall = RaycastShape::Ellipsoid { radii_m: v(1.0, 2.0, 4.0) };
             one(&tall, v(-far, 0.0, 4.0 * height), "ellipsoid upright");
         }
     }
-    let ball = Shape::Sphere { radius_m: 1.0 };
+    let ball = RaycastShape::Sphere { radius_m: 1.0 };
     assert!(cast(&ball, v(-1e6, 1.0 + 2f64.powi(-52), 0.0), DVec3::X).is_none());
 }
 
 #[test]
 fn poses_move_shapes() {
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     let quarter = Rpy { roll: 0.0, pitch: std::f64::consts::FRAC_PI_2, yaw: 0.0 };
     let pose = Pose::from_xyz_rpy([5.0, 0.0, 0.0], quarter);
     let id = builder.add_shape(&CAN, &pose, Tags::default()).unwrap();
@@ -195,7 +205,7 @@ fn poses_move_shapes() {
 
 #[test]
 fn masks_and_groups_hide() {
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     let mut ball = |x: f64, mask: u32, group: u32| {
         builder.add_shape(&BALL, &Pose::from_xyz(x, 0.0, 0.0), Tags { mask, group }).unwrap()
     };

@@ -5,21 +5,23 @@
 use std::sync::Arc;
 
 use periplus_geometry::{DVec3, Pose, Stream};
-use periplus_raycast::{BadHeightfield, Filter, Heightfield, Ray, Tags, TriangleMesh, World};
+use periplus_raycast::{
+    Filter, Heightfield, HeightfieldError, Ray, RaycastWorld, Tags, TriangleMesh,
+};
 use proptest::prelude::*;
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-fn world(columns: usize, rows: usize, size_m: [f64; 2], heights: Vec<f64>) -> World {
+fn world(columns: usize, rows: usize, size_m: [f64; 2], heights: Vec<f64>) -> RaycastWorld {
     let field = Heightfield::new(columns, rows, size_m, heights).unwrap();
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     builder.add_heightfield(Arc::new(field), &Pose::IDENTITY, Tags::default()).unwrap();
     builder.build(1).unwrap()
 }
 
-fn distance(world: &World, origin: DVec3, direction: DVec3) -> Option<f64> {
+fn distance(world: &RaycastWorld, origin: DVec3, direction: DVec3) -> Option<f64> {
     world
         .cast(&Ray::new(origin, direction.normalize()), Filter::default())
         .map(|hit| hit.distance_m)
@@ -45,12 +47,12 @@ fn no_grid_no_ground() {
     let new = |columns, rows, size: f64, heights: Vec<f64>| {
         Heightfield::new(columns, rows, [size; 2], heights).map(drop)
     };
-    assert_eq!(new(1, 4, 1.0, vec![0.0; 4]), Err(BadHeightfield::Count));
-    assert_eq!(new(2, 2, 1.0, vec![0.0; 5]), Err(BadHeightfield::Count));
-    assert_eq!(new(usize::MAX, 2, 1.0, vec![]), Err(BadHeightfield::Count));
-    assert_eq!(new(2, 2, 0.0, vec![0.0; 4]), Err(BadHeightfield::Size));
+    assert_eq!(new(1, 4, 1.0, vec![0.0; 4]), Err(HeightfieldError::Count));
+    assert_eq!(new(2, 2, 1.0, vec![0.0; 5]), Err(HeightfieldError::Count));
+    assert_eq!(new(usize::MAX, 2, 1.0, vec![]), Err(HeightfieldError::Count));
+    assert_eq!(new(2, 2, 0.0, vec![0.0; 4]), Err(HeightfieldError::Size));
     let wrong = vec![0.0, 0.0, f64::NAN, 0.0];
-    assert_eq!(new(2, 2, 1.0, wrong), Err(BadHeightfield::Height { sample: 2 }));
+    assert_eq!(new(2, 2, 1.0, wrong), Err(HeightfieldError::Height { sample: 2 }));
 }
 
 proptest! {
@@ -78,7 +80,7 @@ proptest! {
                 }
             }
         }
-        let mut builder = World::builder();
+        let mut builder = RaycastWorld::builder();
         let mesh = TriangleMesh::new(&positions, &triangles, 1).unwrap();
         builder.add_mesh(Arc::new(mesh), &Pose::IDENTITY, Tags::default()).unwrap();
         let mesh = builder.build(1).unwrap();

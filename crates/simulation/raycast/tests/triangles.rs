@@ -7,7 +7,9 @@ mod support;
 use std::sync::Arc;
 
 use periplus_geometry::{DVec3, Pose, Rpy, Stream};
-use periplus_raycast::{Filter, Heightfield, Hit, Ray, Shape, Tags, TriangleMesh, World};
+use periplus_raycast::{
+    Filter, Heightfield, Hit, Ray, RaycastShape, RaycastWorld, Tags, TriangleMesh,
+};
 use proptest::prelude::*;
 use support::{Solid, fixed, unit};
 
@@ -109,14 +111,14 @@ proptest! {
         }
         rays[0].direction = DVec3::ZERO;
         for filter in [Filter::default(), Filter { mask: 1, except_group: 3 }] {
-            let single: Vec<Option<Hit>> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
+            let to_f32: Vec<Option<Hit>> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
             let mut hits = vec![None; rays.len()];
             world.hits_grid(&rays, columns, filter, 1, &mut hits);
-            prop_assert_eq!(&hits, &single);
+            prop_assert_eq!(&hits, &to_f32);
             let mut distances = vec![0.0; rays.len()];
-            world.cast_many(&rays, filter, 2, &mut distances);
+            world.cast_batch(&rays, filter, 2, &mut distances);
             #[expect(clippy::cast_possible_truncation)]
-            let expected: Vec<f32> = single
+            let expected: Vec<f32> = to_f32
                 .iter()
                 .map(|hit| hit.map_or(f32::INFINITY, |hit| hit.distance_m as f32))
                 .collect();
@@ -126,16 +128,17 @@ proptest! {
 }
 
 /// Fixed triangles, meshes, shapes, ground, all over each other.
-fn everything(seed: u64) -> World {
+fn everything(seed: u64) -> RaycastWorld {
     let mut stream = Stream::keyed(seed, "world", 0);
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     let mut place = || {
-        let turn = Rpy { roll: stream.unit(), pitch: stream.unit(), yaw: 6.0 * stream.unit() };
+        let rotate_into_world =
+            Rpy { roll: stream.unit(), pitch: stream.unit(), yaw: 6.0 * stream.unit() };
         let tags = Tags {
             mask: u32::try_from(stream.bits() % 4).unwrap(),
             group: u32::try_from(stream.bits() % 4).unwrap(),
         };
-        (Pose::from_xyz_rpy((unit(&mut stream) * 3.0).to_array(), turn), tags)
+        (Pose::from_xyz_rpy((unit(&mut stream) * 3.0).to_array(), rotate_into_world), tags)
     };
     for number in 0..3 {
         let solid = soup(150, seed ^ number);
@@ -146,14 +149,14 @@ fn everything(seed: u64) -> World {
         builder.add_mesh(Arc::new(mesh), &pose, tags).unwrap();
     }
     for shape in [
-        Shape::Plane { size_m: None },
-        Shape::Plane { size_m: Some([1.0, 2.0]) },
-        Shape::Box { size_m: DVec3::new(1.0, 2.0, 0.3) },
-        Shape::Sphere { radius_m: 0.5 },
-        Shape::Cylinder { radius_m: 0.5, length_m: 1.0 },
-        Shape::Capsule { radius_m: 0.3, length_m: 1.0 },
-        Shape::Cone { radius_m: 0.5, length_m: 1.0 },
-        Shape::Ellipsoid { radii_m: DVec3::new(0.2, 0.5, 1.0) },
+        RaycastShape::Plane { size_m: None },
+        RaycastShape::Plane { size_m: Some([1.0, 2.0]) },
+        RaycastShape::Box { size_m: DVec3::new(1.0, 2.0, 0.3) },
+        RaycastShape::Sphere { radius_m: 0.5 },
+        RaycastShape::Cylinder { radius_m: 0.5, length_m: 1.0 },
+        RaycastShape::Capsule { radius_m: 0.3, length_m: 1.0 },
+        RaycastShape::Cone { radius_m: 0.5, length_m: 1.0 },
+        RaycastShape::Ellipsoid { radii_m: DVec3::new(0.2, 0.5, 1.0) },
     ] {
         let (pose, tags) = place();
         builder.add_shape(&shape, &pose, tags).unwrap();
@@ -168,8 +171,8 @@ fn everything(seed: u64) -> World {
 #[test]
 fn the_lower_numbers_win_ties() {
     let sheet = [[1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [1.0, -1.0, 1.0]];
-    let mut builder = World::builder();
-    let shape = Shape::Box { size_m: DVec3::new(2.0, 2.0, 2.0) };
+    let mut builder = RaycastWorld::builder();
+    let shape = RaycastShape::Box { size_m: DVec3::new(2.0, 2.0, 2.0) };
     let mesh = TriangleMesh::new(&sheet, &[[0, 1, 2], [0, 2, 3], [0, 1, 2]], 1).unwrap();
     let there = Pose::from_xyz(2.0, 0.0, 0.0);
     let mut ids = vec![
@@ -205,11 +208,11 @@ fn rays_do_not_depend_on_threads() {
             Ray::new(DVec3::new(eye - 2.0, 0.0, 0.5), DVec3::new(1.0, slope, 0.1).normalize())
         })
         .collect();
-    let single: Vec<_> = rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
+    let to_f32: Vec<_> = rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
     for (threads, columns) in [(1, 100), (2, 100), (3, 7), (64, 20_011), (0, 1_000_000)] {
         let mut hits = vec![None; rays.len()];
         world.hits_grid(&rays, columns, Filter::default(), threads, &mut hits);
-        assert!(hits == single, "{threads} threads, {columns} columns");
+        assert!(hits == to_f32, "{threads} threads, {columns} columns");
     }
 }
 
@@ -218,11 +221,11 @@ fn rays_do_not_depend_on_threads() {
 fn rays_in_turns_equal_single_rays() {
     let solid = soup(60_000, 6);
     let (p, t) = (&solid.positions_m, &solid.triangles);
-    let mut builder = World::builder();
+    let mut builder = RaycastWorld::builder();
     builder.add_fixed(p, t, &Pose::IDENTITY, Tags { mask: 1, group: 3 }).unwrap();
     let below = Pose::from_xyz(0.0, 0.0, -4.0);
-    builder.add_shape(&Shape::Plane { size_m: None }, &below, Tags::default()).unwrap();
-    let ball = Shape::Sphere { radius_m: 3.0 };
+    builder.add_shape(&RaycastShape::Plane { size_m: None }, &below, Tags::default()).unwrap();
+    let ball = RaycastShape::Sphere { radius_m: 3.0 };
     builder.add_shape(&ball, &Pose::from_xyz(5.0, 0.0, 0.0), Tags::default()).unwrap();
     let world = builder.build(1).unwrap();
     let mut stream = Stream::keyed(6, "rays", 0);
@@ -242,10 +245,10 @@ fn rays_in_turns_equal_single_rays() {
         (Filter { mask: 1, except_group: 3 }, 300),
     ] {
         let rays = &rays[..count];
-        let single: Vec<_> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
+        let to_f32: Vec<_> = rays.iter().map(|ray| world.cast(ray, filter)).collect();
         let mut hits = vec![None; count];
         world.hits_grid(rays, count, filter, 1, &mut hits);
-        assert!(hits == single, "{count} rays, {filter:?}");
+        assert!(hits == to_f32, "{count} rays, {filter:?}");
     }
 }
 
@@ -253,7 +256,7 @@ fn rays_in_turns_equal_single_rays() {
 fn trees_do_not_depend_on_threads() {
     let solid = soup(60_000, 5);
     let worlds = [1, 2, 7].map(|threads| {
-        let mut builder = World::builder();
+        let mut builder = RaycastWorld::builder();
         let (p, t) = (&solid.positions_m, &solid.triangles);
         builder.add_fixed(p, t, &Pose::IDENTITY, Tags::default()).unwrap();
         builder.build(threads).unwrap()
@@ -277,7 +280,7 @@ fn equal_triangles_by_the_thousand_still_make_a_tree() {
     solid.triangles = vec![[0, 1, 2]; 5000];
     let hit = fixed(&solid).cast(&Ray::new(DVec3::ZERO, DVec3::X), Filter::default()).unwrap();
     assert_eq!((hit.distance_m, hit.primitive), (1.0, 0));
-    // Each twice the one before: splits that take off one at a time.
+    // Each twice the one before: splits that pop off one at a time.
     let mut solid = Solid::default();
     for number in 0..120_u32 {
         let size = 2f64.powi(i32::try_from(number).unwrap() / 4 - 15);

@@ -48,8 +48,11 @@ fn ball(rings: u32, sectors: u32, radius: f64, shift: DVec3) -> Solid {
     for ring in 1..rings {
         let (s, c) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
         for sector in 0..sectors {
-            let turn = std::f64::consts::TAU * f64::from(sector) / f64::from(sectors);
-            push(&mut solid, DVec3::new(s * turn.cos(), s * turn.sin(), c));
+            let rotate_into_world = std::f64::consts::TAU * f64::from(sector) / f64::from(sectors);
+            push(
+                &mut solid,
+                DVec3::new(s * rotate_into_world.cos(), s * rotate_into_world.sin(), c),
+            );
         }
     }
     push(&mut solid, DVec3::NEG_Z);
@@ -89,7 +92,7 @@ fn leaks(solid: &Solid, inside: impl Fn(&mut Stream) -> DVec3, count: usize) -> 
             rays.push(Ray::new(origin, (target - origin).normalize()));
         }
         distances.resize(rays.len(), 0.0);
-        world.cast_many(&rays, Filter::default(), 1, &mut distances);
+        world.cast_batch(&rays, Filter::default(), 1, &mut distances);
         open += distances.iter().filter(|distance| distance.is_infinite()).count();
         // Neighbours go together as packets; here each goes alone.
         open +=

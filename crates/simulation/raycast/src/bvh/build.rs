@@ -1,23 +1,24 @@
-//! Building a tree by the surface area heuristic.
+//! Tree construction by the surface area heuristic.
 //!
-//! Ranges of primitives are split where `area x count` of both sides, over 16 bins along each axis,
-//! is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"); a node
+//! A range of primitives is split where `area x count` of both sides, over 16 bins along each axis,
+//! is minimal (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"). A node
 //! splits its largest range until it has eight. The tree does not depend on the number of threads.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::{LEAF, MAX_DEPTH, MAX_LEAF, MAX_PRIMITIVES, Node, leaf};
+use super::{LEAF_MASK, MAX_DEPTH, MAX_LEAF_TRIANGLES, MAX_PRIMITIVE_COUNT, Node, leaf};
 use crate::simd::{Row, Task, V8, dispatch};
 
 const BINS: usize = 16;
-/// From here on ranges are halved, three times a node: 2²⁸ boxes are spent after ten more.
+/// From this depth on ranges are halved, three times per node: 2²⁸ boxes are exhausted after ten
+/// more levels.
 const HALVE_DEPTH: usize = MAX_DEPTH - 12;
-/// Below this many primitives a thread costs more than it brings.
-const THREAD_MIN: usize = 20_000;
+/// Minimum number of primitives for which a thread pays off.
+const MIN_BOXES_PER_THREAD_COUNT: usize = 20_000;
 
-/// A box and a number: lower corner, number as bits, negated upper corner, nothing. Negated so
-/// that one minimum of eight lanes unites two boxes.
+/// A box and a number: lower corner, number as bits, negated upper corner, unused. Negated so that
+/// one minimum of eight lanes unites two boxes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds(pub(crate) Row);
 
@@ -51,7 +52,7 @@ impl Bounds {
         x * y + y * z + z * x
     }
 
-    /// Grows to hold another box as well.
+    /// Grows to contain another box.
     pub(crate) fn include(&mut self, other: &Self) {
         for (own, &other) in self.0.0.iter_mut().zip(&other.0.0) {
             *own = if other < *own { other } else { *own };
@@ -64,13 +65,13 @@ impl Bounds {
     }
 }
 
-/// Primitives to become one child.
+/// Primitives of one child.
 #[derive(Clone, Copy)]
 struct Range {
     start: usize,
     end: usize,
     bounds: Bounds,
-    /// Of twice the centres.
+    /// Bounds of twice the centres.
     centres: Bounds,
 }
 
@@ -79,16 +80,16 @@ impl Range {
         self.end - self.start
     }
 
-    /// For few, fewer bins are as good.
+    /// Returns the number of bins; fewer for small ranges.
     fn bins(&self) -> usize {
         if self.len() > 64 { BINS } else { BINS / 2 }
     }
 }
 
-/// A tree over boxes, root first; orders `boxes` as the leaves name them. No node where there is
-/// no box. Leaves hold up to `leaf_size` (at most 8) boxes.
+/// Builds a tree over boxes, root first, and sorts `boxes` in the order of the leaves. Empty without
+/// boxes. Leaves hold up to `leaf_size` (at most 8) boxes.
 pub(crate) fn build(boxes: &mut [Bounds], leaf_size: usize, threads: usize) -> Vec<Node> {
-    assert!(boxes.len() <= MAX_PRIMITIVES && (1..=MAX_LEAF).contains(&leaf_size));
+    assert!(boxes.len() <= MAX_PRIMITIVE_COUNT && (1..=MAX_LEAF_TRIANGLES).contains(&leaf_size));
     dispatch(Build { boxes, leaf_size, threads })
 }
 
@@ -108,7 +109,7 @@ impl Task for Build<'_> {
             return nodes;
         }
         let range = measure::<V>(self.boxes, 0);
-        if self.threads < 2 || self.boxes.len() < THREAD_MIN {
+        if self.threads < 2 || self.boxes.len() < MIN_BOXES_PER_THREAD_COUNT {
             nodes.reserve(self.boxes.len() / 4);
             grow::<V>(&mut nodes, self.boxes, range, self.leaf_size, 0);
             return nodes;
@@ -132,7 +133,7 @@ impl Task for Build<'_> {
                     while let Some(&slot) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
                         if let Ok(mut task) = tasks[slot].lock() {
                             let (boxes, nodes) = &mut *task;
-                            dispatch(Grow {
+                            dispatch(GrowSubtree {
                                 boxes,
                                 nodes,
                                 whole: children[slot],
@@ -153,7 +154,7 @@ impl Task for Build<'_> {
                 let grown = task.into_inner().map_or_else(|_| Vec::new(), |(_, nodes)| nodes);
                 nodes.extend(grown.into_iter().map(|mut node| {
                     for slot in 0..8 {
-                        if node.is_used(slot) && node.child(slot) & LEAF == 0 {
+                        if node.is_used(slot) && node.child(slot) & LEAF_MASK == 0 {
                             node.set_child(slot, node.child(slot) + offset);
                         } else if node.is_used(slot) {
                             node.set_child(slot, node.child(slot) + index(child.start));
@@ -169,15 +170,15 @@ impl Task for Build<'_> {
     }
 }
 
-/// The part of a tree below one child of the root.
-struct Grow<'a, 'b> {
+/// Subtree below one child of the root.
+struct GrowSubtree<'a, 'b> {
     boxes: &'a mut &'b mut [Bounds],
     nodes: &'a mut Vec<Node>,
     whole: Range,
     leaf_size: usize,
 }
 
-impl Task for Grow<'_, '_> {
+impl Task for GrowSubtree<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -195,7 +196,7 @@ fn index(value: usize) -> u32 {
     value as u32
 }
 
-/// Adds the node of a range and all below it.
+/// Adds the node of a range and all nodes below it.
 #[inline(never)]
 fn grow_apart<V: V8>(
     n: &mut Vec<Node>,
@@ -204,15 +205,15 @@ fn grow_apart<V: V8>(
     size: usize,
     depth: usize,
 ) {
-    struct Again<'a>(&'a mut Vec<Node>, &'a mut [Bounds], Range, usize, usize);
-    impl Task for Again<'_> {
+    struct SeparateFrame<'a>(&'a mut Vec<Node>, &'a mut [Bounds], Range, usize, usize);
+    impl Task for SeparateFrame<'_> {
         type Output = ();
         #[inline(always)]
         fn run<V: V8>(self) {
             grow::<V>(self.0, self.1, self.2, self.3, self.4);
         }
     }
-    V::run(Again(n, boxes, range, size, depth));
+    V::run(SeparateFrame(n, boxes, range, size, depth));
 }
 
 #[inline(always)]
@@ -257,7 +258,7 @@ fn children_of<V: V8>(
             if settled[slot] || child.len() < 2 {
                 continue;
             }
-            // What has to be split comes first.
+            // Ranges that must be split come first.
             let large = child.len() > leaf_size;
             let weight = if depth >= HALVE_DEPTH {
                 child.len() as f32
@@ -286,7 +287,7 @@ fn children_of<V: V8>(
     (children, count)
 }
 
-/// Bounds of all boxes and of their centres.
+/// Returns the bounds of all boxes and of their centres.
 #[inline(always)]
 fn measure<V: V8>(boxes: &[Bounds], start: usize) -> Range {
     let mut bounds = V::splat(f32::INFINITY);
@@ -300,14 +301,14 @@ fn measure<V: V8>(boxes: &[Bounds], start: usize) -> Range {
     Range { start, end: start + boxes.len(), bounds, centres }
 }
 
-/// Twice the centre, and negated in the other half.
+/// Returns twice the centre, and its negative in the other half.
 #[inline(always)]
 fn centre<V: V8>(row: V) -> V {
     row.sub(row.swap_halves())
 }
 
-/// Where a range is cut: the boxes whose centre lies in a bin below `bin` go left.
-struct Cut {
+/// Split of a range: boxes whose centre is in a bin below `bin` go left.
+struct Split {
     cost: f32,
     axis: usize,
     bin: usize,
@@ -315,7 +316,7 @@ struct Cut {
     right: Bounds,
 }
 
-/// Splits a range in two, or says that it better stays whole, which it may only if not `forced`.
+/// Splits a range in two, or returns `None` if a leaf is cheaper, unless `forced`.
 #[inline(always)]
 fn split<V: V8>(
     boxes: &mut [Bounds],
@@ -326,8 +327,8 @@ fn split<V: V8>(
     let own = &mut boxes[range.start..range.end];
     let best = if halve { None } else { best_cut::<V>(own, range) };
     if !forced {
-        // A leaf costs as much with eight triangles as with one: only less area pays.
-        let worth = |cut: &Cut| {
+        // A leaf costs the same with eight triangles as with one: only a smaller area pays off.
+        let worth = |cut: &Split| {
             cut.left.half_area() + cut.right.half_area() < 0.7 * range.bounds.half_area()
         };
         if !best.as_ref().is_some_and(worth) {
@@ -335,7 +336,7 @@ fn split<V: V8>(
         }
     }
     let Some(cut) = best else {
-        // All centres are the same, or there is no time to look closer.
+        // All centres are equal, or the depth limit requires halving.
         let middle = own.len() / 2;
         let (left, right) = own.split_at(middle);
         let (left, right) =
@@ -368,7 +369,7 @@ fn split<V: V8>(
     ))
 }
 
-/// What to subtract from twice a centre, and the bins per length.
+/// Returns the value to subtract from twice a centre, and the bins per length.
 #[inline(always)]
 fn grid(range: &Range) -> (Row, Row) {
     let mut offset = Row([0.0; 8]);
@@ -383,32 +384,32 @@ fn grid(range: &Range) -> (Row, Row) {
     (offset, scale)
 }
 
-/// The bins of a centre along the three axes.
+/// Returns the bins of a centre along the three axes.
 #[inline(always)]
-#[expect(clippy::cast_sign_loss, reason = "no centre lies below the lowest")]
+#[expect(clippy::cast_sign_loss, reason = "no centre is below the minimum")]
 fn bins<V: V8>(centre: V, offset: V, scale: V) -> [usize; 3] {
-    let place = centre.sub(offset).mul(scale).truncate();
-    let [x, y, z, ..] = place;
+    let index = centre.sub(offset).mul(scale).truncate();
+    let [x, y, z, ..] = index;
     [x as usize & (BINS - 1), y as usize & (BINS - 1), z as usize & (BINS - 1)]
 }
 
 #[inline(always)]
-fn best_cut<V: V8>(own: &[Bounds], range: &Range) -> Option<Cut> {
+fn best_cut<V: V8>(own: &[Bounds], range: &Range) -> Option<Split> {
     let (offset, scale) = grid(range);
     let (offset_v, scale_v) = (V::load(&offset), V::load(&scale));
     let mut counts = [[0_u32; BINS]; 3];
     let mut boxes = [[Bounds::EMPTY; BINS]; 3];
     for each in own {
         let row = V::load(&each.0);
-        let place = bins(centre(row), offset_v, scale_v);
+        let index = bins(centre(row), offset_v, scale_v);
         for axis in 0..3 {
-            let bin = place[axis];
+            let bin = index[axis];
             counts[axis][bin] += 1;
             let own = &mut boxes[axis][bin].0;
             *own = V::load(own).min(row).store();
         }
     }
-    let mut best: Option<Cut> = None;
+    let mut best: Option<Split> = None;
     for axis in 0..3 {
         if scale.0[axis] == 0.0 {
             continue;
@@ -429,14 +430,14 @@ fn best_cut<V: V8>(own: &[Bounds], range: &Range) -> Option<Cut> {
             }
             let total = bounds.half_area() * cost(count) + right[bin].0;
             if best.as_ref().is_none_or(|best| total < best.cost) {
-                best = Some(Cut { cost: total, axis, bin, left: bounds, right: right[bin].1 });
+                best = Some(Split { cost: total, axis, bin, left: bounds, right: right[bin].1 });
             }
         }
     }
     best
 }
 
-/// What a ray through a box pays for the primitives in it.
+/// Returns the cost of the primitives in a box for a ray through it.
 #[inline(always)]
 fn cost(count: u32) -> f32 {
     count as f32

@@ -3,27 +3,27 @@
 use periplus_geometry::DVec3;
 
 use super::Instance;
-use crate::bvh::{Bounds, LEAF, Node, build, leaf_range};
+use crate::bvh::{Bounds, LEAF_MASK, Node, build, leaf_range};
 
-/// A tree is refitted to instances that move until its boxes have become this much larger than
-/// they were when it was built.
-const WORN: f32 = 1.25;
+/// Growth of the boxes' area since the tree was built, beyond which it is rebuilt instead of
+/// refitted.
+const REBUILD_AREA_RATIO: f32 = 1.25;
 
-/// A tree over some of a world's instances. It can lag behind in quality, never in truth.
+/// A tree over a subset of a world's instances. Refitting degrades its speed, never its results.
 #[derive(Clone, Debug, Default)]
 pub(super) struct InstanceTree {
     pub(super) nodes: Vec<Node>,
-    /// Instances as the leaves name them.
+    /// InstanceLeaves in the order of the leaves.
     pub(super) order: Vec<u32>,
-    /// Of all nodes' boxes together, when the tree was built.
+    /// Total area of all nodes' boxes when the tree was built.
     built_area: f32,
-    /// Room to work in.
+    /// Working memory.
     boxes: Vec<Bounds>,
 }
 
 impl InstanceTree {
-    /// Starts anew with these instances, all of which have an end.
-    pub(super) fn plant(
+    /// Replaces the instances, all of which are bounded.
+    pub(super) fn rebuild(
         &mut self,
         numbers: impl Iterator<Item = u32>,
         instances: &[Instance],
@@ -34,9 +34,9 @@ impl InstanceTree {
         self.build(instances, middle_m);
     }
 
-    /// After instances moved.
+    /// Updates the boxes after instances moved.
     pub(super) fn refit(&mut self, instances: &[Instance], middle_m: DVec3) {
-        if self.fit(instances, middle_m) > WORN * self.built_area {
+        if self.fit(instances, middle_m) > REBUILD_AREA_RATIO * self.built_area {
             self.build(instances, middle_m);
         }
     }
@@ -55,12 +55,12 @@ impl InstanceTree {
         self.built_area = self.fit(instances, middle_m);
     }
 
-    /// Makes all boxes fit; gives the area of all nodes' boxes together.
+    /// Refits all boxes and returns the total area of the nodes' boxes.
     fn fit(&mut self, instances: &[Instance], middle_m: DVec3) -> f32 {
         self.boxes.clear();
         self.boxes.resize(self.nodes.len(), Bounds::EMPTY);
         let mut area = 0.0;
-        // Children come after their parents.
+        // Children are stored after their parents.
         for (index, node) in self.nodes.iter_mut().enumerate().rev() {
             let mut whole = Bounds::EMPTY;
             for slot in 0..8 {
@@ -68,7 +68,7 @@ impl InstanceTree {
                     continue;
                 }
                 let word = node.child(slot);
-                let own = if word & LEAF == 0 {
+                let own = if word & LEAF_MASK == 0 {
                     self.boxes[word as usize]
                 } else {
                     let (first, _) = leaf_range(word);
@@ -89,12 +89,12 @@ impl InstanceTree {
 fn bounds(instance: &Instance, number: u32, middle_m: DVec3) -> Bounds {
     let (middle, half) = instance.bounds_m.unwrap_or_default();
     let frame = &instance.world_from_body;
-    let middle = frame.translation + frame.turn(middle) - middle_m;
+    let middle = frame.translation + frame.rotate_into_world(middle) - middle_m;
     let [x, y, z] = frame.columns.map(DVec3::abs);
     let half = x * half.x + y * half.y + z * half.z;
-    // Room for the rounding of the frame, of f32, and of a ray's way into the body.
+    // Margin for the rounding of the frame, of f32, and of the transform of a ray into the body.
     let half = half + (half + middle.abs()).max_element() * 1e-6 + 1e-9;
     #[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
-    let single = |v: DVec3| v.to_array().map(|x| x as f32);
-    Bounds::new(single(middle - half), single(middle + half), number)
+    let to_f32 = |v: DVec3| v.to_array().map(|x| x as f32);
+    Bounds::new(to_f32(middle - half), to_f32(middle + half), number)
 }

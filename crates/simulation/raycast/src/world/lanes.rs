@@ -1,26 +1,26 @@
 //! Up to eight rays side by side.
 
-use super::query::Found;
-use crate::eight::Eight;
+use super::query::NearestHit;
 use crate::ray::Ray;
+use crate::simd8::DVec3x8;
 
-/// Up to eight rays; lanes beyond are copies of the first.
+/// Up to eight rays; unused lanes repeat the first.
 pub(super) struct Lanes {
-    pub(super) origins_m: Eight,
-    pub(super) directions: Eight,
-    /// Not below 0.
+    pub(super) origins_m: DVec3x8,
+    pub(super) directions: DVec3x8,
+    /// Non-negative.
     pub(super) min: [f64; 8],
     pub(super) max: [f64; 8],
 }
 
 impl Lanes {
-    /// There is one ray at least.
+    /// `rays` is not empty.
     #[inline(always)]
     pub(super) fn new(rays: &[&Ray]) -> Self {
         let first = rays[0];
         let mut lanes = Self {
-            origins_m: Eight::splat(first.origin_m),
-            directions: Eight::splat(first.direction),
+            origins_m: DVec3x8::splat(first.origin_m),
+            directions: DVec3x8::splat(first.direction),
             min: [first.min_m.max(0.0); 8],
             max: [first.max_m; 8],
         };
@@ -33,10 +33,10 @@ impl Lanes {
         lanes
     }
 
-    /// Nothing is known of any yet.
+    /// Returns results without a hit.
     #[inline(always)]
-    pub(super) fn nothing(&self) -> [Found; 8] {
-        let mut found = [Found::nothing(self.max[0]); 8];
+    pub(super) fn nothing(&self) -> [NearestHit; 8] {
+        let mut found = [NearestHit::nothing(self.max[0]); 8];
         for (found, &max) in found.iter_mut().zip(&self.max) {
             found.distance = max;
         }

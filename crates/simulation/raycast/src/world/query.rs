@@ -1,25 +1,25 @@
-//! One ray at a time.
+//! Queries with single rays.
 
 use periplus_geometry::DVec3;
 
-use super::{Body, Filter, Frame, Instance, World};
-use crate::bvh::{STACK, leaf_range};
-use crate::eight::Eight;
-use crate::local::{BoxTest, LocalRay, reach};
+use super::{Filter, Frame, Instance, InstanceGeometry, RaycastWorld};
+use crate::bvh::{MAX_STACK_ENTRIES, leaf_range};
+use crate::local_ray::{BoxTest, LocalRay, reach};
 use crate::mesh::Nearest;
 use crate::ray::{Hit, InstanceId, Ray};
 use crate::simd::{Task, V8, dispatch};
-use crate::walk::{Leaves, Stack, Step, walk};
+use crate::simd8::DVec3x8;
+use crate::traversal::{Leaves, Stack, Step, traverse};
 
-/// What is known of a ray so far; without an instance (`u32::MAX`) how far it looks.
+/// Nearest hit so far; without a hit (`instance` is `u32::MAX`) `distance` is the maximum distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct NearestHit {
     pub(super) distance: f64,
     pub(super) instance: u32,
     pub(super) primitive: u32,
 }
 
-impl Found {
+impl NearestHit {
     pub(super) fn nothing(max: f64) -> Self {
         Self { distance: max, instance: u32::MAX, primitive: u32::MAX }
     }
@@ -32,7 +32,7 @@ impl Found {
         (self.instance, self.primitive) == (other.instance, other.primitive)
     }
 
-    /// Keeps the nearer; of equals the one of the lower numbers.
+    /// Keeps the nearer hit; at equal distance the one with the lower numbers.
     #[inline(always)]
     pub(super) fn consider(&mut self, distance: f64, instance: u32, primitive: u32) {
         let numbers = (instance, primitive) < (self.instance, self.primitive);
@@ -42,7 +42,7 @@ impl Found {
     }
 }
 
-/// Room for a walk through two levels.
+/// Stacks for the traversal of both levels.
 pub(super) struct Scratch {
     pub(super) top: Stack,
     pub(super) body: Stack,
@@ -50,25 +50,25 @@ pub(super) struct Scratch {
 
 impl Scratch {
     pub(super) fn new() -> Self {
-        Self { top: [0; STACK], body: [0; STACK] }
+        Self { top: [0; MAX_STACK_ENTRIES], body: [0; MAX_STACK_ENTRIES] }
     }
 }
 
-/// The next f32 not below a distance.
+/// Returns the smallest f32 that is not below a distance.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "rounded up when it was rounded down")]
 pub(super) fn single_above(distance: f64) -> f32 {
-    let single = distance as f32;
-    // As `f32::next_up`, without its branches: a NaN is never less, and nothing is less than -0.0
-    // that rounds to it.
-    let bits = single.to_bits();
-    let above = if single < 0.0 { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
-    f32::from_bits(if f64::from(single) < distance { above } else { bits })
+    let to_f32 = distance as f32;
+    // `f32::next_up` without its branches: comparisons with NaN are false, and no value below -0.0
+    // rounds to it.
+    let bits = to_f32.to_bits();
+    let above = if to_f32 < 0.0 { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
+    f32::from_bits(if f64::from(to_f32) < distance { above } else { bits })
 }
 
 /// `normal` points outwards.
 #[inline(always)]
-pub(super) fn hit_of(ray: &Ray, found: &Found, normal: DVec3) -> Hit {
+pub(super) fn hit_of(ray: &Ray, found: &NearestHit, normal: DVec3) -> Hit {
     Hit {
         distance_m: found.distance,
         normal: if normal.dot(ray.direction) > 0.0 { -normal } else { normal },
@@ -77,60 +77,60 @@ pub(super) fn hit_of(ray: &Ray, found: &Found, normal: DVec3) -> Hit {
     }
 }
 
-impl World {
-    /// The nearest thing on a ray.
+impl RaycastWorld {
+    /// Returns the first hit of a ray.
     #[must_use]
     pub fn cast(&self, ray: &Ray, filter: Filter) -> Option<Hit> {
-        let found = dispatch(Ask::<false> { world: self, ray, filter });
+        let found = dispatch(CastTask::<false> { world: self, ray, filter });
         found.is_hit().then(|| self.hit(ray, &found))
     }
 
-    /// Whether anything is on a ray: cheaper than to know what.
+    /// Returns true if anything is on a ray; cheaper than [`Self::cast`].
     #[must_use]
     pub fn occluded(&self, ray: &Ray, filter: Filter) -> bool {
-        dispatch(Ask::<true> { world: self, ray, filter }).is_hit()
+        dispatch(CastTask::<true> { world: self, ray, filter }).is_hit()
     }
 
-    /// All that is to know of a hit.
-    pub(super) fn hit(&self, ray: &Ray, found: &Found) -> Hit {
+    /// Returns the full hit.
+    pub(super) fn hit(&self, ray: &Ray, found: &NearestHit) -> Hit {
         let normal = self.flat_normal(found).unwrap_or_else(|| self.round_normal(ray, found));
         hit_of(ray, found, normal)
     }
 
-    /// The outward normal of what a ray met; none where it changes from point to point.
-    pub(super) fn flat_normal(&self, found: &Found) -> Option<DVec3> {
+    /// Returns the outward normal of a flat face; `None` for a curved one.
+    pub(super) fn flat_normal(&self, found: &NearestHit) -> Option<DVec3> {
         let instance = &self.instances[found.instance as usize];
         let normal = match &instance.body {
-            Body::Fixed => {
+            InstanceGeometry::Fixed => {
                 let part = self.parts.partition_point(|part| part.instance < found.instance);
                 return Some(self.fixed.normal(self.parts[part].first + found.primitive));
             }
-            Body::Solid(solid) => solid.flat_normal(found.primitive)?,
-            Body::Mesh(mesh) => mesh.normal(found.primitive),
-            Body::Heights(heights) => heights.normal(found.primitive),
+            InstanceGeometry::Solid(solid) => solid.flat_normal(found.primitive)?,
+            InstanceGeometry::Mesh(mesh) => mesh.normal(found.primitive),
+            InstanceGeometry::Heights(heights) => heights.normal(found.primitive),
         };
-        Some(instance.world_from_body.turn(normal))
+        Some(instance.world_from_body.rotate_into_world(normal))
     }
 
-    /// The outward normal where a ray met a face that is not flat.
-    pub(super) fn round_normal(&self, ray: &Ray, found: &Found) -> DVec3 {
-        let Instance { body: Body::Solid(solid), world_from_body, .. } =
+    /// Returns the outward normal at a hit on a curved face.
+    pub(super) fn round_normal(&self, ray: &Ray, found: &NearestHit) -> DVec3 {
+        let Instance { body: InstanceGeometry::Solid(solid), world_from_body, .. } =
             &self.instances[found.instance as usize]
         else {
             return -ray.direction;
         };
         let point = world_from_body.point_in_body(ray.at(found.distance));
-        world_from_body.turn(solid.normal(point, found.primitive))
+        world_from_body.rotate_into_world(solid.normal(point, found.primitive))
     }
 
-    /// Whether every fixed triangle is seen.
+    /// Returns true if the filter accepts every fixed triangle.
     pub(super) fn sees_all_fixed(&self, filter: Filter) -> bool {
         (self.parts.is_empty() || self.parts_mask & filter.mask != 0)
             && (filter.except_group == 0
                 || self.parts_groups.binary_search(&filter.except_group).is_err())
     }
 
-    /// The instance of a fixed triangle, and its number in that.
+    /// Returns the instance of a fixed triangle and the triangle's index in it.
     #[inline]
     pub(super) fn part_of(&self, triangle: u32) -> (u32, u32) {
         let after = self.parts.partition_point(|part| part.first <= triangle);
@@ -138,15 +138,15 @@ impl World {
         (part.instance, triangle - part.first)
     }
 
-    /// Follows one ray through everything.
+    /// Traces one ray through the whole world.
     #[inline(always)]
     pub(super) fn find<V: V8, const ANY: bool>(
         &self,
         ray: &Ray,
         filter: Filter,
         scratch: &mut Scratch,
-    ) -> Found {
-        let mut found = Found::nothing(ray.max_m);
+    ) -> NearestHit {
+        let mut found = NearestHit::nothing(ray.max_m);
         if !ray.is_sound() {
             return found;
         }
@@ -166,47 +166,47 @@ impl World {
     }
 
     #[inline(always)]
-    pub(super) fn find_endless(&self, ray: &Ray, filter: Filter, found: &mut Found) {
+    pub(super) fn find_endless(&self, ray: &Ray, filter: Filter, found: &mut NearestHit) {
         for &number in &self.endless {
             self.find_solid(number, ray, filter, found);
         }
     }
 
     #[inline(always)]
-    fn find_solid(&self, number: u32, ray: &Ray, filter: Filter, found: &mut Found) {
-        let Instance { body: Body::Solid(solid), tags, world_from_body, .. } =
+    fn find_solid(&self, number: u32, ray: &Ray, filter: Filter, found: &mut NearestHit) {
+        let Instance { body: InstanceGeometry::Solid(solid), tags, world_from_body, .. } =
             &self.instances[number as usize]
         else {
             return;
         };
-        if !filter.lets_pass(*tags) {
+        if !filter.accepts(*tags) {
             return;
         }
         let origin = world_from_body.point_in_body(ray.origin_m);
-        let direction = world_from_body.unturn(ray.direction);
+        let direction = world_from_body.rotate_into_body(ray.direction);
         let min = ray.min_m.max(0.0);
         if let Some((distance, face)) = solid.cast(origin, direction, min, found.distance) {
             found.consider(distance, number, face);
         }
     }
 
-    /// The nearest of one shape on each of eight rays.
+    /// Tests eight rays against one shape and keeps the nearest hits.
     #[inline(always)]
-    pub(super) fn find_solid_eight<V: V8>(
+    pub(super) fn find_solid8<V: V8>(
         &self,
         number: u32,
-        origins_m: &Eight,
-        directions: &Eight,
+        origins_m: &DVec3x8,
+        directions: &DVec3x8,
         min: &[f64; 8],
         filter: Filter,
-        found: &mut [Found; 8],
+        found: &mut [NearestHit; 8],
     ) {
-        let Instance { body: Body::Solid(solid), tags, world_from_body, .. } =
+        let Instance { body: InstanceGeometry::Solid(solid), tags, world_from_body, .. } =
             &self.instances[number as usize]
         else {
             return;
         };
-        if !filter.lets_pass(*tags) {
+        if !filter.accepts(*tags) {
             return;
         }
         let Frame { translation, columns } = world_from_body;
@@ -216,9 +216,9 @@ impl World {
         for (max, found) in max.iter_mut().zip(&*found) {
             *max = found.distance;
         }
-        let met = solid.cast_eight::<V>(&origins, &directions, min, &max);
+        let met = solid.cast8::<V>(&origins, &directions, min, &max);
         for (lane, found) in found.iter_mut().enumerate() {
-            // What is not a number is no nearer than anything.
+            // A NaN distance is never nearer.
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 5")]
             found.consider(met.distance[lane], number, met.face[lane] as u32);
         }
@@ -229,22 +229,21 @@ impl World {
         &self,
         local: &LocalRay,
         filter: Filter,
-        found: &mut Found,
+        found: &mut NearestHit,
         stack: &mut Stack,
     ) {
         let mut nearest = Nearest { distance: single_above(found.distance), id: u32::MAX };
         if self.sees_all_fixed(filter) {
             self.fixed.trace::<V, ANY>(local, &mut nearest, stack, |_| true);
         } else {
-            let accept =
-                |id: u32| filter.lets_pass(self.instances[self.part_of(id).0 as usize].tags);
+            let accept = |id: u32| filter.accepts(self.instances[self.part_of(id).0 as usize].tags);
             self.fixed.trace::<V, ANY>(local, &mut nearest, stack, accept);
         }
-        self.take_fixed(nearest, found);
+        self.keep_fixed(nearest, found);
     }
 
     #[inline(always)]
-    pub(super) fn take_fixed(&self, nearest: Nearest, found: &mut Found) {
+    pub(super) fn keep_fixed(&self, nearest: Nearest, found: &mut NearestHit) {
         if nearest.id != u32::MAX {
             let (instance, primitive) = self.part_of(nearest.id);
             found.consider(nearest.distance.into(), instance, primitive);
@@ -256,19 +255,19 @@ impl World {
         &self,
         ray: &Ray,
         filter: Filter,
-        found: &mut Found,
+        found: &mut NearestHit,
         scratch: &mut Scratch,
     ) {
         if self.resting.nodes.is_empty() && self.moving.nodes.is_empty() {
             return;
         }
         let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
-        // The boxes have room for what an instance may be off.
+        // The margins of the boxes cover the error of an instance's frame.
         let boxes = BoxTest::<V>::new(&local, 0.0);
         let Scratch { top, body } = scratch;
         for tree in [&self.resting, &self.moving] {
             let limit = reach(single_above(found.distance), 0.0);
-            let mut leaves = Instances::<V, ANY> {
+            let mut leaves = InstanceLeaves::<V, ANY> {
                 world: self,
                 order: &tree.order,
                 ray,
@@ -277,7 +276,7 @@ impl World {
                 stack: body,
                 vectors: std::marker::PhantomData,
             };
-            walk(&tree.nodes, &boxes, limit, top, &mut leaves);
+            traverse(&tree.nodes, &boxes, limit, top, &mut leaves);
             if ANY && found.is_hit() {
                 return;
             }
@@ -290,20 +289,20 @@ impl World {
         number: u32,
         ray: &Ray,
         filter: Filter,
-        found: &mut Found,
+        found: &mut NearestHit,
         stack: &mut Stack,
     ) {
         let instance = &self.instances[number as usize];
-        if !filter.lets_pass(instance.tags) {
+        if !filter.accepts(instance.tags) {
             return;
         }
         let frame = &instance.world_from_body;
         let body = |v: DVec3| frame.point_in_body(v);
         match &instance.body {
-            Body::Fixed => {}
-            Body::Solid(_) => self.find_solid(number, ray, filter, found),
-            Body::Mesh(mesh) => {
-                let direction = frame.unturn(ray.direction);
+            InstanceGeometry::Fixed => {}
+            InstanceGeometry::Solid(_) => self.find_solid(number, ray, filter, found),
+            InstanceGeometry::Mesh(mesh) => {
+                let direction = frame.rotate_into_body(ray.direction);
                 let local = mesh.localize(body(ray.origin_m), direction, ray.min_m);
                 let mut nearest = Nearest { distance: single_above(found.distance), id: u32::MAX };
                 mesh.trace::<V, ANY>(&local, &mut nearest, stack, |_| true);
@@ -311,8 +310,9 @@ impl World {
                     found.consider(nearest.distance.into(), number, nearest.id);
                 }
             }
-            Body::Heights(heights) => {
-                let (origin, direction) = (body(ray.origin_m), frame.unturn(ray.direction));
+            InstanceGeometry::Heights(heights) => {
+                let (origin, direction) =
+                    (body(ray.origin_m), frame.rotate_into_body(ray.direction));
                 let min = ray.min_m.max(0.0);
                 if let Some((distance, primitive)) =
                     heights.cast(origin, direction, min, found.distance)
@@ -325,17 +325,17 @@ impl World {
 }
 
 /// One ray against instances.
-struct Instances<'a, V, const ANY: bool> {
-    world: &'a World,
+struct InstanceLeaves<'a, V, const ANY: bool> {
+    world: &'a RaycastWorld,
     order: &'a [u32],
     ray: &'a Ray,
     filter: Filter,
-    found: &'a mut Found,
+    found: &'a mut NearestHit,
     stack: &'a mut Stack,
     vectors: std::marker::PhantomData<V>,
 }
 
-impl<V: V8, const ANY: bool> Leaves for Instances<'_, V, ANY> {
+impl<V: V8, const ANY: bool> Leaves for InstanceLeaves<'_, V, ANY> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (first, count) = leaf_range(word);
@@ -355,17 +355,17 @@ impl<V: V8, const ANY: bool> Leaves for Instances<'_, V, ANY> {
     }
 }
 
-struct Ask<'a, const ANY: bool> {
-    world: &'a World,
+struct CastTask<'a, const ANY: bool> {
+    world: &'a RaycastWorld,
     ray: &'a Ray,
     filter: Filter,
 }
 
-impl<const ANY: bool> Task for Ask<'_, ANY> {
-    type Output = Found;
+impl<const ANY: bool> Task for CastTask<'_, ANY> {
+    type Output = NearestHit;
 
     #[inline(always)]
-    fn run<V: V8>(self) -> Found {
+    fn run<V: V8>(self) -> NearestHit {
         self.world.find::<V, ANY>(self.ray, self.filter, &mut Scratch::new())
     }
 }
@@ -376,7 +376,7 @@ mod tests {
     use proptest::prelude::*;
 
     use crate::simd::without_vectors;
-    use crate::{Filter, Ray, Tags, World};
+    use crate::{Filter, Ray, RaycastWorld, Tags};
 
     #[test]
     #[expect(clippy::cast_possible_truncation, reason = "that is what is asked")]
@@ -420,16 +420,16 @@ mod tests {
                 })
                 .collect();
             let answers = || {
-                let mut builder = World::builder();
+                let mut builder = RaycastWorld::builder();
                 builder
                     .add_fixed(&positions, &triangles, &Pose::IDENTITY, Tags::default())
                     .unwrap();
                 let world = builder.build(1).unwrap();
                 let mut hits = vec![None; rays.len()];
                 world.hits_grid(&rays, 20, Filter::default(), 1, &mut hits);
-                let single: Vec<_> =
+                let to_f32: Vec<_> =
                     rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
-                (hits, single)
+                (hits, to_f32)
             };
             let (vectors, plain) = (answers(), without_vectors(answers));
             prop_assert_eq!(&vectors.0, &vectors.1);

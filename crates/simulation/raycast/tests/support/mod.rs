@@ -1,10 +1,10 @@
-//! What tests share.
+//! What tests chunk.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 #![allow(dead_code, reason = "not every test uses all of it")]
 
 use periplus_geometry::{DVec3, Pose, Stream};
-use periplus_raycast::{Tags, World};
+use periplus_raycast::{RaycastWorld, Tags};
 
 /// Triangles.
 #[derive(Default)]
@@ -14,8 +14,8 @@ pub(crate) struct Solid {
 }
 
 /// A world of nothing but these.
-pub(crate) fn fixed(solid: &Solid) -> World {
-    let mut builder = World::builder();
+pub(crate) fn fixed(solid: &Solid) -> RaycastWorld {
+    let mut builder = RaycastWorld::builder();
     builder
         .add_fixed(&solid.positions_m, &solid.triangles, &Pose::IDENTITY, Tags::default())
         .unwrap();

@@ -1,29 +1,29 @@
-//! A ray in the frame of a tree, ready to be traced in single precision.
+//! Rays in the frame of a tree, prepared for traversal in single precision.
 
 use periplus_geometry::DVec3;
 
 use crate::bvh::Node;
 use crate::simd::{V8, splat3};
-use crate::walk::NodeTest;
+use crate::traversal::NodeTest;
 
-/// Rounding of one f32 operation, relative.
-pub(crate) const ROUND: f32 = 1.2e-7;
-/// Directions along an axis are taken to be at least this steep, lest their inverse overflow.
-pub(crate) const FLAT: f32 = 1e-18;
+/// Relative rounding error of one f32 operation.
+pub(crate) const ROUNDING_RATIO: f32 = 1.2e-7;
+/// Minimum absolute value of a direction component: keeps its inverse finite.
+pub(crate) const MIN_DIRECTION_RATIO: f32 = 1e-18;
 
 /// A ray in the frame of a tree.
 ///
-/// Boxes are tested with margins that cover every rounding of the box test and of the triangle
-/// test (Ize 2013, "Robust BVH ray traversal", carried over to fused arithmetic). So a box is never
-/// passed over that holds a triangle the triangle test would accept, whatever the order of
-/// traversal: single rays and packets, vectors and plain code find the very same hits.
+/// Boxes are tested with margins that cover every rounding of the box test and of the triangle test
+/// (Ize 2013, "Robust BVH ray traversal", extended to fused arithmetic). No box is skipped that
+/// holds a triangle which the triangle test would accept, in any order of traversal: single rays and
+/// packets, vector and scalar code find identical hits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalRay {
     pub(crate) origin: [f32; 3],
     pub(crate) direction: [f32; 3],
-    /// The two lesser axes and the one along which the ray goes most.
+    /// The two minor axes and the dominant axis of the direction.
     pub(crate) axes: [usize; 3],
-    /// Of the shear that turns the ray into the axis `axes[2]`.
+    /// Shear that turns the ray into the axis `axes[2]`.
     pub(crate) shear: [f32; 3],
     pub(crate) min: f32,
 }
@@ -50,20 +50,20 @@ impl LocalRay {
     }
 }
 
-/// How far computed distances to the triangles of a tree may be off, besides their relative
-/// rounding: `extent` is the largest of a triangle.
+/// Returns the absolute error of distances to the triangles of a tree, besides their relative
+/// rounding. `extent` is the largest extent of a triangle.
 #[inline(always)]
 pub(crate) fn distance_margin(extent: f32, shear: f32) -> f32 {
-    32.0 * ROUND * extent * shear.abs()
+    32.0 * ROUNDING_RATIO * extent * shear.abs()
 }
 
-/// The distance up to which boxes have to be looked into when a hit at `best` is known.
+/// Returns the distance up to which boxes must be visited when a hit at `best` is known.
 #[inline(always)]
 pub(crate) fn reach(best: f32, margin: f32) -> f32 {
-    best * (1.0 + 32.0 * ROUND) + margin
+    best * (1.0 + 32.0 * ROUNDING_RATIO) + margin
 }
 
-/// A ray as the box test wants it.
+/// Precomputed terms of the slab test of a ray.
 pub(crate) struct BoxTest<V> {
     near_rows: [usize; 3],
     far_rows: [usize; 3],
@@ -85,18 +85,18 @@ impl<V: V8> BoxTest<V> {
         let mut far_offset = [0.0; 3];
         for axis in 0..3 {
             let d = ray.direction[axis];
-            let d = if d.abs() < FLAT { FLAT.copysign(d) } else { d };
+            let d = if d.abs() < MIN_DIRECTION_RATIO { MIN_DIRECTION_RATIO.copysign(d) } else { d };
             let back = d < 0.0;
             near_rows[axis] = axis + 3 * usize::from(back);
             far_rows[axis] = axis + 3 * usize::from(!back);
             let inverse = 1.0 / d;
-            near[axis] = inverse * (1.0 - 4.0 * ROUND);
-            far[axis] = inverse * (1.0 + 4.0 * ROUND);
+            near[axis] = inverse * (1.0 - 4.0 * ROUNDING_RATIO);
+            far[axis] = inverse * (1.0 + 4.0 * ROUNDING_RATIO);
             let (start, end) = (ray.origin[axis] * near[axis], ray.origin[axis] * far[axis]);
-            near_offset[axis] = -start - start.abs() * (4.0 * ROUND);
-            far_offset[axis] = -end + end.abs() * (4.0 * ROUND);
+            near_offset[axis] = -start - start.abs() * (4.0 * ROUNDING_RATIO);
+            far_offset[axis] = -end + end.abs() * (4.0 * ROUNDING_RATIO);
         }
-        let min = ray.min * (1.0 - 32.0 * ROUND) - margin;
+        let min = ray.min * (1.0 - 32.0 * ROUNDING_RATIO) - margin;
         Self {
             near_rows,
             far_rows,
@@ -108,14 +108,14 @@ impl<V: V8> BoxTest<V> {
         }
     }
 
-    /// The same for all rays of this direction that start within `off` of its origin, to either
-    /// side.
+    /// Returns the same test for all rays of this direction that start within `off` of its origin,
+    /// on either side.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "with room for rounding")]
     pub(crate) fn around(mut self, off: DVec3) -> Self {
         let off = off.to_array();
         for axis in 0..3 {
-            let off = V::splat(off[axis] as f32 * (1.0 + 16.0 * ROUND));
+            let off = V::splat(off[axis] as f32 * (1.0 + 16.0 * ROUNDING_RATIO));
             let zero = V::splat(0.0);
             let near = self.near[axis].max(zero.sub(self.near[axis]));
             let far = self.far[axis].max(zero.sub(self.far[axis]));

@@ -1,51 +1,51 @@
-//! Where light does not come: many rays, of which only matters whether anything is on them.
+//! Occlusion queries for many rays, as for shadows.
 
 use std::marker::PhantomData;
 
 use periplus_geometry::DVec3;
 
 use super::lanes::Lanes;
-use super::query::{Found, Scratch, single_above};
-use super::shares::in_shares;
-use super::{Body, Filter, World};
+use super::partition::for_each_chunk;
+use super::query::{NearestHit, Scratch, single_above};
+use super::{Filter, InstanceGeometry, RaycastWorld};
 use crate::bvh::leaf_range;
-use crate::local::{BoxTest, LocalRay, reach};
+use crate::local_ray::{BoxTest, LocalRay, reach};
 use crate::ray::Ray;
 use crate::simd::{Task, V8, dispatch};
-use crate::walk::{Leaves, Stack, Step, walk};
+use crate::traversal::{Leaves, Stack, Step, traverse};
 
-/// Neighbours are gathered by eights: so many columns and rows.
+/// Tile of neighbours that form a packet.
 const COLUMNS: usize = 4;
 const ROWS: usize = 2;
 
-impl World {
-    /// Whether anything is on each of many rays, that lie in rows of `columns` like the pixels of
-    /// an image: what [`Self::occluded`] says of each, with any number of `threads`. Neighbours of
-    /// one direction, as those to the sun, are followed together. A ray that ends before it begins
+impl RaycastWorld {
+    /// Occlusion of each of many rays in rows of `columns`, like the pixels of an image: the result
+    /// of [`Self::occluded`] for each, with any number of `threads`. Neighbours with a common
+    /// direction, such as shadow rays to the sun, are traced together. A ray with an empty range
     /// costs nothing.
     ///
     /// # Panics
-    /// When there are not as many places as rays.
+    /// When `occluded` and `rays` differ in length.
     pub fn occluded_grid(
         &self,
         rays: &[Ray],
         columns: usize,
         filter: Filter,
         threads: usize,
-        dark: &mut [bool],
+        occluded: &mut [bool],
     ) {
-        in_shares(rays, columns, threads, dark, |rays, columns, dark| {
-            dispatch(Many { world: self, rays, columns, filter, dark });
+        for_each_chunk(rays, columns, threads, occluded, |rays, columns, occluded| {
+            dispatch(Many { world: self, rays, columns, filter, occluded });
         });
     }
 }
 
 struct Many<'a> {
-    world: &'a World,
+    world: &'a RaycastWorld,
     rays: &'a [Ray],
     columns: usize,
     filter: Filter,
-    dark: &'a mut [bool],
+    occluded: &'a mut [bool],
 }
 
 impl Task for Many<'_> {
@@ -53,7 +53,7 @@ impl Task for Many<'_> {
 
     #[inline(always)]
     fn run<V: V8>(self) {
-        let Self { world, rays, columns, filter, dark } = self;
+        let Self { world, rays, columns, filter, occluded } = self;
         let mut scratch = Scratch::new();
         let rows = rays.len().div_ceil(columns);
         for top in (0..rows).step_by(ROWS) {
@@ -64,7 +64,7 @@ impl Task for Many<'_> {
                     for column in left..(left + COLUMNS).min(columns) {
                         let index = row * columns + column;
                         if index < rays.len() {
-                            dark[index] = false;
+                            occluded[index] = false;
                             if rays[index].is_sound() {
                                 picked[count] = index;
                                 count += 1;
@@ -76,11 +76,11 @@ impl Task for Many<'_> {
                 let Some(&first) = picked.first() else { continue };
                 let direction = rays[first].direction;
                 if picked.iter().all(|&index| rays[index].direction == direction) {
-                    world.darken::<V>(rays, picked, filter, dark, &mut scratch);
+                    world.mark_occluded::<V>(rays, picked, filter, occluded, &mut scratch);
                 } else {
                     for &index in picked {
                         let found = world.find::<V, true>(&rays[index], filter, &mut scratch);
-                        dark[index] = found.is_hit();
+                        occluded[index] = found.is_hit();
                     }
                 }
             }
@@ -88,15 +88,15 @@ impl Task for Many<'_> {
     }
 }
 
-impl World {
-    /// Follows sound rays of one direction through everything.
+impl RaycastWorld {
+    /// Traces sound rays with a common direction through the whole world.
     #[inline(always)]
-    fn darken<V: V8>(
+    fn mark_occluded<V: V8>(
         &self,
         rays: &[Ray],
         picked: &[usize],
         filter: Filter,
-        dark: &mut [bool],
+        occluded: &mut [bool],
         scratch: &mut Scratch,
     ) {
         let mut together = [&rays[picked[0]]; COLUMNS * ROWS];
@@ -107,7 +107,7 @@ impl World {
         let mut found = lanes.nothing();
         for &number in &self.endless {
             let Lanes { origins_m, directions, min, .. } = &lanes;
-            self.find_solid_eight::<V>(number, origins_m, directions, min, filter, &mut found);
+            self.find_solid8::<V>(number, origins_m, directions, min, filter, &mut found);
         }
         if !self.fixed.is_empty() {
             for (ray, found) in together.iter().zip(&mut found).take(picked.len()) {
@@ -118,19 +118,19 @@ impl World {
             }
         }
         let rays = &together[..picked.len()];
-        self.darken_by_instances::<V>(rays, &lanes, filter, &mut found, scratch);
+        self.mark_occluded_by_instances::<V>(rays, &lanes, filter, &mut found, scratch);
         for (found, &index) in found.iter().zip(picked) {
-            dark[index] = found.is_hit();
+            occluded[index] = found.is_hit();
         }
     }
 
     #[inline(always)]
-    fn darken_by_instances<V: V8>(
+    fn mark_occluded_by_instances<V: V8>(
         &self,
         rays: &[&Ray],
         lanes: &Lanes,
         filter: Filter,
-        found: &mut [Found; 8],
+        found: &mut [NearestHit; 8],
         scratch: &mut Scratch,
     ) {
         if self.resting.nodes.is_empty() && self.moving.nodes.is_empty() {
@@ -152,7 +152,7 @@ impl World {
         let local = LocalRay::new(middle - self.middle_m, rays[0].direction, min);
         let boxes = BoxTest::<V>::new(&local, 0.0).around(off);
         let Scratch { top, body } = scratch;
-        let mut leaves = Shade::<V> {
+        let mut leaves = OcclusionLeaves::<V> {
             world: self,
             order: &[],
             rays,
@@ -164,32 +164,32 @@ impl World {
         };
         for tree in [&self.resting, &self.moving] {
             leaves.order = &tree.order;
-            walk(&tree.nodes, &boxes, reach(single_above(max), 0.0), top, &mut leaves);
+            traverse(&tree.nodes, &boxes, reach(single_above(max), 0.0), top, &mut leaves);
         }
     }
 }
 
-/// Rays of one direction against instances, until all are dark.
-struct Shade<'a, V> {
-    world: &'a World,
+/// Rays of one direction against instances, until all are occluded.
+struct OcclusionLeaves<'a, V> {
+    world: &'a RaycastWorld,
     order: &'a [u32],
     rays: &'a [&'a Ray],
     lanes: &'a Lanes,
     filter: Filter,
-    found: &'a mut [Found; 8],
+    found: &'a mut [NearestHit; 8],
     stack: &'a mut Stack,
     vectors: PhantomData<V>,
 }
 
-impl<V: V8> Leaves for Shade<'_, V> {
+impl<V: V8> Leaves for OcclusionLeaves<'_, V> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (first, count) = leaf_range(word);
         let (world, filter) = (self.world, self.filter);
         for &number in &self.order[first..first + count] {
-            if let Body::Solid(_) = &world.instances[number as usize].body {
+            if let InstanceGeometry::Solid(_) = &world.instances[number as usize].body {
                 let Lanes { origins_m, directions, min, .. } = self.lanes;
-                world.find_solid_eight::<V>(number, origins_m, directions, min, filter, self.found);
+                world.find_solid8::<V>(number, origins_m, directions, min, filter, self.found);
                 continue;
             }
             for (ray, found) in self.rays.iter().zip(&mut *self.found) {
@@ -211,12 +211,12 @@ mod tests {
     use periplus_geometry::{DVec3, Pose};
     use proptest::prelude::*;
 
-    use crate::{Filter, Ray, Shape, Tags, World};
+    use crate::{Filter, Ray, RaycastShape, RaycastWorld, Tags};
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// Together or alone, rays are dark or not.
+        /// Batched and single rays give the same occlusion.
         #[test]
         fn rays_of_one_direction_are_as_dark_as_each(
             boxes in prop::collection::vec((prop::array::uniform3(-4.0..4.0), 0.1..2.0), 1..30),
@@ -225,10 +225,10 @@ mod tests {
             step in 0.01..0.5,
             flat in any::<bool>(),
         ) {
-            let mut builder = World::builder();
+            let mut builder = RaycastWorld::builder();
             let mut ids = Vec::new();
             for &(at, size) in &boxes {
-                let shape = Shape::Box { size_m: DVec3::new(size, 1.0, 0.5) };
+                let shape = RaycastShape::Box { size_m: DVec3::new(size, 1.0, 0.5) };
                 let [x, y, z] = at;
                 ids.push(builder.add_shape(&shape, &Pose::from_xyz(x, y, z), Tags::default()).unwrap());
             }
@@ -246,11 +246,11 @@ mod tests {
                     Ray { max_m, ..Ray::new(origin, direction) }
                 })
                 .collect();
-            let mut dark = vec![true; rays.len()];
-            world.occluded_grid(&rays, 20, Filter::default(), 1, &mut dark);
+            let mut occluded = vec![true; rays.len()];
+            world.occluded_grid(&rays, 20, Filter::default(), 1, &mut occluded);
             let alone: Vec<bool> =
                 rays.iter().map(|ray| world.occluded(ray, Filter::default())).collect();
-            prop_assert_eq!(dark, alone);
+            prop_assert_eq!(occluded, alone);
         }
     }
 }

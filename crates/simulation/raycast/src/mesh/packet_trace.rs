@@ -1,40 +1,40 @@
-//! Rays of one origin against one triangle at a time.
+//! Packets of rays with a common origin against one triangle at a time.
 
 use super::{Block, TriangleMesh};
 use crate::bvh::leaf_range;
-use crate::local::distance_margin;
+use crate::local_ray::distance_margin;
 use crate::packet::{Frustum, Packet, Pyramid};
 use crate::simd::{Row, V8, splat3};
+use crate::traversal::{Leaves, Stack, Step, traverse};
 use crate::triangle;
-use crate::walk::{Leaves, Stack, Step, walk};
 
-/// The nearest triangles that eight rays have found so far. Numbers are bits that are compared as
-/// f32, which for what is not negative is the same.
+/// The nearest triangles found by eight rays. Ids are bit patterns compared as f32, which preserves
+/// the order of non-negative values.
 #[derive(Clone, Copy)]
 pub(crate) struct Best {
     distances: Row,
     ids: Row,
 }
 
-/// No triangle: above all numbers of triangles.
-const NONE: f32 = f32::INFINITY;
+/// No triangle: greater than every id.
+const NO_TRIANGLE_ID: f32 = f32::INFINITY;
 
 impl Best {
-    /// Nothing so far, and nothing to look for beyond these distances.
+    /// No hits yet; `distances` limit the search.
     pub(crate) const fn within(distances: Row) -> Self {
-        Self { distances, ids: Row([NONE; 8]) }
+        Self { distances, ids: Row([NO_TRIANGLE_ID; 8]) }
     }
 
-    /// Distance and number of the triangle that a ray has found.
+    /// Returns the distance and id of the triangle that a ray has hit.
     #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Option<(f32, u32)> {
         let id = self.ids.0[lane];
-        (id != NONE).then_some((self.distances.0[lane], id.to_bits()))
+        (id != NO_TRIANGLE_ID).then_some((self.distances.0[lane], id.to_bits()))
     }
 }
 
 impl TriangleMesh {
-    /// [`Self::trace`] for packets and the pyramid around them, to the very same results.
+    /// [`Self::trace`] for packets and the pyramid around them, with identical results.
     #[inline(always)]
     pub(crate) fn trace_packets<V: V8>(
         &self,
@@ -46,7 +46,7 @@ impl TriangleMesh {
         let margin = distance_margin(self.extent, 1.0);
         let sides = Sides::new(pyramid);
         let origin = splat3([0, 1, 2].map(|axis: usize| pyramid.origin[pyramid.axes[axis]]));
-        let mut leaves = Together::<V> {
+        let mut leaves = PacketLeaves::<V> {
             blocks: &self.blocks,
             axes: pyramid.axes,
             origin,
@@ -56,11 +56,11 @@ impl TriangleMesh {
             margin,
         };
         let limit = leaves.limit();
-        walk(&self.nodes, &Frustum::<V>::new(pyramid, margin), limit, stack, &mut leaves);
+        traverse(&self.nodes, &Frustum::<V>::new(pyramid, margin), limit, stack, &mut leaves);
     }
 }
 
-/// The intervals of a pyramid's slopes.
+/// Slope intervals of a pyramid.
 struct Sides<V> {
     low: [V; 2],
     high: [V; 2],
@@ -73,9 +73,9 @@ impl<V: V8> Sides<V> {
         Self { low: [V::splat(a), V::splat(b)], high: [V::splat(c), V::splat(d)] }
     }
 
-    /// The triangles that rays of these slopes may meet. What is on one side of both ends of an
-    /// interval with all corners is there for all slopes between, as the triangle test computes
-    /// it: rounding keeps the order.
+    /// Returns the triangles that rays with these slopes may hit. A triangle with all corners on one
+    /// side of both ends of an interval is on that side for all slopes between, as computed by the
+    /// triangle test: rounding is monotonic.
     #[inline(always)]
     fn candidates(&self, corners: &[[V; 3]; 3]) -> u32 {
         let zero = V::splat(0.0);
@@ -93,13 +93,13 @@ impl<V: V8> Sides<V> {
 
     #[inline(always)]
     fn ends(&self, corner: &[V; 3], axis: usize) -> (V, V) {
-        let (place, depth) = (corner[axis], corner[2]);
-        (place.sub(self.low[axis].mul(depth)), place.sub(self.high[axis].mul(depth)))
+        let (index, depth) = (corner[axis], corner[2]);
+        (index.sub(self.low[axis].mul(depth)), index.sub(self.high[axis].mul(depth)))
     }
 }
 
-/// Packets on their way.
-struct Together<'a, V> {
+/// Packets during traversal.
+struct PacketLeaves<'a, V> {
     blocks: &'a [Block],
     axes: [usize; 3],
     origin: [V; 3],
@@ -109,7 +109,7 @@ struct Together<'a, V> {
     margin: f32,
 }
 
-impl<V: V8> Together<'_, V> {
+impl<V: V8> PacketLeaves<'_, V> {
     #[inline(always)]
     fn corner(&self, corner: &[Row; 3]) -> [V; 3] {
         [
@@ -119,7 +119,7 @@ impl<V: V8> Together<'_, V> {
         ]
     }
 
-    /// The depth within which any ray may still find something.
+    /// Returns the depth within which any ray can still find a hit.
     #[inline(always)]
     fn limit(&self) -> f32 {
         let mut limit = 0.0_f32;
@@ -131,7 +131,7 @@ impl<V: V8> Together<'_, V> {
     }
 }
 
-impl<V: V8> Leaves for Together<'_, V> {
+impl<V: V8> Leaves for PacketLeaves<'_, V> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (number, count) = leaf_range(word);
@@ -164,7 +164,7 @@ impl<V: V8> Leaves for Together<'_, V> {
                     continue;
                 }
                 found = true;
-                // Of equal distances the one of the lower number counts.
+                // At equal distance the lower id wins.
                 let id = V::splat(f32::from_bits(block.ids[lane]));
                 let ids = V::load(&best.ids);
                 let stays = nearest.le(distances).and(ids.le(id));

@@ -1,4 +1,4 @@
-//! Eight rays against one shape, in double precision. Every number is made by the steps of
+//! Eight rays against one shape, in double precision. Every number is computed by the steps of
 //! [`Solid::cast`], bit for bit.
 
 use periplus_geometry::DVec3;
@@ -6,11 +6,11 @@ use periplus_geometry::DVec3;
 use crate::shape::Solid;
 use crate::simd::{V4, V8};
 
-/// Eight vectors, one row to a coordinate.
+/// Eight vectors, one row per coordinate.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Eight(pub(crate) [[f64; 8]; 3]);
+pub(crate) struct DVec3x8(pub(crate) [[f64; 8]; 3]);
 
-impl Eight {
+impl DVec3x8 {
     #[inline(always)]
     pub(crate) fn splat(v: DVec3) -> Self {
         Self([[v.x; 8], [v.y; 8], [v.z; 8]])
@@ -28,7 +28,7 @@ impl Eight {
         DVec3::new(x[lane], y[lane], z[lane])
     }
 
-    /// Out of the world into a frame at `origin` whose axes are these columns.
+    /// Transforms from the world into a frame at `origin` whose axes are these columns.
     #[inline(always)]
     pub(crate) fn into_frame<V: V8>(self, origin: DVec3, columns: &[DVec3; 3]) -> Self {
         let mut turned = [[0.0; 8]; 3];
@@ -47,25 +47,25 @@ impl Eight {
     }
 }
 
-/// Where rays enter or leave, and through which face.
+/// Distances and faces at which rays enter or leave a shape.
 #[derive(Clone, Copy)]
-pub(crate) struct Met {
-    /// Not a number where nothing is met.
+pub(crate) struct HitDetail {
+    /// NaN without a hit.
     pub(crate) distance: [f64; 8],
     pub(crate) face: [f64; 8],
 }
 
 impl Solid {
-    /// What [`Solid::cast`] finds for each of eight rays.
+    /// Returns the results of [`Solid::cast`] for eight rays.
     #[inline(always)]
-    pub(crate) fn cast_eight<V: V8>(
+    pub(crate) fn cast8<V: V8>(
         &self,
-        o: &Eight,
-        d: &Eight,
+        o: &DVec3x8,
+        d: &DVec3x8,
         min: &[f64; 8],
         max: &[f64; 8],
-    ) -> Met {
-        let mut met = Met { distance: [f64::NAN; 8], face: [0.0; 8] };
+    ) -> HitDetail {
+        let mut met = HitDetail { distance: [f64::NAN; 8], face: [0.0; 8] };
         match self {
             Self::Plane { half } => {
                 for part in 0..2 {
@@ -83,7 +83,13 @@ impl Solid {
     }
 
     #[inline(never)]
-    fn one_by_one(&self, o: &Eight, d: &Eight, [min, max]: [&[f64; 8]; 2], met: &mut Met) {
+    fn one_by_one(
+        &self,
+        o: &DVec3x8,
+        d: &DVec3x8,
+        [min, max]: [&[f64; 8]; 2],
+        met: &mut HitDetail,
+    ) {
         for lane in 0..8 {
             if let Some((t, face)) = self.cast(o.get(lane), d.get(lane), min[lane], max[lane]) {
                 (met.distance[lane], met.face[lane]) = (t, face.into());
@@ -96,10 +102,10 @@ impl Solid {
 fn plane<F: V4>(
     half: Option<[f64; 2]>,
     part: usize,
-    Eight([ox, oy, oz]): &Eight,
-    Eight([dx, dy, dz]): &Eight,
+    DVec3x8([ox, oy, oz]): &DVec3x8,
+    DVec3x8([dx, dy, dz]): &DVec3x8,
     [min, max]: [&[f64; 8]; 2],
-    met: &mut Met,
+    met: &mut HitDetail,
 ) {
     let t = F::load(oz, part).mul(F::splat(-1.0)).div(F::load(dz, part));
     let mut hit = F::load(min, part).le(t).and(t.le(F::load(max, part)));
@@ -111,7 +117,7 @@ fn plane<F: V4>(
     t.select(F::splat(f64::NAN), hit).store(&mut met.distance, part);
 }
 
-/// Which lie in `-half..=half`.
+/// Returns a mask of the values in `-half..=half`.
 #[inline(always)]
 fn within<F: V4>(value: F, half: f64) -> F {
     F::splat(-half).le(value).and(value.le(F::splat(half)))
@@ -121,10 +127,10 @@ fn within<F: V4>(value: F, half: f64) -> F {
 fn cuboid<F: V4>(
     half: DVec3,
     part: usize,
-    o: &Eight,
-    d: &Eight,
+    o: &DVec3x8,
+    d: &DVec3x8,
     [min, max]: [&[f64; 8]; 2],
-    met: &mut Met,
+    met: &mut HitDetail,
 ) {
     let half = half.to_array();
     let zero = F::splat(0.0);
@@ -139,7 +145,7 @@ fn cuboid<F: V4>(
         let (mut near, mut far) = (low.select(high, along), high.select(low, along));
         let level = d.le(zero).and(zero.le(d));
         if level.bits() != 0 {
-            // Between two faces that it never meets a ray is for good, or never.
+            // A ray parallel to a pair of faces is between them everywhere or nowhere.
             let inside = within(o, half);
             let (endless, never) = (F::splat(f64::INFINITY), F::splat(f64::NEG_INFINITY));
             near = never.select(endless, inside).select(near, level);
@@ -165,23 +171,23 @@ mod tests {
     use periplus_geometry::DVec3;
     use proptest::prelude::*;
 
-    use super::{Eight, Met};
-    use crate::Shape;
+    use super::{DVec3x8, HitDetail};
+    use crate::RaycastShape;
     use crate::shape::Solid;
     use crate::simd::{Task, V8, dispatch, without_vectors};
 
-    struct Cast<'a>(&'a Solid, &'a Eight, &'a Eight, [&'a [f64; 8]; 2]);
+    struct Cast<'a>(&'a Solid, &'a DVec3x8, &'a DVec3x8, [&'a [f64; 8]; 2]);
 
     impl Task for Cast<'_> {
-        type Output = Met;
+        type Output = HitDetail;
         #[inline(always)]
-        fn run<V: V8>(self) -> Met {
+        fn run<V: V8>(self) -> HitDetail {
             let Self(solid, o, d, [min, max]) = self;
-            solid.cast_eight::<V>(o, d, min, max)
+            solid.cast8::<V>(o, d, min, max)
         }
     }
 
-    /// Round numbers, so that rays run along faces and through edges.
+    /// Integer coordinates, so that rays run along faces and through edges.
     fn coordinate() -> impl Strategy<Value = f64> {
         prop_oneof![Just(0.0), Just(-0.0), Just(1.0), Just(-1.0), Just(0.5), Just(-2.0), -3.0..3.0,]
     }
@@ -191,21 +197,21 @@ mod tests {
     }
 
     proptest! {
-        /// Eight together or one by one: the same bits.
+        /// Batched or one by one: the same bits.
         #[test]
         fn eight_meet_what_each_meets(
             rays in prop::array::uniform8((vector(), vector(), coordinate(), 0.0_f64..9.0)),
             which in 0_usize..5,
         ) {
             let shape = [
-                Shape::Box { size_m: DVec3::new(2.0, 1.0, 3.0) },
-                Shape::Box { size_m: DVec3::new(2.0, 0.0, 3.0) },
-                Shape::Plane { size_m: None },
-                Shape::Plane { size_m: Some([2.0, 1.0]) },
-                Shape::Cylinder { radius_m: 1.0, length_m: 2.0 },
+                RaycastShape::Box { size_m: DVec3::new(2.0, 1.0, 3.0) },
+                RaycastShape::Box { size_m: DVec3::new(2.0, 0.0, 3.0) },
+                RaycastShape::Plane { size_m: None },
+                RaycastShape::Plane { size_m: Some([2.0, 1.0]) },
+                RaycastShape::Cylinder { radius_m: 1.0, length_m: 2.0 },
             ][which];
             let solid = Solid::new(&shape).unwrap();
-            let (mut o, mut d) = (Eight::splat(DVec3::ZERO), Eight::splat(DVec3::ZERO));
+            let (mut o, mut d) = (DVec3x8::splat(DVec3::ZERO), DVec3x8::splat(DVec3::ZERO));
             let (mut min, mut max) = ([0.0; 8], [0.0; 8]);
             for (lane, &(origin, direction, nearest, farthest)) in rays.iter().enumerate() {
                 o.set(lane, origin);

@@ -1,50 +1,50 @@
-//! Rays of one origin on their way together.
+//! Groups of packets with a common origin.
 
 use std::marker::PhantomData;
 
 use periplus_geometry::DVec3;
 
 use super::lanes::Lanes;
-use super::query::{Found, Scratch, single_above};
-use super::{Body, Filter, World};
+use super::query::{NearestHit, Scratch, single_above};
+use super::{Filter, InstanceGeometry, RaycastWorld};
 use crate::bvh::leaf_range;
 use crate::mesh::{Best, TriangleMesh};
-use crate::packet::{Frustum, GROUP, Packet, Pyramid};
+use crate::packet::{Frustum, MAX_GROUP_COUNT, Packet, Pyramid};
 use crate::ray::Ray;
 use crate::simd::{Row, V8};
-use crate::walk::{Leaves, Stack, Step, walk};
+use crate::traversal::{Leaves, Stack, Step, traverse};
 
 /// Up to eight packets, and the pyramid around them.
-pub(super) struct Company {
+pub(super) struct PacketGroup {
     pyramid: Option<Pyramid>,
     packets: Vec<Packet>,
     members: Vec<Member>,
-    /// Only where there is more than triangles.
+    /// Filled only in worlds with instances.
     lanes: Vec<Lanes>,
 }
 
-/// The rays of a packet by their places in a list; lanes beyond are copies of the first.
+/// Indices of the rays of a packet; lanes beyond `count` repeat the first.
 #[derive(Clone, Copy)]
 pub(super) struct Member {
-    places: [usize; 8],
+    slots: [usize; 8],
     count: usize,
 }
 
-impl Company {
+impl PacketGroup {
     pub(super) fn new() -> Self {
         Self {
             pyramid: None,
-            packets: Vec::with_capacity(GROUP),
-            members: Vec::with_capacity(GROUP),
+            packets: Vec::with_capacity(MAX_GROUP_COUNT),
+            members: Vec::with_capacity(MAX_GROUP_COUNT),
             lanes: Vec::new(),
         }
     }
 
-    /// Whether there is room for a packet in a pyramid no wider than `widest`.
+    /// Returns true if a packet fits into a pyramid of at most this slope spread.
     #[inline(always)]
-    pub(super) fn admits(&self, packet: &Packet, widest: f32) -> bool {
+    pub(super) fn fits(&self, packet: &Packet, widest: f32) -> bool {
         let Some(own) = &self.pyramid else { return true };
-        self.packets.len() < GROUP
+        self.packets.len() < MAX_GROUP_COUNT
             && own.with(&packet.pyramid).is_some_and(|all| all.spread() <= widest)
     }
 
@@ -56,32 +56,32 @@ impl Company {
         self.members.push(member);
     }
 
-    /// Sends all through the world, and is empty again.
+    /// Traces all packets and clears the group.
     #[inline(always)]
     pub(super) fn trace<V: V8>(
         &mut self,
-        world: &World,
+        world: &RaycastWorld,
         rays: &[Ray],
         filter: Filter,
         scratch: &mut Scratch,
-        give: &mut impl FnMut(usize, &Found),
+        report: &mut impl FnMut(usize, &NearestHit),
     ) {
         let Some(pyramid) = self.pyramid.take() else { return };
         let instances = !world.resting.nodes.is_empty() || !world.moving.nodes.is_empty();
-        let mut found = [[Found::nothing(0.0); 8]; GROUP];
-        let mut best = [Best::within(Row([0.0; 8])); GROUP];
+        let mut found = [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT];
+        let mut best = [Best::within(Row([0.0; 8])); MAX_GROUP_COUNT];
         for ((member, found), best) in self.members.iter().zip(&mut found).zip(&mut best) {
             if instances || !world.endless.is_empty() {
                 let lanes = Lanes::new(&member.rays(rays));
                 *found = lanes.nothing();
                 for &number in &world.endless {
                     let Lanes { origins_m, directions, min, .. } = &lanes;
-                    world.find_solid_eight::<V>(number, origins_m, directions, min, filter, found);
+                    world.find_solid8::<V>(number, origins_m, directions, min, filter, found);
                 }
                 self.lanes.push(lanes);
             } else {
-                for (found, &place) in found.iter_mut().zip(&member.places) {
-                    found.distance = rays[place].max_m;
+                for (found, &index) in found.iter_mut().zip(&member.slots) {
+                    found.distance = rays[index].max_m;
                 }
             }
             *best = start(found);
@@ -107,8 +107,8 @@ impl Company {
             }
         }
         for (member, found) in self.members.iter().zip(&found) {
-            for (&place, found) in member.places[..member.count].iter().zip(found) {
-                give(place, found);
+            for (&index, found) in member.slots[..member.count].iter().zip(found) {
+                report(index, found);
             }
         }
         self.packets.clear();
@@ -120,17 +120,17 @@ impl Company {
 impl Member {
     #[inline(always)]
     fn rays<'a>(&self, rays: &'a [Ray]) -> [&'a Ray; 8] {
-        let mut own = [&rays[self.places[0]]; 8];
-        for (own, &place) in own.iter_mut().zip(&self.places) {
-            *own = &rays[place];
+        let mut own = [&rays[self.slots[0]]; 8];
+        for (own, &index) in own.iter_mut().zip(&self.slots) {
+            *own = &rays[index];
         }
         own
     }
 }
 
-impl World {
-    /// Up to eight rays as a packet in the frame of the fixed triangles, if they are sound, of one
-    /// origin, and go together.
+impl RaycastWorld {
+    /// Returns up to eight rays as a packet in the frame of the fixed triangles, if they are sound,
+    /// have a common origin and a common dominant axis.
     #[inline(always)]
     pub(super) fn packet_of<V: V8>(
         &self,
@@ -138,16 +138,16 @@ impl World {
         picked: &[usize],
     ) -> Option<(Packet, Member)> {
         let first = *picked.first()?;
-        let mut member = Member { places: [first; 8], count: picked.len() };
+        let mut member = Member { slots: [first; 8], count: picked.len() };
         let origin_m = rays[first].origin_m;
         let (mut directions, mut min) = ([rays[first].direction; 8], [0.0; 8]);
         let mut fits = true;
-        for (lane, &place) in picked.iter().enumerate() {
-            let ray = &rays[place];
-            member.places[lane] = place;
+        for (lane, &index) in picked.iter().enumerate() {
+            let ray = &rays[index];
+            member.slots[lane] = index;
             fits &= ray.origin_m == origin_m && ray.is_sound();
             directions[lane] = ray.direction;
-            min[lane] = single(ray.min_m);
+            min[lane] = to_f32(ray.min_m);
         }
         for lane in picked.len()..8 {
             min[lane] = min[0];
@@ -159,7 +159,7 @@ impl World {
         Some((packet, member))
     }
 
-    /// `packet` is in the frame of the fixed triangles, which is that of the trees over instances.
+    /// `packet` is in the frame of the fixed triangles, which is the frame of the instance trees.
     #[inline(always)]
     fn find_instances_packet<V: V8>(
         &self,
@@ -167,14 +167,14 @@ impl World {
         lanes: &Lanes,
         packet: &Packet,
         filter: Filter,
-        found: &mut [Found; 8],
+        found: &mut [NearestHit; 8],
         scratch: &mut Scratch,
     ) {
         let frustum = Frustum::<V>::new(&packet.pyramid, 0.0);
         let Scratch { top, body } = scratch;
         for tree in [&self.resting, &self.moving] {
             let limit = limit::<V>(packet, found, rays.len());
-            let mut leaves = InstancesPacket::<V> {
+            let mut leaves = InstancePacketLeaves::<V> {
                 world: self,
                 order: &tree.order,
                 rays,
@@ -185,18 +185,18 @@ impl World {
                 stack: body,
                 vectors: PhantomData,
             };
-            walk(&tree.nodes, &frustum, limit, top, &mut leaves);
+            traverse(&tree.nodes, &frustum, limit, top, &mut leaves);
         }
     }
 
-    /// False when the rays do not go together in the mesh's frame.
+    /// Returns false when the rays cannot form a packet in the mesh's frame.
     #[inline(always)]
     fn find_mesh_packet<V: V8>(
         &self,
         mesh: &TriangleMesh,
         number: u32,
         rays: &[&Ray],
-        found: &mut [Found; 8],
+        found: &mut [NearestHit; 8],
         stack: &mut Stack,
     ) -> bool {
         let frame = &self.instances[number as usize].world_from_body;
@@ -204,8 +204,8 @@ impl World {
         let (mut directions, mut min) = ([DVec3::ZERO; 8], Row([0.0; 8]));
         for lane in 0..8 {
             let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            directions[lane] = frame.unturn(ray.direction);
-            min.0[lane] = single(ray.min_m);
+            directions[lane] = frame.rotate_into_body(ray.direction);
+            min.0[lane] = to_f32(ray.min_m);
         }
         let Some(packet) = Packet::new::<V>(origin, &directions, min) else { return false };
         let mut best = [start(found)];
@@ -219,16 +219,16 @@ impl World {
     }
 }
 
-/// The nearest that counts, as a ray in a tree's frame has it.
+/// Returns the minimum distance as stored in a ray of a tree's frame.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
-fn single(min_m: f64) -> f32 {
+fn to_f32(min_m: f64) -> f32 {
     min_m.max(0.0) as f32
 }
 
-/// The depth within which any of the first `count` rays may still find something.
+/// Returns the depth within which any of the first `count` rays can still find a hit.
 #[inline(always)]
-fn limit<V: V8>(packet: &Packet, found: &[Found; 8], count: usize) -> f32 {
+fn limit<V: V8>(packet: &Packet, found: &[NearestHit; 8], count: usize) -> f32 {
     let mut row = [0.0; 8];
     for (lane, found) in found[..count].iter().enumerate() {
         row[lane] = single_above(found.distance);
@@ -237,34 +237,34 @@ fn limit<V: V8>(packet: &Packet, found: &[Found; 8], count: usize) -> f32 {
 }
 
 /// Eight rays against instances.
-struct InstancesPacket<'a, V> {
-    world: &'a World,
+struct InstancePacketLeaves<'a, V> {
+    world: &'a RaycastWorld,
     order: &'a [u32],
     rays: &'a [&'a Ray],
     lanes: &'a Lanes,
     packet: &'a Packet,
     filter: Filter,
-    found: &'a mut [Found; 8],
+    found: &'a mut [NearestHit; 8],
     stack: &'a mut Stack,
     vectors: PhantomData<V>,
 }
 
-impl<V: V8> Leaves for InstancesPacket<'_, V> {
+impl<V: V8> Leaves for InstancePacketLeaves<'_, V> {
     #[inline(always)]
     fn visit(&mut self, word: u32) -> Step {
         let (first, count) = leaf_range(word);
         for &number in &self.order[first..first + count] {
             let instance = &self.world.instances[number as usize];
-            if !self.filter.lets_pass(instance.tags) {
+            if !self.filter.accepts(instance.tags) {
                 continue;
             }
-            if let Body::Solid(_) = &instance.body {
+            if let InstanceGeometry::Solid(_) = &instance.body {
                 let Lanes { origins_m, directions, min, .. } = self.lanes;
                 let (filter, found) = (self.filter, &mut *self.found);
-                self.world.find_solid_eight::<V>(number, origins_m, directions, min, filter, found);
+                self.world.find_solid8::<V>(number, origins_m, directions, min, filter, found);
                 continue;
             }
-            if let Body::Mesh(mesh) = &instance.body
+            if let InstanceGeometry::Mesh(mesh) = &instance.body
                 && self.world.find_mesh_packet::<V>(mesh, number, self.rays, self.found, self.stack)
             {
                 continue;
@@ -277,9 +277,9 @@ impl<V: V8> Leaves for InstancesPacket<'_, V> {
     }
 }
 
-/// What is nearest before any triangle is tested.
+/// Returns the nearest hits before any triangle is tested.
 #[inline(always)]
-fn start(found: &[Found; 8]) -> Best {
+fn start(found: &[NearestHit; 8]) -> Best {
     let mut row = [0.0; 8];
     for (own, found) in row.iter_mut().zip(found) {
         *own = single_above(found.distance);

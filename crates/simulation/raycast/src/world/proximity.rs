@@ -1,18 +1,18 @@
-//! Whether anything is close at all.
+//! Conservative proximity queries.
 
 use periplus_geometry::DVec3;
 
-use super::{Body, Filter, World};
-use crate::bvh::{LEAF, Node, leaf_range};
+use super::{Filter, InstanceGeometry, RaycastWorld};
+use crate::bvh::{LEAF_MASK, Node, leaf_range};
 use crate::shape::Solid;
 
-impl World {
-    /// Whether anything may lie within a distance of a point \[m\]. False is certain; true only says
-    /// that a box comes so near. It takes far less time than a ray in every direction.
+impl RaycastWorld {
+    /// Returns false only if no instance is within a distance of a point \[m\]; true means that a
+    /// bounding box is that near. Far cheaper than rays in all directions.
     #[must_use]
     pub fn may_be_near(&self, point_m: DVec3, distance_m: f64, filter: Filter) -> bool {
         let from_middle = point_m - self.middle_m;
-        // Room for the rounding of boxes and of this.
+        // Margin for the rounding of boxes and of this computation.
         let reach_m = distance_m * 1.000_001 + (point_m.abs() + from_middle.abs()).length() * 1e-6;
         let near = |node: &Node, slot: usize, center: DVec3| {
             let row = |row: usize| f64::from(node.0[row].0[slot]);
@@ -22,12 +22,12 @@ impl World {
         };
         let instance_near = |number: u32| {
             let instance = &self.instances[number as usize];
-            if !filter.lets_pass(instance.tags) {
+            if !filter.accepts(instance.tags) {
                 return false;
             }
             let point = instance.world_from_body.point_in_body(point_m);
             match (&instance.body, instance.bounds_m) {
-                (Body::Solid(Solid::Plane { .. }), None) => point.z.abs() <= reach_m,
+                (InstanceGeometry::Solid(Solid::Plane { .. }), None) => point.z.abs() <= reach_m,
                 (_, Some((middle, half))) => {
                     let off = (point - middle).abs() - half;
                     off.max(DVec3::ZERO).length_squared() <= reach_m * reach_m
@@ -52,7 +52,7 @@ impl World {
     }
 }
 
-/// Whether a leaf is right, among those whose boxes are.
+/// Returns true if `leaf` accepts any leaf below nodes whose boxes `enter` accepts.
 fn any_leaf(
     nodes: &[Node],
     enter: impl Fn(&Node, usize) -> bool,
@@ -64,7 +64,7 @@ fn any_leaf(
         for slot in (0..8).filter(|&slot| node.is_used(slot)) {
             let word = node.child(slot);
             if enter(node, slot) {
-                if word & LEAF == 0 {
+                if word & LEAF_MASK == 0 {
                     waiting.push(word);
                 } else if leaf(word) {
                     return true;
@@ -79,14 +79,14 @@ fn any_leaf(
 mod tests {
     use periplus_geometry::{DVec3, Pose, Stream};
 
-    use crate::{Filter, Ray, Shape, Tags, World};
+    use crate::{Filter, Ray, RaycastShape, RaycastWorld, Tags};
 
-    fn world(group: u32) -> World {
-        let mut builder = World::builder();
+    fn world(group: u32) -> RaycastWorld {
+        let mut builder = RaycastWorld::builder();
         let tags = Tags { group, ..Tags::default() };
-        let ball = Shape::Sphere { radius_m: 0.5 };
+        let ball = RaycastShape::Sphere { radius_m: 0.5 };
         builder.add_shape(&ball, &Pose::from_xyz(3.0, 0.0, 1.0), tags).unwrap();
-        let plane = Shape::Plane { size_m: None };
+        let plane = RaycastShape::Plane { size_m: None };
         builder.add_shape(&plane, &Pose::IDENTITY, tags).unwrap();
         let wall = [[-2.0, -1.0, 0.0], [-2.0, 1.0, 0.0], [-2.0, 0.0, 2.0]];
         builder.add_fixed(&wall, &[[0, 1, 2]], &Pose::IDENTITY, tags).unwrap();
@@ -110,7 +110,7 @@ mod tests {
         assert!(world(7).may_be_near(DVec3::new(3.0, 0.0, 3.0), 2.5, Filter::default()));
     }
 
-    /// Whatever a short ray meets was said to be near.
+    /// No hit of a short ray contradicts a negative result.
     #[test]
     fn no_hit_was_denied() {
         let (world, filter) = (world(0), Filter::default());

@@ -1,7 +1,7 @@
-//! Four numbers of double precision at a time, as [`super::V8`] is of single precision.
+//! Four double-precision numbers at a time, the counterpart of [`super::V8`].
 
-/// Four f64 in registers. A comparison gives a mask: all bits of a lane set, or none. All round as
-/// IEEE 754 says.
+/// Four f64 in registers. A comparison gives a mask: all bits of a lane set, or none. All operations
+/// round as IEEE 754 requires.
 pub(crate) trait V4: Copy {
     fn splat(value: f64) -> Self;
     /// The first four, or the last.
@@ -16,7 +16,7 @@ pub(crate) trait V4: Copy {
     fn and(self, other: Self) -> Self;
     /// `self` where the mask is set, `other` elsewhere.
     fn select(self, other: Self, mask: Self) -> Self;
-    /// Bit `i` tells lane `i` of a mask.
+    /// Bit `i` is set if lane `i` of a mask is.
     fn bits(self) -> u32;
 }
 
@@ -95,9 +95,9 @@ pub(super) mod avx2 {
 
     use super::V4;
 
-    /// Four f64 in an AVX register. Values of this type come to be only inside
-    /// [`crate::simd::V8::run`] of [`crate::simd::Avx2`], which is reached only on machines that
-    /// have the instructions: that makes every `unsafe` below sound.
+    /// Four f64 in an AVX register. Values are created only inside [`crate::simd::V8::run`] of
+    /// [`crate::simd::Avx2`], which is reached only on machines with the instructions: that makes
+    /// every `unsafe` below sound.
     #[derive(Clone, Copy)]
     pub(crate) struct Four(__m256d);
 

@@ -1,46 +1,46 @@
-//! Several rays in turns, for trees larger than the cache: while what one needs next is on its way
-//! from memory, the others go on.
+//! Interleaved traversal of several rays, for trees larger than the cache: while the next node of
+//! one ray is fetched from memory, the other rays proceed.
 
-use super::{Nearest, OneRay, RayRows, TriangleMesh};
-use crate::bvh::{LEAF, STACK};
-use crate::local::{BoxTest, LocalRay, distance_margin, reach};
+use super::{Nearest, RayLeaves, RayRows, TriangleMesh};
+use crate::bvh::{LEAF_MASK, MAX_STACK_ENTRIES};
+use crate::local_ray::{BoxTest, LocalRay, distance_margin, reach};
 use crate::simd::V8;
-use crate::walk::{Leaves, Stack, Step, open, take};
+use crate::traversal::{Leaves, Stack, Step, open, pop};
 
-/// How many rays are on their way.
+/// Number of interleaved rays.
 const SLOTS: usize = 16;
 
-/// Rays to be traced and what becomes of them.
-pub(crate) trait Queue {
-    /// What tells a ray from others.
+/// Source of rays and receiver of their hits.
+pub(crate) trait RayQueue {
+    /// Identifier of a ray.
     type Ticket: Copy;
-    /// The next ray, and how far it is followed.
+    /// Returns the next ray and its maximum distance.
     fn next(&mut self) -> Option<(Self::Ticket, LocalRay, f32)>;
-    /// The ray of a ticket meets this first.
+    /// Reports the first hit of the ray with a ticket.
     fn done(&mut self, ticket: Self::Ticket, nearest: Nearest);
 }
 
-/// A ray on its way.
-struct Turn<V, T> {
+/// A ray during traversal.
+struct InterleavedRay<V, T> {
     ticket: T,
     test: BoxTest<V>,
     rows: RayRows<V>,
     margin: f32,
     limit: f32,
     nearest: Nearest,
-    /// The word to look into next.
+    /// Word of the next child to visit.
     next: u32,
     height: usize,
 }
 
-/// Both beside each other, so that the stacks do not lie 4096 bytes apart and contend for the same
-/// lines of the cache.
+/// Ray and stack side by side, so that stacks are not 4096 bytes apart and do not contend for the
+/// same cache lines.
 struct Slot<V, T> {
-    turn: Turn<V, T>,
+    ray: InterleavedRay<V, T>,
     stack: Stack,
 }
 
-impl<V: V8, T: Copy> Turn<V, T> {
+impl<V: V8, T: Copy> InterleavedRay<V, T> {
     #[inline(always)]
     fn new(mesh: &TriangleMesh, ticket: T, ray: &LocalRay, max: f32) -> Self {
         let margin = distance_margin(mesh.extent, ray.shear[2]);
@@ -56,15 +56,15 @@ impl<V: V8, T: Copy> Turn<V, T> {
         }
     }
 
-    /// One node or one leaf. False at the end.
+    /// Visits one node or one leaf. Returns false at the end.
     #[inline(always)]
     fn step(&mut self, mesh: &TriangleMesh, stack: &mut Stack) -> bool {
         let mut next = None;
-        if self.next & LEAF == 0 {
+        if self.next & LEAF_MASK == 0 {
             let node = &mesh.nodes[self.next as usize];
             next = open(node, &self.test, self.limit, stack, &mut self.height);
         } else {
-            let mut leaves = OneRay::<V, _, false> {
+            let mut leaves = RayLeaves::<V, _, false> {
                 blocks: &mesh.blocks,
                 rows: &self.rows,
                 margin: self.margin,
@@ -76,55 +76,58 @@ impl<V: V8, T: Copy> Turn<V, T> {
             }
         }
         if next.is_none() {
-            next = take(stack, &mut self.height, self.limit);
+            next = pop(stack, &mut self.height, self.limit);
         }
         let Some(word) = next else { return false };
         self.next = word;
-        mesh.fetch::<V>(word);
+        mesh.prefetch::<V>(word);
         true
     }
 }
 
 impl TriangleMesh {
-    /// Traces all rays of a queue, each to the very same result as [`Self::trace`].
+    /// Traces all rays of a queue, each with the same result as [`Self::trace`].
     #[inline(always)]
-    pub(crate) fn trace_in_turns<V: V8, Q: Queue>(&self, queue: &mut Q) {
+    pub(crate) fn trace_interleaved<V: V8, Q: RayQueue>(&self, queue: &mut Q) {
         if self.nodes.is_empty() {
             while let Some((ticket, _, max)) = queue.next() {
                 queue.done(ticket, Nearest { distance: max, id: u32::MAX });
             }
             return;
         }
-        let mut turns: Vec<Slot<V, Q::Ticket>> = Vec::with_capacity(SLOTS);
-        while turns.len() < SLOTS {
+        let mut slots: Vec<Slot<V, Q::Ticket>> = Vec::with_capacity(SLOTS);
+        while slots.len() < SLOTS {
             let Some((ticket, ray, max)) = queue.next() else { break };
-            turns.push(Slot { turn: Turn::new(self, ticket, &ray, max), stack: [0; STACK] });
+            slots.push(Slot {
+                ray: InterleavedRay::new(self, ticket, &ray, max),
+                stack: [0; MAX_STACK_ENTRIES],
+            });
         }
-        while !turns.is_empty() {
+        while !slots.is_empty() {
             let mut slot = 0;
-            while slot < turns.len() {
-                let Slot { turn, stack } = &mut turns[slot];
-                if turn.step(self, stack) {
+            while slot < slots.len() {
+                let Slot { ray: active, stack } = &mut slots[slot];
+                if active.step(self, stack) {
                     slot += 1;
                     continue;
                 }
-                queue.done(turn.ticket, turn.nearest);
+                queue.done(active.ticket, active.nearest);
                 if let Some((ticket, ray, max)) = queue.next() {
-                    *turn = Turn::new(self, ticket, &ray, max);
+                    *active = InterleavedRay::new(self, ticket, &ray, max);
                     slot += 1;
                 } else {
-                    turns.swap_remove(slot);
+                    slots.swap_remove(slot);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn fetch<V: V8>(&self, word: u32) {
-        if word & LEAF == 0 {
-            V::fetch(&self.nodes[word as usize]);
+    fn prefetch<V: V8>(&self, word: u32) {
+        if word & LEAF_MASK == 0 {
+            V::prefetch(&self.nodes[word as usize]);
         } else {
-            V::fetch(&self.blocks[crate::bvh::leaf_range(word).0]);
+            V::prefetch(&self.blocks[crate::bvh::leaf_range(word).0]);
         }
     }
 }

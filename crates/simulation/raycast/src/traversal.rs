@@ -1,37 +1,37 @@
-//! The way through a tree, nearest first.
+//! Traversal of a tree, nearest first.
 
-use crate::bvh::{LEAF, Node, STACK};
+use crate::bvh::{LEAF_MASK, MAX_STACK_ENTRIES, Node};
 use crate::simd::V8;
 
-/// Where nodes wait: entry distance in the upper half, word in the lower. Distances are not
-/// negative, so their bits compare as they do.
-pub(crate) type Stack = [u64; STACK];
+/// Stack of pending nodes: entry distance in the upper half, child word in the lower. Distances are
+/// not negative, so their bits compare in the same order.
+pub(crate) type Stack = [u64; MAX_STACK_ENTRIES];
 
-/// What is tested against boxes: a ray, or several at once.
+/// A ray or packet that is tested against boxes.
 pub(crate) trait NodeTest<V> {
-    /// The children that may be met not farther than `reach`, as bits, and where they are entered.
+    /// Returns the children that may be hit within `reach` as bits, and their entry distances.
     fn children(&self, node: &Node, reach: V) -> (u32, V);
 }
 
-/// What a leaf says to the walk.
+/// Instruction of a leaf visitor to the traversal.
 pub(crate) enum Step {
-    /// Go on.
+    /// Continue.
     On,
-    /// Go on, but not farther than this.
+    /// Continue up to this distance.
     Within(f32),
-    /// Enough.
+    /// Stop.
     Stop,
 }
 
-/// What is done with leaves.
+/// Visitor of leaves.
 pub(crate) trait Leaves {
-    /// Looks into the leaf of a word.
+    /// Visits the leaf of a child word.
     fn visit(&mut self, word: u32) -> Step;
 }
 
-/// Shows all leaves that `test` may meet within `limit` to `leaves`.
+/// Passes all leaves that `test` may hit within `limit` to `leaves`.
 #[inline(always)]
-pub(crate) fn walk<V: V8>(
+pub(crate) fn traverse<V: V8>(
     nodes: &[Node],
     test: &impl NodeTest<V>,
     mut limit: f32,
@@ -45,12 +45,12 @@ pub(crate) fn walk<V: V8>(
         node = loop {
             let word = match next.take() {
                 Some(word) => word,
-                None => match take(stack, &mut height, limit) {
+                None => match pop(stack, &mut height, limit) {
                     Some(word) => word,
                     None => return,
                 },
             };
-            if word & LEAF == 0 {
+            if word & LEAF_MASK == 0 {
                 break &nodes[word as usize];
             }
             match leaves.visit(word) {
@@ -62,8 +62,8 @@ pub(crate) fn walk<V: V8>(
     }
 }
 
-/// The child of a node to go on to, the nearest, without a detour through the stack; the others
-/// are stacked, the farthest lowest.
+/// Returns the nearest child of a node, without a detour through the stack, and pushes the others,
+/// the farthest first.
 #[inline(always)]
 pub(crate) fn open<V: V8>(
     node: &Node,
@@ -93,23 +93,23 @@ pub(crate) fn open<V: V8>(
         let own = key(slot);
         let (near, far) = if own < nearest { (own, nearest) } else { (nearest, own) };
         nearest = near;
-        let mut place = *height;
-        while place > bottom && stack[(place - 1) % STACK] < far {
-            stack[place % STACK] = stack[(place - 1) % STACK];
-            place -= 1;
+        let mut index = *height;
+        while index > bottom && stack[(index - 1) % MAX_STACK_ENTRIES] < far {
+            stack[index % MAX_STACK_ENTRIES] = stack[(index - 1) % MAX_STACK_ENTRIES];
+            index -= 1;
         }
-        stack[place % STACK] = far;
+        stack[index % MAX_STACK_ENTRIES] = far;
         *height += 1;
     }
     Some(word_of(nearest))
 }
 
-/// The next that waits, if it is not too far by now.
+/// Pops the next node that is within the limit.
 #[inline(always)]
-pub(crate) fn take(stack: &Stack, height: &mut usize, limit: f32) -> Option<u32> {
+pub(crate) fn pop(stack: &Stack, height: &mut usize, limit: f32) -> Option<u32> {
     while *height > 0 {
         *height -= 1;
-        let key = stack[*height % STACK];
+        let key = stack[*height % MAX_STACK_ENTRIES];
         if f32::from_bits((key >> 32) as u32) <= limit {
             return Some(word_of(key));
         }

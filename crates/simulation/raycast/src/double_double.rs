@@ -1,15 +1,15 @@
-//! Sums and products of twice the digits of an f64.
+//! Double-double arithmetic.
 
-/// A number as the sum of two that do not overlap: about 32 decimal digits. Dekker 1971, "A
-/// floating-point technique for extending the available precision"; Knuth's exact sum. Without
-/// fused operations, so the same everywhere.
+/// An unevaluated sum of two f64 that do not overlap: about 32 decimal digits. Dekker 1971, "A
+/// floating-point technique for extending the available precision"; Knuth's two-sum. Without fused
+/// operations, so results are the same on all machines.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Wide {
+pub(crate) struct DoubleDouble {
     pub(crate) high: f64,
     pub(crate) low: f64,
 }
 
-impl Wide {
+impl DoubleDouble {
     pub(crate) const ZERO: Self = Self { high: 0.0, low: 0.0 };
 
     #[inline]
@@ -25,7 +25,7 @@ impl Wide {
         Self { high, low: (a - (high - part)) + (b - part) }
     }
 
-    /// The exact product of two f64 (no overflow above 1e300).
+    /// The exact product of two f64 (without overflow below 1e300).
     #[inline]
     pub(crate) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
@@ -81,25 +81,25 @@ fn halves(value: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::Wide;
+    use super::DoubleDouble;
 
     #[test]
     fn what_an_f64_loses_is_kept() {
-        let tiny = Wide::sum(1.0, 1e-20).sub(Wide::of(1.0));
+        let tiny = DoubleDouble::sum(1.0, 1e-20).sub(DoubleDouble::of(1.0));
         assert_eq!((tiny.high, tiny.low), (1e-20, 0.0));
         let e = 2f64.powi(-30);
         // (1 + e)(1 - e) - 1 = -e²
-        let rest = Wide::product(1.0 + e, 1.0 - e).sub(Wide::of(1.0));
+        let rest = DoubleDouble::product(1.0 + e, 1.0 - e).sub(DoubleDouble::of(1.0));
         assert_eq!(rest.high, -e * e);
     }
 
     #[test]
     fn roots_and_quotients_come_back() {
-        let two = Wide::of(2.0);
+        let two = DoubleDouble::of(2.0);
         let off = two.sqrt().mul(two.sqrt()).sub(two);
         assert!(off.high.abs() < 1e-30, "{off:?}");
-        let third = Wide::of(1.0).div(Wide::of(3.0));
-        let off = third.mul(Wide::of(3.0)).sub(Wide::of(1.0));
+        let third = DoubleDouble::of(1.0).div(DoubleDouble::of(3.0));
+        let off = third.mul(DoubleDouble::of(3.0)).sub(DoubleDouble::of(1.0));
         assert!(off.high.abs() < 1e-31, "{off:?}");
     }
 }
