@@ -7,7 +7,7 @@ use periplus_geometry::{DVec3, Pose2, Stream};
 use periplus_loader::Setting;
 use periplus_os::Machine;
 use periplus_raycast::{Filter, Ray};
-use periplus_rendering::{Geometry, Surroundings};
+use periplus_rendering::{RenderScene, SensedGeometry};
 use periplus_resources::Resolver;
 use periplus_sim::{Composition, Placement, ShapeFiles, Standing, compose};
 
@@ -90,7 +90,7 @@ pub(crate) struct Stage {
     pub(crate) composition: Composition,
     pub(crate) files: Arc<ShapeFiles>,
     /// What a lidar sees, without the robot.
-    surroundings: Surroundings,
+    scene: RenderScene,
     pub(crate) bounds_m: [f64; 4],
     /// Goals in their order \[m\].
     pub(crate) way: Vec<[f64; 2]>,
@@ -140,9 +140,9 @@ impl Stage {
             model.parent_from_model = member.world_from_model;
             world.models.push(model);
         }
-        let (surroundings, _) = Surroundings::new(&world, Geometry::Collision, &*files, 1);
+        let (scene, _) = RenderScene::new(&world, SensedGeometry::Collision, &*files, 1);
         let mut stage =
-            Self { composition, files, surroundings, bounds_m: venue.bounds_m, way: Vec::new() };
+            Self { composition, files, scene, bounds_m: venue.bounds_m, way: Vec::new() };
         let floor = Floor::of(&stage);
         stage.way = match &venue.tour {
             Tour::Wander(length_m) => floor.wander([x, y], *length_m, &mut stream),
@@ -166,7 +166,7 @@ impl Stage {
     pub(crate) fn cast(&self, [x, y, z]: [f64; 3], angle_rad: f64, most_m: f64) -> Option<f64> {
         let direction = DVec3::new(angle_rad.cos(), angle_rad.sin(), 0.0);
         let ray = Ray { max_m: most_m, ..Ray::new(DVec3::new(x, y, z), direction) };
-        self.surroundings.rays().cast(&ray, Filter::default()).map(|hit| hit.distance_m)
+        self.scene.rays().cast(&ray, Filter::default()).map(|hit| hit.distance_m)
     }
 }
 

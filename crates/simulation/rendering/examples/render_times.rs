@@ -1,11 +1,11 @@
-//! Milliseconds of pictures over scenes of files, one JSON line each, to be laid beside those of
-//! another renderer of the same scenes.
+//! Render times over scenes from files, in milliseconds, one JSON line each, for comparison with
+//! another renderer.
 //!
-//! `side_by_side SCENES SCENE[,SCENE] [THREADS [OUT]]`: `room` is a closed room of boxes under the sun,
-//! as simulators have them; of all others `SCENES/<scene>.mesh` is u32 vertices, u32
-//! triangles, f32 positions, u32 corners; the first and the middle ray of
-//! `SCENES/rays/<scene>.depth_640x480.rays` (f32 origin and direction) say where the camera is and
-//! looks. The light is a lamp 1.6 m above it, or the sun in a city. Pictures go to `OUT/<scene>.png`.
+//! `render_times SCENES SCENE[,SCENE] [THREADS [OUT]]`: `room` is a closed room of boxes under the
+//! sun. For other scenes `SCENES/<scene>.mesh` is u32 vertices, u32 triangles, f32 positions, u32
+//! corners. The first and the middle ray of `SCENES/rays/<scene>.depth_640x480.rays` (f32 origin and
+//! direction) define the camera's pose. The light is a point light 1.6 m above it, or the sun in a
+//! city. Images are written to `OUT/<scene>.png`.
 
 #![allow(
     clippy::disallowed_methods,
@@ -21,14 +21,17 @@ use std::time::Instant;
 use periplus_diagnostics::Origin;
 use periplus_geometry::{DVec3, Pose, Rpy};
 use periplus_meshes::Submesh;
-use periplus_rendering::{Geometry, Lens, NoShapes, Picture, Shapes, Shot, Surroundings, Wanted};
+use periplus_rendering::{
+    AssetLoader, ImageOutputs, Lens, NoAssets, RenderRequest, RenderScene, RenderedImages,
+    SensedGeometry,
+};
 use periplus_scene::{
     Attenuation, Colour, Light, LightKind, Link, Material, Mesh, Model, Shape, Visual,
 };
 
 struct One(Arc<periplus_meshes::Mesh>);
 
-impl Shapes for One {
+impl AssetLoader for One {
     fn mesh(&self, _: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         Some(Arc::clone(&self.0))
     }
@@ -43,7 +46,7 @@ impl Shapes for One {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [scenes, names, rest @ ..] = arguments.as_slice() else {
-        println!("usage: side_by_side SCENES SCENE[,SCENE] [THREADS [OUT]]");
+        println!("usage: render_times SCENES SCENE[,SCENE] [THREADS [OUT]]");
         return;
     };
     let threads = rest.first().map_or(1, |count| count.parse().unwrap());
@@ -53,48 +56,52 @@ fn main() {
 }
 
 fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
-    let mut surroundings = Surroundings::empty(Geometry::Visual, threads);
+    let mut render_scene = RenderScene::empty(SensedGeometry::Visual, threads);
     let sun = scene == "city" || scene == "room";
     let world_from_camera = if scene == "room" {
-        surroundings.add(&room(), Pose::IDENTITY, &NoShapes);
+        render_scene.add(&room(), Pose::IDENTITY, &NoAssets);
         Pose::from_xyz(0.2, 0.0, 0.3)
     } else {
         let shapes = One(Arc::new(mesh(&scenes.join(format!("{scene}.mesh")))));
-        surroundings.add(&model(), Pose::IDENTITY, &shapes);
+        render_scene.add(&model(), Pose::IDENTITY, &shapes);
         camera(&scenes.join(format!("rays/{scene}.depth_640x480.rays")))
     };
     let lens = Lens::pinhole(640, 480, 75_f64.to_radians()).unwrap();
     let loads = [
-        ("depth 640x480", Wanted { depth: true, ..Wanted::default() }, true),
-        ("depth+labels 640x480", Wanted { depth: true, labels: true, colour: false }, true),
+        ("depth 640x480", ImageOutputs { depth: true, ..ImageOutputs::default() }, true),
+        ("depth+labels 640x480", ImageOutputs { depth: true, labels: true, colour: false }, true),
         (
             "rgb+depth+labels 640x480, shadows",
-            Wanted { colour: true, depth: true, labels: true },
+            ImageOutputs { colour: true, depth: true, labels: true },
             true,
         ),
-        ("rgb+depth+labels 640x480", Wanted { colour: true, depth: true, labels: true }, false),
+        (
+            "rgb+depth+labels 640x480",
+            ImageOutputs { colour: true, depth: true, labels: true },
+            false,
+        ),
     ];
-    for (load, wanted, shadows) in loads {
+    for (load, outputs, shadows) in loads {
         let mut light = lamp(sun, world_from_camera.translation);
         light.cast_shadows = shadows;
-        surroundings.set_light(&light);
-        let shot = Shot {
+        render_scene.set_light(&light);
+        let request = RenderRequest {
             lens: &lens,
             world_from_camera,
             near_m: 0.05,
             far_m: 1000.0,
             visibility_mask: u32::MAX,
             own: None,
-            wanted,
+            outputs,
             threads,
         };
-        let mut picture = Picture::default();
+        let mut picture = RenderedImages::default();
         let (mut walls, mut cpus) = (Vec::new(), Vec::new());
         let begin = Instant::now();
         while walls.len() < 9 || begin.elapsed().as_secs_f64() < 0.8 {
             let (start, cpu) = (Instant::now(), cpu_s());
             for _ in 0..4 {
-                surroundings.take(&shot, &mut picture);
+                render_scene.render(&request, &mut picture);
             }
             walls.push(start.elapsed().as_secs_f64() * 250.0);
             cpus.push((cpu_s() - cpu) * 250.0);
@@ -109,7 +116,7 @@ fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
             walls[0],
             sum(&picture)
         );
-        if let (Some(out), true, true) = (out, wanted.colour, shadows) {
+        if let (Some(out), true, true) = (out, outputs.colour, shadows) {
             let file = std::fs::File::create(out.join(format!("{scene}.png"))).unwrap();
             let mut encoder = png::Encoder::new(file, picture.width, picture.height);
             encoder.set_color(png::ColorType::Rgb);
@@ -118,8 +125,8 @@ fn run(scenes: &Path, scene: &str, threads: usize, out: Option<&Path>) {
     }
 }
 
-/// Tells pictures apart that should be the same (FNV).
-fn sum(picture: &Picture) -> u64 {
+/// Returns a checksum (FNV) for comparing images.
+fn sum(picture: &RenderedImages) -> u64 {
     let depths = picture.depth_m.iter().flat_map(|depth_m| depth_m.to_bits().to_le_bytes());
     let bytes = picture.rgb.iter().copied().chain(depths).chain(picture.classes.iter().copied());
     bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
@@ -127,7 +134,7 @@ fn sum(picture: &Picture) -> u64 {
     })
 }
 
-/// Seconds of all threads of this process; the clock's where the system does not tell.
+/// Returns CPU time of all threads of this process \[s\]; wall time where the system has no counter.
 fn cpu_s() -> f64 {
     let mut sum = 0.0;
     if let Ok(tasks) = std::fs::read_dir("/proc/self/task") {
@@ -157,7 +164,7 @@ fn model() -> Model {
     model
 }
 
-/// Four walls and two boxes on a plane, with a material that shines a little.
+/// Four walls and two boxes on a plane, with a slightly specular material.
 fn room() -> Model {
     let grey = |shade: f64| Some(Colour([shade, shade, shade, 1.0]));
     let material = |shade: f64| Material {

@@ -1,6 +1,6 @@
-//! A picture of a world file, to be looked at.
+//! Renders an image of a world file.
 //!
-//! `picture WORLD OUT.png X Y Z YAW PITCH [ROLL]`: metres and degrees; models are looked for in the
+//! `render_world WORLD OUT.png X Y Z YAW PITCH [ROLL]`: metres and degrees. Models are read from the
 //! folder `models` beside the world.
 
 #![allow(
@@ -18,13 +18,15 @@ use periplus_geometry::{Pose, Rpy};
 use periplus_loader::{Setting, load};
 use periplus_meshes::MeshFormat;
 use periplus_os::Machine;
-use periplus_rendering::{Geometry, Lens, Picture, Shapes, Shot, Surroundings, Wanted};
+use periplus_rendering::{
+    AssetLoader, ImageOutputs, Lens, RenderRequest, RenderScene, RenderedImages, SensedGeometry,
+};
 use periplus_resources::Resolver;
 use periplus_scene::Mesh;
 
 struct Files;
 
-impl Shapes for Files {
+impl AssetLoader for Files {
     fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         let path = mesh.path.as_ref()?;
         let bytes = std::fs::read(path).ok()?;
@@ -47,10 +49,12 @@ impl Shapes for Files {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [world, out, numbers @ ..] = arguments.as_slice() else {
-        println!("usage: picture WORLD OUT.png X Y Z YAW PITCH [ROLL]");
+        println!("usage: render_world WORLD OUT.png X Y Z YAW PITCH [ROLL]");
         return;
     };
-    let number = |place: usize| numbers.get(place).map_or(0.0, |text| text.parse::<f64>().unwrap());
+    let number = |set_link_poses: usize| {
+        numbers.get(set_link_poses).map_or(0.0, |text| text.parse::<f64>().unwrap())
+    };
     let rpy = Rpy {
         roll: number(5).to_radians(),
         pitch: number(4).to_radians(),
@@ -68,23 +72,23 @@ fn main() {
     };
     let loaded = load(Path::new(world), &setting);
     let scene = &loaded.scene.as_ref().unwrap().worlds[0];
-    let (surroundings, diagnostics) = Surroundings::new(scene, Geometry::Visual, &Files, 2);
+    let (scene, diagnostics) = RenderScene::new(scene, SensedGeometry::Visual, &Files, 2);
     for diagnostic in diagnostics.iter() {
         println!("{}: {}", diagnostic.code, diagnostic.message);
     }
     let lens = Lens::pinhole(960, 720, 1.4).unwrap();
-    let shot = Shot {
+    let request = RenderRequest {
         lens: &lens,
         world_from_camera: Pose::from_xyz_rpy([number(0), number(1), number(2)], rpy),
         near_m: 0.05,
         far_m: 1000.0,
         visibility_mask: u32::MAX,
         own: None,
-        wanted: Wanted { colour: true, depth: true, labels: true },
+        outputs: ImageOutputs { colour: true, depth: true, labels: true },
         threads: 2,
     };
-    let mut picture = Picture::default();
-    surroundings.take(&shot, &mut picture);
+    let mut picture = RenderedImages::default();
+    scene.render(&request, &mut picture);
     let file = std::fs::File::create(out).unwrap();
     let mut encoder = png::Encoder::new(file, picture.width, picture.height);
     encoder.set_color(png::ColorType::Rgb);

@@ -1,4 +1,4 @@
-//! What several shapes share: meshes, textures.
+//! Cache of meshes and textures shared by shapes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -6,55 +6,55 @@ use std::sync::Arc;
 use periplus_images::{BadImage, Image};
 use periplus_scene::Mesh;
 
-use crate::mesh::{Prepared, select};
-use crate::shapes::Shapes;
+use crate::assets::AssetLoader;
+use crate::mesh::{SharedMesh, select_submesh};
 
-/// Corners beyond this are no place \[m\].
-const FARTHEST_M: f64 = 1e9;
+/// Maximum absolute value of a coordinate \[m\].
+const MAX_COORDINATE_M: f64 = 1e9;
 
-/// What makes two meshes the same.
-type Key = (String, Option<String>, bool, [u64; 3]);
+/// Identity of a mesh: path, submesh, centring, scale.
+type MeshKey = (String, Option<String>, bool, [u64; 3]);
 
-/// Meshes and textures, each made once.
+/// Meshes and textures, each prepared once.
 #[derive(Debug, Default)]
-pub(crate) struct Store {
-    meshes: BTreeMap<Key, Arc<Prepared>>,
-    /// By what the file holds: many names may lead to one picture, and one name to several.
+pub(crate) struct AssetCache {
+    meshes: BTreeMap<MeshKey, Arc<SharedMesh>>,
+    /// Keyed by content: several names can refer to one image, and one name to several.
     images: BTreeMap<Arc<[u8]>, Result<Arc<Image>, BadImage>>,
 }
 
-impl Store {
+impl AssetCache {
     /// # Errors
-    /// What is wrong with it, to be read after the shape's name.
+    /// The problem, as a clause that follows the shape's name.
     pub(crate) fn mesh(
         &mut self,
         mesh: &Mesh,
-        shapes: &dyn Shapes,
-    ) -> Result<Arc<Prepared>, String> {
+        shapes: &dyn AssetLoader,
+    ) -> Result<Arc<SharedMesh>, String> {
         if !mesh.scale.is_finite() {
             return Err(format!("has a mesh (`{}`) whose scale is not finite", mesh.uri));
         }
-        // Without a path the URI counts from its own file, so nothing is shared.
+        // Without a path the URI is relative to its own file, so nothing is shared.
         let key = mesh.path.as_ref().map(|path| {
             let scale = mesh.scale.to_array().map(f64::to_bits);
             let path = path.to_string_lossy().into_owned();
             (path, mesh.submesh.clone(), mesh.center_submesh, scale)
         });
-        if let Some(found) = key.as_ref().and_then(|key| self.meshes.get(key)) {
-            return Ok(Arc::clone(found));
+        if let Some(source) = key.as_ref().and_then(|key| self.meshes.get(key)) {
+            return Ok(Arc::clone(source));
         }
         let Some(file) = shapes.mesh(mesh) else {
             return Err(format!("has a mesh (`{}`) that was not read", mesh.uri));
         };
-        let selected = select(mesh, &file);
+        let selected = select_submesh(mesh, &file);
         if selected.triangles.is_empty() {
             let part = mesh.submesh.as_deref().unwrap_or_default();
-            return Err(format!("has a mesh (`{}`) without a part named `{part}`", mesh.uri));
+            return Err(format!("has a mesh (`{}`) without a submesh named `{part}`", mesh.uri));
         }
-        if !selected.positions_m.iter().flatten().all(|x| x.abs() < FARTHEST_M) {
-            return Err(format!("has a mesh (`{}`) that reaches beyond any world", mesh.uri));
+        if !selected.positions_m.iter().flatten().all(|x| x.abs() < MAX_COORDINATE_M) {
+            return Err(format!("has a mesh (`{}`) with coordinates beyond 1e9 m", mesh.uri));
         }
-        let prepared = Arc::new(Prepared::new(selected));
+        let prepared = Arc::new(SharedMesh::new(selected));
         if let Some(key) = key {
             self.meshes.insert(key, Arc::clone(&prepared));
         }

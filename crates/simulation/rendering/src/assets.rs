@@ -1,28 +1,29 @@
-//! Where shapes from files come from.
+//! Access to meshes and images of files.
 
 use std::sync::Arc;
 
 use periplus_diagnostics::Origin;
 use periplus_scene::Mesh;
 
-/// Gives what files hold; whoever may read files does so. What is missing is told by
-/// [`crate::Surroundings`], with its place, and the rest goes on.
-pub trait Shapes {
-    /// The whole mesh file, without submesh, centring or scale; none if it could not be read.
+/// Provides the content of files to code that must not read files. [`crate::RenderScene`] reports
+/// missing content with the position in the source and continues.
+pub trait AssetLoader {
+    /// Returns the whole mesh file, without submesh, centring or scale; `None` if it could not be
+    /// read.
     fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>>;
 
-    /// The bytes of an image (PNG or JPEG) that a scene names: a heightmap, an albedo map.
+    /// Returns the bytes of an image (PNG or JPEG) of a scene: a heightmap, an albedo map.
     fn image(&self, uri: &str, origin: Origin) -> Option<Arc<[u8]>>;
 
-    /// The bytes of an image that a mesh file names, relative to that file.
+    /// Returns the bytes of an image of a mesh file, relative to that file.
     fn texture(&self, mesh: &Mesh, name: &str) -> Option<Arc<[u8]>>;
 }
 
-/// No files at all.
+/// A loader without files.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct NoShapes;
+pub struct NoAssets;
 
-impl Shapes for NoShapes {
+impl AssetLoader for NoAssets {
     fn mesh(&self, _: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         None
     }

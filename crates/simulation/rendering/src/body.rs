@@ -1,94 +1,100 @@
-//! From a shape of a scene to what rays meet.
+//! Conversion of scene shapes to ray-cast geometry.
 
 use std::sync::Arc;
 
 use periplus_geometry::{DQuat, DVec3, Pose};
-use periplus_raycast::{Heightfield, Shape as Form};
+use periplus_raycast::{Heightfield, RaycastShape};
 use periplus_scene::Shape;
 
-use crate::ground::ground;
-use crate::mesh::Prepared;
+use crate::asset_cache::AssetCache;
+use crate::assets::AssetLoader;
+use crate::heightmap::sample_heightmap;
+use crate::mesh::SharedMesh;
 use crate::outline::extrude;
-use crate::shapes::Shapes;
-use crate::store::Store;
-use crate::surroundings::Geometry;
+use crate::render_scene::SensedGeometry;
 
-/// What rays meet.
+/// Ray-cast geometry of a shape.
 #[derive(Clone, Debug)]
-pub(crate) enum Body {
-    Form(Form),
-    Mesh(Arc<Prepared>),
-    Ground(Arc<Heightfield>),
+pub(crate) enum RenderBody {
+    Shape(RaycastShape),
+    Mesh(Arc<SharedMesh>),
+    Heightmap(Arc<Heightfield>),
 }
 
-/// A body, and its frame in that of the collision or visual.
+/// A body, and its frame relative to the collision or visual.
 #[derive(Clone, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedBody {
     pub(crate) shape_from_body: Pose,
-    pub(crate) body: Body,
+    pub(crate) body: RenderBody,
 }
 
-/// How bad it is that there is no body.
-pub(crate) enum Problem {
-    /// The file says what cannot be.
-    Impossible(String),
-    /// It cannot be shown here, or not now.
-    Unseen(String),
+/// Severity and reason of a shape without a body.
+pub(crate) enum ShapeProblem {
+    /// The file contains invalid values.
+    Invalid(String),
+    /// The shape is not supported or not available.
+    Unsupported(String),
 }
-use Problem::{Impossible, Unseen};
+use ShapeProblem::{Invalid, Unsupported};
 
-/// The body of a shape; none where the shape is empty.
+/// Returns the body of a shape; `None` for an empty shape.
 pub(crate) fn body_of(
     shape: &Shape,
-    geometry: Geometry,
-    shapes: &dyn Shapes,
-    store: &mut Store,
-) -> Result<Option<Placed>, Problem> {
-    let here = |body| Ok(Some(Placed { shape_from_body: Pose::IDENTITY, body }));
-    let form = |form| here(Body::Form(form));
+    geometry: SensedGeometry,
+    shapes: &dyn AssetLoader,
+    assets: &mut AssetCache,
+) -> Result<Option<PlacedBody>, ShapeProblem> {
+    let here = |body| Ok(Some(PlacedBody { shape_from_body: Pose::IDENTITY, body }));
+    let form = |form| here(RenderBody::Shape(form));
     match shape {
         Shape::Empty => Ok(None),
-        Shape::Box { size_m } => form(Form::Box { size_m: *size_m }),
-        Shape::Sphere { radius_m } => form(Form::Sphere { radius_m: *radius_m }),
+        Shape::Box { size_m } => form(RaycastShape::Box { size_m: *size_m }),
+        Shape::Sphere { radius_m } => form(RaycastShape::Sphere { radius_m: *radius_m }),
         Shape::Cylinder { radius_m, length_m } => {
-            form(Form::Cylinder { radius_m: *radius_m, length_m: *length_m })
+            form(RaycastShape::Cylinder { radius_m: *radius_m, length_m: *length_m })
         }
         Shape::Capsule { radius_m, length_m } => {
-            form(Form::Capsule { radius_m: *radius_m, length_m: *length_m })
+            form(RaycastShape::Capsule { radius_m: *radius_m, length_m: *length_m })
         }
         Shape::Cone { radius_m, length_m } => {
-            form(Form::Cone { radius_m: *radius_m, length_m: *length_m })
+            form(RaycastShape::Cone { radius_m: *radius_m, length_m: *length_m })
         }
-        Shape::Ellipsoid { radii_m } => form(Form::Ellipsoid { radii_m: *radii_m }),
+        Shape::Ellipsoid { radii_m } => form(RaycastShape::Ellipsoid { radii_m: *radii_m }),
         Shape::Plane { normal, size_m } => {
             let Some(normal) = normal.try_normalize() else {
-                return Err(Impossible("is a plane without a normal".into()));
+                return Err(Invalid("is a plane without a normal".into()));
             };
-            // Endless to touch, of a size to see.
-            let size_m = (geometry == Geometry::Visual).then_some(*size_m);
+            // Infinite for collisions, bounded for visuals.
+            let size_m = (geometry == SensedGeometry::Visual).then_some(*size_m);
             let rotation = DQuat::from_rotation_arc(DVec3::Z, normal);
             let shape_from_body = Pose { translation: DVec3::ZERO, rotation };
-            Ok(Some(Placed { shape_from_body, body: Body::Form(Form::Plane { size_m }) }))
+            Ok(Some(PlacedBody {
+                shape_from_body,
+                body: RenderBody::Shape(RaycastShape::Plane { size_m }),
+            }))
         }
-        Shape::Mesh(mesh) => here(Body::Mesh(store.mesh(mesh, shapes).map_err(Unseen)?)),
+        Shape::Mesh(mesh) => {
+            here(RenderBody::Mesh(assets.mesh(mesh, shapes).map_err(Unsupported)?))
+        }
         Shape::Polylines(outlines) => {
-            let selected = extrude(outlines).map_err(Impossible)?;
-            here(Body::Mesh(Arc::new(Prepared::new(selected))))
+            let selected = extrude(outlines).map_err(Invalid)?;
+            here(RenderBody::Mesh(Arc::new(SharedMesh::new(selected))))
         }
         Shape::Heightmap(map) => {
-            let tell = |why| Unseen(format!("has a ground (`{}`) that {why}", map.uri));
-            let ground = ground(map, shapes).map_err(tell)?;
-            let shape_from_body = ground.shape_from_ground;
-            let body = Body::Ground(ground.field().map_err(tell)?);
-            Ok(Some(Placed { shape_from_body, body }))
+            let unsupported =
+                |why| Unsupported(format!("has a heightmap (`{}`) that {why}", map.uri));
+            let samples = sample_heightmap(map, shapes).map_err(unsupported)?;
+            let shape_from_body = samples.shape_from_heightmap;
+            let body = RenderBody::Heightmap(samples.into_heightfield().map_err(unsupported)?);
+            Ok(Some(PlacedBody { shape_from_body, body }))
         }
-        // The schema knows it; neither Classic's `MapShape` nor any later Gazebo makes anything
-        // of it.
-        Shape::Image(_) => {
-            Err(Unseen("is extruded from an image, which Gazebo does not show either".into()))
-        }
+        // SDF's schema allows it, but neither Classic's `MapShape` nor any later Gazebo implements
+        // it.
+        Shape::Image(_) => Err(Unsupported(
+            "is extruded from an image, which Gazebo does not support either".into(),
+        )),
         Shape::Unknown(element) => {
-            Err(Unseen(format!("has a shape of unknown kind, <{}>", element.name)))
+            Err(Unsupported(format!("has a shape of unknown kind, <{}>", element.name)))
         }
     }
 }

@@ -7,34 +7,37 @@ use periplus_images::Grey;
 use periplus_raycast::Heightfield;
 use periplus_scene::Heightmap;
 
-use crate::shapes::Shapes;
+use crate::assets::AssetLoader;
 
-/// More samples than this are refused: 8193 by 8193.
-const MOST_SAMPLES: usize = 1 << 27;
+/// Maximum number of samples: 8193 by 8193.
+const MAX_SAMPLES: usize = 1 << 27;
 
-/// Heights over a rectangle about its own middle.
+/// Heights over a rectangle centred on its frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ground {
-    /// Points along x, at least two.
+pub struct HeightmapSamples {
+    /// Samples along x, at least two.
     pub columns: usize,
-    /// Points along y, at least two.
+    /// Samples along y, at least two.
     pub rows: usize,
-    /// Heights \[m\]: those of the lowest y, from low x to high, and so on.
+    /// Heights \[m\], row by row from the lowest y, each from low x to high.
     pub heights_m: Vec<f64>,
     /// Lengths of the rectangle along x and y \[m\].
     pub size_m: [f64; 2],
-    /// The middle of the rectangle in the frame of the shape.
-    pub shape_from_ground: Pose,
+    /// Centre of the rectangle in the frame of the shape.
+    pub shape_from_heightmap: Pose,
 }
 
-/// The ground of a heightmap, as Gazebo lays it (`HeightmapShape`, `ImageHeightmap`): the brightest
-/// pixel is as high as the size says, black is zero; the top row of the image has the highest y;
-/// between pixels there are `sampling` steps of bilinear heights. Unlike there, the image need not
-/// be square, nor of a side of 2^n + 1 pixels.
+/// Returns the heights of a heightmap as Gazebo computes them (`HeightmapShape`, `ImageHeightmap`):
+/// white is the height of `size`, black is zero; the top row of the image has the highest y; heights
+/// are interpolated bilinearly with `sampling` steps per pixel. Unlike in Gazebo, the image need not
+/// be square, nor have a side of 2^n + 1 pixels.
 ///
 /// # Errors
-/// What is wrong with it, to be read after "the ground `uri`".
-pub fn ground(heightmap: &Heightmap, shapes: &dyn Shapes) -> Result<Ground, String> {
+/// The problem, as a clause that follows "the heightmap `uri`".
+pub fn sample_heightmap(
+    heightmap: &Heightmap,
+    shapes: &dyn AssetLoader,
+) -> Result<HeightmapSamples, String> {
     let bytes =
         shapes.image(&heightmap.uri, heightmap.origin).ok_or_else(|| "was not read".to_owned())?;
     let image = Grey::decode(&bytes).map_err(|error| format!("cannot be used: {error}"))?;
@@ -44,38 +47,38 @@ pub fn ground(heightmap: &Heightmap, shapes: &dyn Shapes) -> Result<Ground, Stri
     }
     let sampling = heightmap.sampling.clamp(1, 64) as usize;
     let (columns, rows) = ((width - 1) * sampling + 1, (height - 1) * sampling + 1);
-    if columns.saturating_mul(rows) > MOST_SAMPLES {
+    if columns.saturating_mul(rows) > MAX_SAMPLES {
         return Err(format!("has {columns} by {rows} samples, too many; scale the image down"));
     }
     let brightest = image.values.iter().copied().max().unwrap_or(0).max(1);
     let scale = heightmap.size_m.z.abs() / f64::from(brightest);
     let pixel = |x: usize, y: usize| f64::from(image.values[y * width + x]);
-    let share = |step: usize| (step % sampling) as f64 / sampling as f64;
+    let intensity = |step: usize| (step % sampling) as f64 / sampling as f64;
     let mut heights_m = Vec::with_capacity(columns * rows);
     for row in 0..rows {
         // Rows count from the bottom of the image.
         let down = rows - 1 - row;
-        let (y, dy) = (down / sampling, share(down));
+        let (y, dy) = (down / sampling, intensity(down));
         let y_next = (y + 1).min(height - 1);
         for column in 0..columns {
-            let (x, dx) = (column / sampling, share(column));
+            let (x, dx) = (column / sampling, intensity(column));
             let x_next = (x + 1).min(width - 1);
             let upper = pixel(x, y) + (pixel(x_next, y) - pixel(x, y)) * dx;
             let lower = pixel(x, y_next) + (pixel(x_next, y_next) - pixel(x, y_next)) * dx;
             heights_m.push((upper + (lower - upper) * dy) * scale);
         }
     }
-    Ok(Ground {
+    Ok(HeightmapSamples {
         columns,
         rows,
         heights_m,
         size_m: [heightmap.size_m.x, heightmap.size_m.y],
-        shape_from_ground: Pose { translation: heightmap.position_m, ..Pose::IDENTITY },
+        shape_from_heightmap: Pose { translation: heightmap.position_m, ..Pose::IDENTITY },
     })
 }
 
-impl Ground {
-    pub(crate) fn field(self) -> Result<Arc<Heightfield>, String> {
+impl HeightmapSamples {
+    pub(crate) fn into_heightfield(self) -> Result<Arc<Heightfield>, String> {
         Heightfield::new(self.columns, self.rows, self.size_m, self.heights_m)
             .map(Arc::new)
             .map_err(|error| format!("cannot be used: {error}"))
@@ -92,7 +95,7 @@ mod tests {
 
     struct OneImage(Arc<[u8]>);
 
-    impl Shapes for OneImage {
+    impl AssetLoader for OneImage {
         fn mesh(&self, _: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
             None
         }
@@ -104,8 +107,8 @@ mod tests {
         }
     }
 
-    /// Two by two pixels: 200 and 0 above, 100 and 0 below.
-    fn check(sampling: u32) -> Ground {
+    /// Two by two pixels: 200 and 0 in the top row, 100 and 0 in the bottom row.
+    fn check(sampling: u32) -> HeightmapSamples {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
         encoder.set_color(png::ColorType::Grayscale);
@@ -119,20 +122,20 @@ mod tests {
             extra: Vec::new(),
             origin: Origin::default(),
         };
-        ground(&heightmap, &OneImage(bytes.into())).unwrap()
+        sample_heightmap(&heightmap, &OneImage(bytes.into())).unwrap()
     }
 
     #[test]
     fn the_brightest_pixel_is_the_highest_and_the_top_row_is_north() {
-        let ground = check(1);
-        assert_eq!((ground.columns, ground.rows), (2, 2));
-        assert_eq!(ground.heights_m, [1.0, 0.0, 2.0, 0.0]);
-        assert_eq!(ground.shape_from_ground.translation.x, 1.0);
+        let samples = check(1);
+        assert_eq!((samples.columns, samples.rows), (2, 2));
+        assert_eq!(samples.heights_m, [1.0, 0.0, 2.0, 0.0]);
+        assert_eq!(samples.shape_from_heightmap.translation.x, 1.0);
     }
 
     #[test]
     fn samples_between_pixels_are_bilinear() {
-        let ground = check(2);
-        assert_eq!(ground.heights_m, [1.0, 0.5, 0.0, 1.5, 0.75, 0.0, 2.0, 1.0, 0.0]);
+        let samples = check(2);
+        assert_eq!(samples.heights_m, [1.0, 0.5, 0.0, 1.5, 0.75, 0.0, 2.0, 1.0, 0.0]);
     }
 }

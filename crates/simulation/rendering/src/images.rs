@@ -1,4 +1,4 @@
-//! Pictures: colour, depth and labels in one pass.
+//! Camera images: colour, depth and labels in one pass.
 
 mod bands;
 mod shade;
@@ -7,13 +7,13 @@ use periplus_geometry::{DVec3, Pose};
 use periplus_raycast::{Filter, Hit, Ray};
 
 use crate::lens::Lens;
-use crate::surroundings::{ModelGroup, Surroundings, filter};
+use crate::render_scene::{ModelGroup, RenderScene, filter};
 use bands::Band;
 use shade::Shader;
 
-/// Which images are wanted.
+/// Selection of the images to render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct ImageOutputs {
     /// Red, green, blue.
     pub colour: bool,
     /// Distance along the optical axis.
@@ -22,65 +22,65 @@ pub struct Wanted {
     pub labels: bool,
 }
 
-/// How a picture is taken.
+/// Camera and settings of a rendering.
 #[derive(Clone, Copy, Debug)]
-pub struct Shot<'a> {
+pub struct RenderRequest<'a> {
     /// The lens.
     pub lens: &'a Lens,
-    /// Where it is: looking along x, z up.
+    /// Camera pose: looking along x, z up.
     pub world_from_camera: Pose,
-    /// Nothing nearer is seen, along the optical axis \[m\].
+    /// Near clip distance along the optical axis \[m\].
     pub near_m: f64,
-    /// Nothing farther is seen \[m\].
+    /// Far clip distance along the optical axis \[m\].
     pub far_m: f64,
-    /// Only visuals that share a bit are seen.
+    /// Visibility mask: a visual is rendered if it shares a bit.
     pub visibility_mask: u32,
-    /// What is looked past: the camera's own model.
+    /// Model to exclude: the camera's own.
     pub own: Option<ModelGroup>,
-    /// Which images.
-    pub wanted: Wanted,
-    /// How many threads; the picture is the same for any number.
+    /// Images to render.
+    pub outputs: ImageOutputs,
+    /// Number of threads; the images are the same for any number.
     pub threads: usize,
 }
 
-/// Images of one size, row by row from the top. Those that were not wanted are empty.
+/// Images of one size, row by row from the top. Images that were not requested are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Picture {
-    /// Pixels across.
+pub struct RenderedImages {
+    /// Width \[px\].
     pub width: u32,
-    /// Pixels down.
+    /// Height \[px\].
     pub height: u32,
     /// Red, green, blue of every pixel.
     pub rgb: Vec<u8>,
-    /// Distance along the optical axis, infinite where nothing is \[m\].
+    /// Distance along the optical axis, infinite without a hit \[m\].
     pub depth_m: Vec<f32>,
-    /// The label of what is seen; 0 where there is none.
+    /// Class label of each pixel; 0 without a label.
     pub classes: Vec<u8>,
-    /// Counts the labelled things of one class from 1 on; 0 where there is none.
+    /// Instance number within the class, from 1; 0 without a label.
     pub instances: Vec<u16>,
 }
 
-impl Surroundings {
-    /// Takes a picture, into memory that is used again.
-    pub fn take(&self, shot: &Shot<'_>, picture: &mut Picture) {
-        let bands = picture.bands(shot.lens, shot.wanted);
-        let shader = shot.wanted.colour.then(|| Shader::new(self));
-        bands::share(bands, shot.threads, |band, scratch| {
-            self.band(shot, shader.as_ref(), band, scratch);
+impl RenderScene {
+    /// Renders images, reusing the memory of `picture`.
+    pub fn render(&self, request: &RenderRequest<'_>, picture: &mut RenderedImages) {
+        let bands = picture.bands(request.lens, request.outputs);
+        let shader = request.outputs.colour.then(|| Shader::new(self));
+        bands::render_bands(bands, request.threads, |band, scratch| {
+            self.band(request, shader.as_ref(), band, scratch);
         });
     }
 
     fn band<'a>(
         &'a self,
-        shot: &Shot<'_>,
+        request: &RenderRequest<'_>,
         shader: Option<&Shader<'a>>,
         band: &mut Band<'_>,
         scratch: &mut Scratch<'a>,
     ) {
-        let columns = shot.lens.width() as usize;
-        let seen = filter(shot.visibility_mask, shot.own);
-        scratch.aim(shot, band);
-        if let (None, false) = (shader, shot.wanted.labels) {
+        let columns = request.lens.width() as usize;
+        let seen = filter(request.visibility_mask, request.own);
+        scratch.aim(request, band);
+        if let (None, false) = (shader, request.outputs.labels) {
             self.rays().cast_grid(&scratch.rays, columns, seen, 1, band.depth_m);
             for (depth, &along) in band.depth_m.iter_mut().zip(&scratch.along_axis) {
                 *depth *= along;
@@ -105,17 +105,17 @@ impl Surroundings {
     }
 }
 
-/// Memory of one thread.
+/// Working memory of one thread.
 #[derive(Default)]
 struct Scratch<'a> {
     rays: Vec<Ray>,
-    /// Of every ray: depth along the optical axis of one length of its direction.
+    /// Depth along the optical axis per length of each ray's direction.
     along_axis: Vec<f32>,
-    /// Through a pinhole, the part of directions that the column gives.
+    /// Column component of the pinhole's directions.
     columns: Vec<DVec3>,
     hits: Vec<Option<Hit>>,
-    /// For [`Shader::paint`]: what is met, its colours, rays from a light, what they meet, what is
-    /// in shadow.
+    /// Buffers of [`Shader::paint`]: surface patches, their colours, rays from a light, their
+    /// lengths and occlusion.
     patches: Vec<shade::Patch<'a>>,
     colours: Vec<[f32; 3]>,
     light_rays: Vec<Ray>,
@@ -124,20 +124,21 @@ struct Scratch<'a> {
 }
 
 impl Scratch<'_> {
-    /// Rays through every pixel of a band.
-    fn aim(&mut self, shot: &Shot<'_>, band: &Band<'_>) {
-        let Pose { translation: origin_m, rotation: world_from_camera } = shot.world_from_camera;
+    /// Generates rays through every pixel of a band.
+    fn aim(&mut self, request: &RenderRequest<'_>, band: &Band<'_>) {
+        let Pose { translation: origin_m, rotation: world_from_camera } = request.world_from_camera;
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| world_from_camera * axis);
         self.rays.clear();
         self.along_axis.clear();
-        if let Some(pinhole) = shot.lens.slopes() {
-            // Of length 1 along the axis: rows and columns have a share each, and nothing is divided.
+        if let Some(pinhole) = request.lens.slopes() {
+            // Length 1 along the axis: rows and columns contribute independently, without a
+            // division.
             if self.columns.is_empty() {
-                let columns = 0..shot.lens.width();
+                let columns = 0..request.lens.width();
                 let part = |column| axes[0] + axes[1] * pinhole.left(column);
                 self.columns.extend(columns.map(part));
             }
-            let (min_m, max_m) = (shot.near_m, shot.far_m);
+            let (min_m, max_m) = (request.near_m, request.far_m);
             for row in band.rows.clone() {
                 let part = axes[2] * pinhole.up(row);
                 let ray = |&column| Ray { origin_m, direction: column + part, min_m, max_m };
@@ -147,12 +148,13 @@ impl Scratch<'_> {
             return;
         }
         for row in band.rows.clone() {
-            for column in 0..shot.lens.width() {
-                let towards = shot.lens.direction(column, row);
-                // A ray without direction meets nothing.
+            for column in 0..request.lens.width() {
+                let towards = request.lens.direction(column, row);
+                // A ray with a zero direction hits nothing.
                 let d = towards.unwrap_or(DVec3::ZERO);
                 let direction = axes[0] * d.x + axes[1] * d.y + axes[2] * d.z;
-                let (min_m, max_m) = (shot.near_m / d.x.max(1e-9), shot.far_m / d.x.max(1e-9));
+                let (min_m, max_m) =
+                    (request.near_m / d.x.max(1e-9), request.far_m / d.x.max(1e-9));
                 self.rays.push(Ray { origin_m, direction, min_m, max_m });
                 #[expect(clippy::cast_possible_truncation, reason = "1 but for wide lenses")]
                 self.along_axis.push(d.x as f32);
@@ -161,5 +163,5 @@ impl Scratch<'_> {
     }
 }
 
-/// What lets light pass and what does not.
-const SHADOWS: Filter = Filter { mask: crate::surroundings::SHADOW_MASK, except_group: 0 };
+/// Filter of shadow rays.
+const SHADOWS: Filter = Filter { mask: crate::render_scene::SHADOW_MASK, except_group: 0 };

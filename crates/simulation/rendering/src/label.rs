@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Plugin;
 
-/// The label that the plugins of a visual or model give (gz-sim's `Label` system), 0 to 255.
+/// Returns the label from the plugins of a visual or model (gz-sim's `Label` system), 0 to 255.
 pub(crate) fn label_of(plugins: &[Plugin], diagnostics: &mut Diagnostics) -> Option<u8> {
     let plugin = plugins.iter().find(|plugin| is_label(plugin))?;
     let text = plugin.value("label");
@@ -13,13 +13,13 @@ pub(crate) fn label_of(plugins: &[Plugin], diagnostics: &mut Diagnostics) -> Opt
         diagnostics.push(
             Diagnostic::warning("bad-label", format!("`{said}` is no label"))
                 .at(plugin.origin)
-                .help("write <label> with a whole number from 0 to 255"),
+                .help("write <label> with an integer from 0 to 255"),
         );
     }
     label
 }
 
-/// `gz-sim-label-system`, and the older spellings of the same.
+/// Returns true for `gz-sim-label-system` and its older names.
 fn is_label(plugin: &Plugin) -> bool {
     plugin.filename.contains("label-system") || plugin.name.ends_with("::systems::Label")
 }

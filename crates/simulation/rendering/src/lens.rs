@@ -1,39 +1,39 @@
-//! From pixels to directions.
+//! Camera projections: from pixels to directions.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use periplus_scene::{Camera, CameraKind, DVec3, Distortion, Element};
 
-/// No sensor has more pixels than 8192 by 8192.
-const MOST_PIXELS: u64 = 1 << 26;
-/// Steps within which the inverse of a sensible lens is found.
-const STEPS: usize = 64;
+/// Maximum number of pixels of a camera: 8192 by 8192.
+const MAX_PIXELS: u64 = 1 << 26;
+/// Maximum number of iterations of the inverse distortion.
+const MAX_ITERATIONS: usize = 64;
 
-/// A lens and the pixels behind it. It looks along x of its own frame, y to the left, z up.
+/// A camera projection with its image size. It looks along x of its own frame, y to the left, z up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lens {
     width: u32,
     height: u32,
-    kind: Kind,
+    kind: LensKind,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Kind {
+enum LensKind {
     /// Focal length in pixels.
     Pinhole(f64),
-    /// A direction for every pixel; none where the lens sees nothing.
+    /// Direction of every pixel; `None` outside the lens's field of view.
     Table(Vec<Option<DVec3>>),
 }
 
-/// Where the pixels of a pinhole look: 1 along x, and so much along y and z.
+/// Slopes of the pixels of a pinhole: y and z per unit of x.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slopes {
+pub(crate) struct PinholeSlopes {
     focal_px: f64,
-    /// Of the image, from its upper left corner \[px\].
+    /// Principal point from the upper left corner \[px\].
     middle: [f64; 2],
 }
 
-impl Slopes {
+impl PinholeSlopes {
     pub(crate) fn left(&self, column: u32) -> f64 {
         -(f64::from(column) + 0.5 - self.middle[0]) / self.focal_px
     }
@@ -44,30 +44,30 @@ impl Slopes {
 }
 
 impl Lens {
-    /// An ideal pinhole: the image plane at a distance of `width / (2 tan(fov / 2))` pixels, its
-    /// middle between the middle pixels.
+    /// Returns an ideal pinhole: focal length `width / (2 tan(fov / 2))` pixels, principal point at
+    /// the centre of the image.
     ///
     /// # Errors
-    /// When there are no pixels or too many, or the angle is not between 0 and π.
+    /// When the image has no pixels or too many, or the angle is not between 0 and π.
     pub fn pinhole(width: u32, height: u32, horizontal_fov_rad: f64) -> Result<Self, String> {
         let pixels = u64::from(width) * u64::from(height);
-        if pixels == 0 || pixels > MOST_PIXELS {
-            return Err(format!("an image of {width} by {height} pixels cannot be taken"));
+        if pixels == 0 || pixels > MAX_PIXELS {
+            return Err(format!("an image of {width} by {height} pixels is not supported"));
         }
         if !(1e-6..PI - 1e-6).contains(&horizontal_fov_rad) {
             return Err(format!(
-                "a view of {horizontal_fov_rad} rad cannot be taken through a pinhole: it has to \
+                "a horizontal field of view of {horizontal_fov_rad} rad is not possible with a pinhole: it has to \
                  be more than 0 and less than π"
             ));
         }
         let focal_px = f64::from(width) / (2.0 * libm::tan(horizontal_fov_rad / 2.0));
-        Ok(Self { width, height, kind: Kind::Pinhole(focal_px) })
+        Ok(Self { width, height, kind: LensKind::Pinhole(focal_px) })
     }
 
-    /// That of a camera: pinhole, pinhole with Brown's distortion, or wide angle.
+    /// Returns the projection of a camera: pinhole, pinhole with Brown's distortion, or wide angle.
     ///
     /// # Errors
-    /// What about it is impossible.
+    /// The invalid property of the camera.
     pub fn of(camera: &Camera) -> Result<Self, String> {
         let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
         if camera.kind == CameraKind::WideAngle {
@@ -76,7 +76,7 @@ impl Lens {
         let lens = Self::pinhole(width, height, fov)?;
         let distortion =
             camera.distortion.filter(|d| [d.k1, d.k2, d.k3, d.p1, d.p2].iter().any(|&k| k != 0.0));
-        let (Some(distortion), Kind::Pinhole(focal_px)) = (distortion, &lens.kind) else {
+        let (Some(distortion), LensKind::Pinhole(focal_px)) = (distortion, &lens.kind) else {
             return Ok(lens);
         };
         let [center_x, center_y] = distortion.center;
@@ -98,57 +98,57 @@ impl Lens {
             (middle[1] - f64::from(height) / 2.0) / focal_px,
         ];
         let table = pixels(width, height).map(|[u, v]| {
-            let bent = [(u - middle[0]) / focal_px, (v - middle[1]) / focal_px];
-            let [x, y] = straighten(&distortion, bent)?;
+            let distorted = [(u - middle[0]) / focal_px, (v - middle[1]) / focal_px];
+            let [x, y] = undistort(&distortion, distorted)?;
             Some(DVec3::new(1.0, -(x + off[0]), -(y + off[1])))
         });
-        Ok(Self { width, height, kind: Kind::Table(table.collect()) })
+        Ok(Self { width, height, kind: LensKind::Table(table.collect()) })
     }
 
-    /// Pixels across.
+    /// Width of the image \[px\].
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Pixels down.
+    /// Height of the image \[px\].
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// How pixels lie in a pinhole; none in other lenses.
-    pub(crate) fn slopes(&self) -> Option<Slopes> {
-        let Kind::Pinhole(focal_px) = self.kind else { return None };
+    /// Returns the slopes of a pinhole; `None` for other lenses.
+    pub(crate) fn slopes(&self) -> Option<PinholeSlopes> {
+        let LensKind::Pinhole(focal_px) = self.kind else { return None };
         let middle = [f64::from(self.width) / 2.0, f64::from(self.height) / 2.0];
-        Some(Slopes { focal_px, middle })
+        Some(PinholeSlopes { focal_px, middle })
     }
 
-    /// Where the middle of a pixel looks, in the frame of the camera, of any length; through a
-    /// pinhole of length 1 along x, so that distances in these lengths are depths.
+    /// Returns the direction of a pixel's centre in the frame of the camera, of any length. For a
+    /// pinhole the x component is 1, so that distances in multiples of it are depths.
     #[must_use]
     pub fn direction(&self, column: u32, row: u32) -> Option<DVec3> {
         match &self.kind {
-            Kind::Pinhole(_) => {
+            LensKind::Pinhole(_) => {
                 let slopes = self.slopes()?;
                 Some(DVec3::new(1.0, slopes.left(column), slopes.up(row)))
             }
-            Kind::Table(table) => {
+            LensKind::Table(table) => {
                 *table.get(row as usize * self.width as usize + column as usize)?
             }
         }
     }
 }
 
-/// The middles of all pixels, row by row.
+/// Returns the centres of all pixels, row by row.
 fn pixels(width: u32, height: u32) -> impl Iterator<Item = [f64; 2]> {
     (0..height).flat_map(move |row| {
         (0..width).map(move |column| [f64::from(column) + 0.5, f64::from(row) + 0.5])
     })
 }
 
-/// Where Brown's model bends a point of the image plane at a distance of 1.
-fn bend(d: &Distortion, [x, y]: [f64; 2]) -> [f64; 2] {
+/// Distorts a point of the image plane at distance 1 by Brown's model.
+fn distort(d: &Distortion, [x, y]: [f64; 2]) -> [f64; 2] {
     let r2 = x * x + y * y;
     let radial = 1.0 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
     [
@@ -157,13 +157,13 @@ fn bend(d: &Distortion, [x, y]: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// The point that is bent to this one, by going back as far as the last try was off. None where
-/// the lens folds the image over.
-fn straighten(d: &Distortion, bent: [f64; 2]) -> Option<[f64; 2]> {
-    let mut point = bent;
-    for _ in 0..STEPS {
-        let tried = bend(d, point);
-        let off = [bent[0] - tried[0], bent[1] - tried[1]];
+/// Inverts [`distort`] by fixed-point iteration. Returns `None` where the distortion is not
+/// injective.
+fn undistort(d: &Distortion, distorted: [f64; 2]) -> Option<[f64; 2]> {
+    let mut point = distorted;
+    for _ in 0..MAX_ITERATIONS {
+        let tried = distort(d, point);
+        let off = [distorted[0] - tried[0], distorted[1] - tried[1]];
         point = [point[0] + off[0], point[1] + off[1]];
         if off[0].abs().max(off[1].abs()) < 1e-12 {
             return Some(point);
@@ -175,20 +175,20 @@ fn straighten(d: &Distortion, bent: [f64; 2]) -> Option<[f64; 2]> {
     None
 }
 
-/// From angles to distances from the middle, or back.
-type Law = fn(f64) -> f64;
+/// A function from angles to image radii, or its inverse.
+type RadiusFunction = fn(f64) -> f64;
 
-/// SDF's `<custom_function>`: an angle θ is seen `c1 f fun(θ / c2 + c3)` from the middle. As the
-/// picture is stretched to its field of view, `c1` and `f` cancel out.
+/// SDF's `<custom_function>`: the image radius of an angle θ is `c1 f fun(θ / c2 + c3)`. The image
+/// is scaled to its field of view, so `c1` and `f` cancel out.
 #[derive(Clone, Copy)]
-struct Custom {
+struct CustomProjection {
     c2: f64,
     c3: f64,
-    law: Law,
-    back: Law,
+    radius_of_angle: RadiusFunction,
+    angle_of_radius: RadiusFunction,
 }
 
-impl Custom {
+impl CustomProjection {
     fn read(function: Option<&Element>) -> Result<Self, String> {
         let text = |name: &str| {
             let child = function.and_then(|it| it.elements().find(|e| e.name == name));
@@ -198,37 +198,40 @@ impl Custom {
             Some(text) => text.parse().ok().filter(|number: &f64| number.is_finite()),
             None => Some(usual),
         };
-        let (law, back): (Law, Law) = match text("fun").as_deref() {
-            None | Some("tan") => (libm::tan, libm::atan),
-            Some("sin") => (libm::sin, libm::asin),
-            Some("id") => (|a| a, |r| r),
-            Some(other) => {
-                return Err(format!("a lens by the function `{other}`: use sin, tan or id"));
-            }
-        };
+        let (radius_of_angle, angle_of_radius): (RadiusFunction, RadiusFunction) =
+            match text("fun").as_deref() {
+                None | Some("tan") => (libm::tan, libm::atan),
+                Some("sin") => (libm::sin, libm::asin),
+                Some("id") => (|a| a, |r| r),
+                Some(other) => {
+                    return Err(format!(
+                        "lens function `{other}` is not supported: use sin, tan or id"
+                    ));
+                }
+            };
         match (number("c2", 1.0).filter(|c2| *c2 != 0.0), number("c3", 0.0)) {
-            (Some(c2), Some(c3)) => Ok(Self { c2, c3, law, back }),
-            _ => Err("c2 or c3 of the lens is no number that can be used".to_owned()),
+            (Some(c2), Some(c3)) => Ok(Self { c2, c3, radius_of_angle, angle_of_radius }),
+            _ => Err("c2 or c3 of the lens is not a valid number".to_owned()),
         }
     }
 
     fn seen(self, angle_rad: f64) -> f64 {
-        (self.law)(angle_rad / self.c2 + self.c3)
+        (self.radius_of_angle)(angle_rad / self.c2 + self.c3)
     }
 
     fn angle(self, seen: f64) -> f64 {
-        ((self.back)(seen) - self.c3) * self.c2
+        ((self.angle_of_radius)(seen) - self.c3) * self.c2
     }
 }
 
-/// Lenses of SDF's `<lens>` by their names: how far from the middle an angle θ is seen, in focal
-/// lengths, and back.
+/// Returns the projection of SDF's `<lens>` by its name, with the image radius of an angle θ in
+/// focal lengths.
 fn wide_angle(camera: &Camera) -> Result<Lens, String> {
     let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
     // Also checks the number of pixels.
     let Lens { .. } = Lens::pinhole(width, height, 1.0)?;
     if !(1e-6..=2.0 * PI).contains(&fov) {
-        return Err(format!("a view of {fov} rad is impossible"));
+        return Err(format!("a field of view of {fov} rad is not possible"));
     }
     let lens = camera.extra.iter().find(|element| element.name == "lens");
     let child = |name: &str| lens.and_then(|lens| lens.elements().find(|e| e.name == name));
@@ -237,8 +240,8 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
         text("type").map_or_else(|| "stereographic".to_owned(), |text| text.trim().to_owned());
     let cutoff =
         text("cutoff_angle").and_then(|text| text.trim().parse().ok()).unwrap_or(FRAC_PI_2);
-    type AnyLaw = Box<dyn Fn(f64) -> f64>;
-    let (seen, angle): (AnyLaw, AnyLaw) = match kind.as_str() {
+    type BoxedFunction = Box<dyn Fn(f64) -> f64>;
+    let (seen, angle): (BoxedFunction, BoxedFunction) = match kind.as_str() {
         "gnomonical" => (Box::new(libm::tan), Box::new(libm::atan)),
         "stereographic" => {
             (Box::new(|a| 2.0 * libm::tan(a / 2.0)), Box::new(|r| 2.0 * libm::atan(r / 2.0)))
@@ -249,7 +252,7 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
         }
         "orthographic" => (Box::new(libm::sin), Box::new(libm::asin)),
         "custom" => {
-            let custom = Custom::read(child("custom_function"))?;
+            let custom = CustomProjection::read(child("custom_function"))?;
             (Box::new(move |a| custom.seen(a)), Box::new(move |r| custom.angle(r)))
         }
         _ => {
@@ -261,7 +264,7 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
     };
     let scale = seen(fov / 2.0);
     if !(scale.is_finite() && scale > 0.0) {
-        return Err(format!("a {kind} lens cannot see {fov} rad"));
+        return Err(format!("a {kind} lens cannot cover {fov} rad"));
     }
     let focal_px = f64::from(width) / 2.0 / scale;
     let (middle_u, middle_v) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
@@ -269,7 +272,7 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
         let (right, down) = ((u - middle_u) / focal_px, (v - middle_v) / focal_px);
         let radius = libm::sqrt(right * right + down * down);
         let theta = angle(radius);
-        // The law may have no angle for it.
+        // The inverse may have no angle for this radius.
         if theta.is_nan() || theta > f64::min(cutoff, PI) {
             return None;
         }
@@ -277,7 +280,7 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
         let side = if radius > 0.0 { sine / radius } else { 1.0 };
         Some(DVec3::new(cosine, -right * side, -down * side))
     });
-    Ok(Lens { width, height, kind: Kind::Table(table.collect()) })
+    Ok(Lens { width, height, kind: LensKind::Table(table.collect()) })
 }
 
 #[cfg(test)]
@@ -286,7 +289,7 @@ mod tests {
 
     #[test]
     fn a_right_angle_ends_at_the_rim() {
-        // f = 2 px; the outer pixels' middles are half a pixel further in.
+        // f = 2 px; the centres of the outer pixels are half a pixel from the border.
         let lens = Lens::pinhole(4, 2, FRAC_PI_2).unwrap();
         let first = lens.direction(0, 0).unwrap();
         assert!((first - DVec3::new(1.0, 0.75, 0.25)).length() < 1e-12, "{first}");
@@ -301,7 +304,7 @@ mod tests {
         let d =
             Distortion { k1: -0.25, k2: 0.12, k3: 0.01, p1: 0.001, p2: -0.002, center: [0.5, 0.5] };
         for point in [[0.0, 0.0], [0.4, -0.3], [-0.5, 0.5]] {
-            let [x, y] = bend(&d, straighten(&d, point).unwrap());
+            let [x, y] = distort(&d, undistort(&d, point).unwrap());
             assert!((x - point[0]).abs() < 1e-11 && (y - point[1]).abs() < 1e-11);
         }
     }

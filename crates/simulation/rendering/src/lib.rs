@@ -1,14 +1,14 @@
-//! What rays see of a scene.
+//! Ray-cast scenes and camera images of simulated worlds.
 //!
-//! [`Surroundings`] puts the collision or the visual shapes of a world into one
-//! [`raycast::World`](periplus_raycast::World), moves them with their links, and tells of every hit
-//! what it is: model, link, colour, brightness to a laser, label. [`Surroundings::take`] takes
-//! pictures: colour, depth and labels in one pass, with lights and shadows. Shapes of files come from
-//! [`Shapes`], so nothing here reads a file.
+//! [`RenderScene`] puts the collision or visual shapes of a world into one
+//! [`raycast::RaycastWorld`](periplus_raycast::RaycastWorld), moves them with their links, and maps
+//! every hit to its model, link, colour, laser intensity and label. [`RenderScene::render`] renders
+//! colour, depth and labels in one pass, with lights and shadows. An [`AssetLoader`] provides the
+//! content of files; nothing here reads a file.
 //!
 //! ```
 //! use periplus_geometry::{DVec3, Pose};
-//! use periplus_rendering::{Geometry, NoShapes, Surroundings};
+//! use periplus_rendering::{Geometry, NoShapes, RenderScene};
 //! use periplus_raycast::{Filter, Ray};
 //! use periplus_scene::{Collision, Link, Model, Shape};
 //!
@@ -17,38 +17,39 @@
 //! let mut model = Model::new("toy");
 //! model.links.push(ball);
 //!
-//! let mut surroundings = Surroundings::empty(Geometry::Collision, 1);
-//! let parts = surroundings.add(&model, Pose::from_xyz(1.0, 0.0, 0.0), &NoShapes);
+//! let mut scene = RenderScene::empty(Geometry::Collision, 1);
+//! let parts = scene.add(&model, Pose::from_xyz(1.0, 0.0, 0.0), &NoShapes);
 //! let ray = Ray::new(DVec3::ZERO, DVec3::X);
-//! let hit = surroundings.rays().cast(&ray, Filter::default()).expect("a hit");
+//! let hit = scene.rays().cast(&ray, Filter::default()).expect("a hit");
 //! assert!((hit.distance_m - 0.9).abs() < 1e-12);
-//! assert_eq!(surroundings.surface(&hit).link, "ball");
+//! assert_eq!(scene.surface(&hit).link, "ball");
 //!
-//! surroundings.place(&[(parts.parts[0], Pose::from_xyz(2.0, 0.0, 0.0))]);
-//! let hit = surroundings.rays().cast(&ray, Filter::default()).expect("a hit");
+//! scene.set_link_poses(&[(parts.parts[0], Pose::from_xyz(2.0, 0.0, 0.0))]);
+//! let hit = scene.rays().cast(&ray, Filter::default()).expect("a hit");
 //! assert!((hit.distance_m - 1.9).abs() < 1e-12);
 //! ```
 
+mod asset_cache;
+mod assets;
 mod body;
-mod ground;
+mod heightmap;
+mod images;
 mod label;
 mod lens;
 mod light;
-mod look;
+mod links;
 mod mesh;
 mod outline;
-mod picture;
-mod shapes;
-mod store;
-mod surroundings;
-mod walk;
+mod phong;
+mod render_scene;
 
-pub use ground::{Ground, ground};
+pub use assets::{AssetLoader, NoAssets};
+pub use heightmap::{HeightmapSamples, sample_heightmap};
+pub use images::{ImageOutputs, RenderRequest, RenderedImages};
 pub use lens::Lens;
-pub use mesh::{Selected, select};
+pub use mesh::{SelectedMesh, select_submesh};
 pub use periplus_images::{BadImage, Grey, Image};
-pub use picture::{Picture, Shot, Wanted};
-pub use shapes::{NoShapes, Shapes};
-pub use surroundings::{
-    Geometry, ModelGroup, ModelId, PartId, Parts, SHADOW_MASK, Surface, Surroundings, filter,
+pub use render_scene::{
+    AddedModel, HitSurface, ModelGroup, PartId, RenderModelId, RenderScene, SHADOW_MASK,
+    SensedGeometry, filter,
 };

@@ -1,24 +1,24 @@
-//! Lights, made ready for a picture.
+//! Light sources in the world frame.
 
 use periplus_geometry::{DVec3, Pose};
 use periplus_scene::{Colour, Light, LightKind};
 
-use crate::look::Look;
+use crate::phong::PhongMaterial;
 
-/// A light and what it moves with.
+/// A light and the link that carries it.
 #[derive(Clone, Debug)]
-pub(crate) struct Lamp {
+pub(crate) struct LightSource {
     pub(crate) light: Light,
-    /// The link that carries it; none for lights of the world.
+    /// Link of the light; `None` for lights of the world.
     pub(crate) part: Option<u32>,
 }
 
 /// A light in the world's frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Shine {
-    /// Where it is; of no use for directional light \[m\].
+pub(crate) struct WorldLight {
+    /// Position, unused for directional light \[m\].
     pub(crate) position_m: DVec3,
-    /// Where it shines, of length 1.
+    /// Direction, of length 1.
     pub(crate) direction: DVec3,
     pub(crate) is_directional: bool,
     pub(crate) casts_shadows: bool,
@@ -27,23 +27,23 @@ pub(crate) struct Shine {
     range_m: f64,
     /// Constant, linear, quadratic.
     attenuation: [f64; 3],
-    /// Cosines of half the inner and the outer angle, falloff.
+    /// Cosines of half the inner and outer angle, falloff.
     spot: Option<[f64; 3]>,
 }
 
-/// How a light meets a point.
+/// Light at a point of a surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beam {
+pub(crate) struct LightSample {
     /// Unit vector to the light.
     pub(crate) to_light: DVec3,
     /// Infinite for directional light \[m\].
     pub(crate) distance_m: f64,
-    /// Brightness that is left.
-    pub(crate) share: f64,
+    /// Intensity after attenuation, 0 to 1.
+    pub(crate) intensity: f64,
 }
 
-impl Shine {
-    /// None for a light that is off, or whose numbers are no light.
+impl WorldLight {
+    /// Returns `None` for a light that is off or has invalid numbers.
     pub(crate) fn of(light: &Light, world_from_light: Pose) -> Option<Self> {
         let sound =
             world_from_light.is_finite() && light.intensity.is_finite() && light.intensity > 0.0;
@@ -80,16 +80,16 @@ impl Shine {
         })
     }
 
-    /// How it meets a point whose surface looks along `normal`; none where it does not, shadows
-    /// aside. A spot fades from its inner to its outer cone as in OGRE: the share of the cosines to
+    /// Returns the light at a point with this normal, before shadows; `None` if the point is not
+    /// lit. A spot fades from its inner to its outer cone as in OGRE: the ratio of the cosines to
     /// the power of the falloff.
-    pub(crate) fn beam(&self, point: DVec3, normal: DVec3) -> Option<Beam> {
+    pub(crate) fn beam(&self, point: DVec3, normal: DVec3) -> Option<LightSample> {
         if self.is_directional {
             let to_light = -self.direction;
-            return (normal.dot(to_light) > 0.0).then_some(Beam {
+            return (normal.dot(to_light) > 0.0).then_some(LightSample {
                 to_light,
                 distance_m: f64::INFINITY,
-                share: 1.0,
+                intensity: 1.0,
             });
         }
         let way = self.position_m - point;
@@ -100,7 +100,7 @@ impl Shine {
         }
         let [constant, linear, quadratic] = self.attenuation;
         let fading = constant + distance_m * (linear + distance_m * quadratic);
-        let mut share = if fading > 0.0 { (1.0 / fading).min(1.0) } else { 1.0 };
+        let mut intensity = if fading > 0.0 { (1.0 / fading).min(1.0) } else { 1.0 };
         if let Some([inner, outer, falloff]) = self.spot {
             let cosine = -to_light.dot(self.direction);
             if cosine <= outer {
@@ -108,27 +108,31 @@ impl Shine {
             }
             if cosine < inner {
                 let part = (cosine - outer) / (inner - outer);
-                share *= if falloff == 1.0 { part } else { libm::pow(part, falloff) };
+                intensity *= if falloff == 1.0 { part } else { libm::pow(part, falloff) };
             }
         }
-        Some(Beam { to_light, distance_m, share })
+        Some(LightSample { to_light, distance_m, intensity })
     }
 
-    /// The light that a surface scatters everywhere alike: Lambert's.
+    /// Returns the diffuse reflection (Lambert).
     #[expect(clippy::cast_possible_truncation, reason = "colours need no more")]
-    pub(crate) fn matt(&self, beam: &Beam, look: &Look, normal: DVec3) -> [f32; 3] {
-        let share = (beam.share * normal.dot(beam.to_light)) as f32;
-        std::array::from_fn(|channel| look.diffuse[channel] * self.diffuse[channel] * share)
-    }
-
-    /// The light that a surface throws back against `from_eye` (of any length): Blinn's highlight. Of
-    /// the vector half way between eye and light only its cosine to the normal is needed, and that
-    /// follows from the cosines of the two.
-    #[expect(clippy::cast_possible_truncation, reason = "colours need no more")]
-    pub(crate) fn gleam(
+    pub(crate) fn diffuse_light(
         &self,
-        beam: &Beam,
-        look: &Look,
+        beam: &LightSample,
+        material: &PhongMaterial,
+        normal: DVec3,
+    ) -> [f32; 3] {
+        let intensity = (beam.intensity * normal.dot(beam.to_light)) as f32;
+        std::array::from_fn(|channel| material.diffuse[channel] * self.diffuse[channel] * intensity)
+    }
+
+    /// Returns the specular reflection towards `-from_eye` (of any length) by Blinn's model. Only
+    /// the cosine of the half vector to the normal is needed, which follows from the two cosines.
+    #[expect(clippy::cast_possible_truncation, reason = "colours need no more")]
+    pub(crate) fn specular_highlight(
+        &self,
+        beam: &LightSample,
+        material: &PhongMaterial,
         normal: DVec3,
         from_eye: DVec3,
     ) -> [f32; 3] {
@@ -141,13 +145,15 @@ impl Shine {
             return [0.0; 3];
         }
         let cosine = (sum / half_squared.sqrt()).min(1.0);
-        let share = power(cosine, look.shininess) * beam.share as f32;
-        std::array::from_fn(|channel| look.specular[channel] * self.specular[channel] * share)
+        let intensity = power(cosine, material.shininess) * beam.intensity as f32;
+        std::array::from_fn(|channel| {
+            material.specular[channel] * self.specular[channel] * intensity
+        })
     }
 }
 
-/// A number of 0 to 1 to the power of a shininess: of whole ones, as nearly all are, by squaring,
-/// which takes a fraction of the time.
+/// Returns a base from 0 to 1 to the power of a shininess. Integer exponents, the common case, are
+/// computed by squaring, which is several times faster.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 128")]
 fn power(base: f32, exponent: f32) -> f32 {
     if exponent != libm::truncf(exponent) || !(0.0..256.0).contains(&exponent) {
@@ -188,9 +194,9 @@ mod tests {
         }
     }
 
-    fn share(kind: LightKind, point: [f64; 3]) -> Option<f64> {
-        let shine = Shine::of(&lamp(kind), Pose::from_xyz(0.0, 0.0, 2.0))?;
-        shine.beam(DVec3::from_array(point), DVec3::Z).map(|beam| beam.share)
+    fn intensity(kind: LightKind, point: [f64; 3]) -> Option<f64> {
+        let light = WorldLight::of(&lamp(kind), Pose::from_xyz(0.0, 0.0, 2.0))?;
+        light.beam(DVec3::from_array(point), DVec3::Z).map(|beam| beam.intensity)
     }
 
     #[test]
@@ -208,10 +214,10 @@ mod tests {
     #[test]
     fn light_fades_with_distance() {
         // 1 / (1 + 0.5 * 2 + 0.25 * 4)
-        assert_eq!(share(LightKind::Point, [0.0; 3]), Some(1.0 / 3.0));
-        assert_eq!(share(LightKind::Point, [0.0, 0.0, -9.0]), None);
-        assert_eq!(share(LightKind::Point, [0.0, 0.0, 3.0]), None);
-        assert_eq!(share(LightKind::Directional, [0.0, 0.0, -9.0]), Some(1.0));
+        assert_eq!(intensity(LightKind::Point, [0.0; 3]), Some(1.0 / 3.0));
+        assert_eq!(intensity(LightKind::Point, [0.0, 0.0, -9.0]), None);
+        assert_eq!(intensity(LightKind::Point, [0.0, 0.0, 3.0]), None);
+        assert_eq!(intensity(LightKind::Directional, [0.0, 0.0, -9.0]), Some(1.0));
     }
 
     #[test]
@@ -221,9 +227,9 @@ mod tests {
             outer_angle_rad: std::f64::consts::FRAC_PI_2,
             falloff: 1.0,
         };
-        assert_eq!(share(LightKind::Spot(spot), [0.0; 3]), Some(1.0 / 3.0));
-        assert_eq!(share(LightKind::Spot(spot), [2.1, 0.0, 0.0]), None);
-        let rim = share(LightKind::Spot(spot), [1.9, 0.0, 0.0]).unwrap();
+        assert_eq!(intensity(LightKind::Spot(spot), [0.0; 3]), Some(1.0 / 3.0));
+        assert_eq!(intensity(LightKind::Spot(spot), [2.1, 0.0, 0.0]), None);
+        let rim = intensity(LightKind::Spot(spot), [1.9, 0.0, 0.0]).unwrap();
         assert!(rim > 0.0 && rim < 0.05, "{rim}");
     }
 }

@@ -1,29 +1,29 @@
-//! The links of a model and of the models in it, in the order that `periplus_physics` gives them.
+//! The links of a model and its nested models, in the order of `periplus_physics`.
 
 use periplus_geometry::Pose;
 use periplus_scene::{Link, Model, Plugin};
 
 /// A link with its scoped name.
-pub(crate) struct Walked<'a> {
+pub(crate) struct ScopedLink<'a> {
     /// `nested::link`.
     pub(crate) name: String,
     pub(crate) link: &'a Link,
     pub(crate) model_from_link: Pose,
-    /// The models that it is in, from the outermost on: their plugins label it.
+    /// Plugins of the enclosing models, from the outermost: they can define the label.
     pub(crate) scopes: Vec<&'a [Plugin]>,
 }
 
-pub(crate) fn walk(model: &Model) -> Vec<Walked<'_>> {
+pub(crate) fn scoped_links(model: &Model) -> Vec<ScopedLink<'_>> {
     let mut links = Vec::new();
-    // A list instead of recursion: models may be nested deeper than the stack.
+    // Iterative: models can be nested deeper than the call stack allows.
     let mut open = vec![(model, String::new(), Pose::IDENTITY, vec![model.plugins.as_slice()])];
     while let Some((model, scope, outer_from_model, scopes)) = open.pop() {
         for link in &model.links {
-            links.push(Walked {
+            links.push(ScopedLink {
                 name: format!("{scope}{}", link.name),
                 link,
                 model_from_link: outer_from_model * link.model_from_link,
-                // Deep nests of many models would else hold lists of the square of their number.
+                // Empty lists are dropped, or deep nests of models would need quadratic memory.
                 scopes: scopes.iter().copied().filter(|plugins| !plugins.is_empty()).collect(),
             });
         }

@@ -1,40 +1,39 @@
-//! Meshes of files, made ready.
+//! Meshes from files, prepared for rendering.
 
 use std::sync::Arc;
 
 use periplus_geometry::DVec3;
 use periplus_meshes::{Material, Submesh};
-use periplus_raycast::{MeshError, TriangleMesh};
+use periplus_raycast::{TriangleMesh, TriangleMeshError};
 use periplus_scene::Mesh;
 
-/// The parts of a mesh file that a scene asks for, as one list of triangles.
+/// The submeshes of a file that a scene selects, as one list of triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Selected {
+pub struct SelectedMesh {
     /// Corners, scaled and centred \[m\].
     pub positions_m: Vec<[f64; 3]>,
-    /// Three corners each.
+    /// Three corner indices each.
     pub triangles: Vec<[u32; 3]>,
-    /// Unit normals in the file, one for each corner (zero where a part has none).
+    /// Unit normals from the file, one per corner (zero where a submesh has none).
     pub(crate) normals: Vec<[f32; 3]>,
-    /// Texture coordinates, one for each corner (zero where a part has none).
+    /// Texture coordinates, one per corner (zero where a submesh has none).
     pub(crate) uvs: Vec<[f32; 2]>,
-    /// The parts in order: first triangle, material.
+    /// Submeshes in order: first triangle, material.
     pub(crate) parts: Vec<(u32, Option<Arc<Material>>)>,
 }
 
-/// Takes the submesh that a scene asks for, moves its centre where it wants it, and scales. A name
-/// that no part has selects nothing.
+/// Selects the submesh of a scene's mesh, centres and scales it. An unknown name selects nothing.
 #[must_use]
-pub fn select(mesh: &Mesh, file: &periplus_meshes::Mesh) -> Selected {
+pub fn select_submesh(mesh: &Mesh, file: &periplus_meshes::Mesh) -> SelectedMesh {
     let chosen: Vec<&Submesh> = file
         .submeshes
         .iter()
         .filter(|part| mesh.submesh.as_ref().is_none_or(|name| part.name == *name))
         .collect();
-    // Gazebo centres what it draws of a file, and that is one submesh.
+    // Gazebo centres one submesh, which is all that it draws of the file.
     let centre =
         if mesh.submesh.is_some() && mesh.center_submesh { middle(&chosen) } else { DVec3::ZERO };
-    let mut all = Selected::default();
+    let mut all = SelectedMesh::default();
     let has_normals = chosen.iter().any(|part| part.normals.is_some());
     let has_uvs = chosen.iter().any(|part| part.uvs.is_some());
     for part in chosen {
@@ -45,7 +44,7 @@ pub fn select(mesh: &Mesh, file: &periplus_meshes::Mesh) -> Selected {
         all.positions_m.extend(part.positions_m.iter().map(placed));
         all.triangles.extend(part.triangles.iter().map(|t| t.map(|index| index + corner)));
         if has_normals {
-            // Normals of a stretched surface shrink where it grows.
+            // Normals scale with the inverse of the surface's scale.
             let turned = |n: &[f32; 3]| {
                 let n = DVec3::from_array(n.map(f64::from)) / mesh.scale;
                 let n = if n.is_finite() { n.normalize_or_zero() } else { DVec3::ZERO };
@@ -70,21 +69,21 @@ fn middle(parts: &[&Submesh]) -> DVec3 {
     if low.is_finite() && high.is_finite() { (low + high) / 2.0 } else { DVec3::ZERO }
 }
 
-/// A mesh as things share it.
+/// A mesh that shapes share.
 #[derive(Debug)]
-pub(crate) struct Prepared {
-    pub(crate) selected: Selected,
-    /// Made when first something that moves has this mesh.
-    pub(crate) tree: std::sync::OnceLock<Result<Arc<TriangleMesh>, MeshError>>,
+pub(crate) struct SharedMesh {
+    pub(crate) selected: SelectedMesh,
+    /// Built when the first movable shape uses this mesh.
+    pub(crate) tree: std::sync::OnceLock<Result<Arc<TriangleMesh>, TriangleMeshError>>,
 }
 
-impl Prepared {
-    pub(crate) fn new(selected: Selected) -> Self {
+impl SharedMesh {
+    pub(crate) fn new(selected: SelectedMesh) -> Self {
         Self { selected, tree: std::sync::OnceLock::new() }
     }
 
-    pub(crate) fn tree(&self, threads: usize) -> Result<Arc<TriangleMesh>, MeshError> {
-        let Selected { positions_m, triangles, .. } = &self.selected;
+    pub(crate) fn tree(&self, threads: usize) -> Result<Arc<TriangleMesh>, TriangleMeshError> {
+        let SelectedMesh { positions_m, triangles, .. } = &self.selected;
         self.tree
             .get_or_init(|| TriangleMesh::new(positions_m, triangles, threads).map(Arc::new))
             .clone()
@@ -120,7 +119,7 @@ mod tests {
             submeshes: vec![part("near", 0.0), part("far", 10.0)],
             ..periplus_meshes::Mesh::default()
         };
-        let selected = select(&mesh, &file);
+        let selected = select_submesh(&mesh, &file);
         assert_eq!(selected.triangles.len(), selected.parts.len());
         selected.positions_m
     }

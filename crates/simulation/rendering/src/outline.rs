@@ -1,19 +1,19 @@
-//! Prisms over outlines, with holes.
+//! Prisms over polylines, with holes.
 
 use periplus_scene::{Polyline, Trapezoid, edges, trapezoids};
 
-use crate::mesh::Selected;
+use crate::mesh::SelectedMesh;
 
-/// More corners than this in one shape are refused: the caps take work of their square.
-const MOST_CORNERS: usize = 1024;
+/// Maximum number of corners in a shape: triangulation is quadratic.
+const MAX_CORNERS: usize = 1024;
 
-/// Positions and triangles of the prism over the area inside an odd number of the outlines, from 0
-/// to the height of the first along z. An outline closes by itself.
+/// Returns positions and triangles of the prism over the area inside an odd number of the outlines,
+/// from z = 0 to the height of the first outline. Outlines are closed implicitly.
 ///
 /// # Errors
-/// What is wrong, to be read after the shape's name.
-pub(crate) fn extrude(outlines: &[Polyline]) -> Result<Selected, String> {
-    let edges = edges(outlines, MOST_CORNERS)?;
+/// The problem, as a clause that follows the shape's name.
+pub(crate) fn extrude(outlines: &[Polyline]) -> Result<SelectedMesh, String> {
+    let edges = edges(outlines, MAX_CORNERS)?;
     let height_m = outlines.first().map_or(0.0, |first| first.height_m);
     let mut prism = Prism::default();
     for [[ax, ay], [bx, by]] in &edges {
@@ -28,11 +28,11 @@ pub(crate) fn extrude(outlines: &[Polyline]) -> Result<Selected, String> {
 }
 
 #[derive(Default)]
-struct Prism(Selected);
+struct Prism(SelectedMesh);
 
 impl Prism {
     fn quad(&mut self, corners: [[f64; 3]; 4]) {
-        let Selected { positions_m, triangles, .. } = &mut self.0;
+        let SelectedMesh { positions_m, triangles, .. } = &mut self.0;
         #[expect(clippy::cast_possible_truncation, reason = "the corners are limited")]
         let first = positions_m.len() as u32;
         positions_m.extend(corners);
@@ -57,7 +57,7 @@ mod tests {
     }
 
     fn area(outlines: &[Polyline]) -> f64 {
-        let Selected { positions_m, triangles, .. } = extrude(outlines).unwrap();
+        let SelectedMesh { positions_m, triangles, .. } = extrude(outlines).unwrap();
         let flat = triangles.iter().map(|t| t.map(|corner| positions_m[corner as usize]));
         flat.filter(|corners| corners.iter().all(|corner| corner[2] == 2.0))
             .map(|[a, b, c]| {

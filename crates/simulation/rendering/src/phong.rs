@@ -1,46 +1,46 @@
-//! What things look like.
+//! Surface materials.
 
 use std::sync::Arc;
 
 use periplus_images::Image;
 use periplus_scene::{Colour, Material};
 
-/// Gazebo's own grey for what has no material.
-const PLAIN: [f32; 3] = [0.7; 3];
-/// The highlights of Phong's model end beyond this.
-const SHARPEST: f64 = 128.0;
+/// Gazebo's default grey.
+const DEFAULT_GREY_RATIO: [f32; 3] = [0.7; 3];
+/// Maximum shininess of Phong's model.
+const MAX_SHININESS_FACTOR: f64 = 128.0;
 
-/// How a surface takes light: Phong's model, as in Gazebo Classic.
+/// Phong material, as in Gazebo Classic.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Look {
-    /// Under ambient light.
+pub(crate) struct PhongMaterial {
+    /// Reflectance of ambient light.
     pub(crate) ambient: [f32; 3],
-    /// Under direct light.
+    /// Diffuse reflectance.
     pub(crate) diffuse: [f32; 3],
     pub(crate) specular: [f32; 3],
-    /// Without any.
+    /// Emitted colour.
     pub(crate) emissive: [f32; 3],
     pub(crate) shininess: f32,
-    /// 1 hides what is behind.
+    /// 1 is opaque.
     pub(crate) opacity: f32,
-    /// Whether light matters.
+    /// True if lighting applies.
     pub(crate) is_lit: bool,
-    /// A picture to multiply colours with.
+    /// Texture that multiplies the colours.
     pub(crate) texture: Option<Arc<Image>>,
 }
 
-impl Look {
-    /// Whether it has highlights.
-    pub(crate) fn gleams(&self) -> bool {
+impl PhongMaterial {
+    /// Returns true if the material has specular highlights.
+    pub(crate) fn has_specular(&self) -> bool {
         self.shininess > 0.0 && self.specular != [0.0; 3]
     }
 }
 
-impl Default for Look {
+impl Default for PhongMaterial {
     fn default() -> Self {
         Self {
-            ambient: PLAIN,
-            diffuse: PLAIN,
+            ambient: DEFAULT_GREY_RATIO,
+            diffuse: DEFAULT_GREY_RATIO,
             specular: [0.0; 3],
             emissive: [0.0; 3],
             shininess: 0.0,
@@ -56,15 +56,15 @@ pub(crate) fn rgb(Colour([r, g, b, _]): Colour) -> [f32; 3] {
     [r, g, b].map(|x| if x.is_finite() { x.clamp(0.0, 1.0) as f32 } else { 0.0 })
 }
 
-impl Look {
-    /// Of a material in a scene, without its texture. What it leaves out of ambient or diffuse is
-    /// taken from the other, as people expect who write one only.
+impl PhongMaterial {
+    /// Converts a material of a scene, without its texture. A missing ambient or diffuse colour
+    /// defaults to the other.
     pub(crate) fn of_material(material: &Material, texture: Option<Arc<Image>>) -> Self {
         let diffuse = material.diffuse.or(material.ambient);
         let ambient = material.ambient.or(material.diffuse);
-        // A texture shows its own colours where the material says none.
-        let plain = if texture.is_some() { [1.0; 3] } else { PLAIN };
-        let shininess = material.shininess.unwrap_or(0.0).clamp(0.0, SHARPEST);
+        // A texture keeps its own colours where the material has none.
+        let plain = if texture.is_some() { [1.0; 3] } else { DEFAULT_GREY_RATIO };
+        let shininess = material.shininess.unwrap_or(0.0).clamp(0.0, MAX_SHININESS_FACTOR);
         #[expect(clippy::cast_possible_truncation, reason = "within 0 and 128")]
         Self {
             ambient: ambient.map_or(plain, rgb),
@@ -78,7 +78,7 @@ impl Look {
         }
     }
 
-    /// Of a material in a mesh file.
+    /// Converts a material of a mesh file.
     pub(crate) fn of_mesh(
         material: &periplus_meshes::Material,
         texture: Option<Arc<Image>>,
@@ -94,8 +94,8 @@ impl Look {
         }
     }
 
-    /// The same, seen through more.
-    pub(crate) fn fainter(mut self, transparency: f64) -> Self {
+    /// Returns the material with its opacity scaled by `1 - transparency`.
+    pub(crate) fn with_transparency(mut self, transparency: f64) -> Self {
         self.opacity *= 1.0 - unit(transparency);
         self
     }

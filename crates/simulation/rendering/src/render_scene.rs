@@ -1,4 +1,4 @@
-//! The shapes of a world, as rays meet them.
+//! The shapes of a world as ray-cast geometry.
 
 mod assemble;
 mod detail;
@@ -12,51 +12,51 @@ use periplus_geometry::Pose;
 use periplus_raycast::{Filter, InstanceId, Tags};
 use periplus_scene::Model;
 
-pub(crate) use detail::Met;
-pub use lookup::Surface;
+pub(crate) use detail::HitMaterial;
+pub use lookup::HitSurface;
 
-use crate::body::Body;
-use crate::light::Lamp;
-use crate::look::Look;
-use crate::shapes::Shapes;
-use crate::store::Store;
+use crate::asset_cache::AssetCache;
+use crate::assets::AssetLoader;
+use crate::body::RenderBody;
+use crate::light::LightSource;
+use crate::phong::PhongMaterial;
 
-/// Which shapes rays meet.
+/// Kind of shapes that rays hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Geometry {
-    /// What touches: Gazebo's `ray` and `sonar`.
+pub enum SensedGeometry {
+    /// Collision shapes: Gazebo's `ray` and `sonar`.
     Collision,
-    /// What is seen: cameras, `gpu_ray`, `gpu_lidar`.
+    /// Visual shapes: cameras, `gpu_ray`, `gpu_lidar`.
     Visual,
 }
 
-/// A model in [`Surroundings`]. Numbers follow the order of adding and are never used twice.
+/// A model in a [`RenderScene`]. Ids count in the order of adding and are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ModelId(pub(crate) u32);
+pub struct RenderModelId(pub(crate) u32);
 
-/// A link in [`Surroundings`]: what moves as one. Numbers are never used twice.
+/// A link in a [`RenderScene`], the unit of motion. Ids are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PartId(pub(crate) u32);
 
-impl ModelId {
-    /// What a sensor on this model looks past: the model itself, whose lidars often sit inside a
-    /// housing that is a link of its own.
+impl RenderModelId {
+    /// Returns the group that sensors of this model ignore: the model itself, since lidars are often
+    /// inside a housing that is a separate link.
     #[must_use]
     pub fn group(self) -> ModelGroup {
         ModelGroup(self.0 + 1)
     }
 }
 
-/// What a sensor looks past, for rays: see [`filter`].
+/// Group of shapes that a sensor ignores, see [`filter`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ModelGroup(pub u32);
 
-/// The bit of [`Tags::mask`] by which rays to a light see what casts shadows. Of SDF's visibility
-/// flags the uppermost is lost to this; Gazebo keeps the four uppermost for itself anyhow.
+/// Bit of [`Tags::mask`] for shadow casters. It replaces the highest bit of SDF's visibility flags;
+/// Gazebo reserves the four highest anyway.
 pub const SHADOW_MASK: u32 = 1 << 31;
 
-/// What a sensor's rays look for: what shares a bit with its visibility mask, and is not of its own
-/// model.
+/// Returns the filter of a sensor's rays: shapes that share a bit with its visibility mask and are
+/// not of its own model.
 #[must_use]
 pub fn filter(visibility_mask: u32, own: Option<ModelGroup>) -> Filter {
     Filter {
@@ -65,35 +65,35 @@ pub fn filter(visibility_mask: u32, own: Option<ModelGroup>) -> Filter {
     }
 }
 
-/// What became of a model.
+/// Result of adding a model.
 #[derive(Debug)]
-pub struct Parts {
-    /// The model.
-    pub model: ModelId,
-    /// Its links, in the order in which `periplus_physics` numbers them.
+pub struct AddedModel {
+    /// Id of the model.
+    pub model: RenderModelId,
+    /// Ids of its links, in the order of `periplus_physics`.
     pub parts: Vec<PartId>,
-    /// What is wrong with its shapes; what is not is there.
+    /// Problems of its shapes; valid shapes are added.
     pub diagnostics: Diagnostics,
 }
 
-/// The shapes of a world, as rays meet them: moved with links, told apart by hits.
+/// The shapes of a world as ray-cast geometry: they move with links, and hits map to their shapes.
 ///
-/// Meshes of static models are one tree, the fastest to trace; all else is an instance that moves
-/// at the cost of a small tree made anew.
+/// Meshes of static models are in one tree, the fastest to trace. All other shapes are instances,
+/// whose motion rebuilds only a small tree.
 #[derive(Debug)]
-pub struct Surroundings {
-    geometry: Geometry,
+pub struct RenderScene {
+    geometry: SensedGeometry,
     threads: usize,
     models: Vec<ModelRecord>,
     parts: Vec<PartRecord>,
-    things: Vec<Thing>,
-    /// The thing of every instance of `rays`.
-    thing_of: Vec<u32>,
-    rays: periplus_raycast::World,
-    store: Store,
-    /// How many instances each label has.
+    shape_records: Vec<ShapeRecord>,
+    /// Index in `shape_records` of each instance of `rays`.
+    record_of_instance: Vec<u32>,
+    rays: periplus_raycast::RaycastWorld,
+    assets: AssetCache,
+    /// Number of instances of each label.
     instances_of_label: [u16; 256],
-    lamps: Vec<Lamp>,
+    light_sources: Vec<LightSource>,
     sky: detail::Sky,
     moves: Vec<(InstanceId, Pose)>,
 }
@@ -108,66 +108,67 @@ struct ModelRecord {
 #[derive(Debug)]
 struct PartRecord {
     model: u32,
-    /// Scoped within its model.
+    /// Scoped name within its model.
     name: String,
     world_from_link: Pose,
-    things: Range<u32>,
-    /// Whether its meshes are among the fixed triangles.
+    shape_records: Range<u32>,
+    /// True if its meshes are among the fixed triangles.
     fixed: bool,
 }
 
-/// One collision or visual.
+/// A collision or visual.
 #[derive(Debug)]
-struct Thing {
+struct ShapeRecord {
     part: u32,
     name: String,
     link_from_body: Pose,
-    /// None once it was removed.
-    body: Option<Body>,
+    /// `None` after removal.
+    body: Option<RenderBody>,
     tags: Tags,
     laser_retro: f64,
     label: Option<Label>,
-    /// One for each part of a mesh, otherwise one.
-    looks: Vec<Look>,
-    /// Its number among the instances of `rays`.
+    /// One per submesh, otherwise one.
+    materials: Vec<PhongMaterial>,
+    /// Instance in `rays`.
     instance: Option<InstanceId>,
 }
 
-/// What segmentation says of a thing.
+/// Segmentation label of a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Label {
     class: u8,
-    /// From 1 on, among the instances of this class.
+    /// Instance number within the class, from 1.
     number: u16,
 }
 
-impl Surroundings {
-    /// Nothing yet. Trees are built with `threads` threads; the outcome is the same for any number.
+impl RenderScene {
+    /// Returns an empty scene. Trees are built with `threads` threads; the result is the same for
+    /// any number.
     #[must_use]
-    pub fn empty(geometry: Geometry, threads: usize) -> Self {
+    pub fn empty(geometry: SensedGeometry, threads: usize) -> Self {
         Self {
             geometry,
             threads,
             models: Vec::new(),
             parts: Vec::new(),
-            things: Vec::new(),
-            thing_of: Vec::new(),
+            shape_records: Vec::new(),
+            record_of_instance: Vec::new(),
             rays: rebuild::nothing(),
-            store: Store::default(),
+            assets: AssetCache::default(),
             instances_of_label: [0; 256],
-            lamps: Vec::new(),
+            light_sources: Vec::new(),
             sky: detail::Sky::default(),
             moves: Vec::new(),
         }
     }
 
-    /// The models of a world, each where the file has it. What is wrong with a shape is told, and
-    /// the rest is there.
+    /// Returns the scene of a world with all models at their initial poses. Problems of shapes are
+    /// reported, and valid shapes are added.
     #[must_use]
     pub fn new(
         world: &periplus_scene::World,
-        geometry: Geometry,
-        shapes: &dyn Shapes,
+        geometry: SensedGeometry,
+        shapes: &dyn AssetLoader,
         threads: usize,
     ) -> (Self, Diagnostics) {
         let mut made = Self::empty(geometry, threads);
@@ -179,7 +180,7 @@ impl Surroundings {
             diagnostics.push(
                 Diagnostic::warning(
                     "actor-not-seen",
-                    format!("actor `{}` is not animated here; no sensor sees it", actor.name),
+                    format!("actor `{}` is not animated; sensors do not see it", actor.name),
                 )
                 .at(actor.origin),
             );
@@ -191,16 +192,21 @@ impl Surroundings {
     }
 
     /// Adds a model with its frame somewhere in the world.
-    pub fn add(&mut self, model: &Model, world_from_model: Pose, shapes: &dyn Shapes) -> Parts {
+    pub fn add(
+        &mut self,
+        model: &Model,
+        world_from_model: Pose,
+        shapes: &dyn AssetLoader,
+    ) -> AddedModel {
         let mut diagnostics = Diagnostics::new();
-        let first = self.things.len();
+        let first = self.shape_records.len();
         let id = self.assemble(model, world_from_model, shapes, &mut diagnostics);
-        self.insert(first..self.things.len(), &mut diagnostics);
-        Parts { model: id, parts: self.parts(id).collect(), diagnostics }
+        self.insert(first..self.shape_records.len(), &mut diagnostics);
+        AddedModel { model: id, parts: self.parts(id).collect(), diagnostics }
     }
 
-    /// Takes a model out. Its numbers become void.
-    pub fn remove(&mut self, model: ModelId) {
+    /// Removes a model. Its ids become invalid.
+    pub fn remove(&mut self, model: RenderModelId) {
         let Some(record) = self.models.get_mut(model.0 as usize) else { return };
         if std::mem::replace(&mut record.removed, true) {
             return;
@@ -208,20 +214,20 @@ impl Surroundings {
         let parts = record.parts.clone();
         let mut gone = Vec::new();
         for part in &self.parts[range(&parts)] {
-            for thing in &mut self.things[range(&part.things)] {
-                gone.extend(thing.instance.take());
-                thing.body = None;
-                thing.looks = Vec::new();
+            for record in &mut self.shape_records[range(&part.shape_records)] {
+                gone.extend(record.instance.take());
+                record.body = None;
+                record.materials = Vec::new();
             }
         }
         let removed = self.rays.remove(&gone);
-        debug_assert!(removed.is_ok(), "every thing knows its own instance");
-        self.lamps.retain(|lamp| lamp.part.is_none_or(|part| !parts.contains(&part)));
+        debug_assert!(removed.is_ok(), "every shape has its own instance");
+        self.light_sources.retain(|lamp| lamp.part.is_none_or(|part| !parts.contains(&part)));
     }
 
-    /// Moves links. What is not finite or was removed stays as it is. A link of a static model
-    /// leaves the fixed triangles when it is first moved.
-    pub fn place(&mut self, poses: &[(PartId, Pose)]) {
+    /// Moves links. Non-finite poses and removed links are ignored. The first move of a static
+    /// model's link takes its meshes out of the fixed triangles.
+    pub fn set_link_poses(&mut self, poses: &[(PartId, Pose)]) {
         let mut loosened = Vec::new();
         self.moves.clear();
         for &(PartId(number), world_from_link) in poses {
@@ -231,12 +237,12 @@ impl Surroundings {
             }
             part.world_from_link = world_from_link;
             if std::mem::replace(&mut part.fixed, false) {
-                loosened.push(range(&part.things));
+                loosened.push(range(&part.shape_records));
                 continue;
             }
-            for thing in &self.things[range(&part.things)] {
-                if let Some(instance) = thing.instance {
-                    self.moves.push((instance, world_from_link * thing.link_from_body));
+            for record in &self.shape_records[range(&part.shape_records)] {
+                if let Some(instance) = record.instance {
+                    self.moves.push((instance, world_from_link * record.link_from_body));
                 }
             }
         }
@@ -244,24 +250,26 @@ impl Surroundings {
             let moved = self.rays.move_to(&self.moves);
             debug_assert!(moved.is_ok(), "fixed triangles have no part in moves");
         }
-        for things in loosened {
-            let gone: Vec<InstanceId> =
-                self.things[things.clone()].iter_mut().filter_map(|t| t.instance.take()).collect();
+        for shape_records in loosened {
+            let gone: Vec<InstanceId> = self.shape_records[shape_records.clone()]
+                .iter_mut()
+                .filter_map(|t| t.instance.take())
+                .collect();
             let removed = self.rays.remove(&gone);
-            debug_assert!(removed.is_ok(), "every thing knows its own instance");
-            self.insert(things, &mut Diagnostics::new());
+            debug_assert!(removed.is_ok(), "every shape has its own instance");
+            self.insert(shape_records, &mut Diagnostics::new());
         }
     }
 
-    /// What rays meet. Use [`filter`] to look for it.
+    /// Returns the ray-cast world. Use [`filter`] for queries.
     #[must_use]
-    pub fn rays(&self) -> &periplus_raycast::World {
+    pub fn rays(&self) -> &periplus_raycast::RaycastWorld {
         &self.rays
     }
 
-    /// Which shapes these are.
+    /// Returns the kind of the shapes.
     #[must_use]
-    pub fn geometry(&self) -> Geometry {
+    pub fn geometry(&self) -> SensedGeometry {
         self.geometry
     }
 }

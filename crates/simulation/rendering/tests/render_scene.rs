@@ -7,7 +7,7 @@ use periplus_diagnostics::Origin;
 use periplus_meshes::Submesh;
 use periplus_raycast::{Hit, Ray};
 use periplus_rendering::{
-    Geometry, ModelId, NoShapes, PartId, Parts, Shapes, Surroundings, filter,
+    AddedModel, AssetLoader, NoAssets, PartId, RenderModelId, RenderScene, SensedGeometry, filter,
 };
 use periplus_scene::{
     Collision, Colour, DVec3, Element, Link, Material, Mesh, Model, Plugin, Pose, Shape, Visual,
@@ -16,7 +16,7 @@ use periplus_scene::{
 /// A triangle in the plane x = 0, from the files that there are.
 struct OneTriangle;
 
-impl Shapes for OneTriangle {
+impl AssetLoader for OneTriangle {
     fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         let triangle = Submesh {
             name: "sail".into(),
@@ -57,33 +57,33 @@ fn model(name: &str, shape: Shape) -> Model {
     model
 }
 
-fn with(geometry: Geometry, model: &Model, x: f64) -> (Surroundings, Parts) {
-    let mut surroundings = Surroundings::empty(geometry, 1);
-    let parts = surroundings.add(model, Pose::from_xyz(x, 0.0, 0.0), &OneTriangle);
-    (surroundings, parts)
+fn with(geometry: SensedGeometry, model: &Model, x: f64) -> (RenderScene, AddedModel) {
+    let mut scene = RenderScene::empty(geometry, 1);
+    let parts = scene.add(model, Pose::from_xyz(x, 0.0, 0.0), &OneTriangle);
+    (scene, parts)
 }
 
-fn look(surroundings: &Surroundings, origin: [f64; 3], towards: [f64; 3]) -> Option<Hit> {
+fn material(scene: &RenderScene, origin: [f64; 3], towards: [f64; 3]) -> Option<Hit> {
     let ray = Ray::new(DVec3::from_array(origin), DVec3::from_array(towards).normalize());
-    surroundings.rays().cast(&ray, filter(u32::MAX, None))
+    scene.rays().cast(&ray, filter(u32::MAX, None))
 }
 
 /// The distance along x from the origin, if anything is there.
-fn ahead(surroundings: &Surroundings) -> Option<f64> {
-    look(surroundings, [0.0; 3], [1.0, 0.0, 0.0]).map(|hit| (hit.distance_m * 1e9).round() / 1e9)
+fn ahead(scene: &RenderScene) -> Option<f64> {
+    material(scene, [0.0; 3], [1.0, 0.0, 0.0]).map(|hit| (hit.distance_m * 1e9).round() / 1e9)
 }
 
 #[test]
 fn every_shape_stands_where_it_should() {
     let size_m = DVec3::new(1.0, 2.0, 4.0);
     let check = |shape, distance_m| {
-        for geometry in [Geometry::Collision, Geometry::Visual] {
+        for geometry in [SensedGeometry::Collision, SensedGeometry::Visual] {
             for is_static in [false, true] {
                 let mut model = model("it", Shape::clone(&shape));
                 model.is_static = is_static;
-                let (surroundings, parts) = with(geometry, &model, 3.0);
+                let (scene, parts) = with(geometry, &model, 3.0);
                 assert!(parts.diagnostics.is_empty(), "{:?}", parts.diagnostics);
-                assert_eq!(ahead(&surroundings), Some(distance_m), "{shape:?} {geometry:?}");
+                assert_eq!(ahead(&scene), Some(distance_m), "{shape:?} {geometry:?}");
             }
         }
     };
@@ -98,21 +98,21 @@ fn every_shape_stands_where_it_should() {
     check(Shape::Plane { normal: DVec3::NEG_X, size_m: [1.0, 1.0] }, 3.0);
     let points_m = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let outline = periplus_scene::Polyline { points_m, height_m: 1.0 };
-    let (surroundings, _) =
-        with(Geometry::Visual, &model("it", Shape::Polylines(vec![outline])), 3.0);
-    let hit = look(&surroundings, [0.0, 0.0, 0.5], [1.0, 0.0, 0.0]).unwrap();
+    let (scene, _) =
+        with(SensedGeometry::Visual, &model("it", Shape::Polylines(vec![outline])), 3.0);
+    let hit = material(&scene, [0.0, 0.0, 0.5], [1.0, 0.0, 0.0]).unwrap();
     assert!((hit.distance_m - 2.0).abs() < 1e-6);
     // From z = 0 to its height, and closed above.
-    let hit = look(&surroundings, [3.3, 0.2, 5.0], [0.0, 0.0, -1.0]).unwrap();
+    let hit = material(&scene, [3.3, 0.2, 5.0], [0.0, 0.0, -1.0]).unwrap();
     assert!((hit.distance_m - 4.0).abs() < 1e-6);
 }
 
 #[test]
 fn meshes_are_scaled() {
-    let (surroundings, _) = with(Geometry::Visual, &model("it", mesh("sail.stl")), 3.0);
+    let (scene, _) = with(SensedGeometry::Visual, &model("it", mesh("sail.stl")), 3.0);
     // The lower edge reaches from y = -2 to y = 2.
-    assert!(look(&surroundings, [0.0, 1.9, -0.99], [1.0, 0.0, 0.0]).is_some());
-    assert!(look(&surroundings, [0.0, 2.1, -0.99], [1.0, 0.0, 0.0]).is_none());
+    assert!(material(&scene, [0.0, 1.9, -0.99], [1.0, 0.0, 0.0]).is_some());
+    assert!(material(&scene, [0.0, 2.1, -0.99], [1.0, 0.0, 0.0]).is_none());
 }
 
 #[test]
@@ -120,13 +120,13 @@ fn a_plane_is_endless_to_touch_and_of_a_size_to_see() {
     let plane = Shape::Plane { normal: DVec3::Z, size_m: [2.0, 4.0] };
     let down = [0.0, 0.0, -1.0];
     for (geometry, x, y, seen) in [
-        (Geometry::Visual, 0.9, 1.9, true),
-        (Geometry::Visual, 1.1, 0.0, false),
-        (Geometry::Visual, 0.0, 2.1, false),
-        (Geometry::Collision, 1000.0, 1000.0, true),
+        (SensedGeometry::Visual, 0.9, 1.9, true),
+        (SensedGeometry::Visual, 1.1, 0.0, false),
+        (SensedGeometry::Visual, 0.0, 2.1, false),
+        (SensedGeometry::Collision, 1000.0, 1000.0, true),
     ] {
-        let (surroundings, _) = with(geometry, &model("ground", plane.clone()), 0.0);
-        assert_eq!(look(&surroundings, [x, y, 1.0], down).is_some(), seen, "{geometry:?} {x} {y}");
+        let (scene, _) = with(geometry, &model("ground", plane.clone()), 0.0);
+        assert_eq!(material(&scene, [x, y, 1.0], down).is_some(), seen, "{geometry:?} {x} {y}");
     }
 }
 
@@ -137,14 +137,14 @@ fn links_move_alone() {
     arm.name = "arm".into();
     arm.model_from_link = Pose::from_xyz(5.0, 0.0, 0.0);
     robot.links.push(arm);
-    let (mut surroundings, parts) = with(Geometry::Collision, &robot, 3.0);
-    assert_eq!(ahead(&surroundings), Some(2.5));
-    surroundings.place(&[(parts.parts[0], Pose::from_xyz(0.0, 9.0, 0.0))]);
-    assert_eq!(ahead(&surroundings), Some(7.5));
-    surroundings.place(&[(parts.parts[1], Pose::from_xyz(f64::NAN, 0.0, 0.0))]);
-    assert_eq!(ahead(&surroundings), Some(7.5));
-    let hit = look(&surroundings, [0.0; 3], [1.0, 0.0, 0.0]).unwrap();
-    assert_eq!(surroundings.surface(&hit).link, "arm");
+    let (mut scene, parts) = with(SensedGeometry::Collision, &robot, 3.0);
+    assert_eq!(ahead(&scene), Some(2.5));
+    scene.set_link_poses(&[(parts.parts[0], Pose::from_xyz(0.0, 9.0, 0.0))]);
+    assert_eq!(ahead(&scene), Some(7.5));
+    scene.set_link_poses(&[(parts.parts[1], Pose::from_xyz(f64::NAN, 0.0, 0.0))]);
+    assert_eq!(ahead(&scene), Some(7.5));
+    let hit = material(&scene, [0.0; 3], [1.0, 0.0, 0.0]).unwrap();
+    assert_eq!(scene.surface(&hit).link, "arm");
 }
 
 #[test]
@@ -154,42 +154,44 @@ fn a_sensor_looks_past_its_own_model() {
     let mut housing = robot.links[0].clone();
     housing.name = "housing".into();
     robot.links.push(housing);
-    let (surroundings, parts) = with(Geometry::Collision, &robot, 0.0);
+    let (scene, parts) = with(SensedGeometry::Collision, &robot, 0.0);
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
     let past = filter(u32::MAX, Some(parts.model.group()));
-    assert!(surroundings.rays().cast(&ray, filter(u32::MAX, None)).is_some());
-    assert!(surroundings.rays().cast(&ray, past).is_none());
+    assert!(scene.rays().cast(&ray, filter(u32::MAX, None)).is_some());
+    assert!(scene.rays().cast(&ray, past).is_none());
 }
 
 #[test]
 fn models_come_and_go_and_numbers_stay() {
     let ball = |name: &str| model(name, Shape::Sphere { radius_m: 0.5 });
-    let mut surroundings = Surroundings::empty(Geometry::Visual, 1);
+    let mut scene = RenderScene::empty(SensedGeometry::Visual, 1);
     let mut wall = model("wall", mesh("sail.stl"));
     wall.is_static = true;
-    surroundings.add(&wall, Pose::from_xyz(9.0, 0.0, 0.0), &OneTriangle);
-    let near = surroundings.add(&ball("near"), Pose::from_xyz(3.0, 0.0, 0.0), &NoShapes);
-    let far = surroundings.add(&ball("far"), Pose::from_xyz(6.0, 0.0, 0.0), &NoShapes);
-    assert_eq!(ahead(&surroundings), Some(2.5));
-    surroundings.remove(near.model);
-    surroundings.remove(near.model);
-    assert_eq!(ahead(&surroundings), Some(5.5));
-    assert_eq!(surroundings.find_model("near"), None);
-    assert_eq!(surroundings.parts(near.model).count(), 0);
-    surroundings
-        .place(&[(far.parts[0], Pose::from_xyz(7.0, 0.0, 0.0)), (near.parts[0], Pose::IDENTITY)]);
-    assert_eq!(ahead(&surroundings), Some(6.5));
-    surroundings.remove(far.model);
-    assert_eq!(ahead(&surroundings), Some(9.0));
-    let wall = surroundings.find_model("wall").unwrap();
+    scene.add(&wall, Pose::from_xyz(9.0, 0.0, 0.0), &OneTriangle);
+    let near = scene.add(&ball("near"), Pose::from_xyz(3.0, 0.0, 0.0), &NoAssets);
+    let far = scene.add(&ball("far"), Pose::from_xyz(6.0, 0.0, 0.0), &NoAssets);
+    assert_eq!(ahead(&scene), Some(2.5));
+    scene.remove(near.model);
+    scene.remove(near.model);
+    assert_eq!(ahead(&scene), Some(5.5));
+    assert_eq!(scene.find_model("near"), None);
+    assert_eq!(scene.parts(near.model).count(), 0);
+    scene.set_link_poses(&[
+        (far.parts[0], Pose::from_xyz(7.0, 0.0, 0.0)),
+        (near.parts[0], Pose::IDENTITY),
+    ]);
+    assert_eq!(ahead(&scene), Some(6.5));
+    scene.remove(far.model);
+    assert_eq!(ahead(&scene), Some(9.0));
+    let wall = scene.find_model("wall").unwrap();
     // A service may move what is static.
-    let part = surroundings.parts(wall).next().unwrap();
-    surroundings.place(&[(part, Pose::from_xyz(8.0, 0.0, 0.0))]);
-    assert_eq!(ahead(&surroundings), Some(8.0));
-    surroundings.place(&[(part, Pose::from_xyz(4.0, 0.0, 0.0))]);
-    assert_eq!(ahead(&surroundings), Some(4.0));
-    surroundings.remove(wall);
-    assert_eq!(ahead(&surroundings), None);
+    let part = scene.parts(wall).next().unwrap();
+    scene.set_link_poses(&[(part, Pose::from_xyz(8.0, 0.0, 0.0))]);
+    assert_eq!(ahead(&scene), Some(8.0));
+    scene.set_link_poses(&[(part, Pose::from_xyz(4.0, 0.0, 0.0))]);
+    assert_eq!(ahead(&scene), Some(4.0));
+    scene.remove(wall);
+    assert_eq!(ahead(&scene), None);
 }
 
 #[test]
@@ -198,7 +200,7 @@ fn a_missing_mesh_is_told_and_the_rest_is_there() {
     robot.links[0].visuals.push(Visual::new("ball", Shape::Sphere { radius_m: 0.5 }));
     robot.links[0].visuals.push(Visual::new("flat", Shape::Sphere { radius_m: -1.0 }));
     robot.links[0].visuals.push(Visual::new("odd", Shape::Unknown(Element::new("teapot"))));
-    let (surroundings, parts) = with(Geometry::Visual, &robot, 3.0);
+    let (scene, parts) = with(SensedGeometry::Visual, &robot, 3.0);
     let told: Vec<_> =
         parts.diagnostics.iter().map(|d| (d.severity.name(), d.code, d.message.as_str())).collect();
     assert_eq!(told.len(), 3, "{told:?}");
@@ -206,7 +208,7 @@ fn a_missing_mesh_is_told_and_the_rest_is_there() {
     assert!(told[0].2.contains("link::sight") && told[0].2.contains("gone.stl"), "{told:?}");
     assert_eq!((told[1].0, told[1].1), ("error", "shape-impossible"));
     assert!(told[2].2.contains("<teapot>"), "{told:?}");
-    assert_eq!(ahead(&surroundings), Some(2.5));
+    assert_eq!(ahead(&scene), Some(2.5));
 }
 
 #[test]
@@ -217,9 +219,9 @@ fn surfaces_tell_colour_and_brightness() {
     visual.transparency = 0.25;
     visual.material =
         Some(Material { diffuse: Some(Colour([1.0, 0.0, 0.0, 1.0])), ..Material::default() });
-    let (surroundings, _) = with(Geometry::Visual, &red, 3.0);
-    let hit = look(&surroundings, [0.0; 3], [1.0, 0.0, 0.0]).unwrap();
-    let surface = surroundings.surface(&hit);
+    let (scene, _) = with(SensedGeometry::Visual, &red, 3.0);
+    let hit = material(&scene, [0.0; 3], [1.0, 0.0, 0.0]).unwrap();
+    let surface = scene.surface(&hit);
     assert_eq!((surface.model, surface.link, surface.name), ("red", "link", "sight"));
     assert_eq!(surface.colour, Colour([1.0, 0.0, 0.0, 0.75]));
     assert_eq!(surface.laser_retro, 2.0);
@@ -230,13 +232,13 @@ fn surfaces_tell_colour_and_brightness() {
 fn masks_and_full_transparency_hide() {
     let mut ghost = model("ghost", Shape::Sphere { radius_m: 0.5 });
     ghost.links[0].visuals[0].visibility_flags = 0b10;
-    let (surroundings, _) = with(Geometry::Visual, &ghost, 3.0);
+    let (scene, _) = with(SensedGeometry::Visual, &ghost, 3.0);
     let ray = Ray::new(DVec3::ZERO, DVec3::X);
-    assert!(surroundings.rays().cast(&ray, filter(0b01, None)).is_none());
-    assert!(surroundings.rays().cast(&ray, filter(0b11, None)).is_some());
+    assert!(scene.rays().cast(&ray, filter(0b01, None)).is_none());
+    assert!(scene.rays().cast(&ray, filter(0b11, None)).is_some());
     ghost.links[0].visuals[0].transparency = 1.0;
-    assert_eq!(ahead(&with(Geometry::Visual, &ghost, 3.0).0), None);
-    assert_eq!(ahead(&with(Geometry::Collision, &ghost, 3.0).0), Some(2.5));
+    assert_eq!(ahead(&with(SensedGeometry::Visual, &ghost, 3.0).0), None);
+    assert_eq!(ahead(&with(SensedGeometry::Collision, &ghost, 3.0).0), Some(2.5));
 }
 
 fn label(text: &str) -> Plugin {
@@ -251,7 +253,7 @@ fn label(text: &str) -> Plugin {
 
 #[test]
 fn labels_count_instances() {
-    let mut surroundings = Surroundings::empty(Geometry::Visual, 1);
+    let mut scene = RenderScene::empty(SensedGeometry::Visual, 1);
     let mut put = |x: f64, of_model: Option<&str>, of_visual: Option<&str>| {
         let mut ball = model("ball", Shape::Sphere { radius_m: 0.5 });
         let mut second = ball.links[0].visuals[0].clone();
@@ -259,10 +261,10 @@ fn labels_count_instances() {
         second.plugins.extend(of_visual.map(label));
         ball.links[0].visuals.push(second);
         ball.plugins.extend(of_model.map(label));
-        let parts = surroundings.add(&ball, Pose::from_xyz(x, 0.0, 0.0), &NoShapes);
+        let parts = scene.add(&ball, Pose::from_xyz(x, 0.0, 0.0), &NoAssets);
         let at = |y: f64| {
-            let hit = look(&surroundings, [x, y, 5.0], [0.0, 0.0, -1.0]).unwrap();
-            let surface = surroundings.surface(&hit);
+            let hit = material(&scene, [x, y, 5.0], [0.0, 0.0, -1.0]).unwrap();
+            let surface = scene.surface(&hit);
             (surface.label, surface.instance)
         };
         ([at(0.0), at(2.0)], parts.diagnostics.iter().count())
@@ -285,12 +287,11 @@ fn links_have_the_names_and_the_order_of_the_dynamics() {
     let mut first = named("first", &["c"]);
     first.models.push(named("inmost", &["d"]));
     outer.models.extend([first, named("second", &["e", "f"])]);
-    let (surroundings, parts) = with(Geometry::Visual, &outer, 0.0);
-    let names: Vec<&str> =
-        parts.parts.iter().filter_map(|&part| surroundings.part_name(part)).collect();
+    let (scene, parts) = with(SensedGeometry::Visual, &outer, 0.0);
+    let names: Vec<&str> = parts.parts.iter().filter_map(|&part| scene.part_name(part)).collect();
     // `periplus_physics` numbers them so.
     assert_eq!(names, ["a", "b", "first::c", "first::inmost::d", "second::e", "second::f"]);
-    let model: ModelId = surroundings.find_model("outer").unwrap();
-    let inmost: PartId = surroundings.find_part(model, "first::inmost::d").unwrap();
+    let model: RenderModelId = scene.find_model("outer").unwrap();
+    let inmost: PartId = scene.find_part(model, "first::inmost::d").unwrap();
     assert_eq!(inmost, parts.parts[3]);
 }

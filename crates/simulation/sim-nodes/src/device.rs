@@ -2,7 +2,7 @@
 
 use periplus_geometry::Pose;
 use periplus_physics::{LinkId, World};
-use periplus_rendering::{Geometry, PartId, Surroundings};
+use periplus_rendering::{PartId, RenderScene, SensedGeometry};
 
 use crate::Views;
 
@@ -96,12 +96,12 @@ impl Moment<'_> {
     }
 
     /// What rays see now.
-    pub fn seen(&mut self, geometry: Geometry) -> &Surroundings {
+    pub fn seen(&mut self, geometry: SensedGeometry) -> &RenderScene {
         self.views.at(geometry, self.span.end_ns(), self.world)
     }
 
     /// The part of a link in what rays see, so that a sensor can look past its own.
-    pub fn part(&mut self, geometry: Geometry, link: LinkId) -> Option<PartId> {
+    pub fn part(&mut self, geometry: SensedGeometry, link: LinkId) -> Option<PartId> {
         self.views.part(geometry, link, self.world)
     }
 }

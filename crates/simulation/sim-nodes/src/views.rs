@@ -5,13 +5,13 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose;
 use periplus_physics::{LinkId, ModelId, World};
-use periplus_rendering::{Geometry, PartId, Shapes, Surroundings};
+use periplus_rendering::{AssetLoader, PartId, RenderScene, SensedGeometry};
 use periplus_scene as scene;
 
 /// The surroundings of sensors, one for what touches and one for what is seen. Each is made when a
 /// sensor first looks, and moved when one looks again: a world without cameras has no pictures.
 pub struct Views {
-    shapes: Arc<dyn Shapes + Send + Sync>,
+    shapes: Arc<dyn AssetLoader + Send + Sync>,
     threads: usize,
     /// Models that are there, in the order of coming.
     models: Vec<(ModelId, Arc<scene::Model>)>,
@@ -24,8 +24,8 @@ pub struct Views {
 
 /// One of the two.
 struct View {
-    surroundings: Surroundings,
-    models: Vec<(ModelId, periplus_rendering::ModelId)>,
+    scene: RenderScene,
+    models: Vec<(ModelId, periplus_rendering::RenderModelId)>,
     links: Vec<(LinkId, PartId)>,
     /// When its links were put where they are \[ns\]; none when it is to be done again.
     placed_ns: Option<i64>,
@@ -35,7 +35,7 @@ struct View {
 impl Views {
     /// Of a world without models yet.
     #[must_use]
-    pub fn new(shapes: Arc<dyn Shapes + Send + Sync>, threads: usize) -> Self {
+    pub fn new(shapes: Arc<dyn AssetLoader + Send + Sync>, threads: usize) -> Self {
         Self {
             shapes,
             threads,
@@ -65,7 +65,7 @@ impl Views {
         self.sky.lights.retain(|known| known.name != light.name);
         self.sky.lights.push(light.clone());
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            view.surroundings.set_light(light);
+            view.scene.set_light(light);
         }
     }
 
@@ -73,7 +73,7 @@ impl Views {
     pub fn remove_light(&mut self, name: &str) {
         self.sky.lights.retain(|known| known.name != name);
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            view.surroundings.remove_light(name);
+            view.scene.remove_light(name);
         }
     }
 
@@ -90,7 +90,7 @@ impl Views {
         }
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             if let Some((_, part)) = view.links.iter().find(|(known, _)| *known == link) {
-                view.surroundings.set_light_on(*part, light);
+                view.scene.set_light_on(*part, light);
             }
         }
     }
@@ -99,7 +99,7 @@ impl Views {
     pub fn add(&mut self, model: Arc<scene::Model>, id: ModelId, world: &World) {
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             let pose = world.model_pose(id).unwrap_or_default();
-            let parts = view.surroundings.add(&model, pose, &*self.shapes);
+            let parts = view.scene.add(&model, pose, &*self.shapes);
             self.findings.append(parts.diagnostics);
             view.models.push((id, parts.model));
             view.links.extend(world.links(id).zip(parts.parts));
@@ -113,7 +113,7 @@ impl Views {
         self.models.retain(|(model, _)| *model != id);
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             if let Some(place) = view.models.iter().position(|(model, _)| *model == id) {
-                view.surroundings.remove(view.models.remove(place).1);
+                view.scene.remove(view.models.remove(place).1);
             }
             view.links.retain(|(link, _)| world.model_of(*link) != Some(id));
         }
@@ -127,10 +127,15 @@ impl Views {
     }
 
     /// The surroundings at a time \[ns\], where `world` has everything now.
-    pub fn at(&mut self, geometry: Geometry, time_ns: i64, world: &World) -> &mut Surroundings {
+    pub fn at(
+        &mut self,
+        geometry: SensedGeometry,
+        time_ns: i64,
+        world: &World,
+    ) -> &mut RenderScene {
         let slot = match geometry {
-            Geometry::Collision => &mut self.collision,
-            Geometry::Visual => &mut self.visual,
+            SensedGeometry::Collision => &mut self.collision,
+            SensedGeometry::Visual => &mut self.visual,
         };
         let view = slot.get_or_insert_with(|| {
             View::new(
@@ -144,15 +149,20 @@ impl Views {
             )
         });
         view.place(time_ns, world);
-        &mut view.surroundings
+        &mut view.scene
     }
 
     /// The part of a link in one of the surroundings, which is made if it was not there.
-    pub fn part(&mut self, geometry: Geometry, link: LinkId, world: &World) -> Option<PartId> {
+    pub fn part(
+        &mut self,
+        geometry: SensedGeometry,
+        link: LinkId,
+        world: &World,
+    ) -> Option<PartId> {
         self.at(geometry, i64::MIN, world);
         let view = match geometry {
-            Geometry::Collision => &self.collision,
-            Geometry::Visual => &self.visual,
+            SensedGeometry::Collision => &self.collision,
+            SensedGeometry::Visual => &self.visual,
         };
         let links = &view.as_ref()?.links;
         links.iter().find(|(known, _)| *known == link).map(|(_, part)| *part)
@@ -166,11 +176,11 @@ impl Views {
 
 impl View {
     fn new(
-        geometry: Geometry,
+        geometry: SensedGeometry,
         sky: &scene::World,
         models: &[(ModelId, Arc<scene::Model>)],
         world: &World,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         threads: usize,
         findings: &mut Diagnostics,
     ) -> Self {
@@ -180,14 +190,13 @@ impl View {
         });
         // All at once: the trees of fixed shapes are then built only once.
         let together = scene::World { models: placed.collect(), ..sky.clone() };
-        let (surroundings, wrong) = Surroundings::new(&together, geometry, shapes, threads);
+        let (scene, wrong) = RenderScene::new(&together, geometry, shapes, threads);
         findings.append(wrong);
-        let seen: Vec<_> = surroundings.models().collect();
+        let seen: Vec<_> = scene.models().collect();
         let models: Vec<_> = models.iter().map(|(id, _)| *id).zip(seen).collect();
-        let links =
-            models.iter().flat_map(|(id, seen)| world.links(*id).zip(surroundings.parts(*seen)));
+        let links = models.iter().flat_map(|(id, seen)| world.links(*id).zip(scene.parts(*seen)));
         let links = links.collect();
-        Self { surroundings, models, links, placed_ns: None, poses: Vec::new() }
+        Self { scene, models, links, placed_ns: None, poses: Vec::new() }
     }
 
     fn place(&mut self, time_ns: i64, world: &World) {
@@ -201,6 +210,6 @@ impl View {
                 .iter()
                 .filter_map(|(link, part)| Some((*part, world.link_state(*link)?.world_from_link))),
         );
-        self.surroundings.place(&self.poses);
+        self.scene.set_link_poses(&self.poses);
     }
 }

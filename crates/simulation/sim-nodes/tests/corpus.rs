@@ -15,7 +15,7 @@ use periplus_msgs::{Message, nav_msgs};
 use periplus_os::Machine;
 use periplus_physics::{Mode, NoMeshes, World};
 use periplus_plugin_specs::{Role, interpret, model_sites};
-use periplus_rendering::NoShapes;
+use periplus_rendering::NoAssets;
 use periplus_resources::Resolver;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
@@ -131,7 +131,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
             odometries.push(ear.mailbox(&topic.name, Qos::best_effort(1)).unwrap());
         }
     }
-    let mut views = Views::new(Arc::new(NoShapes), 1);
+    let mut views = Views::new(Arc::new(NoAssets), 1);
     for step in 0..100 {
         let span = Span { start_ns: step * STEP_NS, length_ns: STEP_NS };
         devices.iter_mut().for_each(|device| device.act(&mut world, span));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use periplus_geometry::{Pose, Rpy};
 use periplus_loader::Setting;
 use periplus_os::Machine;
-use periplus_rendering::{Geometry, Lens, Picture, Shot, Wanted};
+use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
 use periplus_resources::Resolver;
 use periplus_sim::{ShapeFiles, compose};
 
@@ -49,7 +49,7 @@ fn smaller(rgb: &[u8]) -> Vec<u8> {
     pixels.flat_map(|(row, column)| [0, 1, 2].map(|colour| mean(row, column, colour))).collect()
 }
 
-fn take(world: &Path, world_from_camera: Pose) -> Picture {
+fn take(world: &Path, world_from_camera: Pose) -> RenderedImages {
     let resolver = Resolver::new(&Machine, &[]);
     let setting = Setting {
         host: &Machine,
@@ -73,17 +73,17 @@ fn take(world: &Path, world_from_camera: Pose) -> Picture {
         }
     }
     let lens = Lens::pinhole((WIDTH * RAYS) as u32, (HEIGHT * RAYS) as u32, 1.2).expect("a lens");
-    let shot = Shot {
+    let shot = RenderRequest {
         lens: &lens,
         world_from_camera,
         near_m: 0.05,
         far_m: 100.0,
         visibility_mask: u32::MAX,
         own: None,
-        wanted: Wanted { colour: true, ..Wanted::default() },
+        outputs: ImageOutputs { colour: true, ..ImageOutputs::default() },
         threads: 2,
     };
-    let mut picture = Picture::default();
-    views.at(Geometry::Visual, 0, &motion).take(&shot, &mut picture);
+    let mut picture = RenderedImages::default();
+    views.at(SensedGeometry::Visual, 0, &motion).render(&shot, &mut picture);
     picture
 }

@@ -9,7 +9,7 @@ use periplus_geometry::DVec3;
 use periplus_loader::read_mesh;
 use periplus_os::Machine;
 use periplus_physics::{Heights, Meshes, Triangles};
-use periplus_rendering::{Shapes, ground, select};
+use periplus_rendering::{AssetLoader, sample_heightmap, select_submesh};
 use periplus_resources::Host;
 use periplus_scene::{Heightmap, Mesh};
 
@@ -19,7 +19,7 @@ pub struct ShapeFiles {
     meshes: Mutex<BTreeMap<PathBuf, Option<Arc<periplus_meshes::Mesh>>>>,
 }
 
-impl Shapes for ShapeFiles {
+impl AssetLoader for ShapeFiles {
     fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         let path = mesh.path.as_ref()?;
         let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -45,19 +45,19 @@ impl Shapes for ShapeFiles {
 
 impl Meshes for ShapeFiles {
     fn triangles(&self, mesh: &Mesh) -> Option<Triangles> {
-        let selected = select(mesh, &*Shapes::mesh(self, mesh)?);
+        let selected = select_submesh(mesh, &*AssetLoader::mesh(self, mesh)?);
         let points_m = selected.positions_m.into_iter().map(DVec3::from_array).collect();
         Some(Triangles { points_m, triangles: selected.triangles })
     }
 
     fn heights(&self, heightmap: &Heightmap) -> Option<Heights> {
         // What is wrong with it is told by those who see it.
-        let ground = ground(heightmap, self).ok()?;
+        let samples = sample_heightmap(heightmap, self).ok()?;
         Some(Heights {
-            columns: ground.columns,
-            rows: ground.rows,
-            heights_m: ground.heights_m,
-            size_m: ground.size_m,
+            columns: samples.columns,
+            rows: samples.rows,
+            heights_m: samples.heights_m,
+            size_m: samples.size_m,
         })
     }
 }

@@ -6,7 +6,7 @@ use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
 use periplus_grid::{Grid, Lattice, OccupancyGrid};
 use periplus_raycast::{InstanceId, Ray};
-use periplus_rendering::{Geometry, Surroundings, filter};
+use periplus_rendering::{RenderScene, SensedGeometry, filter};
 use periplus_scene::{Model, SensorKind};
 
 use crate::Simulation;
@@ -25,7 +25,7 @@ const USUAL_HEIGHT_M: f64 = 0.2;
 /// A lidar on a robot.
 struct Eye {
     height_m: f64,
-    geometry: Geometry,
+    geometry: SensedGeometry,
 }
 
 impl Simulation {
@@ -58,14 +58,14 @@ impl Simulation {
                 let place = world_from_link * eye.link_from_sensor;
                 Some(Eye { height_m: place.translation.z, geometry: eye.geometry })
             })
-            .unwrap_or(Eye { height_m: USUAL_HEIGHT_M, geometry: Geometry::Collision })
+            .unwrap_or(Eye { height_m: USUAL_HEIGHT_M, geometry: SensedGeometry::Collision })
     }
 }
 
 /// A lidar on a link.
 struct Mounted {
     link_from_sensor: Pose,
-    geometry: Geometry,
+    geometry: SensedGeometry,
 }
 
 /// The first lidar of a model, with the scoped name of its link; those of nested models come after.
@@ -75,7 +75,7 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
         let sensor = link.sensors.iter().find(|sensor| is_lidar(&sensor.kind))?;
         // As in Gazebo: the graphics card renders what is seen, the others ask physics.
         let is_rendered = sensor.type_name.starts_with("gpu");
-        let geometry = if is_rendered { Geometry::Visual } else { Geometry::Collision };
+        let geometry = if is_rendered { SensedGeometry::Visual } else { SensedGeometry::Collision };
         let mounted = Mounted { link_from_sensor: sensor.parent_from_sensor, geometry };
         Some((format!("{scope}{}", link.name), mounted))
     });
@@ -87,7 +87,7 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
 
 /// Marks what rays along all rows and columns of cells meet, two in each and in both directions, so
 /// that no face is missed for being seen from its edge or from behind.
-fn mark_walls(map: &mut OccupancyGrid, seen: &Surroundings, height_m: f64, robot: &str) {
+fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
     let lattice = map.lattice;
     let (columns, rows) = (lattice.width as f64, lattice.height as f64);
     for half in 0..2 * lattice.height {
@@ -103,7 +103,7 @@ fn mark_walls(map: &mut OccupancyGrid, seen: &Surroundings, height_m: f64, robot
 /// Marks what a line between two places, in columns and rows, meets from either end.
 fn mark_line(
     map: &mut OccupancyGrid,
-    seen: &Surroundings,
+    seen: &RenderScene,
     ends: [(f64, f64); 2],
     height_m: f64,
     robot: &str,

@@ -1,4 +1,4 @@
-//! Colours.
+//! Shading.
 
 use std::ops::Range;
 
@@ -6,47 +6,47 @@ use periplus_geometry::DVec3;
 use periplus_raycast::{Filter, Hit, Ray};
 
 use super::{SHADOWS, Scratch};
-use crate::light::{Beam, Shine};
-use crate::look::Look;
-use crate::surroundings::{Met, Surroundings};
+use crate::light::{LightSample, WorldLight};
+use crate::phong::PhongMaterial;
+use crate::render_scene::{HitMaterial, RenderScene};
 
-/// Through so many panes one sees at most.
-const PANES: usize = 8;
+/// Maximum number of transparent layers in front of a surface.
+const MAX_TRANSPARENT_LAYERS: usize = 8;
 
-/// All that the colours of a picture need besides what each ray meets.
+/// Inputs of shading besides the hits.
 pub(super) struct Shader<'a> {
-    surroundings: &'a Surroundings,
-    shines: Vec<Shine>,
+    scene: &'a RenderScene,
+    active_lights: Vec<WorldLight>,
     ambient: [f32; 3],
     background: [f32; 3],
     shadows: bool,
 }
 
-/// Neighbouring rays of a band that met one face, so that what is the same for all is found once.
+/// Adjacent rays of a band that hit the same face, with their common properties.
 #[derive(Clone, Debug)]
 pub(super) struct Patch<'a> {
-    /// Which of the band's rays.
+    /// Indices of the band's rays.
     pixels: Range<usize>,
-    look: &'a Look,
-    /// For light; where a mesh is smooth, that of its corners.
+    material: &'a PhongMaterial,
+    /// Shading normal; interpolated from the corners of a smooth mesh.
     normal: DVec3,
-    /// What the texture multiplies with, and opacity.
+    /// Colour factor of the texture, and opacity.
     tint: [f32; 4],
 }
 
 impl<'a> Shader<'a> {
-    pub(super) fn new(surroundings: &'a Surroundings) -> Self {
-        let sky = surroundings.sky();
+    pub(super) fn new(scene: &'a RenderScene) -> Self {
+        let sky = scene.sky();
         Self {
-            surroundings,
-            shines: surroundings.shines(),
+            scene,
+            active_lights: scene.active_lights(),
             ambient: sky.ambient,
             background: sky.background,
             shadows: sky.shadows,
         }
     }
 
-    /// Paints what the rays of a band met.
+    /// Shades the hits of a band.
     pub(super) fn paint(
         &self,
         scratch: &mut Scratch<'a>,
@@ -60,15 +60,15 @@ impl<'a> Shader<'a> {
         for patch in &scratch.patches {
             scratch.colours[patch.pixels.clone()].fill(self.unlit(patch));
         }
-        for shine in &self.shines {
-            self.light(shine, scratch, columns);
+        for light in &self.active_lights {
+            self.light(light, scratch, columns);
         }
         for patch in scratch.patches.iter().filter(|patch| patch.tint[3] < 1.0) {
             for pixel in patch.pixels.clone() {
                 let Some(hit) = scratch.hits[pixel] else { continue };
                 let front = scratch.colours[pixel];
                 scratch.colours[pixel] =
-                    self.through(&scratch.rays[pixel], hit, patch.tint[3], front, seen);
+                    self.shade_transparent(&scratch.rays[pixel], hit, patch.tint[3], front, seen);
             }
         }
         for (pixel, colour) in rgb.chunks_exact_mut(3).zip(&scratch.colours) {
@@ -79,96 +79,115 @@ impl<'a> Shader<'a> {
     fn find_patches(&self, scratch: &mut Scratch<'a>) {
         let Scratch { rays, hits, patches, .. } = scratch;
         patches.clear();
-        // Neighbours mostly meet the same thing.
+        // Neighbours mostly hit the same face.
         let mut last = None;
         for (pixel, (ray, hit)) in rays.iter().zip(hits).enumerate() {
             let Some(hit) = hit else { continue };
             let patch = self.patch(pixel, ray, hit, &mut last);
             match patches.last_mut() {
-                Some(open) if open.goes_on_with(&patch) => open.pixels.end = pixel + 1,
+                Some(open) if open.continues(&patch) => open.pixels.end = pixel + 1,
                 _ => patches.push(patch),
             }
         }
     }
 
-    fn patch(&self, pixel: usize, ray: &Ray, hit: &Hit, last: &mut Option<Met<'a>>) -> Patch<'a> {
-        let met = match last {
-            Some(met) if (met.instance, met.primitive) == (hit.instance, hit.primitive) => *met,
-            _ => *last.insert(self.surroundings.met(hit)),
+    fn patch(
+        &self,
+        pixel: usize,
+        ray: &Ray,
+        hit: &Hit,
+        last: &mut Option<HitMaterial<'a>>,
+    ) -> Patch<'a> {
+        let hit_material = match last {
+            Some(hit_material)
+                if (hit_material.instance, hit_material.primitive)
+                    == (hit.instance, hit.primitive) =>
+            {
+                *hit_material
+            }
+            _ => *last.insert(self.scene.hit_material(hit)),
         };
-        let (normal, tint) = if met.is_plain {
-            (hit.normal, [1.0, 1.0, 1.0, met.look.opacity])
+        let (normal, tint) = if hit_material.is_plain {
+            (hit.normal, [1.0, 1.0, 1.0, hit_material.material.opacity])
         } else {
-            self.surroundings.detail(hit, ray.at(hit.distance_m))
+            self.scene.detail(hit, ray.at(hit.distance_m))
         };
-        Patch { pixels: pixel..pixel + 1, look: met.look, normal, tint }
+        Patch { pixels: pixel..pixel + 1, material: hit_material.material, normal, tint }
     }
 
-    /// Adds one light to all that a band sees, where it is not in shadow.
-    fn light(&self, shine: &Shine, scratch: &mut Scratch<'a>, columns: usize) {
-        let shadows = self.shadows && shine.casts_shadows;
+    /// Adds the light of one source to all hits of a band that are not in shadow.
+    fn light(&self, light: &WorldLight, scratch: &mut Scratch<'a>, columns: usize) {
+        let shadows = self.shadows && light.casts_shadows;
         if shadows {
-            self.darken(shine, scratch, columns);
+            self.mark_shadowed(light, scratch, columns);
         }
         let Scratch { rays, hits, patches, dark, colours, .. } = scratch;
-        for patch in patches.iter().filter(|patch| patch.look.is_lit) {
-            // The sun meets all of a face alike.
-            let sun = if shine.is_directional {
-                let Some(beam) = shine.beam(DVec3::ZERO, patch.normal) else { continue };
-                Some((beam, patch.matt(shine, &beam)))
+        for patch in patches.iter().filter(|patch| patch.material.is_lit) {
+            // Directional light is the same on all of a face.
+            let sun = if light.is_directional {
+                let Some(beam) = light.beam(DVec3::ZERO, patch.normal) else { continue };
+                Some((beam, patch.diffuse_light(light, &beam)))
             } else {
                 None
             };
-            let gleams = patch.look.gleams();
+            let has_specular = patch.material.has_specular();
             for pixel in patch.pixels.clone() {
                 let Some(hit) = hits[pixel].filter(|_| !(shadows && dark[pixel])) else { continue };
                 let ray = &rays[pixel];
-                let (beam, matt) = match sun {
+                let (beam, diffuse_light) = match sun {
                     Some(sun) => sun,
-                    None => match shine.beam(ray.at(hit.distance_m), patch.normal) {
-                        Some(beam) => (beam, patch.matt(shine, &beam)),
+                    None => match light.beam(ray.at(hit.distance_m), patch.normal) {
+                        Some(beam) => (beam, patch.diffuse_light(light, &beam)),
                         None => continue,
                     },
                 };
                 let colour = &mut colours[pixel];
-                add(colour, matt);
-                if gleams {
-                    add(colour, shine.gleam(&beam, patch.look, patch.normal, ray.direction));
+                add(colour, diffuse_light);
+                if has_specular {
+                    add(
+                        colour,
+                        light.specular_highlight(
+                            &beam,
+                            patch.material,
+                            patch.normal,
+                            ray.direction,
+                        ),
+                    );
                 }
             }
         }
     }
 
-    /// Finds where in a band a light does not reach, with neighbours traced together: from a lamp to
-    /// the surfaces, so that rays share the origin; to the sun they share the direction.
-    fn darken(&self, shine: &Shine, scratch: &mut Scratch<'a>, columns: usize) {
+    /// Computes the shadows of a light in a band, with neighbouring rays traced together: rays from
+    /// a point light to the surfaces share the origin, rays to the sun share the direction.
+    fn mark_shadowed(&self, light: &WorldLight, scratch: &mut Scratch<'a>, columns: usize) {
         let Scratch { rays: eyes, hits, patches, light_rays, light_m, dark, .. } = scratch;
-        let rays = self.surroundings.rays();
-        // What ends before it begins costs nothing.
+        let rays = self.scene.rays();
+        // A ray with an empty range costs nothing.
         let none = Ray { max_m: -1.0, ..Ray::new(DVec3::ZERO, DVec3::X) };
         light_rays.clear();
         light_rays.resize(hits.len(), none);
         dark.clear();
         dark.resize(hits.len(), false);
-        for patch in patches.iter().filter(|patch| patch.look.is_lit) {
-            if shine.is_directional && shine.beam(DVec3::ZERO, patch.normal).is_none() {
+        for patch in patches.iter().filter(|patch| patch.material.is_lit) {
+            if light.is_directional && light.beam(DVec3::ZERO, patch.normal).is_none() {
                 continue;
             }
             for pixel in patch.pixels.clone() {
                 let Some(hit) = hits[pixel] else { continue };
                 let above = above(&hit, eyes[pixel].at(hit.distance_m));
                 let ray = &mut light_rays[pixel];
-                if shine.is_directional {
-                    *ray = Ray::new(above, -shine.direction);
+                if light.is_directional {
+                    *ray = Ray::new(above, -light.direction);
                     continue;
                 }
-                let way = above - shine.position_m;
+                let way = above - light.position_m;
                 if way != DVec3::ZERO {
-                    *ray = Ray { max_m: 1.0, ..Ray::new(shine.position_m, way) };
+                    *ray = Ray { max_m: 1.0, ..Ray::new(light.position_m, way) };
                 }
             }
         }
-        if shine.is_directional {
+        if light.is_directional {
             rays.occluded_grid(light_rays, columns, SHADOWS, 1, dark);
         } else {
             light_m.resize(light_rays.len(), 0.0);
@@ -179,21 +198,21 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Without the light of lamps and of the sun.
+    /// Returns ambient and emitted light.
     fn unlit(&self, patch: &Patch<'_>) -> [f32; 3] {
-        let look = patch.look;
+        let material = patch.material;
         std::array::from_fn(|channel| {
-            let own = if look.is_lit {
-                look.ambient[channel] * self.ambient[channel]
+            let own = if material.is_lit {
+                material.ambient[channel] * self.ambient[channel]
             } else {
-                look.diffuse[channel]
+                material.diffuse[channel]
             };
-            own * patch.tint[channel] + look.emissive[channel]
+            own * patch.tint[channel] + material.emissive[channel]
         })
     }
 
-    /// What is seen through glass: the panes on the way, each once though it has two faces.
-    fn through(
+    /// Blends transparent surfaces along a ray, each body once though it has two faces.
+    fn shade_transparent(
         &self,
         ray: &Ray,
         first: Hit,
@@ -205,20 +224,23 @@ impl<'a> Shader<'a> {
         let mut left = 1.0 - opacity;
         let mut last = first;
         let mut pane = first.instance;
-        for _ in 0..2 * PANES {
+        for _ in 0..2 * MAX_TRANSPARENT_LAYERS {
             let min_m = last.distance_m * (1.0 + 1e-6) + 1e-4 / ray.direction.length();
             let beyond = Ray { min_m, ..*ray };
-            let Some(hit) = self.surroundings.rays().cast(&beyond, seen) else { break };
+            let Some(hit) = self.scene.rays().cast(&beyond, seen) else { break };
             last = hit;
             let other_face = hit.instance == pane;
-            let met = self.surroundings.met(&hit);
-            if other_face && met.look.opacity < 1.0 {
+            let hit_material = self.scene.hit_material(&hit);
+            if other_face && hit_material.material.opacity < 1.0 {
                 continue;
             }
             pane = hit.instance;
-            let patch = self.patch(0, ray, &hit, &mut Some(met));
+            let patch = self.patch(0, ray, &hit, &mut Some(hit_material));
             let opacity = patch.tint[3];
-            add(&mut colour, self.alone(ray, &hit, &patch).map(|value| value * left * opacity));
+            add(
+                &mut colour,
+                self.shade_single(ray, &hit, &patch).map(|value| value * left * opacity),
+            );
             left *= 1.0 - opacity;
             if left < 1.0 / 512.0 {
                 return colour;
@@ -228,23 +250,26 @@ impl<'a> Shader<'a> {
         colour
     }
 
-    /// The colour of a single ray's surface under all lights.
-    fn alone(&self, ray: &Ray, hit: &Hit, patch: &Patch<'_>) -> [f32; 3] {
+    /// Returns the colour of a single hit under all lights.
+    fn shade_single(&self, ray: &Ray, hit: &Hit, patch: &Patch<'_>) -> [f32; 3] {
         let mut colour = self.unlit(patch);
-        if !patch.look.is_lit {
+        if !patch.material.is_lit {
             return colour;
         }
         let point = ray.at(hit.distance_m);
-        for shine in &self.shines {
-            let Some(beam) = shine.beam(point, patch.normal) else { continue };
+        for light in &self.active_lights {
+            let Some(beam) = light.beam(point, patch.normal) else { continue };
             let way = Ray { max_m: beam.distance_m, ..Ray::new(above(hit, point), beam.to_light) };
-            let shadow = self.shadows && shine.casts_shadows;
-            if shadow && self.surroundings.rays().occluded(&way, SHADOWS) {
+            let shadow = self.shadows && light.casts_shadows;
+            if shadow && self.scene.rays().occluded(&way, SHADOWS) {
                 continue;
             }
-            add(&mut colour, patch.matt(shine, &beam));
-            if patch.look.gleams() {
-                add(&mut colour, shine.gleam(&beam, patch.look, patch.normal, ray.direction));
+            add(&mut colour, patch.diffuse_light(light, &beam));
+            if patch.material.has_specular() {
+                add(
+                    &mut colour,
+                    light.specular_highlight(&beam, patch.material, patch.normal, ray.direction),
+                );
             }
         }
         colour
@@ -252,18 +277,18 @@ impl<'a> Shader<'a> {
 }
 
 impl Patch<'_> {
-    /// Whether `next` is the next pixel of the same face.
-    fn goes_on_with(&self, next: &Patch<'_>) -> bool {
+    /// Returns true if `next` is the next pixel of the same face.
+    fn continues(&self, next: &Patch<'_>) -> bool {
         self.pixels.end == next.pixels.start
-            && std::ptr::eq(self.look, next.look)
+            && std::ptr::eq(self.material, next.material)
             && self.normal == next.normal
             && self.tint == next.tint
     }
 
-    /// What it scatters of a light.
-    fn matt(&self, shine: &Shine, beam: &Beam) -> [f32; 3] {
-        let matt = shine.matt(beam, self.look, self.normal);
-        std::array::from_fn(|channel| matt[channel] * self.tint[channel])
+    /// Returns the diffuse reflection of a light.
+    fn diffuse_light(&self, light: &WorldLight, beam: &LightSample) -> [f32; 3] {
+        let diffuse_light = light.diffuse_light(beam, self.material, self.normal);
+        std::array::from_fn(|channel| diffuse_light[channel] * self.tint[channel])
     }
 }
 
@@ -273,7 +298,7 @@ fn add(sum: &mut [f32; 3], colour: [f32; 3]) {
     }
 }
 
-/// Off the surface by more than rounding.
+/// Returns a point off the surface by more than rounding.
 fn above(hit: &Hit, point: DVec3) -> DVec3 {
     let off_m = 1e-4 + 2e-6 * (hit.distance_m + point.abs().max_element());
     point + hit.normal * off_m

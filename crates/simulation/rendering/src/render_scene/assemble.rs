@@ -1,4 +1,4 @@
-//! From a model as plain data to things.
+//! Conversion of models to shape records.
 
 use std::sync::Arc;
 
@@ -6,20 +6,23 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::Pose;
 use periplus_images::Image;
 use periplus_meshes::Texture;
-use periplus_raycast::{Tags, World};
+use periplus_raycast::{RaycastWorld, Tags};
 use periplus_scene::{Material, Mesh, Model, Plugin, Shape, Visual, builtin_material};
 
 use super::rebuild::put;
-use super::{Geometry, Label, ModelId, ModelRecord, PartRecord, SHADOW_MASK, Surroundings, Thing};
-use crate::body::{Body, Problem, body_of};
+use super::{
+    Label, ModelRecord, PartRecord, RenderModelId, RenderScene, SHADOW_MASK, SensedGeometry,
+    ShapeRecord,
+};
+use crate::assets::AssetLoader;
+use crate::body::{RenderBody, ShapeProblem, body_of};
 use crate::label::label_of;
-use crate::light::Lamp;
-use crate::look::Look;
-use crate::shapes::Shapes;
-use crate::walk::{Walked, walk};
+use crate::light::LightSource;
+use crate::links::{ScopedLink, scoped_links};
+use crate::phong::PhongMaterial;
 
-/// What one shape brings along, collision or visual.
-struct Found<'a> {
+/// Common properties of a collision or visual.
+struct ShapeSource<'a> {
     name: &'a str,
     shape: &'a Shape,
     link_from_shape: Pose,
@@ -28,40 +31,40 @@ struct Found<'a> {
     origin: Origin,
 }
 
-impl Surroundings {
-    /// Appends a model; its things are not yet among the rays.
+impl RenderScene {
+    /// Appends a model; its shapes are not yet in the ray-cast world.
     pub(super) fn assemble(
         &mut self,
         model: &Model,
         world_from_model: Pose,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
-    ) -> ModelId {
+    ) -> RenderModelId {
         let number = count(self.models.len());
         let first_part = count(self.parts.len());
         let mut labels = Labels::default();
-        for walked in walk(model) {
-            let first_thing = count(self.things.len());
+        for scoped_link in scoped_links(model) {
+            let first_thing = count(self.shape_records.len());
             let part = count(self.parts.len());
-            let world_from_link = world_from_model * walked.model_from_link;
+            let world_from_link = world_from_model * scoped_link.model_from_link;
             if world_from_link.is_finite() {
-                self.link(&walked, part, model.is_static, shapes, &mut labels, diagnostics);
+                self.link(&scoped_link, part, model.is_static, shapes, &mut labels, diagnostics);
             } else {
                 diagnostics.push(
                     Diagnostic::error(
                         "pose-not-finite",
-                        format!("the pose of link `{}` is not finite", walked.name),
+                        format!("the pose of link `{}` is not finite", scoped_link.name),
                     )
-                    .at(walked.link.origin),
+                    .at(scoped_link.link.origin),
                 );
             }
-            let lights = walked.link.lights.iter().cloned();
-            self.lamps.extend(lights.map(|light| Lamp { light, part: Some(part) }));
+            let lights = scoped_link.link.lights.iter().cloned();
+            self.light_sources.extend(lights.map(|light| LightSource { light, part: Some(part) }));
             self.parts.push(PartRecord {
                 model: number,
-                name: walked.name,
+                name: scoped_link.name,
                 world_from_link,
-                things: first_thing..count(self.things.len()),
+                shape_records: first_thing..count(self.shape_records.len()),
                 fixed: model.is_static,
             });
         }
@@ -70,72 +73,77 @@ impl Surroundings {
             parts: first_part..count(self.parts.len()),
             removed: false,
         });
-        ModelId(number)
+        RenderModelId(number)
     }
 
     fn link(
         &mut self,
-        walked: &Walked<'_>,
+        scoped_link: &ScopedLink<'_>,
         part: u32,
         fixed: bool,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         labels: &mut Labels,
         diagnostics: &mut Diagnostics,
     ) {
-        let found: Vec<Found<'_>> = match self.geometry {
-            Geometry::Collision => walked.link.collisions.iter().map(Found::collision).collect(),
-            Geometry::Visual => walked.link.visuals.iter().map(Found::visual).collect(),
+        let source: Vec<ShapeSource<'_>> = match self.geometry {
+            SensedGeometry::Collision => {
+                scoped_link.link.collisions.iter().map(ShapeSource::collision).collect()
+            }
+            SensedGeometry::Visual => {
+                scoped_link.link.visuals.iter().map(ShapeSource::visual).collect()
+            }
         };
-        for found in found {
-            let scoped = format!("{}::{}", walked.name, found.name);
-            let Some(mut thing) = self.thing_from(&found, &scoped, fixed, shapes, diagnostics)
+        for source in source {
+            let scoped = format!("{}::{}", scoped_link.name, source.name);
+            let Some(mut record) = self.shape_record(&source, &scoped, fixed, shapes, diagnostics)
             else {
                 continue;
             };
-            thing.part = part;
-            thing.label = self.label(&found, walked, labels, diagnostics);
-            self.things.push(thing);
+            record.part = part;
+            record.label = self.label(&source, scoped_link, labels, diagnostics);
+            self.shape_records.push(record);
         }
     }
 
-    /// None where there is nothing to meet, which is told if it is not meant.
-    fn thing_from(
+    /// Returns `None` for an empty shape, and for an invalid one after reporting it.
+    fn shape_record(
         &mut self,
-        found: &Found<'_>,
+        source: &ShapeSource<'_>,
         scoped: &str,
         fixed: bool,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
-    ) -> Option<Thing> {
-        let kind = if found.visual.is_some() { "visual" } else { "collision" };
-        let mut tell = |problem| {
+    ) -> Option<ShapeRecord> {
+        let kind = if source.visual.is_some() { "visual" } else { "collision" };
+        let mut report = |problem| {
             let diagnostic = match problem {
-                Problem::Impossible(why) => {
+                ShapeProblem::Invalid(why) => {
                     Diagnostic::error("shape-impossible", format!("{kind} `{scoped}` {why}"))
                 }
-                Problem::Unseen(why) => Diagnostic::warning(
+                ShapeProblem::Unsupported(why) => Diagnostic::warning(
                     "shape-not-seen",
-                    format!("{kind} `{scoped}` {why}; no sensor sees it"),
+                    format!("{kind} `{scoped}` {why}; sensors do not see it"),
                 ),
             };
-            diagnostics.push(diagnostic.at(found.origin));
+            diagnostics.push(diagnostic.at(source.origin));
         };
-        let placed = match body_of(found.shape, self.geometry, shapes, &mut self.store) {
+        let placed = match body_of(source.shape, self.geometry, shapes, &mut self.assets) {
             Ok(placed) => placed?,
             Err(problem) => {
-                tell(problem);
+                report(problem);
                 return None;
             }
         };
-        let link_from_body = found.link_from_shape * placed.shape_from_body;
+        let link_from_body = source.link_from_shape * placed.shape_from_body;
         if !link_from_body.is_finite() {
-            tell(Problem::Impossible("has a pose that is not finite".into()));
+            report(ShapeProblem::Invalid("has a pose that is not finite".into()));
             return None;
         }
-        // Whether it can be put at all shows best by putting it, meshes that are only copied aside.
-        if !(fixed && matches!(placed.body, Body::Mesh(_))) {
+        // A trial insertion shows any problem of the shape; meshes are only copied, so they are
+        // excluded.
+        if !(fixed && matches!(placed.body, RenderBody::Mesh(_))) {
             let tried = put(
-                &mut World::builder(),
+                &mut RaycastWorld::builder(),
                 &placed.body,
                 fixed,
                 &link_from_body,
@@ -143,79 +151,79 @@ impl Surroundings {
                 self.threads,
             );
             if let Err(error) = tried {
-                tell(Problem::Impossible(format!("cannot be: {error}")));
+                report(ShapeProblem::Invalid(format!("is invalid: {error}")));
                 return None;
             }
         }
-        let looks = match found.visual {
-            Some(visual) => self.looks(visual, &placed.body, shapes, diagnostics),
-            None => vec![Look::default()],
+        let materials = match source.visual {
+            Some(visual) => self.materials(visual, &placed.body, shapes, diagnostics),
+            None => vec![PhongMaterial::default()],
         };
-        let opacity = looks.iter().map(|look| look.opacity).fold(0.0, f32::max);
+        let opacity = materials.iter().map(|material| material.opacity).fold(0.0, f32::max);
         if opacity == 0.0 {
             return None;
         }
         let mut mask = !SHADOW_MASK;
-        if let Some(visual) = found.visual {
+        if let Some(visual) = source.visual {
             mask = visual.visibility_flags & !SHADOW_MASK;
-            // Glass gives no shadow.
+            // Transparent shapes cast no shadow.
             if visual.cast_shadows && opacity > 0.5 {
                 mask |= SHADOW_MASK;
             }
         }
-        Some(Thing {
+        Some(ShapeRecord {
             part: 0,
-            name: found.name.to_owned(),
+            name: source.name.to_owned(),
             link_from_body,
             body: Some(placed.body),
-            tags: Tags { mask, group: ModelId(count(self.models.len())).group().0 },
-            laser_retro: if found.laser_retro.is_finite() { found.laser_retro } else { 0.0 },
+            tags: Tags { mask, group: RenderModelId(count(self.models.len())).group().0 },
+            laser_retro: if source.laser_retro.is_finite() { source.laser_retro } else { 0.0 },
             label: None,
-            looks,
+            materials,
             instance: None,
         })
     }
 
-    /// One look for each part of a mesh that keeps its own materials, otherwise one.
-    fn looks(
+    /// Returns one material per submesh of a mesh with its own materials, otherwise one.
+    fn materials(
         &mut self,
         visual: &Visual,
-        body: &Body,
-        shapes: &dyn Shapes,
+        body: &RenderBody,
+        shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
-    ) -> Vec<Look> {
-        let through = visual.transparency;
+    ) -> Vec<PhongMaterial> {
+        let shade_transparent = visual.transparency;
         let own = visual
             .material
             .as_ref()
-            .and_then(|material| self.look(material, visual.origin, shapes, diagnostics));
-        if let Some(look) = own {
-            return vec![look.fainter(through)];
+            .and_then(|material| self.material(material, visual.origin, shapes, diagnostics));
+        if let Some(material) = own {
+            return vec![material.with_transparency(shade_transparent)];
         }
-        let (Body::Mesh(prepared), Shape::Mesh(mesh)) = (body, &visual.shape) else {
-            return vec![Look::default().fainter(through)];
+        let (RenderBody::Mesh(prepared), Shape::Mesh(mesh)) = (body, &visual.shape) else {
+            return vec![PhongMaterial::default().with_transparency(shade_transparent)];
         };
         let materials = prepared.selected.parts.iter().map(|(_, material)| material.as_deref());
-        let looks = materials.map(|material| {
-            let look = material.map_or_else(Look::default, |material| {
+        let materials = materials.map(|material| {
+            let material = material.map_or_else(PhongMaterial::default, |material| {
                 let texture = material.texture.as_ref();
                 let texture =
                     texture.and_then(|it| self.mesh_texture(mesh, it, shapes, diagnostics));
-                Look::of_mesh(material, texture)
+                PhongMaterial::of_mesh(material, texture)
             });
-            look.fainter(through)
+            material.with_transparency(shade_transparent)
         });
-        looks.collect()
+        materials.collect()
     }
 
-    /// The look of a material in a scene; none where it says nothing that is understood here.
-    fn look(
+    /// Returns the converted material; `None` if it has no supported property.
+    fn material(
         &mut self,
         material: &Material,
         origin: Origin,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
-    ) -> Option<Look> {
+    ) -> Option<PhongMaterial> {
         let mut told = material.clone();
         let script =
             material.script.as_ref().map(|script| script.name.as_str()).unwrap_or_default();
@@ -237,20 +245,20 @@ impl Surroundings {
             diagnostics.push(
                 Diagnostic::hint(
                     "material-not-known",
-                    format!("`{script}` is no built-in material; grey stands for it"),
+                    format!("`{script}` is not a built-in material; grey is used instead"),
                 )
                 .at(origin)
-                .help("add <diffuse> beside <script>: OGRE scripts are not read"),
+                .help("add <diffuse> beside <script>: OGRE scripts are not supported"),
             );
         }
-        says.then(|| Look::of_material(&told, texture))
+        says.then(|| PhongMaterial::of_material(&told, texture))
     }
 
     fn mesh_texture(
         &mut self,
         mesh: &Mesh,
         texture: &Texture,
-        shapes: &dyn Shapes,
+        shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
     ) -> Option<Arc<Image>> {
         match texture {
@@ -270,7 +278,7 @@ impl Surroundings {
         origin: Origin,
         diagnostics: &mut Diagnostics,
     ) -> Option<Arc<Image>> {
-        let why = match bytes.map(|bytes| self.store.image(bytes)) {
+        let why = match bytes.map(|bytes| self.assets.image(bytes)) {
             Some(Ok(image)) => return Some(image),
             Some(Err(error)) => error.to_string(),
             None => "it was not read".into(),
@@ -281,19 +289,20 @@ impl Surroundings {
         None
     }
 
-    /// A visual's own label counts before those of the models around it, of which the innermost.
+    /// The visual's own label has priority, then those of the models around it from the innermost
+    /// out.
     fn label(
         &mut self,
-        found: &Found<'_>,
-        walked: &Walked<'_>,
+        source: &ShapeSource<'_>,
+        scoped_link: &ScopedLink<'_>,
         labels: &mut Labels,
         diagnostics: &mut Diagnostics,
     ) -> Option<Label> {
-        let own = found.visual.and_then(|visual| label_of(&visual.plugins, diagnostics));
+        let own = source.visual.and_then(|visual| label_of(&visual.plugins, diagnostics));
         if let Some(class) = own {
             return Some(self.next_label(class));
         }
-        for &plugins in walked.scopes.iter().rev() {
+        for &plugins in scoped_link.scopes.iter().rev() {
             let known = labels.of_scopes.iter().find(|(scope, _)| std::ptr::eq(*scope, plugins));
             let label = match known {
                 Some(&(_, label)) => label,
@@ -317,13 +326,13 @@ impl Surroundings {
     }
 }
 
-/// The labels of models met so far, by their lists of plugins.
+/// Labels of visited models, by their lists of plugins.
 #[derive(Default)]
 struct Labels {
     of_scopes: Vec<(*const [Plugin], Option<Label>)>,
 }
 
-impl<'a> Found<'a> {
+impl<'a> ShapeSource<'a> {
     fn collision(collision: &'a periplus_scene::Collision) -> Self {
         Self {
             name: &collision.name,
@@ -347,7 +356,7 @@ impl<'a> Found<'a> {
     }
 }
 
-/// Things are fewer than the bytes of the file they come from.
+/// Shapes are fewer than the bytes of the file they come from.
 fn count(length: usize) -> u32 {
     u32::try_from(length).unwrap_or(u32::MAX)
 }

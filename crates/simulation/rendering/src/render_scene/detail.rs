@@ -1,17 +1,17 @@
-//! What of a surface changes from point to point, and what gives light.
+//! Surface properties that vary from point to point, and lights.
 
 use periplus_geometry::{DVec3, Pose};
 use periplus_images::Image;
 use periplus_raycast::{Hit, InstanceId};
 use periplus_scene::{Light, World};
 
-use super::{PartId, Surroundings};
-use crate::body::Body;
-use crate::light::{Lamp, Shine};
-use crate::look::{Look, rgb};
-use crate::mesh::Selected;
+use super::{PartId, RenderScene};
+use crate::body::RenderBody;
+use crate::light::{LightSource, WorldLight};
+use crate::mesh::SelectedMesh;
+use crate::phong::{PhongMaterial, rgb};
 
-/// Light from all around, and what is seen where nothing is.
+/// Ambient light and background colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sky {
     pub(crate) ambient: [f32; 3],
@@ -36,94 +36,96 @@ impl Sky {
     }
 }
 
-/// What does not change from point to point of what a ray met.
+/// Properties of a hit face that are constant over the face.
 #[derive(Clone, Copy)]
-pub(crate) struct Met<'a> {
+pub(crate) struct HitMaterial<'a> {
     pub(crate) instance: InstanceId,
     pub(crate) primitive: u32,
-    pub(crate) look: &'a Look,
-    /// Whether there is no [`Surroundings::detail`] besides.
+    pub(crate) material: &'a PhongMaterial,
+    /// True if [`RenderScene::detail`] adds nothing.
     pub(crate) is_plain: bool,
 }
 
-impl Surroundings {
-    /// Adds a light to the world, or puts it in place of the one of its name; its pose is
-    /// `world_from_light`. Lights on links come and go with their models.
+impl RenderScene {
+    /// Adds a light to the world or replaces the light of the same name; its pose is
+    /// `world_from_light`. Lights on links are added and removed with their models.
     pub fn set_light(&mut self, light: &Light) {
         self.remove_light(&light.name);
-        self.lamps.push(Lamp { light: light.clone(), part: None });
+        self.light_sources.push(LightSource { light: light.clone(), part: None });
     }
 
-    /// Puts a light in place of the one of its name on a link; false if there is none.
+    /// Replaces the light of the same name on a link; returns false if there is none.
     pub fn set_light_on(&mut self, PartId(part): PartId, light: &Light) -> bool {
-        let mut lamps = self.lamps.iter_mut().filter(|lamp| lamp.part == Some(part));
-        let known = lamps.find(|lamp| lamp.light.name == light.name);
+        let mut light_sources =
+            self.light_sources.iter_mut().filter(|lamp| lamp.part == Some(part));
+        let known = light_sources.find(|lamp| lamp.light.name == light.name);
         known.map(|lamp| lamp.light = light.clone()).is_some()
     }
 
-    /// Takes a light of the world away; false if there is none of this name.
+    /// Removes a light of the world; returns false if there is none of this name.
     pub fn remove_light(&mut self, name: &str) -> bool {
-        let before = self.lamps.len();
-        self.lamps.retain(|lamp| lamp.part.is_some() || lamp.light.name != name);
-        self.lamps.len() < before
+        let before = self.light_sources.len();
+        self.light_sources.retain(|lamp| lamp.part.is_some() || lamp.light.name != name);
+        self.light_sources.len() < before
     }
 
     pub(crate) fn sky(&self) -> Sky {
         self.sky
     }
 
-    /// All lights that shine, where they are now.
-    pub(crate) fn shines(&self) -> Vec<Shine> {
-        let placed = |lamp: &Lamp| {
+    /// Returns all active lights at their current poses.
+    pub(crate) fn active_lights(&self) -> Vec<WorldLight> {
+        let placed = |lamp: &LightSource| {
             let world_from_parent = match lamp.part {
                 None => Pose::IDENTITY,
                 Some(part) => self.world_from_part(PartId(part))?,
             };
-            Shine::of(&lamp.light, world_from_parent * lamp.light.parent_from_light)
+            WorldLight::of(&lamp.light, world_from_parent * lamp.light.parent_from_light)
         };
-        self.lamps.iter().filter_map(placed).collect()
+        self.light_sources.iter().filter_map(placed).collect()
     }
 
-    /// The look of what a ray met.
-    pub(crate) fn met(&self, hit: &Hit) -> Met<'_> {
-        let thing = self.thing(hit.instance);
-        let look = thing.look(hit.primitive);
-        let is_plain = match &thing.body {
-            Some(Body::Mesh(mesh)) => {
-                let Selected { normals, uvs, .. } = &mesh.selected;
-                normals.is_empty() && (look.texture.is_none() || uvs.is_empty())
+    /// Returns the material of a hit.
+    pub(crate) fn hit_material(&self, hit: &Hit) -> HitMaterial<'_> {
+        let record = self.record(hit.instance);
+        let material = record.material(hit.primitive);
+        let is_plain = match &record.body {
+            Some(RenderBody::Mesh(mesh)) => {
+                let SelectedMesh { normals, uvs, .. } = &mesh.selected;
+                normals.is_empty() && (material.texture.is_none() || uvs.is_empty())
             }
             _ => true,
         };
-        Met { instance: hit.instance, primitive: hit.primitive, look, is_plain }
+        HitMaterial { instance: hit.instance, primitive: hit.primitive, material, is_plain }
     }
 
-    /// Class and number of what a ray met.
+    /// Returns class and instance number of a hit.
     pub(crate) fn label_of(&self, instance: InstanceId) -> Option<(u8, u16)> {
-        self.thing(instance).label.map(|label| (label.class, label.number))
+        self.record(instance).label.map(|label| (label.class, label.number))
     }
 
-    /// The normal for light, and the colour of the texture with the opacity of all.
+    /// Returns the shading normal, and the colour factor of the texture with the total opacity.
     pub(crate) fn detail(&self, hit: &Hit, point: DVec3) -> (DVec3, [f32; 4]) {
-        let thing = self.thing(hit.instance);
-        let look = thing.look(hit.primitive);
-        let plain = (hit.normal, [1.0, 1.0, 1.0, look.opacity]);
-        let Some(Body::Mesh(mesh)) = &thing.body else { return plain };
+        let record = self.record(hit.instance);
+        let material = record.material(hit.primitive);
+        let plain = (hit.normal, [1.0, 1.0, 1.0, material.opacity]);
+        let Some(RenderBody::Mesh(mesh)) = &record.body else { return plain };
         let selected = &mesh.selected;
-        let textured = look.texture.as_ref().filter(|_| !selected.uvs.is_empty());
+        let textured = material.texture.as_ref().filter(|_| !selected.uvs.is_empty());
         if textured.is_none() && selected.normals.is_empty() {
             return plain;
         }
-        let part = &self.parts[thing.part as usize];
-        let world_from_body = part.world_from_link * thing.link_from_body;
+        let part = &self.parts[record.part as usize];
+        let world_from_body = part.world_from_link * record.link_from_body;
         let point = world_from_body.inverse().transform_point(point);
         let Some(corners) = selected.triangles.get(hit.primitive as usize) else { return plain };
-        let Some(shares) = shares(selected, *corners, point) else { return plain };
+        let Some(barycentric) = barycentric(selected, *corners, point) else { return plain };
         let mut normal = hit.normal;
         if !selected.normals.is_empty() {
-            let blended = blend(*corners, shares, |corner| selected.normals[corner].map(f64::from));
+            let blended =
+                blend(*corners, barycentric, |corner| selected.normals[corner].map(f64::from));
             let smooth = world_from_body.rotation * DVec3::from_array(blended);
-            // Seen from behind, or bent away from the eye by rough shapes: the flat one is better.
+            // Interpolated normals that face away from the eye are replaced by the flat one.
             let smooth = smooth.normalize_or_zero();
             let facing = smooth.dot(hit.normal);
             if facing.abs() > 0.2 {
@@ -132,19 +134,19 @@ impl Surroundings {
         }
         let mut tint = plain.1;
         if let Some(image) = textured {
-            let [u, v, _] = blend(*corners, shares, |corner| {
+            let [u, v, _] = blend(*corners, barycentric, |corner| {
                 let [u, v] = selected.uvs[corner].map(f64::from);
                 [u, v, 0.0]
             });
             let [r, g, b, a] = sample(image, u, v);
-            tint = [r, g, b, a * look.opacity];
+            tint = [r, g, b, a * material.opacity];
         }
         (normal, tint)
     }
 }
 
-/// The weights of the corners of a triangle at a point; none if it has no area.
-fn shares(selected: &Selected, corners: [u32; 3], point: DVec3) -> Option<[f64; 3]> {
+/// Returns the barycentric coordinates of a point; `None` for a degenerate triangle.
+fn barycentric(selected: &SelectedMesh, corners: [u32; 3], point: DVec3) -> Option<[f64; 3]> {
     let [a, b, c] = corners.map(|corner| DVec3::from_array(selected.positions_m[corner as usize]));
     let (ab, ac, ap) = (b - a, c - a, point - a);
     let normal = ab.cross(ac);
@@ -157,13 +159,13 @@ fn shares(selected: &Selected, corners: [u32; 3], point: DVec3) -> Option<[f64; 
     Some([1.0 - of_b - of_c, of_b, of_c])
 }
 
-fn blend(corners: [u32; 3], shares: [f64; 3], of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+fn blend(corners: [u32; 3], barycentric: [f64; 3], of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| of(corner as usize));
-    [0, 1, 2].map(|k: usize| a[k] * shares[0] + b[k] * shares[1] + c[k] * shares[2])
+    [0, 1, 2].map(|k: usize| a[k] * barycentric[0] + b[k] * barycentric[1] + c[k] * barycentric[2])
 }
 
-/// The colour of an image at texture coordinates, v upwards, repeated without end, blended between
-/// the middles of pixels.
+/// Returns the colour of an image at texture coordinates, v upwards, repeated, with bilinear
+/// interpolation.
 #[expect(clippy::cast_possible_truncation, reason = "pixel numbers are within the image")]
 fn sample(image: &Image, u: f64, v: f64) -> [f32; 4] {
     let (width, height) = (f64::from(image.width), f64::from(image.height));

@@ -1,141 +1,143 @@
-//! Names, and what a hit is.
+//! Lookup by name, and the surface of a hit.
 
 use periplus_geometry::Pose;
 use periplus_raycast::{Hit, InstanceId};
 use periplus_scene::Colour;
 
-use super::{ModelId, PartId, Surroundings, Thing, range};
-use crate::body::Body;
-use crate::look::Look;
+use super::{PartId, RenderModelId, RenderScene, ShapeRecord, range};
+use crate::body::RenderBody;
+use crate::phong::PhongMaterial;
 
-/// What a ray met.
+/// Surface of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface<'a> {
-    /// The link.
+pub struct HitSurface<'a> {
+    /// Id of the link.
     pub part: PartId,
-    /// The model's name.
+    /// Name of the model.
     pub model: &'a str,
-    /// The link's name, scoped within the model.
+    /// Name of the link, scoped within the model.
     pub link: &'a str,
-    /// The collision's or visual's name.
+    /// Name of the collision or visual.
     pub name: &'a str,
-    /// Brightness to a laser.
+    /// Laser intensity (`laser_retro`).
     pub laser_retro: f64,
-    /// The class for segmentation; none where no plugin gives one.
+    /// Segmentation class; `None` without a label.
     pub label: Option<u8>,
-    /// Counts the labelled models or visuals of one class, from 1 on; 0 without a label.
+    /// Instance number within the class, from 1; 0 without a label.
     pub instance: u16,
-    /// Colour under direct light, and opacity; textures left aside.
+    /// Colour under direct light, and opacity, without textures.
     pub colour: Colour,
 }
 
-impl Surroundings {
-    /// What a ray of [`Self::rays`] met.
+impl RenderScene {
+    /// Returns the surface of a hit of [`Self::rays`].
     ///
     /// # Panics
-    /// When the hit is one of another world, or older than a change of this.
+    /// When the hit is of another world, or older than a change of this one.
     #[must_use]
-    pub fn surface(&self, hit: &Hit) -> Surface<'_> {
-        let thing = self.thing(hit.instance);
-        let part = &self.parts[thing.part as usize];
-        let look = thing.look(hit.primitive);
-        let [r, g, b] = look.diffuse.map(f64::from);
-        Surface {
-            part: PartId(thing.part),
+    pub fn surface(&self, hit: &Hit) -> HitSurface<'_> {
+        let record = self.record(hit.instance);
+        let part = &self.parts[record.part as usize];
+        let material = record.material(hit.primitive);
+        let [r, g, b] = material.diffuse.map(f64::from);
+        HitSurface {
+            part: PartId(record.part),
             model: &self.models[part.model as usize].name,
             link: &part.name,
-            name: &thing.name,
-            laser_retro: thing.laser_retro,
-            label: thing.label.map(|label| label.class),
-            instance: thing.label.map_or(0, |label| label.number),
-            colour: Colour([r, g, b, look.opacity.into()]),
+            name: &record.name,
+            laser_retro: record.laser_retro,
+            label: record.label.map(|label| label.class),
+            instance: record.label.map_or(0, |label| label.number),
+            colour: Colour([r, g, b, material.opacity.into()]),
         }
     }
 
-    /// Brightness to a laser of what a ray met; quicker than [`Self::surface`].
+    /// Returns the laser intensity of a hit; faster than [`Self::surface`].
     ///
     /// # Panics
     /// As [`Self::surface`].
     #[must_use]
     pub fn laser_retro(&self, instance: InstanceId) -> f64 {
-        self.thing(instance).laser_retro
+        self.record(instance).laser_retro
     }
 
-    /// Whether anything here has a brightness to a laser other than 0; if not, nobody need ask.
+    /// Returns true if any shape has a laser intensity other than 0.
     #[must_use]
     pub fn has_laser_retro(&self) -> bool {
-        self.things.iter().any(|thing| thing.body.is_some() && thing.laser_retro != 0.0)
+        self.shape_records.iter().any(|record| record.body.is_some() && record.laser_retro != 0.0)
     }
 
-    pub(super) fn thing(&self, InstanceId(number): InstanceId) -> &Thing {
-        &self.things[self.thing_of[number as usize] as usize]
+    pub(super) fn record(&self, InstanceId(number): InstanceId) -> &ShapeRecord {
+        &self.shape_records[self.record_of_instance[number as usize] as usize]
     }
 
-    /// All models that are there, in the order of adding.
-    pub fn models(&self) -> impl Iterator<Item = ModelId> {
+    /// Returns all models in the order of adding.
+    pub fn models(&self) -> impl Iterator<Item = RenderModelId> {
         let present = (0_u32..).zip(&self.models).filter(|(_, model)| !model.removed);
-        present.map(|(number, _)| ModelId(number))
+        present.map(|(number, _)| RenderModelId(number))
     }
 
-    /// The first model of a name.
+    /// Returns the first model of a name.
     #[must_use]
-    pub fn find_model(&self, name: &str) -> Option<ModelId> {
-        self.models().find(|&ModelId(number)| self.models[number as usize].name == name)
+    pub fn find_model(&self, name: &str) -> Option<RenderModelId> {
+        self.models().find(|&RenderModelId(number)| self.models[number as usize].name == name)
     }
 
-    /// The name of a model.
+    /// Returns the name of a model.
     #[must_use]
-    pub fn model_name(&self, ModelId(number): ModelId) -> Option<&str> {
+    pub fn model_name(&self, RenderModelId(number): RenderModelId) -> Option<&str> {
         self.models.get(number as usize).map(|model| model.name.as_str())
     }
 
-    /// The links of a model, in the order in which `periplus_physics` numbers them; none of a model
-    /// that was removed.
-    pub fn parts(&self, ModelId(number): ModelId) -> impl Iterator<Item = PartId> + use<> {
+    /// Returns the links of a model in the order of `periplus_physics`; empty for a removed model.
+    pub fn parts(
+        &self,
+        RenderModelId(number): RenderModelId,
+    ) -> impl Iterator<Item = PartId> + use<> {
         let model = self.models.get(number as usize).filter(|model| !model.removed);
         model.map_or(0..0, |model| model.parts.clone()).map(PartId)
     }
 
-    /// A link of a model by its scoped name.
+    /// Returns a link of a model by its scoped name.
     #[must_use]
-    pub fn find_part(&self, model: ModelId, name: &str) -> Option<PartId> {
+    pub fn find_part(&self, model: RenderModelId, name: &str) -> Option<PartId> {
         self.parts(model).find(|&part| self.part_name(part) == Some(name))
     }
 
-    /// The model of a link.
+    /// Returns the model of a link.
     #[must_use]
-    pub fn model_of(&self, PartId(number): PartId) -> Option<ModelId> {
-        self.parts.get(number as usize).map(|part| ModelId(part.model))
+    pub fn model_of(&self, PartId(number): PartId) -> Option<RenderModelId> {
+        self.parts.get(number as usize).map(|part| RenderModelId(part.model))
     }
 
-    /// The name of a link, scoped within its model.
+    /// Returns the name of a link, scoped within its model.
     #[must_use]
     pub fn part_name(&self, PartId(number): PartId) -> Option<&str> {
         self.parts.get(number as usize).map(|part| part.name.as_str())
     }
 
-    /// Where a link was put last.
+    /// Returns the last pose of a link.
     #[must_use]
     pub fn world_from_part(&self, PartId(number): PartId) -> Option<Pose> {
         self.parts.get(number as usize).map(|part| part.world_from_link)
     }
 
-    /// How many collisions or visuals a link has here.
+    /// Returns the number of collisions or visuals of a link.
     #[must_use]
-    pub fn shapes_of(&self, PartId(number): PartId) -> usize {
-        self.parts.get(number as usize).map_or(0, |part| range(&part.things).len())
+    pub fn shape_count(&self, PartId(number): PartId) -> usize {
+        self.parts.get(number as usize).map_or(0, |part| range(&part.shape_records).len())
     }
 }
 
-impl Thing {
-    /// The look of a primitive.
-    pub(super) fn look(&self, primitive: u32) -> &Look {
+impl ShapeRecord {
+    /// Returns the material of a primitive.
+    pub(super) fn material(&self, primitive: u32) -> &PhongMaterial {
         let part = match &self.body {
-            Some(Body::Mesh(mesh)) if self.looks.len() > 1 => {
+            Some(RenderBody::Mesh(mesh)) if self.materials.len() > 1 => {
                 mesh.selected.parts.partition_point(|&(first, _)| first <= primitive).max(1) - 1
             }
             _ => 0,
         };
-        &self.looks[part.min(self.looks.len() - 1)]
+        &self.materials[part.min(self.materials.len() - 1)]
     }
 }

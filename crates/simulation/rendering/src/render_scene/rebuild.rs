@@ -1,24 +1,24 @@
-//! From things to the world that rays meet.
+//! Building of the ray-cast world from shape records.
 
 use std::ops::Range;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
-use periplus_raycast::{BadInstance, InstanceId, Tags, World, WorldBuilder};
+use periplus_raycast::{InstanceError, InstanceId, RaycastWorld, RaycastWorldBuilder, Tags};
 
-use super::Surroundings;
-use crate::body::Body;
+use super::RenderScene;
+use crate::body::RenderBody;
 
-/// A world without anything.
-pub(super) fn nothing() -> World {
-    // No triangles are never too many.
-    World::builder().build(1).unwrap_or_else(|_| unreachable!("an empty world can be built"))
+/// Returns an empty world.
+pub(super) fn nothing() -> RaycastWorld {
+    // Zero triangles never exceed the limit.
+    RaycastWorld::builder().build(1).unwrap_or_else(|_| unreachable!("an empty world can be built"))
 }
 
-impl Surroundings {
-    /// Makes the rays' world from all things, static meshes in one tree.
+impl RenderScene {
+    /// Builds the ray-cast world from all shapes, static meshes in one tree.
     pub(super) fn build(&mut self, diagnostics: &mut Diagnostics) {
-        let (builder, numbers) = self.collect(0..self.things.len(), diagnostics);
+        let (builder, numbers) = self.collect(0..self.shape_records.len(), diagnostics);
         match builder.build(self.threads) {
             Ok(world) => {
                 self.rays = world;
@@ -28,78 +28,83 @@ impl Surroundings {
         }
     }
 
-    /// Adds things to the rays' world; the trees that are there stay.
-    pub(super) fn insert(&mut self, things: Range<usize>, diagnostics: &mut Diagnostics) {
-        let (builder, numbers) = self.collect(things, diagnostics);
+    /// Adds shapes to the ray-cast world; existing trees are kept.
+    pub(super) fn insert(&mut self, shape_records: Range<usize>, diagnostics: &mut Diagnostics) {
+        let (builder, numbers) = self.collect(shape_records, diagnostics);
         match self.rays.insert(builder, self.threads) {
             Ok(InstanceId(first)) => self.number(first, &numbers),
             Err(error) => too_many(error, diagnostics),
         }
     }
 
-    /// What is to be built of some things, and which of them are in it.
+    /// Collects a builder for some shapes, and the indices of the shapes in it.
     fn collect(
         &self,
-        things: Range<usize>,
+        shape_records: Range<usize>,
         diagnostics: &mut Diagnostics,
-    ) -> (WorldBuilder, Vec<usize>) {
-        let mut builder = World::builder();
+    ) -> (RaycastWorldBuilder, Vec<usize>) {
+        let mut builder = RaycastWorld::builder();
         let mut numbers = Vec::new();
-        for number in things {
-            let thing = &self.things[number];
-            let Some(body) = &thing.body else { continue };
-            let part = &self.parts[thing.part as usize];
-            let world_from_body = part.world_from_link * thing.link_from_body;
+        for number in shape_records {
+            let record = &self.shape_records[number];
+            let Some(body) = &record.body else { continue };
+            let part = &self.parts[record.part as usize];
+            let world_from_body = part.world_from_link * record.link_from_body;
             let added =
-                put(&mut builder, body, part.fixed, &world_from_body, thing.tags, self.threads);
+                put(&mut builder, body, part.fixed, &world_from_body, record.tags, self.threads);
             match added {
                 Ok(_) => numbers.push(number),
                 Err(error) => diagnostics.push(Diagnostic::error(
                     "shape-impossible",
-                    format!("`{}::{}`: {error}", part.name, thing.name),
+                    format!("`{}::{}`: {error}", part.name, record.name),
                 )),
             }
         }
         (builder, numbers)
     }
 
-    /// Writes down which instances from `first` on are which things.
-    fn number(&mut self, first: u32, things: &[usize]) {
-        for (instance, &thing) in (first..).zip(things) {
-            self.things[thing].instance = Some(InstanceId(instance));
-            // Things are counted in 32 bits.
+    /// Records which instances from `first` on belong to which shapes.
+    fn number(&mut self, first: u32, shape_records: &[usize]) {
+        for (instance, &record) in (first..).zip(shape_records) {
+            self.shape_records[record].instance = Some(InstanceId(instance));
+            // Shape counts fit into 32 bits.
             #[expect(clippy::cast_possible_truncation, reason = "see above")]
-            self.thing_of.push(thing as u32);
+            self.record_of_instance.push(record as u32);
         }
     }
 }
 
-fn too_many(error: BadInstance, diagnostics: &mut Diagnostics) {
+fn too_many(error: InstanceError, diagnostics: &mut Diagnostics) {
     diagnostics.push(
-        Diagnostic::error("too-many-triangles", format!("no sensor sees these: {error}"))
-            .help("use simpler meshes"),
+        Diagnostic::error(
+            "too-many-triangles",
+            format!("sensors do not see these shapes: {error}"),
+        )
+        .help("use simpler meshes"),
     );
 }
 
-/// Adds a body to what is to be built.
+/// Adds a body to a builder.
 pub(super) fn put(
-    builder: &mut WorldBuilder,
-    body: &Body,
+    builder: &mut RaycastWorldBuilder,
+    body: &RenderBody,
     fixed: bool,
     world_from_body: &Pose,
     tags: Tags,
     threads: usize,
-) -> Result<InstanceId, BadInstance> {
+) -> Result<InstanceId, InstanceError> {
     match body {
-        Body::Form(form) => builder.add_shape(form, world_from_body, tags),
-        Body::Mesh(mesh) if fixed => {
+        RenderBody::Shape(form) => builder.add_shape(form, world_from_body, tags),
+        RenderBody::Mesh(mesh) if fixed => {
             let selected = &mesh.selected;
             builder.add_fixed(&selected.positions_m, &selected.triangles, world_from_body, tags)
         }
-        Body::Mesh(mesh) => {
-            let tree = mesh.tree(threads).map_err(BadInstance::Mesh)?;
+        RenderBody::Mesh(mesh) => {
+            let tree = mesh.tree(threads).map_err(InstanceError::Mesh)?;
             builder.add_mesh(tree, world_from_body, tags)
         }
-        Body::Ground(heights) => builder.add_heightfield(heights.clone(), world_from_body, tags),
+        RenderBody::Heightmap(heights) => {
+            builder.add_heightfield(heights.clone(), world_from_body, tags)
+        }
     }
 }

@@ -9,7 +9,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs::{Bool, Empty};
-use periplus_rendering::{Geometry, Lens, Picture, Shot, Wanted};
+use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{ImageNoise, Pinhole, Streams};
 
@@ -45,7 +45,7 @@ struct Eye {
     noisy_depths: bool,
     /// Least and greatest depth that is told \[m\].
     depth_range_m: [f64; 2],
-    picture: Picture,
+    picture: RenderedImages,
     outs: Vec<Out>,
 }
 
@@ -128,7 +128,7 @@ fn eye(
         noisy_depths: camera.kind == CameraKind::Depth
             && order.ports.iter().all(|port| port.style == Style::Gz),
         depth_range_m,
-        picture: Picture::default(),
+        picture: RenderedImages::default(),
         outs: all,
     })
 }
@@ -202,19 +202,19 @@ impl CameraDevice {
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let threads = moment.threads;
         for eye in &mut self.eyes {
-            let wanted = eye.wanted();
-            if wanted != Wanted::default() {
-                let shot = Shot {
+            let outputs = eye.outputs();
+            if outputs != ImageOutputs::default() {
+                let shot = RenderRequest {
                     lens: &eye.lens,
                     world_from_camera: motion.world_from_sensor * eye.sensor_from_camera,
                     near_m: eye.near_m,
                     far_m: eye.far_m,
                     visibility_mask: eye.visibility_mask,
                     own: None,
-                    wanted,
+                    outputs,
                     threads,
                 };
-                moment.seen(Geometry::Visual).take(&shot, &mut eye.picture);
+                moment.seen(SensedGeometry::Visual).render(&shot, &mut eye.picture);
                 eye.spoil(&mut eye.streams.tick(tick));
             }
             for out in &eye.outs {
@@ -226,10 +226,10 @@ impl CameraDevice {
 
 impl Eye {
     /// The images that somebody hears.
-    fn wanted(&self) -> Wanted {
-        self.outs.iter().filter(|out| out.is_heard()).fold(Wanted::default(), |all, out| {
-            let Wanted { colour, depth, labels } = out.needs();
-            Wanted {
+    fn outputs(&self) -> ImageOutputs {
+        self.outs.iter().filter(|out| out.is_heard()).fold(ImageOutputs::default(), |all, out| {
+            let ImageOutputs { colour, depth, labels } = out.needs();
+            ImageOutputs {
                 colour: all.colour || colour,
                 depth: all.depth || depth,
                 labels: all.labels || labels,

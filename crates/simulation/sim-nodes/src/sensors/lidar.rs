@@ -8,7 +8,7 @@ use periplus_graph::{GraphError, Publisher, Qos};
 use periplus_msgs::{Message, sensor_msgs};
 use periplus_physics::LinkId;
 use periplus_plugin_specs::Interpreted;
-use periplus_rendering::{Geometry, filter};
+use periplus_rendering::{SensedGeometry, filter};
 use periplus_sensors::{Lidar, Schedule, Streams, Sweep, View};
 
 use super::post::Post;
@@ -62,7 +62,7 @@ struct LidarDevice {
     schedule: Schedule,
     link: LinkId,
     link_from_sensor: Pose,
-    geometry: Geometry,
+    geometry: SensedGeometry,
     visibility_mask: u32,
     outputs: Vec<Output>,
     /// Number of the last measurement that was due.
@@ -125,9 +125,9 @@ pub(super) fn build(
         link_from_sensor: post.link_from_sensor(),
         // As in Gazebo: the graphics card renders what is seen, the others ask physics.
         geometry: if post.sensor.type_name.starts_with("gpu") {
-            Geometry::Visual
+            SensedGeometry::Visual
         } else {
-            Geometry::Collision
+            SensedGeometry::Collision
         },
         visibility_mask: spec.visibility_mask,
         outputs,

@@ -3,7 +3,7 @@
 use periplus_graph::Publisher;
 use periplus_msgs::sensor_msgs::Range;
 use periplus_msgs::std_msgs::Header;
-use periplus_rendering::{Geometry, filter};
+use periplus_rendering::{SensedGeometry, filter};
 use periplus_scene::SensorKind;
 use periplus_sensors::{Sonar, View};
 
@@ -47,9 +47,9 @@ impl Device for SonarDevice {
             return;
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
-        let own = moment.part(Geometry::Collision, self.mount.link);
+        let own = moment.part(SensedGeometry::Collision, self.mount.link);
         let threads = moment.threads;
-        let seen = moment.seen(Geometry::Collision);
+        let seen = moment.seen(SensedGeometry::Collision);
         let view = View {
             filter: filter(u32::MAX, None),
             own_group: own.and_then(|part| seen.model_of(part)).map_or(0, |model| model.group().0),

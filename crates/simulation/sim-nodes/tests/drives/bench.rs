@@ -8,7 +8,7 @@ use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_physics::{Mode, ModelId, NoMeshes, World};
 use periplus_plugin_specs::{interpret, model_sites};
-use periplus_rendering::NoShapes;
+use periplus_rendering::NoAssets;
 use periplus_scene as scene;
 use periplus_sdf::{Context, NoIncludes, read_document};
 use periplus_sensors::Quirks;
@@ -107,7 +107,7 @@ impl Bench {
         let devices = devices(&graph, &world, &scene, model, &mut diagnostics);
         let said = said(&sources, &diagnostics);
         let ear = graph.node(NodeSettings::new("ear")).unwrap();
-        let views = Views::new(Arc::new(NoShapes), 1);
+        let views = Views::new(Arc::new(NoAssets), 1);
         Self { graph, world, model, scene, said, devices, views, ear, now_ns: 0 }
     }
 

@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::Message;
 use periplus_physics::{Mode, NoMeshes, World};
-use periplus_rendering::NoShapes;
+use periplus_rendering::NoAssets;
 use periplus_sdf::{Context, NoIncludes, read_document};
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::{Device, Moment, Setting, Span, Views, devices};
@@ -67,7 +67,7 @@ impl Bench {
         let scene = read_document(&document, &mut context).worlds.remove(0);
         let (world, _) = World::new(&scene, mode, &NoMeshes);
         let graph = Graph::new();
-        let mut views = Views::new(Arc::new(NoShapes), 1);
+        let mut views = Views::new(Arc::new(NoAssets), 1);
         for (model, (id, _)) in scene.models.iter().zip(world.models()) {
             views.add(Arc::new(model.clone()), id, &world);
         }

@@ -7,7 +7,7 @@ use periplus_geometry::{Pose, Rpy};
 use periplus_graph::{GraphError, Publisher, Qos, valid_topic_name};
 use periplus_msgs::sensor_msgs::{CameraInfo, Image, PointCloud2};
 use periplus_msgs::std_msgs::Header;
-use periplus_rendering::{Picture, Wanted};
+use periplus_rendering::{ImageOutputs, RenderedImages};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{Calibration, Pinhole};
 
@@ -46,13 +46,17 @@ impl Out {
         }
     }
 
-    pub(super) fn needs(&self) -> Wanted {
+    pub(super) fn needs(&self) -> ImageOutputs {
         match &self.to {
-            To::Colour(..) => Wanted { colour: true, ..Wanted::default() },
-            To::Depth(_) | To::Millimetres(_) => Wanted { depth: true, ..Wanted::default() },
-            To::Points(..) => Wanted { colour: true, depth: true, ..Wanted::default() },
-            To::ColouredLabels(_) | To::Labels(_) => Wanted { labels: true, ..Wanted::default() },
-            To::Info(..) => Wanted::default(),
+            To::Colour(..) => ImageOutputs { colour: true, ..ImageOutputs::default() },
+            To::Depth(_) | To::Millimetres(_) => {
+                ImageOutputs { depth: true, ..ImageOutputs::default() }
+            }
+            To::Points(..) => ImageOutputs { colour: true, depth: true, ..ImageOutputs::default() },
+            To::ColouredLabels(_) | To::Labels(_) => {
+                ImageOutputs { labels: true, ..ImageOutputs::default() }
+            }
+            To::Info(..) => ImageOutputs::default(),
         }
     }
 
@@ -70,7 +74,7 @@ impl Out {
         Some((out.topic().to_owned(), self.frame.clone(), camera_from_points))
     }
 
-    pub(super) fn publish(&self, picture: &Picture, pinhole: &Pinhole, time_ns: i64) {
+    pub(super) fn publish(&self, picture: &RenderedImages, pinhole: &Pinhole, time_ns: i64) {
         if !self.is_heard() {
             return;
         }

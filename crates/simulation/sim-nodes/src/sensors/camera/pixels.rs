@@ -3,7 +3,7 @@
 use periplus_geometry::Stream;
 use periplus_msgs::sensor_msgs::Image;
 use periplus_msgs::std_msgs::Header;
-use periplus_rendering::Picture;
+use periplus_rendering::RenderedImages;
 
 /// How colours are told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +38,7 @@ impl Encoding {
     }
 }
 
-pub(super) fn colour_image(header: Header, picture: &Picture, encoding: Encoding) -> Image {
+pub(super) fn colour_image(header: Header, picture: &RenderedImages, encoding: Encoding) -> Image {
     let rgb = &picture.rgb;
     let pixels = rgb.chunks_exact(3);
     // A byte b of 255 is b · 257 of 65535.
@@ -60,7 +60,7 @@ fn brightness(pixel: &[u8]) -> u8 {
 }
 
 /// Depths in metres, `32FC1`.
-pub(super) fn depth_image(header: Header, picture: &Picture) -> Image {
+pub(super) fn depth_image(header: Header, picture: &RenderedImages) -> Image {
     let data = if cfg!(target_endian = "little") {
         bytemuck::cast_slice(&picture.depth_m).to_vec()
     } else {
@@ -70,7 +70,7 @@ pub(super) fn depth_image(header: Header, picture: &Picture) -> Image {
 }
 
 /// Depths in millimetres, `16UC1`; 0 where there is none (OpenNI).
-pub(super) fn millimetre_image(header: Header, picture: &Picture) -> Image {
+pub(super) fn millimetre_image(header: Header, picture: &RenderedImages) -> Image {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to u16")]
     let millimetres = |depth_m: &f32| {
         if depth_m.is_finite() { (depth_m * 1000.0).clamp(0.0, 65535.0) as u16 } else { 0 }
@@ -81,7 +81,7 @@ pub(super) fn millimetre_image(header: Header, picture: &Picture) -> Image {
 
 /// Labels of gz's segmentation cameras: the instance in the first two bytes, the class in the third;
 /// or a colour of their own for each.
-pub(super) fn label_image(header: Header, picture: &Picture, coloured: bool) -> Image {
+pub(super) fn label_image(header: Header, picture: &RenderedImages, coloured: bool) -> Image {
     let mut data = Vec::with_capacity(picture.classes.len() * 3);
     let mut last = ((0, 0), [0; 3]);
     for (&class, &instance) in picture.classes.iter().zip(&picture.instances) {
@@ -108,7 +108,7 @@ fn colour_of(class: u8, instance: u16) -> [u8; 3] {
     [bytes[0] | 32, bytes[1] | 32, bytes[2] | 32]
 }
 
-fn image(header: Header, picture: &Picture, encoding: &str, data: Vec<u8>) -> Image {
+fn image(header: Header, picture: &RenderedImages, encoding: &str, data: Vec<u8>) -> Image {
     let rows = (picture.height as usize).max(1);
     Image {
         header,

@@ -2,7 +2,7 @@
 
 use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 use periplus_msgs::std_msgs::Header;
-use periplus_rendering::Picture;
+use periplus_rendering::RenderedImages;
 use periplus_sensors::Pinhole;
 
 use super::super::cloud::{Column, Layout};
@@ -28,7 +28,7 @@ const COLUMNS: &[Column] = &[
 /// A point for every pixel; infinite in all three where there is none.
 pub(super) fn cloud(
     header: Header,
-    picture: &Picture,
+    picture: &RenderedImages,
     pinhole: &Pinhole,
     kind: Cloud,
 ) -> PointCloud2 {

@@ -4,7 +4,7 @@ use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_msgs::geometry_msgs::{Point, Vector3};
 use periplus_msgs::std_msgs::{ColorRGBA, Header};
 use periplus_msgs::visualization_msgs::{Marker, MarkerArray};
-use periplus_rendering::ground;
+use periplus_rendering::sample_heightmap;
 use periplus_scene::{
     Colour, Material, Mesh, Model, Polyline, Shape, Trapezoid, Visual, edges, trapezoids,
 };
@@ -106,9 +106,9 @@ impl Artist<'_> {
             Shape::Polylines(outlines) => self.triangles(blank, at, prism(outlines)),
             Shape::Heightmap(map) => {
                 // What is wrong with it is told by those who see it.
-                if let Ok(ground) = ground(map, self.simulation.files()) {
-                    let at = at * ground.shape_from_ground;
-                    self.triangles(blank, at, hills(&ground));
+                if let Ok(samples) = sample_heightmap(map, self.simulation.files()) {
+                    let at = at * samples.shape_from_heightmap;
+                    self.triangles(blank, at, terrain_triangles(&samples));
                 }
             }
             Shape::Empty | Shape::Image(_) | Shape::Unknown(_) => {}
@@ -205,8 +205,8 @@ fn prism(outlines: &[Polyline]) -> Vec<DVec3> {
 }
 
 /// A ground as triangles, coarser where it is fine.
-fn hills(ground: &periplus_rendering::Ground) -> Vec<DVec3> {
-    let step = ground.columns.max(ground.rows).div_ceil(MOST_POINTS).max(1);
+fn terrain_triangles(samples: &periplus_rendering::HeightmapSamples) -> Vec<DVec3> {
+    let step = samples.columns.max(samples.rows).div_ceil(MOST_POINTS).max(1);
     let places = |count: usize| -> Vec<usize> {
         let mut places: Vec<usize> = (0..count).step_by(step).collect();
         if places.last() != Some(&(count - 1)) {
@@ -217,12 +217,12 @@ fn hills(ground: &periplus_rendering::Ground) -> Vec<DVec3> {
     let along = |place: usize, count: usize, length: f64| {
         length * (place as f64 / (count - 1) as f64 - 0.5)
     };
-    let [x_m, y_m] = ground.size_m;
+    let [x_m, y_m] = samples.size_m;
     let point = |column: usize, row: usize| {
-        let z = ground.heights_m[row * ground.columns + column];
-        DVec3::new(along(column, ground.columns, x_m), along(row, ground.rows, y_m), z)
+        let z = samples.heights_m[row * samples.columns + column];
+        DVec3::new(along(column, samples.columns, x_m), along(row, samples.rows, y_m), z)
     };
-    let (columns, rows) = (places(ground.columns), places(ground.rows));
+    let (columns, rows) = (places(samples.columns), places(samples.rows));
     let mut points = Vec::new();
     for row in rows.windows(2) {
         for column in columns.windows(2) {
