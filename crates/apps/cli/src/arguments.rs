@@ -1,4 +1,4 @@
-//! What a command line says to nodes.
+//! `--ros-args` of a command line.
 
 use std::io;
 use std::path::Path;
@@ -10,7 +10,7 @@ use periplus_resources::{Host as _, ReadError};
 
 use crate::terminal;
 
-/// Reads the words of `--ros-args`; none when they have errors, which are told.
+/// Reads the words of `--ros-args`; prints the findings and returns `None` when one is an error.
 pub(crate) fn read(words: Vec<String>) -> io::Result<Option<Arguments>> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let arguments = Arguments::read(&words, &mut sources, &mut diagnostics, &mut text);
@@ -20,8 +20,8 @@ pub(crate) fn read(words: Vec<String>) -> io::Result<Option<Arguments>> {
 
 fn text(path: &Path) -> Result<String, String> {
     let bytes = Machine.read(path).map_err(|error| match error {
-        ReadError::Missing => "is not there".to_owned(),
+        ReadError::Missing => "does not exist".to_owned(),
         error => format!("cannot be read: {error}"),
     })?;
-    String::from_utf8(bytes).map_err(|_| "is no text".into())
+    String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".into())
 }

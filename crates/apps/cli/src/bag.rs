@@ -34,7 +34,7 @@ pub(crate) fn run(command: &BagCommand) -> io::Result<ExitCode> {
     }
 }
 
-/// Opens a recording and tells what is wrong with it; none when it cannot be opened.
+/// Opens a recording and prints its findings; `None` when it cannot be opened.
 fn open(path: &Path) -> io::Result<Option<Bag>> {
     match paths::bag(path) {
         Ok(bag) => {

@@ -25,13 +25,13 @@ use crate::terminal;
 use services::Services;
 use spec::Spec;
 
-/// How often it is looked whether something is due.
+/// Polling period.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
-/// What `parameter_bridge` answers to words that it does not understand.
+/// Exit code of `parameter_bridge` for arguments that it cannot parse.
 const NOT_UNDERSTOOD: u8 = 255;
 
 /// Bridge topics and services between ROS 2 and Gazebo, as `parameter_bridge` of `ros_gz_bridge`
@@ -58,7 +58,7 @@ pub(crate) struct BridgeOptions {
     parameters: Vec<String>,
 }
 
-/// What parameters say.
+/// Parameters of the bridge.
 struct Told {
     config: Option<PathBuf>,
     is_lazy: bool,
@@ -151,7 +151,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             let space = node.names().namespace().trim_end_matches('/');
             pair.gz_topic = format!("{space}/{}", pair.gz_topic);
         }
-        // As in `parameter_bridge`, the others go on.
+        // As in `parameter_bridge`, one bad entry does not stop the others.
         match link.bridge(&node, &pair) {
             Ok(()) => terminal::say(&described(&pair)),
             Err(error) => terminal::complain(&format!("`{}`: {error}", pair.gz_topic)),
@@ -174,7 +174,7 @@ fn tell(findings: &Diagnostics) -> io::Result<()> {
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
 }
 
-/// What goes where.
+/// One line that describes a bridged pair.
 fn described(pair: &Pair) -> String {
     let Pair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
     let arrow = match direction {

@@ -23,7 +23,7 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
     with_setting(&options.search.resource_path, arguments, |setting| {
         let mut failed = false;
         let mut reports = Vec::new();
-        // Several files share the arguments: one that none of them has is a slip.
+        // Several files share the arguments: an argument that no file declares is an error.
         let mut unknown: Vec<&str> =
             setting.arguments.iter().map(|(name, _)| name.as_str()).collect();
         for (index, file) in files.iter().enumerate() {
@@ -89,12 +89,12 @@ fn show(out: &mut dyn Write, name: &str, loaded: &Loaded, quiet: bool) -> io::Re
         writeln!(out, "  {advice}")?;
     }
     if loaded.language == Language::Xacro && loaded.scene.is_none() && loaded.document.is_some() {
-        writeln!(out, "  macros and properties for others to include")?;
+        writeln!(out, "  macros and properties only, to be included by other files")?;
     }
     Ok(())
 }
 
-/// Findings of readers that only the command has: what the nodes say of their parameters.
+/// Findings of parameter files, from the nodes that read them.
 fn beyond(file: &Path, loaded: &mut Loaded) -> Vec<(Diagnostics, SourceMap)> {
     if loaded.language != Language::Parameters || loaded.diagnostics.has_errors() {
         return Vec::new();

@@ -40,8 +40,8 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     if let Some(scene) = &mut loaded.scene {
         rebase(scene, &loaded.sources, &working_folder(), &target);
     }
-    // Half a file must not pass for a whole one. An expansion is whole whatever it describes, as
-    // the one of the program `xacro` is.
+    // A partial conversion would pass for a complete one. An xacro expansion is complete whatever
+    // it describes, as with the program `xacro`.
     let is_expansion = options.to == Format::Urdf
         && options.model.is_none()
         && matches!(loaded.language, Language::Xacro | Language::Urdf)
@@ -67,15 +67,15 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
         }
     }
     if loaded.diagnostics.has_errors() {
-        terminal::say("the file is expanded; the errors are about the robot that it describes");
+        terminal::say("the file was expanded; the errors concern the robot that it describes");
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Boxes beyond which a world is slow to load and to look at.
+/// Number of boxes above which a world loads and renders slowly.
 const MANY_BOXES: usize = 20_000;
 
-/// The world of a map or floor plan. `Err` for wrong usage.
+/// World of a map or floor plan. `Err` for wrong usage.
 fn walls(
     loaded: &Loaded,
     options: &ConvertOptions,
@@ -85,12 +85,12 @@ fn walls(
     let read = match (loaded.language, options.resolution) {
         (Language::Map, None) => periplus_maps::load(&path, Distro::Jazzy, setting.host),
         (Language::Map, Some(_)) => {
-            return Err("`--resolution` is for pictures; the YAML of a map has its own".into());
+            return Err("`--resolution` is for images only; the YAML of a map sets its own".into());
         }
         (_, Some(metres)) => periplus_maps::load_image(&path, metres, Distro::Jazzy, setting.host),
         (_, None) => {
             return Err(format!(
-                "the scale of {path} is not known: give `--resolution METRES`, the side of a pixel"
+                "the resolution of {path} is unknown: give `--resolution METRES`, the side of a pixel"
             ));
         }
     };
@@ -109,28 +109,28 @@ fn walls(
         world.diagnostics.push(
             Diagnostic::warning(
                 "no-walls",
-                "no cell of this map is occupied, so there are no walls",
+                "no cell of this map is occupied, so there are no walls to build",
             )
-            .help("dark pixels are walls; with `negate: 1` in the YAML light ones are"),
+            .help("dark pixels are walls; set `negate: 1` in the YAML if light pixels are"),
         );
     } else if boxes > MANY_BOXES {
         world.diagnostics.push(
-            Diagnostic::warning("many-boxes", format!("the walls take {boxes} boxes"))
-                .note("noise and slanted walls need many")
-                .help("clean the picture in an image editor, or take a coarser resolution"),
+            Diagnostic::warning("many-boxes", format!("the walls consist of {boxes} boxes"))
+                .note("noise and slanted walls need many boxes")
+                .help("clean the image in an editor, or use a coarser resolution"),
         );
     }
-    terminal::say(&format!("{boxes} boxes make the walls"));
+    terminal::say(&format!("the walls consist of {boxes} boxes"));
     Ok(world)
 }
 
-/// The folder of a file; what goes to stdout counts as lying beside the file it came from.
+/// Folder of a file; output to stdout resolves paths like its input file.
 fn folder_of(file: &Path) -> PathBuf {
     let path = working_folder().join(file);
     path.parent().map(Path::to_owned).unwrap_or_default()
 }
 
-/// Leaves only one model of the scene.
+/// Removes all models of the scene but one.
 fn keep_model(loaded: &mut Loaded, name: &str) {
     let Some(scene) = loaded.scene.take() else { return };
     let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);
@@ -138,26 +138,28 @@ fn keep_model(loaded: &mut Loaded, name: &str) {
     if kept.is_empty() {
         let names = others.iter().map(|model| model.name.as_str());
         let mut diagnostic =
-            Diagnostic::error("unknown-model", format!("the file holds no model `{name}`"));
+            Diagnostic::error("unknown-model", format!("the file has no model `{name}`"));
         diagnostic = match closest(name, names.clone()) {
             Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None => diagnostic.note(format!("it holds {}", names.collect::<Vec<_>>().join(", "))),
+            None => {
+                diagnostic.note(format!("its models are {}", names.collect::<Vec<_>>().join(", ")))
+            }
         };
         loaded.diagnostics.push(diagnostic);
     }
-    // A xacro or URDF document stands for its one robot and needs no choice.
+    // An xacro or URDF document has exactly one robot, so no choice is needed.
     loaded.scene = Some(Scene { models: kept, ..Scene::default() });
 }
 
 fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
     let mut diagnostics = Diagnostics::new();
     let text = match (to, &loaded.scene) {
-        // The expansion itself: what a robot's other readers are given.
+        // The expansion itself, as other readers of the robot receive it.
         (Format::Urdf, _) if matches!(loaded.language, Language::Xacro | Language::Urdf) => {
             loaded.document.as_ref().map(write_document)
         }
         (_, None) => {
-            let told = format!("a {} describes no scene to convert", loaded.language.name());
+            let told = format!("a {} file has no scene to convert", loaded.language.name());
             diagnostics.push(Diagnostic::error("nothing-to-convert", told));
             None
         }
@@ -165,9 +167,9 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
             diagnostics.push(
                 Diagnostic::error(
                     "massless-robot",
-                    "no link of the robot has a mass, so nothing of it can be simulated",
+                    "no link of the robot has a mass, so it cannot be simulated",
                 )
-                .help("give at least the root link an <inertial>"),
+                .help("add an <inertial> to the root link at least"),
             );
             None
         }
@@ -190,7 +192,7 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
                 diagnostics.push(
                     Diagnostic::error(
                         "not-one-robot",
-                        format!("a URDF holds one robot, this file {holds}"),
+                        format!("a URDF file has one robot, this file has {holds}"),
                     )
                     .help("convert the model's own file, or convert to sdf or json"),
                 );
@@ -202,7 +204,7 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
     text
 }
 
-/// Whether a robot has lost all its links on the way to a scene.
+/// Returns true if a robot has no links left after conversion to a scene.
 fn is_only_shown(loaded: &Loaded, scene: &Scene) -> bool {
     let has_links = |robot: &periplus_urdf::Robot| !robot.links.is_empty();
     loaded.robot.as_ref().is_some_and(has_links)

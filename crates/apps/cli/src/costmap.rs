@@ -1,5 +1,5 @@
-//! Costmaps in runs and beside others: `periplus sim --costmap`, `periplus costmap` and
-//! `periplus doctor costmap`.
+//! Costmaps in simulations and on ROS 2: `periplus sim --costmap`, `periplus costmap` and `periplus
+//! doctor costmap`.
 
 pub(crate) mod doctor;
 mod file;
@@ -18,7 +18,7 @@ use periplus_nav_nodes::costmap_2d::{CostmapNode, VoxelMarkers};
 use crate::terminal;
 use file::{File, read, read_text};
 
-/// What `periplus sim` takes for costmaps.
+/// Costmap options of `periplus sim`.
 #[derive(Debug, Args)]
 pub(crate) struct CostmapOptions {
     /// Run the costmaps of a Nav2 parameter file beside the robot: `local_costmap` and
@@ -37,7 +37,7 @@ pub(crate) struct CostmapOptions {
     costmap_compat: Option<Compat>,
 }
 
-/// A place on the ground [m].
+/// Position on the floor \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Place {
     x_m: f64,
@@ -45,15 +45,15 @@ struct Place {
 }
 
 fn place(word: &str) -> Result<Place, String> {
-    let (x, y) = word.split_once(',').ok_or("it has to be two numbers, such as `1.5,-0.2`")?;
+    let (x, y) = word.split_once(',').ok_or("give two numbers, such as `1.5,-0.2`")?;
     let number = |word: &str| {
         let number: Option<f64> = word.trim().parse().ok().filter(|it: &f64| it.is_finite());
-        number.ok_or_else(|| format!("`{word}` is no number"))
+        number.ok_or_else(|| format!("`{word}` is not a number"))
     };
     Ok(Place { x_m: number(x)?, y_m: number(y)? })
 }
 
-/// Costmaps of a run.
+/// Costmap nodes of a run.
 #[derive(Default)]
 pub(crate) struct Costmaps {
     nodes: Vec<CostmapNode>,
@@ -63,8 +63,8 @@ pub(crate) struct Costmaps {
 }
 
 impl Costmaps {
-    /// As nodes of a graph, if they are wanted; none when they cannot be, which has been told.
-    /// `usual` are the parameters of those that run where no file is named.
+    /// Adds the costmap nodes to a graph, if requested; `None` when they have errors, which are
+    /// printed. `usual` are the parameters used when no file is given.
     pub(crate) fn join(
         graph: &Graph,
         options: &CostmapOptions,
@@ -72,7 +72,7 @@ impl Costmaps {
     ) -> io::Result<Option<Self>> {
         let Some(path) = &options.costmap else {
             return match usual {
-                Some(text) => Self::of_text(graph, "the usual costmaps", text, None),
+                Some(text) => Self::of_text(graph, "the default costmaps", text, None),
                 None => Ok(Some(Self::default())),
             };
         };
@@ -84,12 +84,13 @@ impl Costmaps {
         Ok(Some(Self { cells, pictures, ..costmaps }))
     }
 
-    /// Those of a file, not yet configured.
+    /// Creates the costmaps of a file, not yet configured.
     fn of_file(graph: &Graph, path: &Path, compat: Option<Compat>) -> io::Result<Option<Self>> {
         Self::of_read(graph, read(path, compat))
     }
 
-    /// Those of a text that has a name, which run then; their pictures go to a folder.
+    /// Creates the costmaps of a named parameter text and activates them; their images go to a
+    /// folder.
     pub(crate) fn of_text(
         graph: &Graph,
         name: &str,
@@ -131,7 +132,7 @@ impl Costmaps {
         Ok(Some(costmaps))
     }
 
-    /// Whether one of them lives by `/clock`.
+    /// Returns true if one of them uses `/clock`.
     fn wants_simulated_time(&self) -> bool {
         self.nodes.iter().any(CostmapNode::uses_simulated_time)
     }
@@ -141,14 +142,14 @@ impl Costmaps {
         self.nodes.iter().for_each(CostmapNode::start);
     }
 
-    /// What there is to say at the end of a run.
+    /// Prints the report at the end of a run.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         for node in &self.nodes {
             status(node, out)?;
             for Place { x_m, y_m } in &self.cells {
                 match node.inspect(*x_m, *y_m) {
                     Some(report) => write!(out, "{report}")?,
-                    None => writeln!(out, "({x_m}, {y_m}) is outside of the costmap")?,
+                    None => writeln!(out, "({x_m}, {y_m}) is outside the costmap")?,
                 }
             }
             if let Some(folder) = &self.pictures {
@@ -166,10 +167,10 @@ impl Costmaps {
         Ok(())
     }
 
-    /// Draws each to the folder in the colours of costmaps, as far as one was named.
+    /// Writes images in costmap colours to the folder, if one was given.
     ///
     /// # Errors
-    /// Why one cannot be.
+    /// A message when an image cannot be written.
     pub(crate) fn write(&self) -> Result<(), String> {
         let Some(folder) = &self.pictures else { return Ok(()) };
         self.nodes.iter().try_for_each(|node| {
@@ -179,7 +180,7 @@ impl Costmaps {
     }
 }
 
-/// A picture in colours of RViz, four pixels for a cell.
+/// Renders an image in RViz colours, four pixels per cell.
 fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
     const PIXELS: usize = 4;
     let drawn = node.look(|costmap| {
@@ -190,14 +191,14 @@ fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
         let size = |cells: usize| (cells * PIXELS) as u32;
         write_png(size(width), size(height), Layout::Rgb, &samples)
     });
-    let Some(bytes) = drawn else { return Err("there is no costmap to draw".into()) };
+    let Some(bytes) = drawn else { return Err("the costmap has no data yet".into()) };
     if let Some(folder) = path.parent() {
         crate::paths::make_folder(folder)?;
     }
     crate::paths::write(path, &bytes)
 }
 
-/// What a costmap lives on, and what it lacks.
+/// Prints the inputs of a costmap and the missing ones.
 fn status(node: &CostmapNode, out: &mut dyn Write) -> io::Result<()> {
     let status = node.status();
     let (width, height) = status.size;
@@ -213,8 +214,8 @@ fn status(node: &CostmapNode, out: &mut dyn Write) -> io::Result<()> {
                     "  {source} ({topic}): {messages} messages, the last {age_s:.2} s ago"
                 )?;
             }
-            None if *messages == 0 => writeln!(out, "  {source} ({topic}): no message came")?,
-            None => writeln!(out, "  {source} ({topic}): {messages} messages, none of use")?,
+            None if *messages == 0 => writeln!(out, "  {source} ({topic}): no messages received")?,
+            None => writeln!(out, "  {source} ({topic}): {messages} messages, none usable")?,
         }
     }
     for advice in &status.advice {

@@ -1,4 +1,4 @@
-//! `periplus demo`, which is also what `periplus` alone does.
+//! `periplus demo`, also run by `periplus` without arguments.
 
 pub(crate) mod browser;
 mod explorer;
@@ -27,10 +27,10 @@ use crate::terminal;
 use explorer::Explorer;
 use pictures::Eyes;
 
-/// How long a run without a page is, where nobody says \[s\].
+/// Default duration of a run without a page \[s\].
 const USUAL_S: f64 = 60.0;
 
-/// Where its results go, where nobody says.
+/// Default folder of the results.
 const USUAL_OUT: &str = "periplus-demo";
 
 /// Show a robot in a room: sensors, mapping, costmaps
@@ -116,9 +116,10 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let pace = if options.headless { Pace::Whole } else { Pace::Sliced };
     let node = graph.node(NodeSettings::new(program.node_name()));
     let mapping = Mapping::new(node, program, values, pace, out.as_deref());
-    let mapping = mapping.map_err(|()| "there can be no map".to_owned())?;
+    let mapping = mapping.map_err(|()| "the mapping node could not start".to_owned())?;
     let costmaps = Costmaps::of_text(&graph, "costmaps.yaml", stage::COSTMAPS, out.clone());
-    let costmaps = costmaps.map_err(|error| words(&error))?.ok_or("there can be no costmaps")?;
+    let costmaps =
+        costmaps.map_err(|error| words(&error))?.ok_or("the costmaps could not start")?;
     let drives = options.headless || options.explore;
     let mut explorer =
         drives.then(|| Explorer::join(&graph)).transpose().map_err(|error| words(&error))?;
@@ -150,7 +151,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     outcome.map_err(|diverged| diverged.to_string())?;
     let Some(out) = out else { return Ok(ExitCode::SUCCESS) };
     let recording = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
-    let recording = recording.map_err(|error| format!("the bag is not whole: {error}"))?;
+    let recording = recording.map_err(|error| format!("the bag is incomplete: {error}"))?;
     let map = mapping.node.map();
     let truth = map.and_then(|map| simulation.beside_truth(&map, Pose2::IDENTITY));
     let run = crate::sim::Report {
@@ -173,16 +174,16 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         None => Ok(()),
         Some(truth) => writeln!(
             err,
-            "the map's walls are {:.3} m from true ones on average",
+            "the walls of the map are {:.3} m from the true walls on average",
             truth.comparison.other_to_first.mean_m
         ),
     });
-    said.and_then(|()| writeln!(err, "all is in {}", out.display()))
+    said.and_then(|()| writeln!(err, "results are in {}", out.display()))
         .map_err(|error| words(&error))?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// A bag of all but pictures, which nobody but a viewer asks for.
+/// Records everything but images, which only a viewer subscribes to.
 fn record(simulation: &Simulation, out: &Path) -> Result<Recorder, String> {
     let wanted = |name: &str| !name.starts_with("/depth_camera/");
     Recorder::start(simulation, &out.join("demo.mcap"), Box::new(wanted))
@@ -204,8 +205,8 @@ fn open(
 
 fn tell(options: &DemoOptions, page: &Page) {
     let url = page.url();
-    terminal::say(&format!("the page is at {url}; Ctrl-C ends it"));
+    terminal::say(&format!("page: {url} (Ctrl-C ends the demo)"));
     if !options.no_browser && !browser::open(&url) {
-        terminal::say("no browser could be opened; open the page yourself");
+        terminal::say("no browser could be started; open the page yourself");
     }
 }

@@ -71,7 +71,7 @@ pub(crate) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
     tell(&[(found, SourceMap::new())], &what, options.common.json)
 }
 
-/// `2 errors, 1 warning`, or `nothing is wrong`.
+/// Returns a count such as `2 errors, 1 warning`, or `no problems found`.
 fn counted(severities: &[Severity]) -> String {
     let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
     let parts: Vec<String> = kinds
@@ -80,19 +80,19 @@ fn counted(severities: &[Severity]) -> String {
         .filter(|(count, _)| *count > 0)
         .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
         .collect();
-    if parts.is_empty() { "nothing is wrong".to_owned() } else { parts.join(", ") }
+    if parts.is_empty() { "no problems found".to_owned() } else { parts.join(", ") }
 }
 
 #[test]
 fn every_finding_is_counted_by_its_kind() {
     let of = counted;
-    assert_eq!(of(&[]), "nothing is wrong");
+    assert_eq!(of(&[]), "no problems found");
     assert_eq!(of(&[Severity::Hint]), "1 hint");
     let mixed = [Severity::Warning, Severity::Error, Severity::Hint, Severity::Warning];
     assert_eq!(of(&mixed), "1 error, 2 warnings, 1 hint");
 }
 
-/// Writes what was found; the exit code is 1 when there is more than hints.
+/// Prints findings; the exit code is 1 when there are warnings or errors.
 fn tell(found: &[(Diagnostics, SourceMap)], what: &str, is_json: bool) -> io::Result<ExitCode> {
     let all =
         || found.iter().flat_map(|(found, sources)| found.iter().map(move |it| (it, sources)));

@@ -1,4 +1,4 @@
-//! The command line with its help: groups of commands, examples, full stops.
+//! Help of the command line: groups of commands, examples, full stops.
 
 mod examples;
 
@@ -10,7 +10,7 @@ use clap::{Command, CommandFactory as _, FromArgMatches as _};
 use crate::options::Options;
 use examples::{EXAMPLES, Example};
 
-/// Commands by what they are for, in the order of the help.
+/// Groups of commands, in the order of the help.
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
@@ -34,14 +34,14 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("This program", &["completions", "man", "conformance", "help"]),
 ];
 
-/// Commands of ROS and Gazebo that are translated, for the help.
+/// ROS and Gazebo commands that are translated, for the help.
 const TRANSLATED: &str = "ros2, gz, ign, gazebo, rosrun, roslaunch, rostopic, rosnode, rosservice, rosparam, \
                           rosbag, rviz2, xacro, colcon ...";
 
-/// Most examples under a group of commands.
-const MOST_OF_GROUP: usize = 6;
+/// Maximum number of examples of a group of commands.
+const MAX_EXAMPLES: usize = 6;
 
-/// The whole command line, with its help.
+/// Command line with its help.
 pub(crate) fn command() -> Command {
     let command = finished(Options::command(), "");
     let template = top(&command);
@@ -54,7 +54,7 @@ pub(crate) fn parse(words: Vec<String>) -> Options {
     Options::from_arg_matches(&matches).unwrap_or_else(|error| error.format(&mut command()).exit())
 }
 
-/// A command and all below it, with examples and full stops.
+/// Adds examples and full stops to a command and its subcommands.
 fn finished(command: Command, path: &str) -> Command {
     let command = command.mut_subcommands(|below| {
         let path = format!("{path} {}", below.get_name());
@@ -65,7 +65,7 @@ fn finished(command: Command, path: &str) -> Command {
     if examples.is_empty() { command } else { command.after_help(shown(&examples)) }
 }
 
-/// Puts a full stop behind a first line that other sentences follow.
+/// Adds a full stop to a first line that is followed by other sentences.
 fn with_full_stop(command: Command) -> Command {
     let Some(text) = command.get_long_about().map(ToString::to_string) else { return command };
     match text.split_once("\n\n") {
@@ -76,7 +76,7 @@ fn with_full_stop(command: Command) -> Command {
     }
 }
 
-/// Examples of a command, or the first of each command below a group.
+/// Examples of a command; for a group, the first example of each of its commands.
 fn examples_of(path: &str) -> Vec<Example> {
     if path.is_empty() {
         return Vec::new();
@@ -85,7 +85,7 @@ fn examples_of(path: &str) -> Vec<Example> {
         return own.to_vec();
     }
     let below = EXAMPLES.iter().filter(|(of, _)| of.starts_with(&format!("{path} ")));
-    below.filter_map(|(_, examples)| examples.first().copied()).take(MOST_OF_GROUP).collect()
+    below.filter_map(|(_, examples)| examples.first().copied()).take(MAX_EXAMPLES).collect()
 }
 
 fn shown(examples: &[Example]) -> StyledStr {
@@ -97,7 +97,7 @@ fn shown(examples: &[Example]) -> StyledStr {
     text.into()
 }
 
-/// Template of the top help: the groups in the place of clap's one list.
+/// Template of the top-level help, with groups in place of clap's single list.
 fn top(command: &Command) -> StyledStr {
     let bold = clap::builder::styling::Style::new().bold();
     let title = bold.underline();
@@ -114,21 +114,21 @@ fn top(command: &Command) -> StyledStr {
     }
     let _ = write!(
         text,
-        "\n{title}Commands of ROS and Gazebo, translated:{title:#}\n  {TRANSLATED}\n  \
+        "\n{title}ROS and Gazebo commands, translated:{title:#}\n  {TRANSLATED}\n  \
          as in `periplus ros2 topic list`, `periplus gz sim world.sdf`\n\n{title}Options:{title:#}\n\
          {{options}}\n\n{title}Examples:{title:#}\n  \
          periplus                              a robot in a room, in the browser\n  \
-         periplus new package my_bot           a robot of your own, with a room and a launch file\n  \
+         periplus new package my_bot           a new robot package, with a room and a launch file\n  \
          periplus launch my_bot simulation.launch.py\n  \
          periplus sim --help                   the options of a command\n"
     );
     text.into()
 }
 
-/// A description up to its first colon, as far as it does not fit into a line.
+/// Truncates a description at its first colon if it does not fit on a line.
 fn first_clause(about: &str) -> &str {
-    const LONGEST: usize = 84;
-    if about.chars().count() <= LONGEST {
+    const MAX_LINE_CHARS: usize = 84;
+    if about.chars().count() <= MAX_LINE_CHARS {
         return about;
     }
     about.split_once(": ").map_or(about, |(first, _)| first)

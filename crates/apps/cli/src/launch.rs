@@ -44,7 +44,7 @@ pub(crate) struct LaunchOptions {
     /// Print the plan as JSON without starting anything
     #[arg(short, long, conflicts_with = "show_args")]
     print: bool,
-    /// Run no code of the launch file: no Python, and no program that it names; xacro is built in
+    /// Run no code of the launch file: no Python, and no program that it calls; xacro is built in
     #[arg(long)]
     no_code: bool,
     /// Time limit of Python and of each program while the launch file is evaluated [s]
@@ -68,7 +68,7 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
         options.search.resource_path.iter().map(|folder| here.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
-    // Files that it makes last as long as it runs.
+    // Generated files exist as long as the run.
     let limits = outside::Limits {
         is_kept: options.print,
         runs_code: !options.no_code,
@@ -99,7 +99,7 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
             return Ok(ExitCode::FAILURE);
         }
     };
-    // That packages are not here matters to who reads a plan; who runs it is told what became of it.
+    // Missing packages matter when a plan is printed; a run reports them for each node.
     let mut told = Diagnostics::new();
     let is_read = options.print || options.show_args;
     for finding in found.iter().filter(|one| is_read || one.severity != Severity::Hint) {
@@ -115,7 +115,7 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     }
     let mut out = anstream::AutoStream::auto(io::stdout().lock());
     if options.show_args {
-        // A file whose arguments are not all given has told of them up to there.
+        // A launch file with missing arguments has findings only up to that point.
         show::arguments(&mut out, &plan)?;
         let is_told = found.iter().all(|finding| {
             finding.code == "launch-argument"
@@ -132,10 +132,10 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     }
     drop(out);
     if missing > 0 {
-        // As with ROS: a robot without its description, or nodes without their parameters, run otherwise
-        // than they are meant to.
+        // As with ROS: without its description or parameters a robot or node would run in a
+        // different configuration than intended.
         terminal::complain(&format!(
-            "the launch is not started: {missing} of its inputs {} not on this machine; `--print` \
+            "the launch was not started: {missing} of its inputs {} not on this machine; `--print` \
              shows the plan without {}",
             if missing == 1 { "is" } else { "are" },
             if missing == 1 { "it" } else { "them" },
@@ -152,17 +152,20 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     let outcome = play::play(launched, &options.play, &options.search);
     for complaint in ending.run() {
         let line = complaint.line.map(|line| format!("{line}: ")).unwrap_or_default();
-        terminal::complain(&format!("at the end of the launch: {line}{}", complaint.message));
+        terminal::complain(&format!(
+            "error at shutdown of the launch: {line}{}",
+            complaint.message
+        ));
     }
     outcome
 }
 
-/// The number of inputs that a plan lacks.
+/// Number of missing inputs of a plan.
 fn missing_inputs(found: &Diagnostics) -> usize {
     found.iter().filter(|finding| MissingInput::of(finding.code).is_some()).count()
 }
 
-/// What is wrong with a launch file, as far as planning it shows; nothing is started.
+/// Findings of planning a launch file; starts nothing.
 pub(crate) fn examine(
     file: &Path,
     arguments: Vec<(String, String)>,
@@ -196,8 +199,8 @@ pub(crate) fn examine(
     (found, sources)
 }
 
-/// Findings in which a file that is not there is an error: its package is, so that the path is wrong or
-/// something has to make it.
+/// Raises a missing file to an error: its package exists, so the path is wrong or the file has to
+/// be built.
 fn strict(found: Diagnostics) -> Diagnostics {
     let mut strict = Diagnostics::new();
     for finding in found.iter() {
@@ -210,10 +213,10 @@ fn strict(found: Diagnostics) -> Diagnostics {
     strict
 }
 
-/// The most seconds that `--evaluation-limit` grants: a day.
+/// Upper limit of `--evaluation-limit`, one day.
 const LONGEST_EVALUATION_S: f64 = 86_400.0;
 
-/// A plan of one launch file that is not here.
+/// Plan that includes one launch file that is missing here.
 fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
     let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
     Plan {

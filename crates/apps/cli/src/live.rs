@@ -1,4 +1,4 @@
-//! A graph on the wire, for verbs whose nodes others see.
+//! Graph connected to ROS 2, for commands whose nodes join the network.
 
 mod watched;
 
@@ -14,21 +14,21 @@ use crate::terminal;
 
 pub(crate) use watched::Watched;
 
-/// A live graph and the wire that carries it.
+/// Live graph and its network connection.
 pub(crate) struct Live {
-    // First, so that it is left before the graph goes.
+    // Declared first, so that the network is left before the graph is dropped.
     pub(crate) wire: Wire,
     pub(crate) graph: Graph,
-    /// Which of the networks of ROS 2 it is.
+    /// ROS 2 domain.
     pub(crate) domain_id: u32,
     clock: Option<Mailbox<Clock>>,
 }
 
 impl Live {
-    /// Joins the network that the environment names; nodes are told the arguments.
+    /// Joins the network that the environment selects; the arguments apply to its nodes.
     ///
     /// # Errors
-    /// When there is none: what to say of it.
+    /// A message when the network cannot be joined.
     pub(crate) fn open(arguments: Arguments) -> Result<Self, String> {
         let (settings, findings) = Settings::from_environment(&Machine);
         tell(&findings);
@@ -41,10 +41,10 @@ impl Live {
         Ok(Self { wire, graph, domain_id: settings.domain_id, clock: None })
     }
 
-    /// Lives by `/clock` from now on, as this node hears it; time stands still until somebody tells it.
+    /// Follows `/clock` from now on; time does not advance until `/clock` has a publisher.
     ///
     /// # Errors
-    /// When `/clock` is of another type.
+    /// An error when `/clock` has another type.
     pub(crate) fn follow_clock(&mut self, node: &Node) -> Result<(), GraphError> {
         self.graph.set_simulated_time(true);
         self.graph.jump_to(0);
@@ -52,14 +52,14 @@ impl Live {
         Ok(())
     }
 
-    /// Does what is due by now.
+    /// Processes everything due now.
     pub(crate) fn go_on(&self) {
         match &self.clock {
             None => self.graph.advance_to(unix_ns()),
             Some(clock) => {
                 if let Some(told) = clock.latest() {
                     let time_ns = told.clock.ns();
-                    // A run that begins again.
+                    // Time jumped back: the simulation was reset.
                     if time_ns < self.graph.now_ns() {
                         self.graph.jump_to(time_ns);
                     }
@@ -69,8 +69,8 @@ impl Live {
         }
     }
 
-    /// Sleeps until something is due, at least and at most as long as this. By `/clock` it is the shorter
-    /// one, since the next time may arrive at any moment.
+    /// Sleeps until something is due, within these limits. With `/clock` the shorter one applies,
+    /// since the next time may arrive at any moment.
     pub(crate) fn sleep_until_due(&self, shortest: Duration, longest: Duration) {
         let until_due = |due_ns: i64| {
             let rest_ns = due_ns.saturating_sub(unix_ns());
@@ -82,13 +82,13 @@ impl Live {
         });
     }
 
-    /// Tells what was wrong since the last time.
+    /// Prints the findings since the last call.
     pub(crate) fn tell(&self) {
         tell(&self.wire.take_findings());
         tell(&self.graph.take_findings());
     }
 
-    /// Lets others take what was said, for so long at most; whether they did.
+    /// Flushes published messages within a timeout; returns false if some were not acknowledged.
     pub(crate) fn end(&self, last_words: Duration) -> bool {
         let is_taken = self.wire.flush(last_words);
         self.tell();
@@ -97,6 +97,6 @@ impl Live {
 }
 
 fn tell(findings: &Diagnostics) {
-    // Who cannot be told cannot be told that either.
+    // A failing stderr cannot be reported.
     let _ = terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new());
 }

@@ -18,7 +18,7 @@ pub(crate) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
     match (&options.log, &options.map, &options.out) {
         _ if options.live => live::run(options, ros),
         _ if !ros.is_empty() => {
-            terminal::complain("`--ros-args` are for `periplus localize --live`; a log takes `-p`");
+            terminal::complain("`--ros-args` require `periplus localize --live`; a log takes `-p`");
             Ok(ExitCode::from(2))
         }
         (Some(log), Some(map), Some(out)) => offline::run(options, log, map, out),

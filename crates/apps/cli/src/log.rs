@@ -1,4 +1,4 @@
-//! A log of either kind as scans with odometry.
+//! Laser scans with odometry, from CARMEN logs and recordings.
 
 pub(crate) mod bag;
 
@@ -13,7 +13,7 @@ use periplus_slam::Scan;
 
 use crate::paths;
 
-/// What of a log is meant.
+/// Selection of topics and frames of a log.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LogOptions {
     /// Topic of the scans [default: the scan topic with the most messages]
@@ -25,35 +25,35 @@ pub(crate) struct LogOptions {
     /// Frame of the robot [default: `base_footprint` or `base_link`, whichever the log has]
     #[arg(long, value_name = "FRAME")]
     pub(crate) base_frame: Option<String>,
-    /// Topic and frame that a file of parameters tells: they count where the log has them.
+    /// Topic and frame from a parameter file; used if the log has them.
     #[arg(skip)]
     pub(crate) told_topic: Option<String>,
     #[arg(skip)]
     pub(crate) told_base: Option<String>,
 }
 
-/// A scan of a log.
+/// Scan of a log.
 pub(crate) struct Logged {
-    /// As the log writes it, to the microsecond \[s\].
+    /// Stamp as written in the log, to the microsecond \[s\].
     pub(crate) stamp: String,
     pub(crate) scan: Scan,
     pub(crate) odom_from_base: Option<Pose2>,
 }
 
-/// What a log holds.
+/// Contents of a log.
 #[derive(Default)]
 pub(crate) struct Log {
-    /// What it is.
+    /// Format of the log.
     pub(crate) kind: String,
     pub(crate) scans: Vec<Logged>,
-    /// What was damaged.
+    /// Damaged parts.
     pub(crate) faults: Vec<String>,
-    /// What is missing, and what that means.
+    /// Missing data and its consequence.
     pub(crate) warnings: Vec<String>,
 }
 
 impl Log {
-    /// Reads a log; in words why it cannot be.
+    /// Reads a log; a message if it cannot be read.
     pub(crate) fn open(path: &Path, options: &LogOptions) -> io::Result<Result<Self, String>> {
         let is_recording = path.is_dir()
             || path.extension().is_some_and(|it| {
@@ -76,7 +76,7 @@ impl Log {
             .map_err(|error| format!("cannot read {}: {}", path.display(), plain_words(&error))))
     }
 
-    /// From the first scan to the last \[s\].
+    /// Time from the first scan to the last \[s\].
     pub(crate) fn span_s(&self) -> f64 {
         let stamps = || self.scans.iter().map(|it| it.scan.time_ns);
         let span_ns = stamps().max().unwrap_or(0).saturating_sub(stamps().min().unwrap_or(0));
@@ -89,7 +89,7 @@ fn carmen(log: CarmenLog) -> Log {
     let faults = faults.collect();
     let mut kinds: Vec<&str> = log.scans.iter().map(|scan| scan.kind.as_str()).collect();
     kinds.dedup();
-    // A log may tell the same laser twice, in lines of two kinds; the first kind counts.
+    // A log may contain the same scan in lines of two kinds; the first kind counts.
     let kind = kinds.first().map_or(String::new(), |kind| (*kind).to_owned());
     let scans = log.scans.into_iter().filter(|scan| scan.kind == kind).map(logged);
     Log { kind: format!("CARMEN, {kind}"), scans: scans.collect(), faults, warnings: Vec::new() }

@@ -43,7 +43,7 @@ use periplus_graph::split_arguments;
 use demo::DemoOptions;
 use options::Command;
 
-/// All at once, so that a reader that has seen enough is an error that [`main`] knows.
+/// Prints the completion script in one write, so that a closed pipe is an error that [`main`] handles.
 fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut help::command(), "periplus", &mut script);
@@ -51,7 +51,7 @@ fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The manual page of the command, or those of all its commands in a folder.
+/// Prints the manual page of the program, or writes those of all its commands to a folder.
 fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
     let command = help::command();
     if let Some(folder) = folder {
@@ -95,7 +95,7 @@ fn main() -> ExitCode {
         Ok(Err(code)) => return code,
         Err(error) => return ended(Err(error)),
     };
-    // A usage error ends here with exit code 2, and a message of clap's.
+    // clap prints usage errors and exits with code 2.
     let (words, ros) = split_arguments(words);
     let options = help::parse(words);
     options.colour.apply();
@@ -113,7 +113,7 @@ fn main() -> ExitCode {
         Command::Bridge(options) => bridge::run(&options, ros),
         _ if !ros.is_empty() => {
             terminal::complain(
-                "`--ros-args` are for commands that run nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
+                "`--ros-args` require a command that runs nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
                  `view`, `map`, `costmap` and `slam --live`",
             );
             return ExitCode::from(2);
@@ -139,13 +139,13 @@ fn main() -> ExitCode {
     ended(outcome)
 }
 
-/// How a command ends.
+/// Exit code of a command; prints the error of its output.
 fn ended(outcome: std::io::Result<ExitCode>) -> ExitCode {
     match outcome {
-        // A failure stays one, however the run was ended.
+        // A failure takes precedence over the signal that ended the run.
         Ok(code) if code == ExitCode::FAILURE => code,
         Ok(code) => stop::exit_code().map_or(code, ExitCode::from),
-        // Whoever read our output has seen enough.
+        // The reader of our output has closed it.
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             terminal::complain(&format!("cannot write the output: {}", plain_words(&error)));

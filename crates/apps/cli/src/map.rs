@@ -18,7 +18,7 @@ use options::{ConvertOptions, DiffOptions, SaveOptions};
 
 pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> io::Result<ExitCode> {
     if !ros.is_empty() && !matches!(command, MapCommand::Serve(_) | MapCommand::Save(_)) {
-        complain("`--ros-args` are for `periplus map serve` and `save`");
+        complain("`--ros-args` require `periplus map serve` and `save`");
         return Ok(ExitCode::from(2));
     }
     let common = |json: bool| Common { json, ..Common::default() };
@@ -37,7 +37,7 @@ pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> io::Result<ExitCode
     }
 }
 
-/// The words are those of the savers of ROS, so these read them.
+/// The arguments are those of the ROS map savers, whose parsers read them.
 fn save(options: &SaveOptions, ros: &[String]) -> io::Result<ExitCode> {
     let timeout = options.timeout.map(Duration::from_secs_f64);
     match map::saver_command(&options.words, ros, options.distro, timeout) {

@@ -1,4 +1,5 @@
-//! Mapping in runs: `periplus sim --slam`, and what `periplus slam --live` shares with it.
+//! Mapping beside a simulation (`periplus sim --slam`), and parts shared with `periplus slam
+//! --live`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -18,10 +19,10 @@ use periplus_slam::{MapContradiction, Slam};
 use crate::sim::stack::RobotProfile;
 use crate::{picture, terminal};
 
-/// So many of the closures are told one by one.
+/// Number of loop closures that are printed.
 const MOST_TOLD: usize = 10;
 
-/// What `periplus sim` takes for mapping.
+/// Mapping options of `periplus sim`.
 #[derive(Debug, Args)]
 pub(crate) struct MappingOptions {
     /// Build a map while the robot drives, with a parameter file of `slam_toolbox` or
@@ -32,7 +33,7 @@ pub(crate) struct MappingOptions {
     more: MoreMapping,
 }
 
-/// What goes with it.
+/// Additional options of mapping.
 #[derive(Debug, Args)]
 pub(crate) struct MoreMapping {
     /// Node to run: async, sync, localization, lifelong or gmapping [default: the one of the
@@ -46,7 +47,7 @@ pub(crate) struct MoreMapping {
 }
 
 impl MappingOptions {
-    /// Whether a map is to be made.
+    /// Returns true if mapping is requested.
     pub(crate) fn is_wanted(&self) -> bool {
         self.slam.is_some()
     }
@@ -58,14 +59,14 @@ impl MoreMapping {
     }
 }
 
-/// A mapper in a run.
+/// SLAM node of a run.
 pub(crate) struct Mapping {
     pub(crate) node: SlamNode,
     out: Option<PathBuf>,
 }
 
-/// Reads the parameters of a file, and for which program it is; none when it cannot be read, which has
-/// been told.
+/// Reads a parameter file and detects its program; prints the error and returns `None` when it
+/// cannot be read.
 pub(crate) fn parameters(
     path: Option<&Path>,
     wanted: Option<Program>,
@@ -87,7 +88,7 @@ pub(crate) fn parameters(
     let read = match periplus_yaml::parse(file, &sources) {
         Ok(Some(tree)) if tree.entries().is_none() => {
             terminal::complain(&format!(
-                "{} holds no parameters: `--slam` takes a file of slam_toolbox or slam_gmapping",
+                "{} has no parameters: `--slam` takes a file of slam_toolbox or slam_gmapping",
                 path.display()
             ));
             return Ok(None);
@@ -116,7 +117,7 @@ pub(crate) fn parameters(
     Ok(read)
 }
 
-/// Where nobody says, and the usual topic has no scans: the only one that has.
+/// The only topic with scans, if `scan_topic` is not set and the default topic has none.
 fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
     const NAME: &str = "scan_topic";
     if values.table().find(NAME).is_some() && values.is_given(NAME) {
@@ -132,7 +133,8 @@ fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
 }
 
 impl Mapping {
-    /// As a node of a run's graph, if it is wanted. `Err` when it cannot be, which has been told.
+    /// Adds the node to the graph of a run, if requested. `Err` when it cannot start, after
+    /// printing the error.
     pub(crate) fn join(
         graph: &Graph,
         options: &MappingOptions,
@@ -142,7 +144,7 @@ impl Mapping {
         let asked = options.slam.clone().or(is_usual.then_some(None));
         let Some(path) = &asked else {
             if options.more.slam_node.is_some() || options.more.slam_out.is_some() {
-                terminal::complain("`--slam-node` and `--slam-out` go with `--slam`");
+                terminal::complain("`--slam-node` and `--slam-out` require `--slam`");
                 return Ok(Err(()));
             }
             return Ok(Ok(None));
@@ -152,19 +154,19 @@ impl Mapping {
             return Ok(Err(()));
         };
         if let Some(profile) = profile {
-            // Scans have a rule of their own below.
+            // Scans have a separate rule below.
             profile.fill(&mut values, ["odom_frame", "base_frame", ""]);
         }
         let mut settings = NodeSettings::new(program.node_name());
         if let Some(topic) = scan_topic(graph, &values) {
             if program.is_toolbox() {
                 terminal::say(&format!(
-                    "mapping: scans come on {topic}; `scan_topic` tells another"
+                    "mapping: using scans of {topic}; set `scan_topic` for another topic"
                 ));
                 values.set("scan_topic", Value::Text(topic));
             } else {
                 terminal::say(&format!(
-                    "mapping: scans come on {topic}; `-r scan:=` tells another"
+                    "mapping: using scans of {topic}; use `-r scan:=` for another topic"
                 ));
                 settings = settings.remap("scan", &topic);
             }
@@ -174,7 +176,7 @@ impl Mapping {
         Ok(Self::new(node, program, values, pace, options.more.out()).map(Some))
     }
 
-    /// As this node, which runs then. `Err` when it cannot be, which has been told.
+    /// Starts this SLAM program. `Err` when it cannot start, after printing the error.
     pub(crate) fn new(
         node: Result<Node, GraphError>,
         program: Program,
@@ -196,7 +198,7 @@ impl Mapping {
         }
     }
 
-    /// What there is to say at the end of a run.
+    /// Prints the report at the end of a run.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         let status = self.node.status();
         let counts = status.counts;
@@ -218,15 +220,15 @@ impl Mapping {
         }
         if counts.kept <= 1 {
             terminal::warn(&format!(
-                "the map is made of {}: the robot has not moved, or its scans did not fit; drive it \
+                "the map contains {}: the robot has not moved, or its scans did not match; drive it \
                  (`--cmd FILE`, `periplus teleop`)",
                 if counts.kept == 0 { "no scan" } else { "one scan" }
             ));
         }
         let lost = [
-            (counts.lost, "did not fit"),
-            (counts.ignored, "said nothing"),
-            (status.left_out as usize, "were left out for newer ones"),
+            (counts.lost, "did not match"),
+            (counts.ignored, "had no usable range"),
+            (status.left_out as usize, "were dropped for newer ones"),
             (status.dropped as usize, "had no transforms"),
         ];
         for (count, what) in lost.into_iter().filter(|it| it.0 > 0) {
@@ -236,7 +238,7 @@ impl Mapping {
             writeln!(out, "  {trouble}")?;
         }
         if let Some(remedy) = &status.correction {
-            terminal::warn(&format!("the map was begun again: {remedy}"));
+            terminal::warn(&format!("the map was restarted: {remedy}"));
         }
         for found in self.contradictions() {
             terminal::warn(&found.remark().to_string());
@@ -257,19 +259,19 @@ impl Mapping {
         Ok(())
     }
 
-    /// Places where passes contradict each other in the map as it is now.
+    /// Regions of the current map in which two passes contradict each other.
     fn contradictions(&self) -> Vec<MapContradiction> {
         self.node.look(Slam::audit).unwrap_or_default()
     }
 
-    /// Writes what was asked for; in words why it cannot be.
+    /// Writes the requested results; a message if they cannot be written.
     pub(crate) fn write(&self) -> Result<Option<PathBuf>, String> {
         let Some(folder) = &self.out else { return Ok(None) };
         crate::paths::make_folder(folder)?;
         let put = |name: &str, bytes: &[u8]| crate::paths::write(&folder.join(name), bytes);
         let is_empty = self.node.status().counts.kept == 0 && self.node.status().graph.0 == 0;
         let Some(map) = self.node.map().filter(|_| !is_empty) else {
-            return Err("there is no map to write: no scan became part of one".into());
+            return Err("there is no map to write: no scan was inserted".into());
         };
         let files = render(&map, &Saving::new("map", Distro::Jazzy));
         put(&files.image_path, &files.image)?;

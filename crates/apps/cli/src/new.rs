@@ -1,4 +1,4 @@
-//! `periplus new`: a robot, a world or a package to start from.
+//! `periplus new`: templates of a robot, a world or a package.
 
 mod files;
 mod names;
@@ -28,8 +28,8 @@ pub(crate) enum NewCommand {
 
 /// Write NAME.urdf.xacro: a robot with two driven wheels, a caster, a lidar, an IMU and a camera
 ///
-/// The file takes `sim:=gz|classic`, `lidar:=`, `imu:=`, `camera:=` and `publish_odom_tf:=true|false`;
-/// the options here set their defaults.
+/// Arguments of the file are `sim:=gz|classic`, `lidar:=`, `imu:=`, `camera:=` and
+/// `publish_odom_tf:=true|false`; the options here set their defaults.
 #[derive(Debug, Args)]
 pub(crate) struct RobotOptions {
     /// Name of the robot and of the file
@@ -95,7 +95,7 @@ enum Sensor {
     Camera,
 }
 
-/// Simulator for which the plugins of a file are.
+/// Simulator that the plugins of a file are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Simulator {
     /// Gazebo Harmonic
@@ -168,12 +168,12 @@ pub(crate) fn run(command: &NewCommand) -> io::Result<ExitCode> {
     }
 }
 
-/// Writes all files, or none where one exists.
+/// Writes all files, or none if one exists.
 ///
 /// # Errors
-/// The reason.
+/// A message when a file cannot be written.
 fn write(folder: &Path, files: &[NewFile]) -> Result<Vec<PathBuf>, String> {
-    // A package's folder must be new as a whole: half of another package would be left in it.
+    // The folder of a package must be new, so that it contains no parts of another package.
     for file in files {
         let first = file
             .path

@@ -1,5 +1,5 @@
-//! Words that hands know from ROS and Gazebo, in words of Periplus: `periplus ros2 launch ...`,
-//! `periplus gz sim ...`, `periplus rosrun map_server map_saver -f room`.
+//! Translation of ROS and Gazebo commands: `periplus ros2 launch ...`, `periplus gz sim ...`,
+//! `periplus rosrun map_server map_saver -f room`.
 //!
 //! A plain table from words to words, before anything is parsed. What needs nothing done (installing,
 //! building) and what the shell does is answered; so is what Periplus does not have, with what there is
@@ -23,35 +23,35 @@ use std::process::ExitCode;
 
 use crate::terminal;
 
-/// True for a command of `ros2` behind `periplus`, whose exit codes are those of `ros2`.
+/// Returns true for a `ros2` command behind `periplus`, whose exit codes are those of `ros2`.
 pub(crate) fn is_ros2() -> bool {
     std::env::args().nth(1).is_some_and(|word| word == "ros2")
 }
 
-/// What words mean.
+/// Result of translating a command line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Reading {
-    /// They are Periplus' own.
+    /// The command is one of Periplus.
     Ours,
-    /// These do the same; and what is to be said besides.
+    /// Equivalent command, and notes for the user.
     Words { words: Vec<String>, notes: Vec<String> },
-    /// There is nothing to run.
+    /// Nothing to run.
     Answer(Answer),
 }
 
-/// What is said instead of doing something.
+/// Explanation printed instead of running a command.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Answer {
     pub(crate) text: String,
-    /// Whether the packages that can be found are listed.
+    /// True to list the packages found.
     pub(crate) lists_packages: bool,
-    /// 0 when nothing is missing, 1 for what is not there, 2 for what belongs elsewhere.
+    /// 0 when nothing is missing, 1 for missing features, 2 for commands that belong elsewhere.
     pub(crate) code: u8,
 }
 
-/// Reads what was typed behind `periplus`.
+/// Translates the words behind `periplus`.
 pub(crate) fn read(words: &[String]) -> Reading {
-    // A line with `&&`, handed over as it stands.
+    // A line with `&&` that was passed as it is.
     if let Some(at) = words.iter().position(|word| word == "&&" || word == ";") {
         return match read(&words[..at]) {
             Reading::Answer(answer) if answer.code == 0 => read(&words[at + 1..]),
@@ -70,14 +70,14 @@ pub(crate) fn read(words: &[String]) -> Reading {
     }
 }
 
-/// Puts words of ours behind each other.
+/// Concatenates an own command with further words.
 pub(crate) fn become_words(ours: &[&str], rest: Vec<String>) -> Reading {
     let words = ours.iter().map(|word| (*word).to_owned()).chain(rest).collect();
     Reading::Words { words, notes: Vec::new() }
 }
 
 impl Reading {
-    /// With a remark, where there are words to remark on.
+    /// Adds a note, if there is a command to run.
     pub(crate) fn noting(mut self, note: impl Into<String>) -> Self {
         if let Self::Words { notes, .. } = &mut self {
             notes.push(note.into());
@@ -86,12 +86,12 @@ impl Reading {
     }
 }
 
-/// Says what the words became; what is left to be parsed, or how it ends.
+/// Prints the translation; returns the words to parse, or the exit code.
 pub(crate) fn translate(words: Vec<String>) -> io::Result<Result<Vec<String>, ExitCode>> {
     match read(words.get(1..).unwrap_or_default()) {
         Reading::Ours => Ok(Ok(words)),
         Reading::Words { words: ours, notes } => {
-            terminal::say(&format!("here this is: periplus {}", shown(&ours)));
+            terminal::say(&format!("running: periplus {}", shown(&ours)));
             for note in notes {
                 terminal::say(&format!("note: {note}"));
             }
@@ -108,7 +108,7 @@ pub(crate) fn translate(words: Vec<String>) -> io::Result<Result<Vec<String>, Ex
     }
 }
 
-/// Words as they would be typed.
+/// Words quoted for a shell.
 pub(crate) fn shown(words: &[String]) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~%[]".contains(letter);
     let quoted = words.iter().map(|word| {

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! Command-line options.
 
 use std::path::PathBuf;
 
@@ -98,15 +98,15 @@ pub(crate) struct CheckOptions {
     /// Print findings only, without the contents
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Exit with 1 for warnings too
+    /// Exit with 1 for warnings, too
     #[arg(long)]
     pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) search: SearchOptions,
 }
 
-/// Convert a file: expand xacro, turn URDF into SDF, upgrade old SDF, resolve every pose, make a
-/// world of a map or floor plan
+/// Convert a file: expand xacro, convert URDF to SDF, upgrade old SDF, resolve all poses, or build
+/// a world from a map or floor plan
 ///
 /// The result is written to stdout or to `--output`, findings to stderr. The occupied cells of a
 /// map YAML, or of an image with `--resolution`, become walls, merged to boxes, in the frame of the
@@ -135,13 +135,13 @@ pub(crate) struct ConvertOptions {
     pub(crate) search: SearchOptions,
 }
 
-/// Longest length that an option takes [m].
+/// Maximum length of an option \[m\].
 const MAX_LENGTH_M: f64 = 1e4;
 
 fn positive_metres(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(length_m) if length_m > 0.0 && length_m <= MAX_LENGTH_M => Ok(length_m),
-        _ => Err(format!("a length above 0 and at most {MAX_LENGTH_M} m is needed")),
+        _ => Err(format!("expected a length above 0 and at most {MAX_LENGTH_M} m")),
     }
 }
 
@@ -154,14 +154,14 @@ pub(crate) struct SearchOptions {
     pub(crate) resource_path: Vec<PathBuf>,
 }
 
-/// What a file is converted to.
+/// Output format of a conversion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// A robot description; a xacro file is expanded
     Urdf,
-    /// A world or model
+    /// World or model
     Sdf,
-    /// The resolved scene as JSON
+    /// Resolved scene as JSON
     Json,
 }
 
@@ -177,7 +177,7 @@ pub(crate) enum Colour {
 }
 
 impl Colour {
-    /// Makes this the choice of all output.
+    /// Applies the choice to all output.
     pub(crate) fn apply(self) {
         match self {
             Self::Auto => ColorChoice::Auto,
@@ -188,7 +188,7 @@ impl Colour {
     }
 }
 
-/// Files and `name:=value`, told apart.
+/// Splits words into files and `name:=value`.
 pub(crate) fn split(words: &[String]) -> (Vec<PathBuf>, Vec<(String, String)>) {
     let mut files = Vec::new();
     let mut arguments = Vec::new();

@@ -1,4 +1,4 @@
-//! The page: a run or a network in a browser.
+//! Web page of a run or a network.
 
 mod assets;
 mod far;
@@ -18,10 +18,10 @@ use periplus_wire_live::Settings;
 
 use crate::terminal;
 
-/// The port that Foxglove's programs look at first.
+/// Default port of Foxglove programs.
 pub(crate) const PORT: u16 = 8765;
 
-/// Where it is shown.
+/// Options of the page.
 #[derive(Debug, Args)]
 pub(crate) struct PageOptions {
     /// Serve the page at 127.0.0.1:8765 or at another address; Lichtblick and Foxglove connect
@@ -41,34 +41,34 @@ pub(crate) struct PageOptions {
     pub(crate) token: Option<String>,
 }
 
-/// What a page tells of where it comes from.
+/// Context of a page.
 #[derive(Debug, Default)]
 pub(crate) struct About {
     /// The world that is simulated.
     pub(crate) world: Option<String>,
-    /// Files whose neighbourhood may be asked for.
+    /// Files whose surrounding folders the page may read.
     pub(crate) files: Vec<PathBuf>,
-    /// Folders in which packages and models are looked for.
+    /// Folders searched for packages and models.
     pub(crate) resource_path: Vec<PathBuf>,
     /// RViz file that the page opens.
     pub(crate) view: Option<PathBuf>,
-    /// Frame that the page draws in, in place of the one in `view`.
+    /// Fixed frame of the display, overriding the one in `view`.
     pub(crate) fixed_frame: Option<String>,
 }
 
-/// An open page.
+/// Running page.
 #[derive(Debug)]
 pub(crate) struct Page {
-    // First, so that nobody comes in while the rest goes.
+    // Declared first, so that no client connects while the rest is dropped.
     server: Server,
     hub: Arc<Hub>,
 }
 
 impl Page {
-    /// Opens it before a graph, if it is asked for.
+    /// Opens the page on a graph, if requested.
     ///
     /// # Errors
-    /// Why it cannot be.
+    /// A message when it cannot be opened.
     pub(crate) fn join(
         graph: &Graph,
         options: &PageOptions,
@@ -77,10 +77,10 @@ impl Page {
         options.page.map(|at| Self::open(graph, at, options.token.clone(), about)).transpose()
     }
 
-    /// Opens it before a graph.
+    /// Opens the page on a graph.
     ///
     /// # Errors
-    /// Why it cannot be.
+    /// A message when it cannot be opened.
     pub(crate) fn open(
         graph: &Graph,
         address: SocketAddr,
@@ -125,33 +125,33 @@ impl Page {
         let open = |address, token| Server::open(hub.clone(), ServerSettings { address, token });
         let is_taken = |error: &std::io::Error| error.kind() == std::io::ErrorKind::AddrInUse;
         let server = match open(address, token.clone()) {
-            // Another run has the usual port: any other does where none was asked for.
+            // Another run has the default port: any other will do unless one was requested.
             Err(error) if is_taken(&error) && address.port() == PORT => {
-                terminal::say(&format!("port {PORT} is taken, the page gets another"));
+                terminal::say(&format!("port {PORT} is in use; the page uses another port"));
                 open(SocketAddr::new(address.ip(), 0), token)
             }
             opened => opened,
         };
         let server = server.map_err(|error| {
-            let advice = "; name another port, such as --page=8766, or 0 for any that is free";
+            let advice = "; choose another port, such as --page=8766, or 0 for any free port";
             let why = periplus_diagnostics::plain_words(&error);
             format!("no page at {address}: {why}{}", if is_taken(&error) { advice } else { "" })
         })?;
         Ok(Self { server, hub })
     }
 
-    /// What others have on a network that the graph is on.
+    /// Updates the topics of remote nodes.
     pub(crate) fn set_remote(&self, remote: &Remote) {
         self.hub.set_far(far::far(remote));
     }
 
-    /// What to type into a browser.
+    /// URL of the page.
     pub(crate) fn url(&self) -> String {
         self.server.url()
     }
 }
 
-/// `ADDRESS:PORT`, one of them, or `localhost`.
+/// Parses `ADDRESS:PORT`, one of them, or `localhost`.
 pub(crate) fn address(word: &str) -> Result<SocketAddr, String> {
     let loopback = IpAddr::from([127, 0, 0, 1]);
     let named = word.replacen("localhost", "127.0.0.1", 1);
@@ -164,7 +164,7 @@ pub(crate) fn address(word: &str) -> Result<SocketAddr, String> {
     let bare = named.trim_start_matches('[').trim_end_matches(']');
     match bare.parse::<IpAddr>() {
         Ok(ip) => Ok(SocketAddr::new(ip, PORT)),
-        Err(_) => Err("it has to be an address of this machine, a port, or both: \
+        Err(_) => Err("expected an address of this machine, a port, or both: \
                        127.0.0.1:8765; 0.0.0.0 opens it to others"
             .into()),
     }

@@ -1,4 +1,4 @@
-//! Files that are named on the command line: reading and writing them, with words that help.
+//! Reading and writing files of the command line, with helpful messages.
 
 use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use periplus_resources::{Host as _, ReadError, Store as _, nearest};
 
 use crate::terminal::working_folder;
 
-/// ``; did you mean `X`?`` for a path at which nothing is, if something similar is near.
+/// Returns ``; did you mean `X`?`` for a missing path with a similar name nearby.
 pub(crate) fn advice(path: &Path) -> String {
     let here = working_folder();
     let whole = here.join(path);
@@ -22,18 +22,18 @@ pub(crate) fn advice(path: &Path) -> String {
     format!("; did you mean `{}`?", near.display())
 }
 
-/// The bytes of a file.
+/// Reads the bytes of a file.
 ///
 /// # Errors
-/// The path and the reason, with the nearest file where it is missing.
+/// The path and the reason, with the nearest name if the file is missing.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, String> {
     Machine.read(path).map_err(|error| unreadable(path, &error))
 }
 
-/// The same, to be read bit by bit.
+/// Opens a file for buffered reading.
 ///
 /// # Errors
-/// As [`read`].
+/// As for [`read`].
 pub(crate) fn reader(path: &Path) -> Result<impl BufRead + use<>, String> {
     Machine.reader(path).map_err(|error| unreadable(path, &error))
 }
@@ -43,40 +43,39 @@ fn unreadable(path: &Path, error: &ReadError) -> String {
     format!("cannot read {}: {error}{advice}", path.display())
 }
 
-/// The text of a file.
+/// Reads a text file.
 ///
 /// # Errors
-/// As [`read`], and for what is not UTF-8.
+/// As for [`read`], and for text that is not UTF-8.
 pub(crate) fn text(path: &Path) -> Result<String, String> {
-    String::from_utf8(read(path)?).map_err(|_| {
-        format!("cannot read {}: this is not a text (not valid UTF-8)", path.display())
-    })
+    String::from_utf8(read(path)?)
+        .map_err(|_| format!("cannot read {}: not a text file (invalid UTF-8)", path.display()))
 }
 
-/// A recording.
+/// Opens a recording.
 ///
 /// # Errors
-/// The path and the reason, with the nearest file where it is missing.
+/// The path and the reason, with the nearest name if the file is missing.
 pub(crate) fn bag(path: &Path) -> Result<Bag, String> {
     Bag::open(path).map_err(|error| bag_error(path, &error))
 }
 
-/// Words of an error with a recording, with the nearest file where it is missing.
+/// Message for an error of a recording, with the nearest name if the file is missing.
 pub(crate) fn bag_error(path: &Path, error: &BagError) -> String {
     format!("{error}{}", advice(path))
 }
 
-/// Makes a folder and those above it.
+/// Creates a folder and its parents.
 ///
 /// # Errors
 /// The path and the reason.
 pub(crate) fn make_folder(path: &Path) -> Result<(), String> {
     std::fs::create_dir_all(path).map_err(|error| {
-        format!("cannot make the folder {}: {}", path.display(), plain_words(&error))
+        format!("cannot create the folder {}: {}", path.display(), plain_words(&error))
     })
 }
 
-/// Writes a file bit by bit, as a whole in the place of an old one.
+/// Writes a file through a callback and replaces an old one atomically.
 ///
 /// # Errors
 /// The path and the reason.
@@ -89,7 +88,7 @@ pub(crate) fn write_by(
         .map_err(|why| format!("cannot write {}: {why}", path.display()))
 }
 
-/// Writes a file as a whole, in the place of an old one.
+/// Writes a file and replaces an old one atomically.
 ///
 /// # Errors
 /// The path and the reason.

@@ -1,4 +1,4 @@
-//! The map with the way of the robot.
+//! Image of a map with the trajectory of the robot.
 
 use std::io::{self, Write};
 
@@ -6,21 +6,21 @@ use periplus_geometry::Pose2;
 use periplus_grid::{Lattice, Line, OccupancyGrid, occupancy};
 use periplus_images::{Layout, pack_png};
 
-/// Longest side of the picture.
+/// Longest side of the image \[px\].
 const LONGEST: usize = 1600;
-/// From the first pose to the last.
+/// Colours from the first pose to the last.
 const BEGIN: [f64; 3] = [40.0, 90.0, 230.0];
 const END: [f64; 3] = [225.0, 50.0, 40.0];
-/// Rings around marked positions: colour, radius in the map \[m\], its minimum and half the width of the
-/// line \[px\].
+/// Rings around marked positions: colour, radius in the map \[m\], minimum radius and half the line
+/// width \[px\].
 const RING: [u8; 3] = [255, 0, 0];
 const RING_M: f64 = 1.5;
 const MIN_RING_PX: f64 = 12.0;
 const HALF_LINE_PX: f64 = 1.5;
-/// Instead of a step of the path.
+/// Order of a ring pixel, instead of the index of a pose.
 const OF_RING: u32 = u32::MAX;
 
-/// A PNG of a map, the path from blue to red, and a red ring around each marked position \[m\].
+/// PNG of a map, the trajectory from blue to red, and a red ring around each marked position \[m\].
 pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
     let drawn = draw_by(map.lattice, way, marked, |picture| {
         map.rows().rev().try_for_each(|row| picture.push(row))
@@ -29,7 +29,8 @@ pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) ->
     drawn.unwrap_or_default()
 }
 
-/// The same, of a map whose rows are given one by one: neither it nor the picture is held as a whole.
+/// As [`draw`], for a map that is given row by row: neither map nor image is kept in memory as a
+/// whole.
 pub(crate) fn draw_by(
     lattice: Lattice,
     way: &[Pose2],
@@ -53,21 +54,22 @@ pub(crate) fn draw_by(
     })
 }
 
-/// Such a picture, as far as it is drawn.
+/// Image that is being written.
 pub(crate) struct Picture<'a> {
     out: &'a mut dyn Write,
     lattice: Lattice,
-    /// Rows and columns of the map that share a pixel.
+    /// Rows and columns of the map per pixel.
     every: usize,
-    /// Rows of the map still to come.
+    /// Remaining rows of the map.
     left: usize,
-    /// Of each pixel of a row the darkest of its cells: walls must not vanish.
+    /// Darkest cell of each pixel of a row, so that thin walls stay visible.
     darkest: Vec<i8>,
-    /// Pixels of the way, by row from the top; of those at the same place the last one counts.
+    /// Pixels of the trajectory by row from the top; of several at the same position the last one
+    /// counts.
     way: Vec<Dot>,
-    /// How many of them are drawn.
+    /// Number of pixels drawn so far.
     drawn: usize,
-    /// Poses of the way.
+    /// Number of poses of the trajectory.
     steps: usize,
     samples: Vec<u8>,
 }
@@ -75,19 +77,19 @@ pub(crate) struct Picture<'a> {
 struct Dot {
     row: u32,
     column: u32,
-    /// Which step of the way it belongs to.
+    /// Index of the pose.
     step: u32,
 }
 
 impl Picture<'_> {
-    /// The cells of the next row of the map; the highest comes first.
+    /// Adds the cells of the next row of the map, from the top.
     pub(crate) fn push(&mut self, cells: &[i8]) -> io::Result<()> {
         let Some(row) = self.left.checked_sub(1) else { return Ok(()) };
         self.left = row;
         for (darkest, cells) in self.darkest.iter_mut().zip(cells.chunks(self.every)) {
             *darkest = cells.iter().fold(*darkest, |darkest, &cell| darkest.max(cell));
         }
-        // The lowest of the rows that share one.
+        // Lowest of the map rows of a pixel row.
         if row % self.every == 0 { self.end_row(row / self.every) } else { Ok(()) }
     }
 
@@ -114,7 +116,7 @@ impl Picture<'_> {
     }
 }
 
-/// The pixels of a path and of rings over it, by row from the top.
+/// Pixels of a trajectory and of rings over it, by row from the top.
 fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
     let finder = lattice.finder();
     let height = lattice.height.div_ceil(every);
@@ -135,7 +137,7 @@ fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -
     dots
 }
 
-/// The pixels of a ring around a position, as far as they are in the picture.
+/// Pixels of a ring around a position, clipped to the image.
 fn ring(lattice: &Lattice, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
     let (columns, rows) = lattice.finder().cells_to(x_m, y_m);
     let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));
@@ -198,7 +200,7 @@ mod tests {
         }
     }
 
-    /// Around a position in the middle, near a border and outside of the map.
+    /// Positions in the middle, near a border and outside the map.
     #[test]
     fn a_ring_is_around_each_marked_position() {
         let lattice = Lattice::new(0.05, 100, 80, Pose2::new(-1.0, 0.0, 0.0)).unwrap();

@@ -43,14 +43,14 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
     outcome
 }
 
-/// A launch file with this node alone. What stands behind `--ros-args` is the node's: some nodes, such as
-/// a lifecycle manager, are made of their parameters.
+/// Launch file with this single node. `--ros-args` belong to the node: some nodes, such as a
+/// lifecycle manager, are configured by their parameters.
 fn text(options: &RunOptions, ros: &[String]) -> String {
     let line =
         |words: &[String]| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
     let attribute = |text: &str| {
         let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
-        // Nothing is to be filled in here.
+        // Prevents substitutions.
         text.replace("$(", "\\$(")
     };
     let ros = match ros {
@@ -66,7 +66,7 @@ fn text(options: &RunOptions, ros: &[String]) -> String {
     )
 }
 
-/// As a shell takes it for one word.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

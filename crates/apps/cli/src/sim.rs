@@ -149,18 +149,18 @@ pub(crate) struct SimOptions {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Dynamics {
-    /// Bodies, joints, contacts and friction
+    /// Physics with bodies, joints, contacts and friction
     Rigid,
     /// Robots move exactly as commanded, without collisions
     Kinematic,
 }
 
-/// Simulated seconds per second of the wall.
+/// Real-time factor: simulated seconds per second of wall time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Factor {
-    /// As many as the machine can.
+    /// As fast as possible.
     Max,
-    /// So many.
+    /// Fixed factor.
     Of(f64),
 }
 
@@ -170,18 +170,16 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         return Ok(ExitCode::from(2));
     };
     let (mut files, arguments) = split(&options.words);
-    // `--robot FILE WORLD`: what is no argument of the robot is the world.
+    // `--robot FILE WORLD`: a word that is no argument of the robot is the world.
     files.extend(options.robots.others.iter().map(PathBuf::from));
     let [world] = files.as_slice() else {
         terminal::complain(&match files.as_slice() {
-            [] => {
-                "sim takes a world; robots come with --robot; see `periplus sim --help`".to_owned()
-            }
+            [] => "no world given; add robots with --robot; see `periplus sim --help`".to_owned(),
             several => {
                 let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
                 let several = names.join(", ");
                 format!(
-                    "sim takes one world, and these are {}: {several}; give each robot its own --robot",
+                    "expected one world, got {}: {several}; give each robot a separate --robot",
                     names.len()
                 )
             }
@@ -200,7 +198,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
     drop(err);
     if findings.diagnostics.has_errors() {
-        terminal::complain("the script cannot be driven");
+        terminal::complain("the script has errors");
         return Ok(ExitCode::FAILURE);
     }
     let search = &options.search.resource_path;
@@ -214,7 +212,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     );
     let whole = tell_findings(&composition, options.quiet)?;
     if let Some(missing) = composition.missing() {
-        terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
+        terminal::complain(&format!("{} has nothing to simulate", missing.display()));
         return Ok(ExitCode::FAILURE);
     }
     let profile = match options.profile(&mut simulation) {
@@ -241,7 +239,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let mut services = match Services::new(&simulation, terminal::search(search)) {
         Ok(services) => services,
         Err(error) => {
-            terminal::complain(&format!("cannot offer the world's services: {error}"));
+            terminal::complain(&format!("cannot offer the services of the world: {error}"));
             return Ok(ExitCode::FAILURE);
         }
     };
@@ -250,7 +248,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             terminal::diagnostics(&mut anstream::stderr().lock(), &warnings, &SourceMap::new())?;
         }
         Err(error) => {
-            terminal::complain(&format!("the script cannot be driven: {error}"));
+            terminal::complain(&format!("cannot run the script: {error}"));
             return Ok(ExitCode::FAILURE);
         }
     }
@@ -259,7 +257,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let _filter = match filter {
         Ok(filter) => filter,
         Err(error) => {
-            terminal::complain(&format!("the filter of odometry cannot run: {error}"));
+            terminal::complain(&format!("the odometry filter cannot run: {error}"));
             return Ok(ExitCode::FAILURE);
         }
     };
@@ -279,7 +277,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let usual = (is_mapping, profile);
     let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
     let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
-    // Only now all nodes are there.
+    // All nodes exist now.
     if !options.quiet {
         let unused = simulation.graph().unused_arguments();
         terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
@@ -307,10 +305,10 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     if let Some(page) = &page {
         let url = page.url();
         if !options.quiet {
-            terminal::say(&format!("the page is at {url}"));
+            terminal::say(&format!("page: {url}"));
         }
         if !options.no_browser && !browser::open(&url) && !options.quiet {
-            terminal::say("no browser could be opened; open the page yourself");
+            terminal::say("no browser could be started; open the page yourself");
         }
     }
     let stop = stop::on_signal();
@@ -349,9 +347,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
     let is_recorded = finished.is_ok();
-    // The map and the report do not go with the bag.
+    // A broken bag does not affect the map and the report.
     let recording = finished.unwrap_or_else(|error| {
-        terminal::complain(&format!("the bag is not whole: {error}"));
+        terminal::complain(&format!("the bag is incomplete: {error}"));
         None
     });
     let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
@@ -371,7 +369,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     }
     match mapping.as_ref().map_or(Ok(None), Mapping::write) {
         Ok(Some(folder)) if !options.quiet => {
-            terminal::say(&format!("the map is in {}", folder.display()));
+            terminal::say(&format!("map: {}", folder.display()));
         }
         Ok(_) => {}
         Err(why) => {
@@ -379,9 +377,9 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
             return Ok(ExitCode::FAILURE);
         }
     }
-    // Without an end of its own, being stopped is how a run ends.
+    // Without a duration, a signal is the regular end of a run.
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
-    // Findings name each.
+    // Findings name each of them.
     if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
         terminal::complain(&format!("{diverged}; its model was removed"));
         return Ok(ExitCode::FAILURE);
@@ -391,7 +389,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole => Ok(ExitCode::SUCCESS),
         Ok(()) => {
-            terminal::complain("parts of the files have errors and took no part");
+            terminal::complain("parts of the files have errors and were left out");
             Ok(ExitCode::FAILURE)
         }
         Err(diverged) => {
@@ -402,7 +400,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
 }
 
 impl SimOptions {
-    /// What is for nodes, as `--ros-args` would have it: flags of our own first.
+    /// Arguments of nodes in the form of `--ros-args`, own options first.
     fn ros_words(&self, ros: Vec<String>) -> Vec<String> {
         let own = [
             ("--params-file", &self.params_file),
@@ -415,14 +413,14 @@ impl SimOptions {
         own.chain(ros).collect()
     }
 
-    /// Words that cannot be meant together.
+    /// Checks combinations of options.
     fn can_run(&self) -> Result<(), String> {
         if let Some(path) =
             self.record.as_ref().filter(|path| path.extension() == Some("bag".as_ref()))
         {
             let mcap = path.with_extension("mcap");
             return Err(format!(
-                "a run is recorded as MCAP, not as a bag of ROS 1: write `--record {0}`, then \
+                "recordings are MCAP, not ROS 1 bags: write `--record {0}`, then \
                  `periplus bag convert {0} {1}`",
                 mcap.display(),
                 path.display()
@@ -430,16 +428,17 @@ impl SimOptions {
         }
         if self.stack && self.robots.placements.len() > 1 {
             return Err(
-                "--stack is for one robot; start the nodes of several with a launch file".into()
+                "--stack supports one robot; start the nodes of several robots with a launch file"
+                    .into(),
             );
         }
         Ok(())
     }
 
-    /// What the robot publishes, where nodes beside it have to know.
+    /// Topics and frames of the robot, if nodes beside it need them.
     fn profile(&self, simulation: &mut Simulation) -> Result<Option<RobotProfile>, String> {
         let is_wanted = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
-        // Nodes beside several robots are told their topics by hand.
+        // For several robots the topics are set by the user.
         if !is_wanted || self.robots.placements.len() > 1 {
             return Ok(None);
         }
@@ -459,8 +458,8 @@ impl SimOptions {
                 .map(String::as_str)
                 .collect();
             terminal::say(&format!(
-                "the robot publishes no transform from {base} to {odom}: the filter of \
-                 robot_localization does, from {}",
+                "the robot publishes no transform from {base} to {odom}: the EKF of \
+                 robot_localization publishes it, from {}",
                 inputs.join(" and ")
             ));
         }
@@ -495,7 +494,7 @@ impl SimOptions {
         }
     }
 
-    /// As fast as can be when there is an end, otherwise at the pace that the world asks for.
+    /// As fast as possible if there is a duration, otherwise at the rate of the world.
     fn factor(&self, composition: &Composition) -> Option<f64> {
         match (self.rtf, self.duration) {
             (Some(Factor::Of(factor)), _) => Some(factor),
@@ -504,7 +503,7 @@ impl SimOptions {
         }
     }
 
-    /// What the page tells of the run.
+    /// Context of the page.
     fn about(&self, composition: &Composition) -> About {
         About {
             world: Some(composition.world.name.clone()),
@@ -524,7 +523,7 @@ impl SimOptions {
     }
 }
 
-/// Tells what is wrong with the files. False when something is missing that was asked for.
+/// Prints the findings of the files. Returns false when a requested part is missing.
 pub(crate) fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
     let mut err = anstream::stderr().lock();
     let mut whole = true;
@@ -540,16 +539,16 @@ pub(crate) fn tell_findings(composition: &Composition, quiet: bool) -> io::Resul
 pub(crate) fn positive(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("it has to be a number above 0".into()),
+        _ => Err("expected a number above 0".into()),
     }
 }
 
-/// A step of physics [s].
+/// Parses a physics step \[s\].
 fn step(word: &str) -> Result<f64, String> {
     let [shortest_s, longest_s] = periplus_sim::STEP_RANGE_S;
     match word.parse::<f64>() {
         Ok(step_s) if (shortest_s..=longest_s).contains(&step_s) => Ok(step_s),
-        _ => Err(format!("it has to be a number from {shortest_s} to {longest_s}")),
+        _ => Err(format!("expected a number from {shortest_s} to {longest_s}")),
     }
 }
 
@@ -557,5 +556,5 @@ pub(crate) fn factor(word: &str) -> Result<Factor, String> {
     if word == "max" {
         return Ok(Factor::Max);
     }
-    positive(word).map(Factor::Of).map_err(|_| "it has to be a number above 0, or `max`".into())
+    positive(word).map(Factor::Of).map_err(|_| "expected a number above 0, or `max`".into())
 }

@@ -29,7 +29,7 @@ pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
         return live::run(options, ros);
     }
     if !ros.is_empty() {
-        terminal::complain("`--ros-args` are for `periplus slam --live`");
+        terminal::complain("`--ros-args` require `periplus slam --live`");
         return Ok(ExitCode::from(2));
     }
     from_log(options)
@@ -61,7 +61,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     let remedy = MountingCorrection::of(run.made.mapper().remarks())
         .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {
-        // A fault of mounting or axes is certain: the map is made again without it.
+        // An error of mounting or axes is certain: the map is rebuilt with corrected data.
         drop(run);
         run = match map(options, &parameters, &input, remedy)? {
             Ok(run) => run,
@@ -85,7 +85,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         spent_s: &spent_s,
         remedy,
     };
-    // The report is last: it tells the peak of memory.
+    // The report is last, so that it contains the peak memory.
     let written = saved
         .and_then(|()| match (&options.g2o, made.graph()) {
             (Some(path), Some(graph)) => put(path, graph.to_g2o().as_bytes()),
@@ -109,26 +109,26 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// A log that was mapped.
+/// Result of mapping a log.
 struct Run {
-    /// Without its readings: they are most of it, the map has what it needs of them, and memory is for one of
-    /// both.
+    /// The log without its ranges: they are most of its memory, and the map has copied what it
+    /// needs.
     log: Log,
     made: Made,
-    /// Poses of the session, which have their places in the trajectory before those of the log.
+    /// Number of poses of the session, which precede those of the log in the trajectory.
     before: usize,
-    /// CPU for each scan \[s\].
+    /// CPU time per scan \[s\].
     spent_s: Vec<f64>,
-    /// Scans that have a line in the trajectory, by their numbers in the log.
+    /// Indices in the log of the scans in the trajectory.
     used: Vec<usize>,
-    /// Outcome of writing the session that was asked for.
+    /// Result of writing the requested session.
     saved: Result<(), String>,
-    /// Reading the log, and the last refinement \[s\].
+    /// Time to read the log, and of the last optimization \[s\].
     loaded_s: f64,
     finish_s: f64,
 }
 
-/// Maps the log, with its data corrected when a fault of it is known.
+/// Maps the log, with corrected data when an error of it is known.
 fn map(
     options: &SlamOptions,
     parameters: &Parameters,
@@ -141,7 +141,7 @@ fn map(
         Err(why) => return Ok(Err(why)),
     };
     if log.scans.is_empty() {
-        return Ok(Err(format!("{} holds no scans", options.log.display())));
+        return Ok(Err(format!("{} has no scans", options.log.display())));
     }
     let mut made = match Made::new(options, parameters) {
         Ok(made) => made,
@@ -178,7 +178,7 @@ fn map(
     Ok(Ok(Run { log, made, before, spent_s, used, saved, loaded_s, finish_s }))
 }
 
-/// Writes the session that is asked for.
+/// Writes the requested session.
 fn save(options: &SlamOptions, made: &Made) -> Result<(), String> {
     match (&options.save_session, made.graph()) {
         (Some(path), Some(graph)) => put(path, &graph.save()),
@@ -186,16 +186,16 @@ fn save(options: &SlamOptions, made: &Made) -> Result<(), String> {
     }
 }
 
-/// So many faults of a log are told one by one.
+/// Number of log errors that are printed.
 const MOST_TOLD: usize = 20;
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
     paths::write(path, bytes)
 }
 
-/// Writes all that comes of a run.
+/// Writes all results of a run.
 ///
-/// The trajectory has the scans of this log; `before` poses of a session come before theirs.
+/// The trajectory contains the scans of this log; `before` poses of a session precede them.
 fn write(
     out: &Path,
     slam: &dyn Mapper,
@@ -218,7 +218,8 @@ fn write(
     drawn
 }
 
-/// Draws the map, the way, and a ring where passes contradict each other, some rows at a time: large maps are never held as a whole.
+/// Draws the map, the trajectory, and a ring where passes contradict each other, some rows at a
+/// time: large maps are never in memory as a whole.
 fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<(), String> {
     let Some(plan) = slam.plan() else {
         return Err("the map is too large to draw; try `--max-range 30` or a coarser \
@@ -253,5 +254,5 @@ fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<()
     put(&out.join("trajectory.png"), &png)
 }
 
-/// Of a map so many cells are drawn at once: some 12 MB.
+/// Number of cells drawn at once, about 12 MB.
 const CELLS_AT_ONCE: usize = 4 << 20;

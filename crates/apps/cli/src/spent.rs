@@ -1,4 +1,4 @@
-//! What a run cost.
+//! Time measurements of a run.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use serde_json::{Value, json};
 
-/// Seconds of this thread on a CPU, where Linux tells.
+/// CPU time of this thread \[s\], on Linux.
 pub(crate) fn cpu_s() -> Option<f64> {
     let ns: f64 = words("/proc/thread-self/schedstat")?.split_whitespace().next()?.parse().ok()?;
     Some(ns * 1e-9)
@@ -16,7 +16,7 @@ fn words(path: &str) -> Option<String> {
     String::from_utf8(Machine.read(Path::new(path)).ok()?).ok()
 }
 
-/// What steps cost, as milliseconds: the mean, the slowest but one in a hundred, the slowest.
+/// Step times in milliseconds: mean, 99th percentile, maximum.
 pub(crate) fn steps_ms(spent_s: &[f64]) -> Value {
     let mut sorted = spent_s.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -1,9 +1,8 @@
-//! The signals that end a run in good order.
+//! Signals that end a run in good order.
 //!
 //! Ctrl-C (`SIGINT`), `docker stop` and systemd (`SIGTERM`) and a closed terminal (`SIGHUP`) set one flag:
 //! the run ends after its step, and closes its bag, map and report. GNU `timeout` and shells signal a
-//! program and its group, so a second signal within [`SAME_REQUEST`] is the same request. A later one
-//! ends the program at once.
+//! A later signal ends the program at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
@@ -13,16 +12,16 @@ use periplus_os::Stopwatch;
 
 use crate::terminal::complain;
 
-/// Signals that come this soon after the first belong to it.
+/// Signals within this time of the first count as the same request.
 const SAME_REQUEST: Duration = Duration::from_secs(1);
 
-/// The number that shells add to a signal for an exit code.
+/// Offset that shells add to a signal for an exit code.
 const OF_SHELLS: i32 = 128;
 
-/// The first signal that came; 0 is none.
+/// First signal received; 0 is none.
 static FIRST: AtomicI32 = AtomicI32::new(0);
 
-/// A flag that becomes true with the first of the signals.
+/// Returns a flag that the first of the signals sets.
 pub(crate) fn on_signal() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     if let Err(error) = platform::listen(Arc::clone(&stop)) {
@@ -34,8 +33,8 @@ pub(crate) fn on_signal() -> Arc<AtomicBool> {
     stop
 }
 
-/// The exit code of a run that was ended by a request of the system's: 143 for `SIGTERM`, 129 for
-/// `SIGHUP`. Ctrl-C is a usual end of a run, and has its own rules.
+/// Exit code of a run that the system ended: 143 for `SIGTERM`, 129 for `SIGHUP`. Ctrl-C is a
+/// regular end of a run, with separate rules.
 pub(crate) fn exit_code() -> Option<u8> {
     match FIRST.load(Ordering::Relaxed) {
         signal @ (platform::TERMINATE | platform::HANG_UP) => u8::try_from(OF_SHELLS + signal).ok(),
@@ -43,20 +42,20 @@ pub(crate) fn exit_code() -> Option<u8> {
     }
 }
 
-/// The course of the requests to end.
+/// State of the requests to end.
 struct Requests {
     stop: Arc<AtomicBool>,
     first: Option<Stopwatch>,
 }
 
-/// The answer to a request to end.
+/// Response to a request to end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Answer {
-    /// The run ends in good order.
+    /// End the run in good order.
     InGoodOrder,
-    /// It was asked for already.
+    /// Already requested.
     Same,
-    /// The program ends now.
+    /// End the program now.
     AtOnce,
 }
 
@@ -78,7 +77,7 @@ impl Requests {
     }
 }
 
-/// The answer to a request that comes some time after the first.
+/// Response to a request some time after the first.
 fn answer_to_another(since_first: Duration) -> Answer {
     if since_first < SAME_REQUEST { Answer::Same } else { Answer::AtOnce }
 }
@@ -121,7 +120,7 @@ mod platform {
         Ok(())
     }
 
-    /// Whether the program was started so that it ignores a signal, as `nohup` starts programs.
+    /// Returns true if the program was started with a signal ignored, as `nohup` does.
     fn is_ignored(signal: i32) -> bool {
         let Ok(status) = Machine.read(Path::new("/proc/self/status")) else { return false };
         let status = String::from_utf8_lossy(&status);
@@ -130,8 +129,8 @@ mod platform {
         mask & (1 << (signal - 1)) != 0
     }
 
-    /// A terminal that has gone refuses every line, and a refused line must not keep a bag from its
-    /// end: output goes nowhere from here on.
+    /// A closed terminal refuses every line, which must not prevent closing a bag: output is
+    /// discarded from here on.
     fn leave_terminal() {
         let Ok(nowhere) = File::options().write(true).open("/dev/null") else { return };
         if io::stdout().is_terminal() {

@@ -22,13 +22,13 @@ use crate::live::Live;
 use crate::terminal::{complain, diagnostics};
 use terminal::RawTerminal;
 
-/// The screen is shown again after so many lines of speeds, as in `teleop_twist_keyboard`.
+/// Number of velocity lines after which the screen is printed again, as in `teleop_twist_keyboard`.
 const LINES_PER_SCREEN: u32 = 15;
 
-/// How long the last velocity may take to arrive.
+/// Timeout for delivering the last velocity.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
-/// Longest time without looking whether anything is due.
+/// Longest wait for a key.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Drive a robot with the keyboard, with the keys of `teleop_twist_keyboard`
@@ -73,8 +73,8 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitC
     };
     if !io::stdin().is_terminal() {
         complain(
-            "teleop reads keys from a terminal, and its input is none; run it in a terminal of \
-             its own, not from a launch file or a pipe",
+            "teleop reads keys from a terminal, and its input is not a terminal; run it in a \
+             separate terminal, not from a launch file or a pipe",
         );
         return Ok(ExitCode::from(2));
     }
@@ -91,20 +91,20 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitC
     let terminal = RawTerminal::open()?;
     let outcome = driving.go(&live.graph, &terminal);
     drop(terminal);
-    // Whatever happened, the robot stands still now.
+    // The robot is stopped in every case.
     driving.keyboard.stop();
     driving.publish();
     live.end(LAST_WORD);
     outcome.map(|()| ExitCode::SUCCESS)
 }
 
-/// A node that is driven with.
+/// Teleop node.
 struct Driving {
     keyboard: Keyboard,
     settings: Settings,
     outlet: Outlet,
     clock: Mailbox<Clock>,
-    /// Simulated time, if somebody tells it.
+    /// Simulated time, if `/clock` is published.
     simulated: Option<Time>,
     _node: Node,
 }
@@ -115,7 +115,7 @@ enum Outlet {
 }
 
 impl Driving {
-    /// None when something is wrong, which has been told.
+    /// Creates the node; prints the error and returns `None` on failure.
     fn new(graph: &Graph, options: &TeleopOptions) -> io::Result<Option<Self>> {
         let mut found = Diagnostics::new();
         let values = TELEOP.check(options.given(), None, &mut found);
@@ -147,7 +147,7 @@ impl Driving {
         Ok(Self { keyboard, settings, outlet, clock, simulated: None, _node: node })
     }
 
-    /// Until somebody has had enough.
+    /// Runs until the user quits.
     fn go(&mut self, graph: &Graph, terminal: &RawTerminal) -> io::Result<()> {
         terminal.write(SCREEN)?;
         terminal.write(&format!("{}\n", status(&self.keyboard)))?;
@@ -167,7 +167,7 @@ impl Driving {
                         if lines % LINES_PER_SCREEN == 0 {
                             terminal.write(SCREEN)?;
                         }
-                        let limit = if at_limit { "\t(as fast as allowed)" } else { "" };
+                        let limit = if at_limit { "\t(at the maximum)" } else { "" };
                         terminal.write(&format!("{}{limit}\n", status(&self.keyboard)))?;
                     }
                 }

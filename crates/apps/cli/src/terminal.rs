@@ -1,4 +1,4 @@
-//! What a person reads.
+//! Output to the terminal.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use periplus_os::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::Search;
 
-/// The exit code of what a person stopped with Ctrl-C before its end, as shells have it.
+/// Exit code after Ctrl-C, as in shells.
 pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Writes one line about the command itself to stderr.
@@ -18,22 +18,22 @@ pub(crate) fn complain(words: &str) {
     let _ = writeln!(anstream::stderr(), "error: {words}");
 }
 
-/// Writes one line to stderr about what goes wrong while the command goes on.
+/// Writes a warning line to stderr.
 pub(crate) fn warn(words: &str) {
     let _ = writeln!(anstream::stderr(), "warning: {words}");
 }
 
-/// Writes one line about what was done to stderr.
+/// Writes an informational line to stderr.
 pub(crate) fn say(words: &str) {
     let _ = writeln!(anstream::stderr(), "{words}");
 }
 
-/// Writes the findings of a file; colours are taken out on the way where nobody can see them.
+/// Writes the findings of a file; colours are stripped where the output does not show them.
 pub(crate) fn findings(out: &mut dyn Write, loaded: &Loaded) -> io::Result<()> {
     diagnostics(out, &loaded.diagnostics, &loaded.sources)
 }
 
-/// Writes findings with the texts that they point into.
+/// Writes findings with the source texts that they refer to.
 pub(crate) fn diagnostics(
     out: &mut dyn Write,
     diagnostics: &Diagnostics,
@@ -50,7 +50,7 @@ pub(crate) fn diagnostics(
     Ok(())
 }
 
-/// `2 errors, 1 warning`, or `no findings`.
+/// Returns a count such as `2 errors, 1 warning`, or `no findings`.
 pub(crate) fn counts(loaded: &Loaded) -> String {
     let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
     let parts: Vec<String> = kinds
@@ -62,7 +62,7 @@ pub(crate) fn counts(loaded: &Loaded) -> String {
     if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
 }
 
-/// A line that shows how far a long work is; nothing where stderr is no terminal.
+/// Progress bar; hidden where stderr is no terminal.
 pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
@@ -73,24 +73,24 @@ pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {
     ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// Where the user stands.
+/// Working folder of the user.
 pub(crate) fn working_folder() -> PathBuf {
     std::env::current_dir().unwrap_or_default()
 }
 
-/// Where things are looked for that a running world is told to spawn.
+/// Search paths of entities that a running world spawns.
 pub(crate) fn search(resource_path: &[PathBuf]) -> Search {
     let working_folder = working_folder();
     let folders = resource_path.iter().map(|folder| working_folder.join(folder)).collect();
     Search { folders, working_folder, ..Search::default() }
 }
 
-/// Threads that the machine can run side by side.
+/// Number of threads that can run in parallel.
 pub(crate) fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Runs something with the machine as readers see it.
+/// Runs a function with the file system and environment of this machine.
 pub(crate) fn with_setting<T>(
     resource_path: &[PathBuf],
     arguments: Vec<(String, String)>,

@@ -1,4 +1,4 @@
-//! `periplus topic`, `node`, `service` and the like: what is typed, and where it goes.
+//! Options of `periplus topic`, `node`, `service` and others, and their dispatch.
 
 mod action;
 mod common;
@@ -40,7 +40,7 @@ pub(crate) use topic::TopicOptions;
 pub(crate) use common::{Common, seconds};
 use wired::Wired;
 
-/// Joins the network and does what is asked.
+/// Joins the network and runs a verb.
 pub(crate) fn with_session(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
@@ -68,7 +68,7 @@ pub(crate) fn with_session(
     end(outcome)
 }
 
-/// The types that are built in and those of the user's packages; what is wrong with them is said.
+/// Built-in types and those of the user's packages; prints their findings.
 fn types(common: &Common) -> io::Result<Types> {
     let has_prefix = Machine.variable("AMENT_PREFIX_PATH").is_some_and(|path| !path.is_empty());
     if common.interfaces.is_empty() && !has_prefix {
@@ -81,7 +81,7 @@ fn types(common: &Common) -> io::Result<Types> {
     Ok(Types::With(Box::new(loaded.types)))
 }
 
-/// Does what is asked where nobody else is needed.
+/// Runs a verb that needs no network.
 pub(crate) fn without_network(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
@@ -100,12 +100,12 @@ pub(crate) fn without_network(
     end(outcome)
 }
 
-/// The exit code, with words where something went wrong.
+/// Exit code of an outcome; prints its error.
 fn end(outcome: Outcome) -> io::Result<ExitCode> {
     match outcome {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(Failure::Output(error)) => Err(error),
-        // Scripts for ROS read the answer, not the exit code.
+        // Scripts for ROS parse the output, not the exit code.
         Err(Failure::Refused(refusal)) if old_words::is_ros2() => {
             match refusal.ros2 {
                 Ros2Line::Nothing => {}

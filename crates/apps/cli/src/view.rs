@@ -19,13 +19,13 @@ use crate::page::{About, PORT, Page, PageOptions};
 use crate::stop;
 use crate::terminal::{complain, say};
 
-/// How often time is told.
+/// Polling period.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How often it is looked who came and went on the network.
+/// Period of sending remote topics to the page.
 const LOOK_AROUND: Duration = Duration::from_millis(200);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(300);
 
 /// Show a running ROS 2 system in the browser
@@ -72,9 +72,9 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
         }
     };
     let url = page.url();
-    say(&format!("ROS 2, domain {}: the page is at {url}; Ctrl-C ends it", live.domain_id));
+    say(&format!("ROS 2 domain {}; page: {url} (Ctrl-C ends it)", live.domain_id));
     if !options.no_browser && !browser::open(&url) {
-        say("no browser could be opened; open the page yourself");
+        say("no browser could be started; open the page yourself");
     }
     let node = live.graph.node(NodeSettings::new("periplus_view").bare());
     let mut looked: Option<Stopwatch> = None;

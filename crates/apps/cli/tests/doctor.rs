@@ -41,7 +41,7 @@ fn nodes_of_one_file_that_live_by_different_clocks() {
 #[test]
 fn a_lidar_in_a_housing_sees_the_world() {
     let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../worlds/pong.sdf");
-    // A hint: its model tells no frames.
+    // A hint: its model publishes no frames.
     assert_eq!(doctor(&world), (vec!["no-frames".to_owned()], Some(0)));
 }
 

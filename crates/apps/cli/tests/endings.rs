@@ -30,7 +30,7 @@ fn with_default_signals(program: &str) -> Command {
 fn start(words: &[&str], log: &Path) -> Child {
     let mut command = with_default_signals(env!("CARGO_BIN_EXE_periplus"));
     command.args(words).current_dir(top()).env("NO_COLOR", "1");
-    // Nobody else is asked.
+    // No other process is signalled.
     command.env("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF");
     command.stdout(Stdio::null()).stderr(fs::File::create(log).unwrap());
     command.spawn().unwrap()
@@ -125,7 +125,7 @@ fn launch_with_children(folder: &Folder) -> (PathBuf, PathBuf) {
 
 fn is_running(number: &str) -> bool {
     let status = text(&PathBuf::from(format!("/proc/{number}/stat")));
-    // A zombie has ended; its parent may be anybody.
+    // A zombie has ended; its parent may be any process.
     !status.is_empty() && !status.rsplit(") ").next().unwrap_or_default().starts_with('Z')
 }
 
@@ -168,7 +168,7 @@ fn a_full_disk_is_reported_while_the_run_goes_on() {
     assert_eq!(end_of(&mut child).code(), Some(1), "{}", text(&log));
     let told = text(&log);
     let at = told.find("has stopped at").unwrap_or_else(|| panic!("{told}"));
-    assert!(at < told.find("the bag is not whole").unwrap(), "{told}");
+    assert!(at < told.find("the bag is incomplete").unwrap(), "{told}");
     assert!(told.contains("the run goes on"), "{told}");
     assert!(fs::read_dir(&map).unwrap().count() > 0, "the map is written all the same: {told}");
     let info =

@@ -59,7 +59,7 @@ fn gazebos_own_tools_see_drive_and_change_a_world() {
     let Some(gazebo) = Gazebo::new("world") else { return };
     let words = ["sim", &pong(), "--gz", "--gz-types", "ignition", "--ros2", "off", "-q"];
     let _world = start(gazebo.partition(), &words);
-    // A list may be printed before all publishers were heard of.
+    // A list may be printed before all publishers are discovered.
     let wanted = ["/lidar", "/stats", "/world/pong/stats", "/world/pong/pose/info", "/clock"];
     let has = |list: &str, topic: &str| list.lines().any(|line| line == topic);
     let mut list = gazebo.tool("topic", &["-l"]);
@@ -173,5 +173,5 @@ fn words_that_are_no_topic_are_answered_as_there() {
     let output = periplus("none", &["bridge", "/lidar"]).output().unwrap();
     assert_eq!(output.status.code(), Some(255));
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("there is no `@` after the name"), "{said}");
+    assert!(said.contains("missing `@` after the name"), "{said}");
 }

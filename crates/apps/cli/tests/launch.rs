@@ -31,7 +31,7 @@ fn neutral(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes).replace(&own().display().to_string(), "OWN");
     let mut out = String::new();
     let mut rest = text.as_str();
-    // Files that were made for a launch lie in a folder of its own.
+    // Generated files of a launch are in a separate folder.
     while let Some(at) = rest.find("/periplus_launch_") {
         let from = rest[..at].rfind('"').map_or(at, |quote| quote + 1);
         out += &rest[..from];

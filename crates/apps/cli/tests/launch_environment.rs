@@ -40,7 +40,7 @@ impl Machine {
         path
     }
 
-    /// Whether the launch ran, and what was written to stderr.
+    /// Exit status of the launch, and its stderr.
     fn launch(&self, name: &str, text: &str) -> (bool, String) {
         let file = self.write(&format!("ws/pkg/launch/{name}"), text);
         let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
@@ -106,7 +106,7 @@ fn variables_that_a_file_in_python_sets() {
     let other = "SetEnvironmentVariable('GZ_SIM_RESOURCE_PATH', 'TOP/far'),";
     machine.misses("other.launch.py", &with(other), "set at");
     machine.misses("other.launch.py", &with(other), "other.launch.py:9");
-    // A group has an environment of its own.
+    // A group has its own environment.
     let scoped = format!("GroupAction([{set} LogInfo(msg='in')], scoped=True),");
     machine.misses("scoped.launch.py", &with(&scoped), "does not hold where the world is started");
     let late = python(&format!(

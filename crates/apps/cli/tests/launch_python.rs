@@ -23,7 +23,7 @@ fn launch(file: &Path, words: &[&str]) -> Output {
     command.output().unwrap()
 }
 
-/// What a file in a workspace of its own gives: the exit code, the plan, and what was said.
+/// Evaluates a file in a new workspace: the exit code, the plan, and stderr.
 fn check(name: &str, text: &str, words: &[&str]) -> (Option<i32>, String, String) {
     let folder = workspace(name, &[("src/bot/launch/a.launch.py", text)]);
     let output = launch(&folder.join("src/bot/launch/a.launch.py"), words);
@@ -457,7 +457,7 @@ def generate_launch_description():
     assert!(said.contains("a.xacro:3:"), "{said}");
 }
 
-/// Without the file, a typing error in `${...}` or a macro that nobody defines is an error.
+/// Without the file, a typing error in `${...}` or an undefined macro is an error.
 #[test]
 fn descriptions_with_undefined_names_are_errors() {
     if !has_python() {

@@ -30,7 +30,7 @@ fn has_python() -> bool {
     has
 }
 
-/// A run of its own: its bag, and what it has told.
+/// A run with its bag and its output.
 struct Ran {
     bag: PathBuf,
     told: String,
@@ -40,7 +40,7 @@ struct Ran {
 
 fn run(name: &str, words: &[&str]) -> Ran {
     let folder = Folder::new(name);
-    // A bag says what its file is called.
+    // The metadata of a bag contain its file name.
     let bag = folder.path("run.mcap");
     let path = bag.display().to_string();
     let own = "crates/apps/cli/tests/launch";
@@ -72,7 +72,7 @@ impl Ran {
         topics.assert_eq(&self.topics());
     }
 
-    /// Of these topics.
+    /// Number of messages on these topics.
     fn has_of(&self, wanted: &[&str], topics: Expect) {
         assert!(self.is_success, "{}", self.told);
         let all = self.topics();
@@ -82,7 +82,7 @@ impl Ran {
         topics.assert_eq(&(lines.join("\n") + "\n"));
     }
 
-    /// What became of each step.
+    /// Outcome of each step.
     fn became(&self) -> String {
         let is_step = |line: &&str| ["+ ", "- ", "= "].iter().any(|sign| line.starts_with(sign));
         self.told.lines().filter(is_step).map(|line| line.to_owned() + "\n").collect()
@@ -261,7 +261,7 @@ fn a_world_of_harmonic_and_its_bridge() {
     .assert_eq(&ran.became());
 }
 
-/// What is not there is told once, and the rest runs; a required program ends everything.
+/// A missing program is reported once, and the rest runs; a required program ends everything.
 #[test]
 fn programs_of_the_machine_and_what_is_missing() {
     let folder = Folder::new("programs");

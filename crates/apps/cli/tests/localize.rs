@@ -11,7 +11,7 @@ use std::process::{Command, Output};
 use common::Folder;
 use serde_json::Value;
 
-/// Of cells, in metres.
+/// Cell size \[m\].
 const SIDE_M: f64 = 0.05;
 const WIDTH: usize = 120;
 const HEIGHT: usize = 80;
@@ -32,7 +32,7 @@ fn is_wall(column: usize, row: usize) -> bool {
     })
 }
 
-/// Writes the map, with walls where this says so.
+/// Writes the map, with walls where this function returns true.
 fn write_map(folder: &Folder, walls: impl Fn(usize, usize) -> bool) {
     let mut image = format!("P5 {WIDTH} {HEIGHT} 255\n").into_bytes();
     for row in (0..HEIGHT).rev() {
@@ -44,7 +44,7 @@ fn write_map(folder: &Folder, walls: impl Fn(usize, usize) -> bool) {
     std::fs::write(folder.path("room.yaml"), yaml).unwrap();
 }
 
-/// What a scanner that looks along x sees: 180 beams over half a turn.
+/// Scan of a lidar that looks along x: 180 beams over half a turn.
 fn look(x_m: f64, y_m: f64) -> Vec<f64> {
     let beam = |index: usize| {
         let angle = (index as f64 - 90.0).to_radians();
@@ -110,7 +110,7 @@ fn a_robot_finds_itself_and_says_when() {
     assert!(Path::new(&folder.path("out/trajectory.png")).is_file());
 }
 
-/// What is complained of, and with which exit code.
+/// Errors and their exit codes.
 #[track_caller]
 fn refused(folder: &Folder, words: &[&str], code: i32, expected: &[&str]) {
     let output = localize(folder, words);
@@ -128,7 +128,7 @@ fn what_is_wrong_with_the_map_is_said() {
     refused(&folder, &words, 1, &["none.yaml"]);
     refused(&folder, &["drive.log", "--out", "out"], 2, &["--map <MAP.yaml>"]);
     std::fs::remove_file(folder.path("room.pgm")).unwrap();
-    // It is said where the image is named.
+    // The finding is located at the name of the image.
     refused(&folder, &USUAL, 1, &["room.yaml:1", "room.pgm"]);
     write_map(&folder, |_, _| false);
     refused(

@@ -54,7 +54,7 @@ fn fast() -> Option<PathBuf> {
     Some(program)
 }
 
-/// A program that runs until this is dropped, and the lines that it says.
+/// A program that runs until dropped, and its output lines.
 struct Running {
     child: Child,
     lines: Receiver<String>,
@@ -67,7 +67,7 @@ impl Running {
         Self::reading(child, output)
     }
 
-    /// One that says what it does where errors go.
+    /// A program whose output of interest is stderr.
     fn start_and_hear_errors(command: &mut Command) -> Self {
         let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let output = child.stderr.take().unwrap();
@@ -83,7 +83,7 @@ impl Running {
         Self { child, lines }
     }
 
-    /// Tells it a line.
+    /// Writes a line to its input.
     fn hears(&mut self, line: &str) {
         let input = self.child.stdin.as_mut().unwrap();
         writeln!(input, "{line}").and_then(|()| input.flush()).unwrap();
@@ -110,7 +110,7 @@ impl Drop for Running {
     }
 }
 
-/// A domain with nobody else in it, for the tests of one run.
+/// A domain without other participants, for the tests of one run.
 #[derive(Clone, Copy)]
 struct Domain(u32);
 
@@ -142,7 +142,7 @@ impl Domain {
         self.periplus(&words).output().unwrap()
     }
 
-    /// What a verb prints.
+    /// Output of a verb.
     #[track_caller]
     fn gives(self, line: &str) -> String {
         let output = self.run(line);
@@ -155,7 +155,7 @@ impl Domain {
         assert_eq!(self.gives(line), expected, "{line}");
     }
 
-    /// What a verb complains of.
+    /// Error output of a verb.
     #[track_caller]
     fn fails(self, line: &str) -> String {
         let output = self.run(line);
@@ -200,7 +200,7 @@ fn topics_and_nodes_of_a_ros_2_node_are_seen_and_heard() {
     domain.gives("topic pub --once /commands std_msgs/msg/String {data: go}");
     assert_eq!(robot.says("heard"), "heard go");
 
-    // One topic, and another that nobody publishes yet: it is not waited for.
+    // One topic, and another without a publisher: the verb does not wait for it.
     let hz = ["topic", "hz", "/chatter", "/late", "--json"];
     let hz = Running::start(&mut domain.periplus(&hz));
     let rate_of = |line: &str| -> f64 {
@@ -286,7 +286,7 @@ fn keys_drive_a_ros_2_node() {
     teleop.says("Keys drive the robot");
     let mut keys = teleop.child.stdin.take().unwrap();
     let mut press = |key: &[u8]| keys.write_all(key).and_then(|()| keys.flush()).unwrap();
-    // Until it is found nobody hears the keys.
+    // Before discovery no subscriber receives the keys.
     let start = Instant::now();
     let first = loop {
         press(b"i");
@@ -353,7 +353,7 @@ fn what_a_ros_2_robot_says_wrong_is_told_and_survived() {
     amcl.says("the initial pose (77.000, 0.000) is outside of the map");
     robot.hears("doubt 1 1 0");
     amcl.says("entry 7 of the covariance");
-    // No wrong pose was told, and a right one still can be.
+    // No wrong pose was published, and a right one can still follow.
     assert!(
         robot.lines.try_iter().all(|line| !line.starts_with("pose") && !line.starts_with("tf"))
     );

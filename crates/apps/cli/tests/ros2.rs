@@ -15,7 +15,7 @@ mod common;
 
 const LONG: Duration = Duration::from_secs(60);
 
-/// A domain of its own for each test.
+/// A separate domain for each test.
 #[derive(Clone, Copy)]
 struct Domain(u32);
 
@@ -45,7 +45,7 @@ struct Running {
 }
 
 impl Running {
-    /// Its output and what it says beside it come as lines of one stream.
+    /// Stdout and stderr come as lines of one stream.
     fn start(command: &mut Command) -> Self {
         let mut child = command
             .stdin(Stdio::piped())
@@ -103,7 +103,7 @@ impl Running {
         Duration::from_nanos(times.sum())
     }
 
-    /// How often threads have slept and were woken.
+    /// Number of sleeps and wake-ups of threads.
     #[cfg(target_os = "linux")]
     fn wakes(&self) -> u64 {
         let threads = std::fs::read_dir(format!("/proc/{}/task", self.child.id())).unwrap();

@@ -23,9 +23,9 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use serde_json::Value;
 use worlds::{Moment, ROBOT, World};
 
-/// Where the scanner is on the robot \[m\].
+/// Position of the scanner on the robot \[m\].
 const AHEAD_M: f64 = 0.1;
-/// Where the clock of the drive begins \[ns\].
+/// Start time of the drive \[ns\].
 const BEGIN_NS: i64 = 1_000_000_000_000;
 
 /// Around the corner of a corridor, with a scanner ahead of the robot's middle.
@@ -151,7 +151,7 @@ fn slam(log: &Path, out: &Path) -> Mapped {
     }
 }
 
-/// That a trajectory is where the robot was, as far as it goes.
+/// Asserts that a trajectory follows the true path.
 fn check(mapped: &Mapped, moments: &[Moment]) {
     let [_, x, y, yaw] = mapped.trajectory[0];
     let truth_from_map = moments[0].truth * Pose2::new(x, y, yaw).inverse();

@@ -1,4 +1,4 @@
-//! The usual nodes beside robots that nothing was told about, and scripts without topics.
+//! The navigation stack beside robots without configuration, and scripts without topics.
 #![allow(clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -69,7 +69,7 @@ fn a_script_and_a_map_with_both_robots() {
             "{robot}: {told}"
         );
         assert!(!told.contains("the map is made of"), "{robot}: {told}");
-        // The first scan comes before the filter has said anything.
+        // The first scan arrives before the first message of the filter.
         let lost =
             told.lines().find_map(|line| line.trim().strip_suffix(" scans had no transforms"));
         let lost: u32 = lost.map_or(0, |count| count.parse().unwrap());

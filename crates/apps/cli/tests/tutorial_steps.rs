@@ -1,7 +1,7 @@
 //! The table of steps (`docs/tutorials/steps.md`) against the tutorials and the tests that it names.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "files of the project are read")]
-#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+#![allow(clippy::print_stderr, reason = "skipped tests are reported")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

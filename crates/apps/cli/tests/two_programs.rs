@@ -1,4 +1,4 @@
-//! Two programs that talk over the machine's own network, in a domain where nobody else is.
+//! Two programs on the network of this machine, in a domain without other participants.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::process::{Child, Command, Output, Stdio};

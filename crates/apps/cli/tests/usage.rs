@@ -136,7 +136,7 @@ fn wrong_words_are_2_everywhere() {
     }
 }
 
-/// What cannot be written is said with the path, and fails.
+/// A failed write is reported with its path, and the command fails.
 #[test]
 fn a_place_that_cannot_be_written_is_1() {
     let folder = Folder::new("usage-write");

@@ -49,7 +49,7 @@ fn a_run_is_seen_and_heard() {
     let _running = Killed(running.stdout(Stdio::null()).spawn().unwrap());
     let (_peer, said) = peer(&["hear", "/clock", "3"]);
     let lines: Vec<String> = said.map(Result::unwrap).collect();
-    // Four bytes that say how it is coded, seconds and nanoseconds.
+    // Four bytes of encapsulation, seconds and nanoseconds.
     let expected = "rosgraph_msgs::msg::dds_::Clock_ of 12 bytes, its name";
     assert_eq!(lines, [expected; 3]);
 }

@@ -1,7 +1,7 @@
 //! Our recordings in other people's libraries and theirs in ours, for every type of message. Needs
 //! Python with `mcap`, `mcap-ros2-support` and `rosbags`: `PERIPLUS_PYTHON`, otherwise `python3`.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-#![allow(clippy::print_stdout, reason = "what is skipped is said loudly")]
+#![allow(clippy::print_stdout, reason = "skipped tests are reported loudly")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
 mod common;

@@ -47,7 +47,7 @@ pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
 
 pub(super) fn cut(options: &CutOptions) -> io::Result<ExitCode> {
     if options.select.is_all() {
-        terminal::complain("nothing is cut off; give topics or times, or use `bag convert`");
+        terminal::complain("nothing to cut: select topics or times, or use `bag convert`");
         return Ok(ExitCode::from(2));
     }
     let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
@@ -72,7 +72,7 @@ fn write(
         return Ok(ExitCode::from(2));
     }
     let selection = select.of(bags);
-    // Nobody waits for the other cores.
+    // Conversion runs alone, so it may use all cores.
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let write = WriteSettings { threads, ..write };
     let line = Line::new(bags.iter().map(Bag::message_count).sum());

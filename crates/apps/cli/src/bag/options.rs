@@ -1,4 +1,4 @@
-//! What can be typed after `periplus bag`.
+//! Options of `periplus bag`.
 
 use std::path::PathBuf;
 
@@ -84,7 +84,7 @@ pub(crate) struct CheckOptions {
     pub(crate) json: bool,
 }
 
-/// Play a recording to ROS 2, also one of ROS 1
+/// Play a recording of ROS 1 or ROS 2 on ROS 2
 #[derive(Debug, Args)]
 pub(crate) struct PlayOptions {
     /// Recording
@@ -168,7 +168,7 @@ pub(crate) struct ReindexOptions {
     pub(crate) style: Readers,
 }
 
-/// Which topics.
+/// Selection of topics.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct NameOptions {
     /// Include only these topics
@@ -185,7 +185,7 @@ pub(crate) struct NameOptions {
     pub(crate) exclude_regex: Option<regex::Regex>,
 }
 
-/// Which messages.
+/// Selection of messages.
 #[derive(Debug, Default, Args)]
 pub(crate) struct SelectOptions {
     #[command(flatten)]
@@ -204,7 +204,7 @@ pub(crate) struct SelectOptions {
     pub(crate) end: Option<i64>,
 }
 
-/// How recordings are written.
+/// Storage of the output.
 #[derive(Debug, Default, Args)]
 pub(crate) struct WriteOptions {
     /// Storage format, if the extension does not define it
@@ -234,9 +234,9 @@ pub(crate) struct WriteOptions {
 pub(crate) enum StorageId {
     /// MCAP
     Mcap,
-    /// A database, the usual one until ROS 2 Humble
+    /// sqlite3, the default until ROS 2 Humble
     Sqlite3,
-    /// A bag of ROS 1
+    /// ROS 1 bag
     Rosbag,
 }
 
@@ -323,9 +323,9 @@ impl From<Readers> for Style {
     }
 }
 
-/// Seconds, exactly \[ns\].
+/// Parses seconds exactly \[ns\].
 fn seconds(word: &str) -> Result<i64, String> {
-    let wrong = || "it has to be a number of seconds, such as 1.5".to_owned();
+    let wrong = || "give a number of seconds, such as 1.5".to_owned();
     let (whole, part) = word.split_once('.').unwrap_or((word, ""));
     let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     if whole.is_empty() && part.is_empty() || !is_number(whole) || !is_number(part) {

@@ -1,4 +1,4 @@
-//! The file that `ros2 bag convert --output-options` reads: which recordings come out, and how.
+//! YAML file of `ros2 bag convert --output-options`: output recordings and their settings.
 //!
 //! Names are those of rosbag2's `StorageOptions` and `RecordOptions` (`rosbag2_storage/yaml.hpp`,
 //! `rosbag2_transport/record_options.hpp`).
@@ -11,7 +11,7 @@ use periplus_yaml::Node;
 
 use super::options::{Chunks, Format, Mode, SelectOptions, StorageId, WriteOptions};
 
-/// A recording that comes out.
+/// Settings of one output recording.
 #[derive(Debug)]
 pub(super) struct Wanted {
     pub(super) output: PathBuf,
@@ -19,7 +19,7 @@ pub(super) struct Wanted {
     pub(super) write: WriteOptions,
 }
 
-/// What else may stand there and changes nothing of what comes out.
+/// Keys that are accepted and have no effect on the output.
 const WITHOUT_EFFECT: [&str; 18] = [
     "compression_queue_size",
     "compression_threads",
@@ -60,13 +60,13 @@ const WITH_EFFECT: [&str; 16] = [
     "end_time_ns",
 ];
 
-/// Whether a path names such a file and not a recording.
+/// Returns true if a path names a YAML file instead of a recording.
 pub(super) fn is_one(path: &Path) -> bool {
     let is_yaml = path.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     is_yaml && path.is_file()
 }
 
-/// Reads such a file; the findings tell what is wrong, and the sources where.
+/// Reads a YAML file of outputs; the findings carry their source lines.
 pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap), String> {
     let text = crate::paths::text(path)?;
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
@@ -80,9 +80,9 @@ pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap),
     };
     if wanted.is_empty() && !findings.has_errors() {
         findings.push(
-            Diagnostic::error("no-output", "the file names no `output_bags`")
+            Diagnostic::error("no-output", "the file has no `output_bags`")
                 .at(sources.whole(file))
-                .help("write `output_bags:` and below it `- uri: NAME` for each recording"),
+                .help("write `output_bags:` with an entry `- uri: NAME` for each recording"),
         );
     }
     Ok((wanted, findings, sources))
@@ -96,8 +96,11 @@ fn outputs(node: &Node, findings: &mut Diagnostics) -> Vec<Wanted> {
 fn output(node: &Node, findings: &mut Diagnostics) -> Option<Wanted> {
     let Some(uri) = node.get("uri").and_then(Node::text) else {
         findings.push(
-            Diagnostic::error("no-uri", "a recording has no `uri`, which says where it goes")
-                .at(node.span),
+            Diagnostic::error(
+                "no-uri",
+                "an entry of `output_bags` has no `uri`, the path of the output",
+            )
+            .at(node.span),
         );
         return None;
     };
@@ -108,17 +111,15 @@ fn output(node: &Node, findings: &mut Diagnostics) -> Option<Wanted> {
     };
     for (name, value) in node.entries().unwrap_or_default() {
         let Some(key) = name.text() else { continue };
-        // Nothing is as if it did not stand there.
+        // A null value counts as absent.
         let is_empty = value.is_null() || value.text() == Some("");
         if is_empty || WITHOUT_EFFECT.contains(&key) {
             continue;
         }
         if !WITH_EFFECT.contains(&key) {
-            let mut unknown = Diagnostic::warning(
-                "unknown-option",
-                format!("`{key}` is not known and changes nothing"),
-            )
-            .at(name.span);
+            let mut unknown =
+                Diagnostic::warning("unknown-option", format!("`{key}` is unknown and ignored"))
+                    .at(name.span);
             if let Some(near) = closest(key, WITH_EFFECT) {
                 unknown = unknown.help(format!("did you mean `{near}`?"));
             }
@@ -133,13 +134,13 @@ fn output(node: &Node, findings: &mut Diagnostics) -> Option<Wanted> {
 
 fn set(wanted: &mut Wanted, key: &str, value: &Node) -> Result<(), String> {
     let (select, write) = (&mut wanted.select, &mut wanted.write);
-    let text = || value.text().ok_or_else(|| "it has to be a text".to_owned());
-    let number = || value.integer().ok_or_else(|| "it has to be a whole number".to_owned());
+    let text = || value.text().ok_or_else(|| "expected a string".to_owned());
+    let number = || value.integer().ok_or_else(|| "expected an integer".to_owned());
     let regex = || text().and_then(|text| text.parse().map_err(|error| format!("{error}")));
     match key {
         "storage_id" => write.storage = Some(one_of::<StorageId>(text()?)?),
-        // All are chosen when none is named.
-        "all" | "all_topics" => drop(value.truth().ok_or("it has to be true or false")?),
+        // An empty selection means all topics.
+        "all" | "all_topics" => drop(value.truth().ok_or("expected true or false")?),
         "topics" => select.names.topics = texts(value)?,
         "exclude_topics" => select.names.exclude_topics = texts(value)?,
         "regex" => select.names.regex = Some(regex()?),
@@ -158,12 +159,12 @@ fn set(wanted: &mut Wanted, key: &str, value: &Node) -> Result<(), String> {
     Ok(())
 }
 
-/// The profiles that rosbag2's MCAP plugin knows.
+/// Storage presets of rosbag2's MCAP plugin.
 fn preset(name: &str) -> Result<Chunks, String> {
     match name {
         "none" | "fastwrite" => Ok(Chunks::None),
         "zstd_fast" | "zstd_small" => Ok(Chunks::Zstd),
-        _ => Err("there are none, fastwrite, zstd_fast and zstd_small".to_owned()),
+        _ => Err("expected none, fastwrite, zstd_fast or zstd_small".to_owned()),
     }
 }
 
@@ -171,11 +172,11 @@ fn one_of<T: ValueEnum>(word: &str) -> Result<T, String> {
     T::from_str(word, true).map_err(|_| {
         let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
         let names: Vec<String> = names.map(|name| name.get_name().to_owned()).collect();
-        format!("there are {}", names.join(", "))
+        format!("expected one of {}", names.join(", "))
     })
 }
 
 fn texts(value: &Node) -> Result<Vec<String>, String> {
     let all = value.list().map(|list| list.iter().map(|one| one.text().map(str::to_owned)));
-    all.and_then(Iterator::collect).ok_or_else(|| "it has to be a list of names".to_owned())
+    all.and_then(Iterator::collect).ok_or_else(|| "expected a list of names".to_owned())
 }

@@ -15,13 +15,13 @@ use crate::live::Live;
 use crate::stop;
 use crate::terminal;
 
-/// How long the loop sleeps at most: Ctrl-C and ENTER are seen by then.
+/// Longest sleep of the loop, so that Ctrl-C and ENTER are handled within this time.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// Until this long after all was said others may still be fetching it.
+/// Time that subscribers have to fetch the last messages.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
-/// Others need this long to find a new publisher; what is said before, nobody hears.
+/// Time for discovery: messages published before are lost to subscribers that have not matched yet.
 const GREETING: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
@@ -43,7 +43,7 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
     let player = Player::new(bag, &live.graph, settings);
     let played = player.and_then(|mut player| play(&mut player, &live, options.delay, &stop));
     if !live.end(LAST_WORDS) {
-        terminal::complain("somebody did not take all that was said");
+        terminal::complain("a subscriber did not acknowledge all messages before the end");
     }
     match played {
         Ok(()) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(terminal::INTERRUPTED)),
@@ -68,7 +68,7 @@ fn play(
         live.go_on();
         if keys.swap(false, Ordering::Relaxed) {
             player.set_paused(!player.is_paused());
-            terminal::say(if player.is_paused() { "stands still" } else { "goes on" });
+            terminal::say(if player.is_paused() { "paused" } else { "resumed" });
         }
         let wall = watch.elapsed();
         let Some(wall) = wall.checked_sub(delay) else {
@@ -87,7 +87,7 @@ fn play(
     Ok(())
 }
 
-/// Becomes true with each ENTER.
+/// Returns a flag that each ENTER sets.
 fn enter_keys() -> Arc<AtomicBool> {
     let pressed = Arc::new(AtomicBool::new(false));
     let flag = pressed.clone();

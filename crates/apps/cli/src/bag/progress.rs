@@ -1,8 +1,8 @@
-//! How far a long work is, for a person who waits.
+//! Progress of long conversions.
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A line at the bottom of the terminal; nothing where stderr is no terminal.
+/// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
 pub(super) struct Line(ProgressBar);
 
 impl Line {

@@ -21,10 +21,10 @@ use crate::live::Live;
 use crate::stop;
 use crate::terminal;
 
-/// How often it looks for new topics, and puts old messages on the disk.
+/// Period of discovery of new topics and of flushing old messages to the disk.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// How often it looks at the clock.
+/// Polling period of the clock.
 const TICK: Duration = Duration::from_millis(2);
 
 pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
@@ -55,12 +55,12 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let offers = Offers::default();
     let known = offers.clone();
     let settings = RecordSettings {
-        // Nobody here says anything: all that is heard was asked for.
+        // This node publishes nothing, so every received message was subscribed to.
         wanted: Box::new(|_| true),
         clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bagfiles::Now),
         offered: Some(Box::new(move |topic| known.of(topic))),
         ..RecordSettings::all(WriteSettings {
-            // As rosbag2 notes it.
+            // The name that rosbag2 gives to the recorder.
             ros_distro: Machine.variable("ROS_DISTRO").unwrap_or_default(),
             ..options.write.settings(&output, Storage::Mcap)
         })
@@ -72,7 +72,7 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let stop = stop::on_signal();
     let recorder = Recorder::start(&live.graph, &output, settings)?;
     let mut heard = Heard { node, offers, mailboxes: BTreeMap::new() };
-    terminal::say(&format!("{}: records until Ctrl-C", output.display()));
+    terminal::say(&format!("{}: recording; Ctrl-C ends it", output.display()));
     let mut ticks = 0;
     while !stop.load(Ordering::Relaxed) {
         live.go_on();
@@ -91,14 +91,14 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
     if recording.dropped > 0 {
         terminal::complain(&format!(
-            "{} messages came faster than the disk takes them",
+            "{} messages were dropped: they arrived faster than the disk writes",
             recording.dropped
         ));
     }
     Ok(())
 }
 
-/// QoS of the publishers of each topic, as discovery has it.
+/// QoS of the publishers of each topic, from discovery.
 #[derive(Clone, Default)]
 struct Offers(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
 
@@ -115,24 +115,24 @@ impl Offers {
     }
 }
 
-/// What is subscribed to.
+/// Subscriptions of the recorder.
 struct Heard {
     node: Node,
     offers: Offers,
-    /// By topic: what is asked for, and the subscription.
+    /// By topic: requested QoS, and the subscription.
     mailboxes: BTreeMap<String, (Qos, RawMailbox)>,
 }
 
 impl Heard {
-    /// Subscribes to wanted topics that are new, and again where a publisher has come that offers less
-    /// than is asked for.
+    /// Subscribes to selected topics that are new, and again when a publisher appears that offers
+    /// less than the requested QoS.
     fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {
         for topic in &remote.topics {
             let Some(type_name) = topic.type_names.first() else { continue };
             if topic.publishers.is_empty() || !options.wants(&topic.name) {
                 continue;
             }
-            // Before the subscription, whose first message takes it.
+            // Noted before the subscription, because its first message needs it.
             self.offers.note(topic);
             let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
             let is_heard =
@@ -143,28 +143,28 @@ impl Heard {
             let hash = topic.publishers.iter().find_map(|one| one.type_hash.as_deref());
             let qos = request(topic);
             if before == Some(qos) {
-                // Whatever is lacking is nothing that can be asked for less.
+                // Other incompatibilities cannot be solved by a weaker request.
                 continue;
             }
             let mailbox = self.node.raw_mailbox(&topic.name, type_name, hash, qos)?;
             let (reliability, durability) =
                 (qos.spelled(Policy::Reliability), qos.spelled(Policy::Durability));
             terminal::say(&if before.is_none() {
-                format!("records {} ({type_name})", topic.name)
+                format!("recording {} ({type_name})", topic.name)
             } else {
                 format!(
-                    "records {} again, {reliability} and {durability}: not all who publish it \
+                    "subscribed to {} again as {reliability} and {durability}: not all of its publishers \
                      offer more",
                     topic.name
                 )
             });
-            // The one before goes when this one is there, so that little is missed.
+            // The old subscription is dropped after the new one exists, to lose few messages.
             self.mailboxes.insert(topic.name.clone(), (qos, mailbox));
         }
         Ok(())
     }
 
-    /// The recorder has its own way to the messages; these only keep the topics alive.
+    /// The recorder taps the messages itself; these subscriptions only request the topics.
     fn drop_read(&self) {
         for (_, mailbox) in self.mailboxes.values() {
             drop(mailbox.drain());
@@ -172,7 +172,7 @@ impl Heard {
     }
 }
 
-/// What all publishers of a topic can offer.
+/// Strongest QoS that all publishers of a topic offer.
 fn request(topic: &RemoteTopic) -> Qos {
     let offers = || topic.publishers.iter().map(|one| one.qos);
     let mut qos = Qos::reliable(100);
@@ -198,7 +198,7 @@ impl RecordOptions {
     }
 }
 
-/// `rosbag2_` and the time, as `ros2 bag record` names its folders (in UTC).
+/// Default name: `rosbag2_` and the UTC time, as `ros2 bag record` names its folders.
 fn named_by_time() -> PathBuf {
     PathBuf::from(format!("rosbag2_{}", periplus_bagfiles::stamp_name(unix_ns())))
 }

@@ -1,4 +1,4 @@
-//! Which messages of a recording, and how they are written.
+//! Selection of messages of a recording, and settings of the output.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,7 +9,7 @@ use periplus_bags::Selection;
 use super::options::{NameOptions, SelectOptions, WriteOptions};
 
 impl NameOptions {
-    /// Whether all are wanted.
+    /// Returns true if all topics are selected.
     fn is_all(&self) -> bool {
         self.topics.is_empty()
             && self.regex.is_none()
@@ -17,7 +17,7 @@ impl NameOptions {
             && self.exclude_regex.is_none()
     }
 
-    /// Whether one of this name is.
+    /// Returns true if a topic is selected.
     fn wants(&self, name: &str) -> bool {
         let has_no_choice = self.topics.is_empty() && self.regex.is_none();
         let chosen = has_no_choice
@@ -30,13 +30,13 @@ impl NameOptions {
 }
 
 impl SelectOptions {
-    /// Whether everything is wanted.
+    /// Returns true if everything is selected.
     pub(super) fn is_all(&self) -> bool {
         self.names.is_all()
             && [self.start_offset, self.duration, self.start, self.end].iter().all(Option::is_none)
     }
 
-    /// The topics and times in recordings that have these.
+    /// Selection as topics and times of these recordings.
     pub(super) fn of(&self, bags: &[Bag]) -> Selection {
         let names = bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
         let topics: BTreeSet<String> =
@@ -56,20 +56,21 @@ impl SelectOptions {
         Selection { topics: Some(topics), span_ns: from_ns..=to_ns }
     }
 
-    /// Names that no recording has.
+    /// Selected names that no recording has.
     pub(super) fn unknown<'a>(&'a self, bags: &'a [Bag]) -> impl Iterator<Item = &'a String> {
         let names = || bags.iter().flat_map(|bag| bag.topics()).map(|topic| &topic.name);
         self.names.topics.iter().filter(move |one| !names().any(|name| same(one, name)))
     }
 }
 
-/// Names may be given without the first slash.
+/// Compares names; the leading slash may be omitted.
 fn same(typed: &str, name: &str) -> bool {
     typed.trim_start_matches('/') == name.trim_start_matches('/')
 }
 
 impl WriteOptions {
-    /// For a result at this place; `usual` where neither it nor the options say what it becomes.
+    /// Settings for an output path; `usual` applies where neither the path nor the options select a
+    /// storage.
     pub(super) fn settings(&self, output: &Path, usual: Storage) -> WriteSettings {
         let told = self.storage.map(Storage::from);
         let storage = told.or_else(|| Storage::of_path(output)).unwrap_or(usual);

@@ -1,5 +1,6 @@
-//! Topics as YAML, as `parameter_bridge` reads them: a list with `topic_name`, or `ros_topic_name` and
-//! `gz_topic_name`, `ros_type_name`, `gz_type_name`, and more. What is wrong with one leaves the others.
+//! Topics as YAML, in the format of `parameter_bridge`: a list with `topic_name`, or
+//! `ros_topic_name` and `gz_topic_name`, `ros_type_name`, `gz_type_name`, and more. An invalid
+//! entry is skipped.
 
 use std::path::Path;
 
@@ -9,7 +10,7 @@ use periplus_yaml::Node;
 
 use super::spec::QUEUE;
 
-/// What an entry may say.
+/// Keys of an entry.
 const KEYS: [&str; 9] = [
     "topic_name",
     "ros_topic_name",
@@ -23,7 +24,7 @@ const KEYS: [&str; 9] = [
 ];
 
 /// # Errors
-/// Why there is nothing to read.
+/// A message when the file cannot be read.
 pub(super) fn read(
     path: &Path,
     is_lazy: bool,
@@ -45,7 +46,7 @@ fn read_text(name: &str, text: String, is_lazy: bool) -> (Vec<Pair>, Diagnostics
             }
             None if tree.is_null() => {}
             None => {
-                let message = format!("a list of topics should be here, not {}", tree.kind());
+                let message = format!("expected a list of topics, not {}", tree.kind());
                 findings.push(Diagnostic::error("bridge-config", message).at(tree.span));
             }
         },
@@ -60,35 +61,38 @@ fn entry(node: &Node, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair>
         None
     };
     let Some(entries) = node.entries() else {
-        return wrong("a topic with its names and types should be here", findings);
+        return wrong("expected a mapping with names and types of a topic", findings);
     };
     for (key, _) in entries {
         if !key.text().is_some_and(|key| KEYS.contains(&key)) {
-            let told = format!("there is no `{}` for a topic", key.text().unwrap_or("?"));
+            let told = format!("unknown key `{}` in a topic", key.text().unwrap_or("?"));
             let finding = Diagnostic::warning("bridge-config", told).at(key.span);
-            findings.push(finding.help(format!("there are: {}", KEYS.join(", "))));
+            findings.push(finding.help(format!("known keys: {}", KEYS.join(", "))));
         }
     }
     let text = |name: &str| node.get(name).and_then(Node::text).map(str::to_owned);
     let both = text("topic_name");
     let (ros, gazebo) = (text("ros_topic_name"), text("gz_topic_name"));
     if both.is_some() && (ros.is_some() || gazebo.is_some()) {
-        return wrong("`topic_name` is both, so there can be no other name beside it", findings);
+        return wrong(
+            "`topic_name` sets both names; remove it, or remove `ros_topic_name` and `gz_topic_name`",
+            findings,
+        );
     }
     let ros_topic = both.clone().or_else(|| ros.clone()).or_else(|| gazebo.clone());
     let gz_topic = both.or(gazebo).or(ros);
     let (Some(ros_topic), Some(gz_topic)) = (ros_topic, gz_topic) else {
-        return wrong("the topic has no name; give `topic_name`", findings);
+        return wrong("the topic has no name; add `topic_name`", findings);
     };
     let (Some(ros_type), Some(gz_type)) = (text("ros_type_name"), text("gz_type_name")) else {
-        return wrong("`ros_type_name` and `gz_type_name` are needed", findings);
+        return wrong("`ros_type_name` and `gz_type_name` are required", findings);
     };
     let direction = match text("direction").as_deref() {
         None | Some("BIDIRECTIONAL") => Direction::Both,
         Some("GZ_TO_ROS") => Direction::ToRos,
         Some("ROS_TO_GZ") => Direction::ToGazebo,
         Some(_) => {
-            let told = "`direction` is BIDIRECTIONAL, GZ_TO_ROS or ROS_TO_GZ";
+            let told = "`direction` must be BIDIRECTIONAL, GZ_TO_ROS or ROS_TO_GZ";
             return wrong(told, findings);
         }
     };

@@ -1,4 +1,4 @@
-//! Services of Gazebo for those in ROS, as `ros_gz_bridge` has them.
+//! Gazebo services offered in ROS 2, as `ros_gz_bridge` does.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,10 +15,10 @@ use periplus_msgs::ros_gz_interfaces::{
 use super::spec::Asked;
 use crate::terminal;
 
-/// So long Gazebo may take to answer, as in `ros_gz_bridge`.
+/// Timeout of a Gazebo service, the value of `ros_gz_bridge`.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The services that are bridged.
+/// Bridged services.
 pub(super) struct Services {
     node: Node,
     transport: Arc<Transport>,
@@ -26,11 +26,11 @@ pub(super) struct Services {
 }
 
 trait Offer {
-    /// Passes on what was asked.
+    /// Forwards pending requests to Gazebo.
     fn serve(&self, transport: &Arc<Transport>);
 }
 
-/// A service that is in both worlds. In Gazebo each of them answers yes or no.
+/// Service type that exists in ROS 2 and in Gazebo; its Gazebo response is a Boolean.
 trait Both: Service {
     type Gazebo: Message;
 
@@ -68,7 +68,7 @@ both! {
 struct Offered<S> {
     calls: Calls<S>,
     types: [String; 2],
-    /// The name in Gazebo.
+    /// Service name in Gazebo.
     name: String,
 }
 
@@ -77,7 +77,7 @@ impl<S: Both> Offer for Offered<S> {
         while let Some(call) = self.calls.take() {
             let (name, types) = (self.name.clone(), self.types.clone());
             let transport = transport.clone();
-            // Others may ask while Gazebo thinks.
+            // A thread per request, so that a slow response does not block other clients.
             std::thread::spawn(move || pass_on(call, &transport, &name, &types));
         }
     }
@@ -106,7 +106,7 @@ impl Services {
     }
 
     /// # Errors
-    /// Why it cannot be.
+    /// A message when the type is not supported.
     pub(super) fn offer(&mut self, asked: &Asked) -> Result<(), String> {
         let known = self.one::<ControlWorld>(asked)?
             || self.one::<SpawnEntity>(asked)?
@@ -122,14 +122,14 @@ impl Services {
             SetEntityPose::TYPE_NAME,
         ];
         Err(format!(
-            "`{}`: {} is no service of both worlds; there are {}",
+            "`{}`: {} is no service type of both ROS 2 and Gazebo; supported: {}",
             asked.name,
             asked.ros_type,
             all.join(", ")
         ))
     }
 
-    /// Whether it is this one.
+    /// Offers the service if its type is `S`; returns true if it is.
     fn one<S: Both>(&mut self, asked: &Asked) -> Result<bool, String> {
         if asked.ros_type != S::TYPE_NAME {
             return Ok(false);
@@ -141,7 +141,7 @@ impl Services {
         Ok(true)
     }
 
-    /// Passes on what was asked.
+    /// Forwards pending requests to Gazebo.
     pub(super) fn serve(&self) {
         for offer in &self.offers {
             offer.serve(&self.transport);

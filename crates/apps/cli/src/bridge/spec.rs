@@ -1,8 +1,8 @@
-//! What `parameter_bridge` takes as words.
+//! Command-line syntax of `parameter_bridge`.
 
 use periplus_gz_transport::{Direction, Pair};
 
-/// So many messages wait, as in `ros_gz_bridge`.
+/// Queue size, the value of `ros_gz_bridge`.
 pub(super) const QUEUE: usize = 10;
 
 /// A topic or a service.
@@ -12,24 +12,24 @@ pub(super) enum Spec {
     Service(Asked),
 }
 
-/// A service of Gazebo for those in ROS.
+/// Gazebo service to offer in ROS 2.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Asked {
     pub(super) name: String,
     pub(super) ros_type: String,
-    /// Those of the question and of the answer, where given.
+    /// Gazebo types of request and response, if given.
     pub(super) gz_types: Option<[String; 2]>,
 }
 
 impl Spec {
     /// # Errors
-    /// What is wrong.
+    /// A message that names the syntax error.
     pub(super) fn read(word: &str) -> Result<Self, String> {
-        let (name, types) = word.split_once('@').ok_or("there is no `@` after the name")?;
+        let (name, types) = word.split_once('@').ok_or("missing `@` after the name")?;
         if name.is_empty() {
-            return Err("there is no name before the `@`".into());
+            return Err("missing name before the `@`".into());
         }
-        // In this order, as there.
+        // The order in which `parameter_bridge` searches.
         let found = ['@', '[', ']'].into_iter().find_map(|mark| {
             let (ros, gazebo) = types.split_once(mark)?;
             Some((mark, ros, gazebo))
@@ -40,16 +40,16 @@ impl Spec {
                 Some(('@', ros_type, rest)) => {
                     let (request, response) = rest
                         .split_once('@')
-                        .ok_or("a service has two types of Gazebo: `@REQUEST@RESPONSE`")?;
+                        .ok_or("a service needs two Gazebo types: `@REQUEST@RESPONSE`")?;
                     (ros_type, Some([request.to_owned(), response.to_owned()]))
                 }
-                Some(_) => return Err("a service goes one way only; write `@`".into()),
+                Some(_) => return Err("a service has no direction; write `@`".into()),
             };
             let (name, ros_type) = (name.to_owned(), ros_type.to_owned());
             return Ok(Self::Service(Asked { name, ros_type, gz_types }));
         }
         let (mark, ros_type, gz_type) =
-            found.ok_or("no `@`, `[` or `]` is before the type of Gazebo")?;
+            found.ok_or("missing `@`, `[` or `]` before the Gazebo type")?;
         if ros_type.is_empty() || gz_type.is_empty() {
             return Err("a type is missing".into());
         }

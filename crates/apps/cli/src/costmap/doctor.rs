@@ -26,14 +26,14 @@ pub(crate) struct DoctorCostmapOptions {
     compat: Option<Compat>,
 }
 
-/// What is wrong with the costmaps of a text that has a name; in words why it cannot be read.
+/// Findings on the costmaps of a named text; a message if it cannot be read.
 pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, SourceMap), String> {
     let mut file = read_text(&path.display().to_string(), text, None)?;
     add_complaints(&mut file);
     Ok((file.diagnostics, file.sources))
 }
 
-/// Some things only layers themselves know.
+/// Adds the findings that only the layers know.
 fn add_complaints(file: &mut File) {
     for (_, config) in &file.configs {
         let mut costmap = config.build();
@@ -73,12 +73,12 @@ pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
                 let settings = source.settings();
                 writeln!(
                     out,
-                    "    {}: {:?} on {}, {}{} from {} m to {} m of height",
+                    "    {}: {:?} on {}, {}{} from {} m to {} m above the floor",
                     source.name,
                     settings.data_type,
                     settings.topic,
-                    if settings.is_marking { "marks" } else { "marks nothing" },
-                    if settings.is_clearing { " and clears" } else { " and clears nothing" },
+                    if settings.is_marking { "marks" } else { "does not mark" },
+                    if settings.is_clearing { " and clears" } else { " and does not clear" },
                     settings.heights.min_m,
                     settings.heights.max_m,
                 )?;

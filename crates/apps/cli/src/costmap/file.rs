@@ -1,30 +1,30 @@
-//! Files with Nav2's parameters.
+//! Nav2 parameter files.
 
 use std::path::Path;
 
 use periplus_costmap::{Compat, Config};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
-/// The costmaps of Nav2, by the names of their nodes.
+/// Costmap nodes of Nav2, by name.
 const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
 
-/// A file with parameters, and what is wrong with it.
+/// Parameter file of costmaps, with its findings.
 pub(super) struct File {
     pub(super) configs: Vec<(&'static str, Config)>,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }
 
-/// Reads the costmaps of a file; those that it does not name are left out.
+/// Reads the costmaps of a file; those without parameters are left out.
 ///
 /// # Errors
-/// Why there is none.
+/// A message when the file has no costmap.
 pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> {
     let text = crate::paths::text(path)?;
     read_text(&path.display().to_string(), text, compat)
 }
 
-/// Names of parameters of which a file for one costmap has at least one.
+/// Parameter names of which a file of a single costmap has at least one.
 const OF_ONE: [&str; 9] = [
     "global_frame",
     "robot_base_frame",
@@ -37,7 +37,7 @@ const OF_ONE: [&str; 9] = [
     "obstacle_layer",
 ];
 
-/// Whether any part of a tree has a parameter of a costmap.
+/// Returns true if any part of a tree has a costmap parameter.
 fn looks_like_costmap(tree: &periplus_yaml::Node) -> bool {
     let Some(entries) = tree.entries() else { return false };
     entries.iter().any(|(key, value)| {
@@ -45,7 +45,7 @@ fn looks_like_costmap(tree: &periplus_yaml::Node) -> bool {
     })
 }
 
-/// As [`read`], of a text that has a name.
+/// Reads the costmaps of a named text, as [`read`] does.
 pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Result<File, String> {
     let mut sources = SourceMap::new();
     let file = sources.add(name.to_owned(), text);
@@ -61,11 +61,11 @@ pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Res
     let named = |node: &&&str| Config::is_in(&tree, node);
     let mut nodes: Vec<&&str> = NODES.iter().filter(named).collect();
     if nodes.is_empty() {
-        // A file for one costmap, such as those of ROS 1.
+        // A file of a single costmap, such as those of ROS 1.
         if !looks_like_costmap(&tree) {
             return Err(format!(
-                "{name} has no costmap: neither `local_costmap` nor `global_costmap`, nor a parameter of \
-                 one such as `resolution` or `plugins`; give a file with Nav2's parameters"
+                "{name} has no costmap: neither `local_costmap` nor `global_costmap`, nor a costmap \
+                 parameter such as `resolution` or `plugins`; give a file with Nav2's parameters"
             ));
         }
         nodes = NODES.iter().take(1).collect();

@@ -17,10 +17,10 @@ use crate::live::{Live, Watched};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
-/// How often it is looked whether something is due.
+/// Polling period.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
 /// Run the costmaps of a Nav2 parameter file for a robot on ROS 2: `local_costmap` and
@@ -92,7 +92,7 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result
         }
     };
     if follows_clock {
-        say("time is that of /clock");
+        say("using the time of /clock");
     }
     if !options.managed {
         costmaps.start();

@@ -1,8 +1,8 @@
-//! Opening a page in the person's browser.
+//! Opening a page in the default browser.
 
 use std::process::{Command, Stdio};
 
-/// Lets the system open an address; whether it could be asked to.
+/// Asks the system to open a URL; returns false when no opener could be started.
 pub(crate) fn open(url: &str) -> bool {
     let mut command = if cfg!(target_os = "windows") {
         let mut command = Command::new("rundll32");
@@ -13,10 +13,10 @@ pub(crate) fn open(url: &str) -> bool {
     } else {
         Command::new("xdg-open")
     };
-    // What browsers say to terminals is nobody's business.
+    // Discards the output of the browser.
     command.arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let Ok(mut child) = command.spawn() else { return false };
-    // Nobody waits for it, but somebody has to take its end.
+    // A thread reaps the child process.
     std::thread::spawn(move || child.wait());
     true
 }

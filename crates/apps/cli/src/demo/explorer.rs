@@ -1,4 +1,4 @@
-//! Driving by itself to what was not seen yet: from topics alone, as any other node.
+//! Autonomous exploration, from topics alone as any other node.
 
 use std::sync::Arc;
 
@@ -14,16 +14,16 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_tf::Kind;
 use periplus_tf_ros::Frames;
 
-/// Between two commands \[ns\].
+/// Period of velocity commands \[ns\].
 const PERIOD_NS: i64 = 50_000_000;
 
-/// Between two looks at the map \[ns\].
+/// Period of map updates \[ns\].
 const LOOK_NS: i64 = 1_000_000_000;
 
-/// Half of the robot's width, with a little air \[m\].
+/// Half of the robot's width plus a margin \[m\].
 const HALF_WIDTH_M: f64 = 0.24;
 
-/// One who drives by itself.
+/// Node that drives the robot to unexplored space.
 pub(super) struct Explorer {
     explorer: periplus_exploration::Explorer,
     frames: Frames,
@@ -37,9 +37,9 @@ pub(super) struct Explorer {
     ahead_m: f64,
     next_ns: i64,
     look_ns: i64,
-    /// Where it believes to be.
+    /// Estimated pose.
     pub(super) map_from_base: Option<Pose2>,
-    /// How far it came, as it believes \[m\].
+    /// Estimated distance travelled \[m\].
     pub(super) driven_m: f64,
 }
 
@@ -64,12 +64,12 @@ impl Explorer {
         })
     }
 
-    /// What it is about.
+    /// State of the exploration.
     pub(super) fn mood(&self) -> Mood {
         self.explorer.mood()
     }
 
-    /// Does what is due by now.
+    /// Processes everything due at this time.
     pub(super) fn go_on(&mut self, now_ns: i64) {
         if now_ns < self.next_ns {
             return;
@@ -104,7 +104,7 @@ impl Explorer {
         self.commands.publish(command);
     }
 
-    /// How far it is to the nearest thing in the way \[m\], from the robot's middle.
+    /// Distance from the centre of the robot to the nearest obstacle ahead \[m\].
     fn ahead(&self, scan: &LaserScan) -> Option<f64> {
         let (pose, _) = self.frames.at("base_link", &scan.header.frame_id, 0).ok()?;
         let base_from_laser = Pose2::from(pose);
@@ -138,7 +138,7 @@ impl Explorer {
     }
 }
 
-/// A map as cells; none where it makes no sense.
+/// Map as cells; `None` if it is malformed.
 fn grid_of(map: &OccupancyGrid) -> Option<periplus_grid::OccupancyGrid> {
     let (at, turned) = (&map.info.origin.position, &map.info.origin.orientation);
     let turned = periplus_geometry::DQuat::from_xyzw(turned.x, turned.y, turned.z, turned.w);

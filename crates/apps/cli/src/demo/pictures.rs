@@ -1,4 +1,4 @@
-//! Pictures of what the sensors see, drawn without a browser.
+//! Images of sensor data, rendered without a browser.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,10 +8,11 @@ use periplus_grid::Line;
 use periplus_images::{Layout, write_png};
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
 
-/// The camera is looked through for so long before the end \[ns\]: a picture costs more than all else.
+/// Time before the end at which the camera is subscribed \[ns\]: images cost more than all other
+/// sensors.
 const LOOK_NS: i64 = 200_000_000;
 
-/// Sides of the picture of a scan \[pixels\].
+/// Width and height of the image of a scan \[px\].
 const SIDE: usize = 800;
 
 const BACK: [u8; 3] = [250, 250, 248];
@@ -19,7 +20,7 @@ const RAY: [u8; 3] = [206, 222, 240];
 const HIT: [u8; 3] = [200, 30, 40];
 const ROBOT: [u8; 3] = [30, 60, 120];
 
-/// Keeps the last scan and the last pictures.
+/// Keeps the last scan and the last images.
 pub(super) struct Eyes {
     node: Node,
     end_ns: Option<i64>,
@@ -48,7 +49,7 @@ impl Eyes {
         self.cameras = depth.and_then(|depth| Ok([depth, colour?])).ok();
     }
 
-    /// Looks, once the end is near.
+    /// Subscribes to the camera once the end is near, and stores new messages.
     pub(super) fn look(&mut self, now_ns: i64) {
         let is_near = self.end_ns.is_none_or(|end_ns| now_ns >= end_ns - LOOK_NS);
         if !is_near {
@@ -64,7 +65,7 @@ impl Eyes {
         }
     }
 
-    /// Writes `scan.png`, `depth.png` and `camera.png`, as far as they were seen.
+    /// Writes `scan.png`, `depth.png` and `camera.png`, as far as messages arrived.
     pub(super) fn write(&self, folder: &Path) -> Result<(), String> {
         let pictures = [
             ("scan.png", self.scan.as_deref().map(draw_scan)),
@@ -79,7 +80,7 @@ impl Eyes {
     }
 }
 
-/// A scan from above, the robot in the middle and its front up.
+/// Renders a scan from above, with the robot in the centre and its front up.
 fn draw_scan(scan: &LaserScan) -> Vec<u8> {
     let reach_m = f64::from(scan.range_max).clamp(0.1, 1000.0);
     let middle = SIDE as f64 / 2.0;
@@ -113,7 +114,7 @@ fn draw_scan(scan: &LaserScan) -> Vec<u8> {
     write_png(SIDE as u32, SIDE as u32, Layout::Rgb, pixels.as_flattened())
 }
 
-/// Depths \[m\] as greys: near is dark, nothing is blue.
+/// Renders depths \[m\] as grey values: near is dark, missing returns are blue.
 fn draw_depth(image: &Image) -> Option<Vec<u8>> {
     const NOTHING: [u8; 3] = [40, 60, 110];
     if image.encoding != "32FC1" {

@@ -1,4 +1,4 @@
-//! What the demo came to, for a program.
+//! JSON report of the demo.
 
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
@@ -8,8 +8,8 @@ use super::explorer::Explorer;
 use crate::mapping::Mapping;
 use crate::sim::Report;
 
-/// The report of the run, with what became of map and robot. The robot began at the origin of the world,
-/// where the map has its own, so that estimate and truth can be compared.
+/// Report of the run with map quality and pose error. The robot starts at the origin of the world,
+/// which is also the origin of the map, so that estimate and ground truth can be compared.
 pub(super) fn of(
     run: &Report<'_>,
     mapping: &Mapping,

@@ -1,4 +1,4 @@
-//! The room and the robot of the demo. They are part of the program, so that it needs no files.
+//! World and robot of the demo, embedded in the program.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use periplus_params::{Value, Values};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{Composition, Placement, Standing, compose};
 
-/// The name of the room.
+/// Name of the world.
 pub(super) const WORLD_NAME: &str = "demo_room";
 
 /// Parameters of the costmaps.
@@ -36,7 +36,7 @@ const FILES: [(&str, &str); 9] = [
     own!("robots/sam_bot/urdf/sam_bot.urdf.xacro"),
 ];
 
-/// The room with the robot in it.
+/// World with the robot.
 pub(super) fn composition() -> Composition {
     let host =
         FILES.iter().fold(MemoryHost::new(), |host, (path, text)| host.with_file(path, *text));
@@ -48,7 +48,7 @@ pub(super) fn composition() -> Composition {
         arguments: Vec::new(),
         open_meshes: false,
     };
-    // Exact wheels, and no filter that would publish where the robot is.
+    // Exact wheels, and no filter that would publish the pose.
     let arguments = [("drive_wheel_separation", "0.36"), ("publish_odom_tf", "true")];
     let robot = Placement {
         file: PathBuf::from(ROBOT),
@@ -59,7 +59,7 @@ pub(super) fn composition() -> Composition {
     compose(Path::new(WORLD), &[robot], &setting)
 }
 
-/// Mapping as `slam_toolbox` does it, with a map that is told each second.
+/// Mapping with the parameters of `slam_toolbox`, publishing a map each second.
 pub(super) fn mapping() -> (Program, Values) {
     let program = Program::Async;
     let mut values = program.table().check([], None, &mut Diagnostics::new());

@@ -1,4 +1,4 @@
-//! Files, examined before anything runs.
+//! Static checks of files, before anything runs.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -18,13 +18,13 @@ use super::{DoctorOptions, parameters, tell};
 use crate::options::split;
 use crate::terminal;
 
-/// So long a world is listened to, in its own time \[s\].
+/// Simulated duration for which a world is observed \[s\].
 const SPAN_S: u64 = 2;
 
-/// How often what came is taken in \[ns\].
+/// Period of reading received messages \[ns\].
 const LOOK_NS: i64 = 50_000_000;
 
-/// The doctor's own node.
+/// Name of the doctor's own node.
 const OWN: &str = "_periplus_doctor";
 
 pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
@@ -73,14 +73,14 @@ pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
             what.push(world.display().to_string());
         }
         _ => {
-            terminal::complain("the doctor takes one world; robots come with --robot");
+            terminal::complain("give one world; add robots with --robot");
             return Ok(ExitCode::from(2));
         }
     }
     tell(&found, &what.join(", "), options.common.json)
 }
 
-/// Runs a world in its own time and listens to it.
+/// Simulates a world and observes its topics.
 fn simulated(
     world: &Path,
     arguments: Vec<(String, String)>,
@@ -95,7 +95,7 @@ fn simulated(
     let mut simulation =
         Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), settings);
     if let Some(missing) = composition.missing() {
-        return Err(format!("{} holds nothing to simulate", missing.display()));
+        return Err(format!("{} has nothing to simulate", missing.display()));
     }
     let graph = simulation.graph().clone();
     let node = graph.node(NodeSettings::new(OWN).bare()).map_err(|error| error.to_string())?;

@@ -1,11 +1,11 @@
-//! Files with parameters of nodes.
+//! Checks of parameter files.
 
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_yaml::Node;
 
-/// What is wrong with a file; in words why it cannot be read.
+/// Findings on a file; a message if it cannot be read.
 pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
     let text = crate::paths::text(path)?;
     let mut sources = SourceMap::new();
@@ -30,7 +30,7 @@ pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, Stri
     Ok(all)
 }
 
-/// Nodes of one file that live by different clocks.
+/// Reports nodes of one file that use different clocks.
 fn times(tree: &Node, found: &mut Diagnostics) {
     let mut said = Vec::new();
     collect(tree, "", &mut said);
@@ -40,10 +40,10 @@ fn times(tree: &Node, found: &mut Diagnostics) {
         found.push(
             Diagnostic::error(
                 "wall-time",
-                format!("`{name}` lives by the wall's clock, and `{simulated}` by simulated time"),
+                format!("`{name}` uses the wall clock and `{simulated}` uses simulated time"),
             )
             .at(node.span)
-            .note("their stamps are decades apart: transforms are not found")
+            .note("their stamps differ by decades, so transforms cannot be looked up")
             .help("set `use_sim_time` to the same value for all nodes of the file"),
         );
     }
@@ -60,7 +60,7 @@ fn collect<'t>(node: &'t Node, name: &str, said: &mut Vec<(String, bool, &'t Nod
         } else if key == "ros__parameters" {
             collect(value, name, said);
         } else {
-            // The tree is no deeper than the reader lets it be.
+            // The YAML reader limits the depth of the tree.
             collect(value, &format!("{name}/{key}"), said);
         }
     }

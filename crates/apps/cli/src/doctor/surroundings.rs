@@ -1,5 +1,5 @@
-//! What this machine's network is like.
-#![allow(clippy::disallowed_methods, reason = "a packet that is sent is waited for")]
+//! Checks of the network configuration.
+#![allow(clippy::disallowed_methods, reason = "waits for a packet that it sent")]
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::path::Path;
@@ -10,13 +10,13 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::doctor::{Surroundings, domains_in};
 
-/// Where DDS looks for others.
+/// Multicast group of DDS discovery.
 const GROUP: Ipv4Addr = Ipv4Addr::new(239, 255, 0, 1);
 
-/// How long a packet may take to come back.
+/// Timeout for the multicast packet to return.
 const PATIENCE: Duration = Duration::from_millis(300);
 
-/// Looks at the environment and the network.
+/// Reads the environment and tests the network.
 pub(super) fn look() -> Surroundings {
     let (settings, _) = Settings::from_environment(&Machine);
     let text = |path: &str| {
@@ -33,7 +33,7 @@ pub(super) fn look() -> Surroundings {
     }
 }
 
-/// Whether a packet to all comes back; none when no socket can be had.
+/// Returns true if a multicast packet loops back; `None` when no socket can be opened.
 fn comes_back() -> Option<bool> {
     let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
     socket.set_read_timeout(Some(PATIENCE)).ok()?;

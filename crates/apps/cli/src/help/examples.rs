@@ -35,7 +35,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("bag reindex", &[("periplus bag reindex run", "Rewrite metadata.yaml from the files of a folder")]),
     ("bridge", &[
         ("periplus bridge '/lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'", "Scans from Gazebo to ROS 2"),
-        ("periplus bridge --config bridge.yaml", "The topics of a file"),
+        ("periplus bridge --config bridge.yaml", "Bridge the topics of a file"),
     ]),
     ("check", &[
         ("periplus check robot.urdf.xacro lidar:=true", "A robot, expanded with an argument"),
@@ -51,11 +51,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ]),
     ("costmap", &[("periplus costmap nav2_params.yaml", "Both costmaps of the file, for a robot on ROS 2")]),
     ("demo", &[
-        ("periplus demo", "A room, a robot, a page in the browser"),
+        ("periplus demo", "A robot in a room, in the browser"),
         ("periplus demo --headless --duration 60 --out demo", "Explore without a page; results in a folder"),
     ]),
     ("doctor", &[
-        ("periplus doctor", "Examine what runs on ROS 2"),
+        ("periplus doctor", "Diagnose the running ROS 2 system"),
         ("periplus doctor worlds/house.sdf --robot robot.urdf.xacro", "Simulate for two seconds and examine"),
         ("periplus doctor nav2_params.yaml", "Examine a parameter file"),
     ]),
@@ -76,7 +76,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("lifecycle nodes", &[("periplus lifecycle nodes", "All managed nodes")]),
     ("lifecycle set", &[("periplus lifecycle set /map_server activate", "Activate a node")]),
     ("localize", &[
-        ("periplus localize drive.mcap --map room.yaml --out result", "Poses of a recorded drive on a map"),
+        ("periplus localize drive.mcap --map room.yaml --out result", "Localize a recorded drive on a map"),
         ("periplus localize --live --map room.yaml", "The node amcl for a robot on ROS 2"),
     ]),
     ("man", &[
@@ -84,7 +84,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ]),
     ("map convert", &[("periplus map convert room.yaml -o room2 --mode scale", "The same map in another mode")]),
     ("map diff", &[("periplus map diff before.yaml after.yaml --picture diff.png", "Align two maps and compare them")]),
-    ("map info", &[("periplus map info room.yaml", "Size, origin, and how much is free, occupied, unknown")]),
+    ("map info", &[("periplus map info room.yaml", "Size, origin, and fractions of free, occupied and unknown cells")]),
     ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
     ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
     ("new package", &[
@@ -121,14 +121,14 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --page", "A robot in a house, on a page in the browser"),
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro lidar:=true --pose 1,2,0", "With an argument of its xacro, at a pose"),
         ("periplus sim worlds/house.sdf --duration 60 --record run.mcap", "A minute at full speed, recorded"),
-        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --cmd drive.yaml --slam --slam-out map", "Drive by a script, draw the map, save it"),
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --cmd drive.yaml --slam --slam-out map", "Drive by a script, build a map, save it"),
     ]),
     ("slam", &[
         ("periplus slam drive.mcap --out map", "A map of a recorded drive"),
-        ("periplus slam drive.clf --out map --method gmapping", "By particles, from a CARMEN log"),
+        ("periplus slam drive.clf --out map --method gmapping", "Particle filter, from a CARMEN log"),
         ("periplus slam --live", "Map what is on ROS 2 now"),
     ]),
-    ("teleop", &[("periplus teleop", "Drive by keys: u i o j k l"),
+    ("teleop", &[("periplus teleop", "Drive with the keys u i o j k l"),
         ("periplus teleop -r cmd_vel:=/robot1/cmd_vel", "A robot with another topic")]),
     ("tf echo", &[("periplus tf echo map base_link", "Pose of base_link in map")]),
     ("tf monitor", &[("periplus tf monitor", "Rates and delays of all frames")]),
@@ -136,7 +136,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus tf static --x 1 --frame-id map --child-frame-id table", "Publish a static transform"),
     ]),
     ("tf tree", &[
-        ("periplus tf tree", "Tree of frames of what runs, as .gv and .pdf"),
+        ("periplus tf tree", "Tree of frames of the running system, as .gv and .pdf"),
         ("periplus tf tree run.mcap --svg", "Of a recording, as SVG too"),
     ]),
     ("topic bw", &[("periplus topic bw /points", "Bytes per second")]),
@@ -147,7 +147,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ]),
     ("topic find", &[("periplus topic find sensor_msgs/msg/LaserScan", "All topics of a type")]),
     ("topic hz", &[("periplus topic hz /scan /odom", "Messages per second")]),
-    ("topic info", &[("periplus topic info /scan -v", "Publishers, subscribers and quality of service")]),
+    ("topic info", &[("periplus topic info /scan -v", "Publishers, subscribers and QoS")]),
     ("topic list", &[("periplus topic list -t", "All topics with their types"),
         ("periplus topic list --gz", "Topics of Gazebo Transport")]),
     ("topic pub", &[

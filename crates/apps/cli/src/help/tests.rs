@@ -1,4 +1,4 @@
-//! Help that is complete, and examples that can be typed.
+//! Tests that the help is complete and that its examples parse.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use periplus_graph::split_arguments;
 use super::{EXAMPLES, GROUPS, command, examples_of};
 use crate::old_words::words_of_line;
 
-/// Paths of all commands that do something.
+/// Paths of all commands without subcommands.
 fn leaves(command: &Command, path: &str, found: &mut Vec<String>) {
     for below in command.get_subcommands().filter(|below| below.get_name() != "help") {
         let path = format!("{path} {}", below.get_name()).trim().to_owned();

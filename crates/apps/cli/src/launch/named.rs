@@ -1,4 +1,4 @@
-//! The launch file that is named on the command line, by its path or by its package and name.
+//! Resolution of the launch file on the command line, by path or by package and name.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,21 +8,21 @@ use periplus_diagnostics::{Diagnostic, closest};
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Kind, Resolver};
 
-/// The meaning of the words that name a launch file.
+/// Launch file that the command line names.
 pub(super) enum Found {
     /// A launch file.
     File(PathBuf),
-    /// One of a package that is not here, for which something stands.
+    /// Missing launch file of a missing package, with a built-in replacement.
     StandIn(String),
 }
 
-/// Depth to which files of a package are looked for.
+/// Maximum depth of the search for files of a package.
 const DEEPEST: usize = 8;
 
-/// Most launch files that a message lists.
+/// Maximum number of launch files that a message lists.
 const MOST_LISTED: usize = 20;
 
-/// The file that is meant: one by its path, or by the name of a package and its own.
+/// Resolves a launch file by its path, or by package and file name.
 pub(super) fn file(
     words: &[PathBuf],
     resolver: &Resolver<'_>,
@@ -60,14 +60,14 @@ pub(super) fn file(
                 several => {
                     let shown: Vec<_> =
                         several.iter().map(|file| file.display().to_string()).collect();
-                    Err(error(format!("the package `{package}` has several files {file}"))
+                    Err(error(format!("the package `{package}` has several files named `{file}`"))
                         .note(shown.join(", "))
-                        .help("give the path of the one that is meant")
+                        .help("give the path of one of them")
                         .into())
                 }
             }
         }
-        _ => Err(error("a launch takes one file, or a package and a file")
+        _ => Err(error("expected one launch file, or a package and a launch file")
             .help("arguments of the file are written `name:=value`")
             .into()),
     }
@@ -77,7 +77,7 @@ fn error(message: impl Into<String>) -> Diagnostic {
     Diagnostic::error("launch-file", message)
 }
 
-/// Calls a function for each file in a folder and below.
+/// Calls a function for each file in a folder and its subfolders.
 fn walk(folder: &Path, depth: usize, visit: &mut dyn FnMut(&Path)) {
     for entry in Machine.list(folder).iter().filter(|entry| !entry.starts_with('.')) {
         let inner = folder.join(entry);
@@ -89,7 +89,7 @@ fn walk(folder: &Path, depth: usize, visit: &mut dyn FnMut(&Path)) {
     }
 }
 
-/// The names of the launch files in a folder and below, sorted.
+/// Sorted names of the launch files in a folder and its subfolders.
 fn launch_files(folder: &Path) -> Vec<String> {
     let mut names = Vec::new();
     walk(folder, 0, &mut |path| {
@@ -104,7 +104,8 @@ fn launch_files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// True for the usual names of launch files; in a folder `launch`, for all that can be one.
+/// Returns true for common names of launch files; in a folder `launch`, for every suitable
+/// extension.
 fn is_launch_file(name: &str, is_in_launch: bool) -> bool {
     let Some((stem, extension)) = name.rsplit_once('.') else { return false };
     match extension {
@@ -115,7 +116,7 @@ fn is_launch_file(name: &str, is_in_launch: bool) -> bool {
     }
 }
 
-/// A single word at which no file is: a package perhaps, or a slip.
+/// Diagnostic for a single word that is not a file: a package or a typing error.
 fn no_file(file: &Path, resolver: &Resolver<'_>, here: &Path) -> Diagnostic {
     let name = file.display().to_string();
     let path = here.join(file);
@@ -131,12 +132,12 @@ fn no_file(file: &Path, resolver: &Resolver<'_>, here: &Path) -> Diagnostic {
         return one_of(wrong, "periplus launch PATH", &launch_files(&path));
     }
     if let Some(files) = built_in(&name) {
-        let wrong = error(format!("`{name}` is a package, and it is not on this machine"));
+        let wrong = error(format!("`{name}` is a package that is not on this machine"));
         return one_of(wrong, &format!("periplus launch {name} FILE"), &files)
             .note("these launch files are built in")
-            .help(format!("name the folder that holds `{name}`: `--resource-path FOLDER`"));
+            .help(format!("give the folder that contains `{name}`: `--resource-path FOLDER`"));
     }
-    let wrong = error(format!("there is no file {name}"));
+    let wrong = error(format!("file {name} does not exist"));
     let near = crate::paths::advice(file);
     if !near.is_empty() {
         return wrong.help(near.trim_start_matches("; "));
@@ -149,7 +150,7 @@ fn no_file(file: &Path, resolver: &Resolver<'_>, here: &Path) -> Diagnostic {
     }
 }
 
-/// A package that is not here, with a file that nothing stands for.
+/// Diagnostic for a package that is not here, with a file that is not built in.
 fn no_package(
     package: &str,
     file: &str,
@@ -157,7 +158,7 @@ fn no_package(
     resolver: &Resolver<'_>,
     here: &Path,
 ) -> Diagnostic {
-    let elsewhere = format!("name the folder that holds `{package}`: `--resource-path FOLDER`");
+    let elsewhere = format!("give the folder that contains `{package}`: `--resource-path FOLDER`");
     if let Some(files) = built_in(package) {
         let wrong = error(format!(
             "the package `{package}` is not on this machine, and its file `{file}` is not built in"
@@ -166,9 +167,9 @@ fn no_package(
             Some(near) => wrong.help(format!("did you mean `{near}`?")),
             None => wrong,
         };
-        return wrong.note(format!("built in are {}", files.join(", "))).help(elsewhere);
+        return wrong.note(format!("built-in launch files: {}", files.join(", "))).help(elsewhere);
     }
-    let mut wrong = error(format!("there is no package `{package}`"));
+    let mut wrong = error(format!("package `{package}` was not found"));
     if !tried.is_empty() {
         let places = tried.iter().map(|place| format!("\n  {}", place.display()));
         wrong = wrong.note(format!("tried{}", places.collect::<String>()));
@@ -180,7 +181,7 @@ fn no_package(
     wrong.help(elsewhere)
 }
 
-/// A package without a file.
+/// Diagnostic for a package without the file.
 fn not_in_package(folder: &Path, package: &str, name: &str) -> Diagnostic {
     let files = launch_files(folder);
     let finding =
@@ -191,14 +192,13 @@ fn not_in_package(folder: &Path, package: &str, name: &str) -> Diagnostic {
     }
 }
 
-/// The launch files for which something stands, of a package that is not here.
+/// Built-in launch files that replace those of a missing package.
 fn built_in(package: &str) -> Option<Vec<String>> {
     let (_, files) = STOOD_FOR.iter().find(|(name, _)| *name == package)?;
     Some(files.iter().map(|file| (*file).to_owned()).collect())
 }
 
-/// The packages that can be launched from a folder, with the launch files of each where they are known
-/// already.
+/// Packages that can be launched from a folder, with their folders where known.
 fn packages(resolver: &Resolver<'_>, here: &Path) -> BTreeMap<String, Option<PathBuf>> {
     let mut all: BTreeMap<_, _> =
         STOOD_FOR.iter().map(|(name, _)| ((*name).to_owned(), None)).collect();
@@ -207,8 +207,8 @@ fn packages(resolver: &Resolver<'_>, here: &Path) -> BTreeMap<String, Option<Pat
     all
 }
 
-/// The package that was probably meant, with its launch files: one whose name differs by a slip, or one
-/// of the same robot (`bot` for `bot_description` or the other way round).
+/// Package that was probably meant, with its launch files: a similar name, or one of the same robot
+/// (`bot` for `bot_description` or the reverse).
 fn related(
     name: &str,
     packages: &BTreeMap<String, Option<PathBuf>>,
@@ -230,7 +230,7 @@ fn related(
     Some((near.to_owned(), files))
 }
 
-/// The advice to take another package, with its file of the same or nearly the same name.
+/// Suggests another package, with its file of the same or a similar name.
 fn propose(wrong: Diagnostic, package: &str, file: Option<&str>, files: &[String]) -> Diagnostic {
     let known = || files.iter().map(String::as_str);
     let same = file
@@ -241,23 +241,23 @@ fn propose(wrong: Diagnostic, package: &str, file: Option<&str>, files: &[String
     }
 }
 
-/// The advice to choose one of several launch files.
+/// Suggests to choose one of several launch files.
 fn one_of(wrong: Diagnostic, usage: &str, files: &[String]) -> Diagnostic {
     if files.is_empty() {
-        return wrong.note("there is no launch file in it");
+        return wrong.note("it has no launch files");
     }
-    listed(wrong, files).help(format!("name one of its launch files: `{usage}`"))
+    listed(wrong, files).help(format!("give one of its launch files: `{usage}`"))
 }
 
-/// A list of launch files, cut where it is long.
+/// Adds a list of launch files, truncated when long.
 fn listed(wrong: Diagnostic, files: &[String]) -> Diagnostic {
     match files {
         [] => wrong,
         files if files.len() > MOST_LISTED => wrong.note(format!(
-            "it has {} and {} others",
+            "its launch files are {} and {} others",
             files[..MOST_LISTED].join(", "),
             files.len() - MOST_LISTED
         )),
-        files => wrong.note(format!("it has {}", files.join(", "))),
+        files => wrong.note(format!("its launch files are {}", files.join(", "))),
     }
 }

@@ -1,4 +1,4 @@
-//! Programs and files for launch files that are evaluated.
+//! Programs and files used while a launch file is evaluated.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -15,35 +15,35 @@ use periplus_resources::{Resolver, Store as _};
 use super::python::Python;
 use super::tools::Tools;
 
-/// The machine as launch files see it.
+/// Access to the machine for launch files.
 pub(super) struct Programs<'a> {
     resolver: &'a Resolver<'a>,
     working_folder: PathBuf,
-    /// A folder of this launch's own, once a file is in it.
+    /// Temporary folder of this launch, once a file is in it.
     scratch: Option<PathBuf>,
     files: usize,
     limits: Limits,
     tools: Option<&'a Tools>,
 }
 
-/// What a launch file may do while it is evaluated.
+/// Permissions and limits of the evaluation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Whether files that were made stay: a plan that was printed names them.
+    /// True to keep generated files: a printed plan refers to them.
     pub(super) is_kept: bool,
-    /// Whether Python and programs run.
+    /// True to run Python and programs.
     pub(super) runs_code: bool,
-    /// How long Python and each program may take.
+    /// Time limit of Python and of each program.
     pub(super) longest: Duration,
 }
 
 impl Limits {
-    /// Those of a launch file that is only looked at.
+    /// Limits of a launch file that is only examined.
     pub(super) const EXAMINED: Self =
         Self { is_kept: false, runs_code: true, longest: Duration::from_secs(60) };
 }
 
-/// What is read of a program's output [bytes]; more is no text for a launch file.
+/// Maximum output that is read from a program \[bytes\].
 const MOST_OUTPUT: u64 = 64 << 20;
 
 impl Drop for Programs<'_> {
@@ -65,7 +65,7 @@ impl<'a> Programs<'a> {
         Self { resolver, working_folder, scratch: None, files: 0, limits, tools }
     }
 
-    /// What `xacro FILE name:=value` prints: it is built in.
+    /// Runs the built-in `xacro FILE name:=value`.
     fn xacro(&self, words: &[String]) -> Result<Printed, String> {
         let setting = Setting {
             host: &Machine,
@@ -80,13 +80,13 @@ impl<'a> Programs<'a> {
 
 impl Outside for Programs<'_> {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        let [program, rest @ ..] = words else { return Err("no program is named".into()) };
+        let [program, rest @ ..] = words else { return Err("the command is empty".into()) };
         let name = program.rsplit('/').next().unwrap_or_default();
         if matches!(name, "xacro" | "xacro.py") {
             return self.xacro(rest);
         }
         if !self.limits.runs_code {
-            return Err("with `--no-code` programs that a launch file names are not run".into());
+            return Err("`--no-code` forbids programs of the launch file".into());
         }
         bounded(program, rest, self.limits.longest, self.tools)
     }
@@ -120,7 +120,7 @@ impl Outside for Programs<'_> {
     }
 }
 
-/// Runs a program to its end, within a time.
+/// Runs a program to its end, with a time limit.
 fn bounded(
     program: &str,
     words: &[String],
@@ -162,7 +162,7 @@ fn bounded(
                 let _ = child.kill();
                 let _ = child.wait();
                 return Err(format!(
-                    "it has not ended after {} s; `--evaluation-limit SECONDS` allows more",
+                    "it did not end within {} s; `--evaluation-limit SECONDS` allows more",
                     longest.as_secs_f64()
                 ));
             }

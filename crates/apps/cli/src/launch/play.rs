@@ -1,4 +1,4 @@
-//! Plans that run.
+//! Execution of launch plans.
 
 mod world;
 
@@ -31,19 +31,19 @@ use crate::sim::{Factor, RecordingWatch, Report, factor, positive, tell_findings
 use crate::stop;
 use crate::terminal;
 
-/// How often it is looked whether something is due, where no world sets the pace.
+/// Polling period without a simulated world.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How long it may take to find who is on the network.
+/// Timeout of discovery.
 const DISCOVERY: Duration = Duration::from_millis(1500);
 
-/// How often the page is told what others have.
+/// Period of sending remote topics to the page.
 const LOOK_AROUND: Duration = Duration::from_millis(200);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
-/// How a plan is run.
+/// Options of running a plan.
 #[derive(Debug, Args)]
 pub(crate) struct PlayOptions {
     /// Duration of the run [s]; simulated seconds if there is a world [default: until Ctrl-C]
@@ -87,18 +87,18 @@ pub(crate) struct PlayOptions {
     pub(super) quiet: bool,
 }
 
-/// What was launched.
+/// Launch plan with its context.
 pub(super) struct Launched {
     pub(super) plan: Plan,
     pub(super) dialect: Dialect,
-    /// What `--ros-args` say to all nodes.
+    /// `--ros-args` for all nodes.
     pub(super) arguments: Arguments,
-    /// A folder of programs that its processes find behind all others on the PATH.
+    /// Folder of built-in programs that its processes find at the end of the PATH.
     pub(super) tools: Option<PathBuf>,
     pub(super) start: Stopwatch,
 }
 
-/// Runs it.
+/// Runs the plan.
 pub(super) fn play(
     launched: Launched,
     options: &PlayOptions,
@@ -118,7 +118,7 @@ pub(super) fn play(
         Some(reach) => reach == Reach::Off,
         None => is_free,
     };
-    // Where nobody else can be reached, an empty world has the time.
+    // Without a network, an empty world provides the time.
     if bringup.world().is_some() || is_alone {
         in_world(launched, bringup, options, search)
     } else {
@@ -126,7 +126,7 @@ pub(super) fn play(
     }
 }
 
-/// With a world that is simulated here.
+/// Runs with a world that is simulated here.
 fn in_world(
     launched: Launched,
     mut bringup: Bringup,
@@ -158,7 +158,7 @@ fn in_world(
         Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), to_simulation);
     let whole = tell_findings(&composition, options.quiet)?;
     if let Some(missing) = composition.missing() {
-        terminal::complain(&format!("{} holds nothing to simulate", missing.display()));
+        terminal::complain(&format!("{} has nothing to simulate", missing.display()));
         return Ok(ExitCode::FAILURE);
     }
     let recorder = match options.record.as_deref() {
@@ -174,7 +174,7 @@ fn in_world(
     let mut services = match Services::new(&simulation, bringup.search().clone()) {
         Ok(services) => services,
         Err(error) => {
-            terminal::complain(&format!("cannot offer the world's services: {error}"));
+            terminal::complain(&format!("cannot offer the services of the world: {error}"));
             return Ok(ExitCode::FAILURE);
         }
     };
@@ -208,9 +208,9 @@ fn in_world(
     let is_heard = page.is_some() || ros2.is_joined();
     if wish.is_paused && !options.quiet {
         terminal::say(if is_heard {
-            "the world stands still, as it was started: press play on the page, or call its service"
+            "the world is paused, as requested by the launch file: press play on the page, or call its service"
         } else {
-            "the world would stand still, as it was started; it runs, since nobody could let it go on"
+            "the launch file starts the world paused; it runs, because no page and no network could resume it"
         });
     }
     let run = Run {
@@ -260,13 +260,13 @@ fn in_world(
             terminal::diagnostics(&mut err, &findings, &SourceMap::new())?;
         }
     }
-    // What nodes say at their end belongs into the bag.
+    // Messages that nodes publish at shutdown belong into the bag.
     let lines = bringup.lines().to_vec();
     drop(bringup);
     let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
     let is_recorded = finished.is_ok();
     let recording = finished.unwrap_or_else(|error| {
-        terminal::complain(&format!("the bag is not whole: {error}"));
+        terminal::complain(&format!("the bag is incomplete: {error}"));
         None
     });
     let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
@@ -278,7 +278,7 @@ fn in_world(
         report.tell(&mut anstream::stderr().lock())?;
     }
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
-    // Findings name each.
+    // Findings name each of them.
     if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
         terminal::complain(&format!("{diverged}; its model was removed"));
         return Ok(ExitCode::FAILURE);
@@ -288,7 +288,7 @@ fn in_world(
         Ok(()) if cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole && !teller.has_failed => Ok(ExitCode::SUCCESS),
         Ok(()) => {
-            terminal::complain("parts of the launch have errors and took no part");
+            terminal::complain("parts of the launch have errors and were not started");
             Ok(ExitCode::FAILURE)
         }
         Err(diverged) => {
@@ -298,7 +298,7 @@ fn in_world(
     }
 }
 
-/// Runs what must have ended before the world can be loaded.
+/// Runs the programs that must end before the world is loaded.
 fn prepare(bringup: &mut Bringup, teller: &mut Teller, stop: &AtomicBool) {
     let graph = Graph::new();
     let since = Stopwatch::start();
@@ -313,7 +313,7 @@ fn prepare(bringup: &mut Bringup, teller: &mut Teller, stop: &AtomicBool) {
     }
 }
 
-/// Beside a world that runs elsewhere, on the network.
+/// Runs without a world, on the ROS 2 network.
 fn among_others(
     launched: Launched,
     mut bringup: Bringup,
@@ -337,14 +337,14 @@ fn among_others(
         terminal::say(&format!("ROS 2: domain {}", live.domain_id));
     }
     let node = live.graph.node(periplus_graph::NodeSettings::new("periplus_launch").bare());
-    // In ROS 1 all nodes live by `/clock` once somebody has set `/use_sim_time`; that is known to a
-    // master that is not here, so it is looked whether somebody tells the time.
+    // In ROS 1 all nodes use `/clock` once `/use_sim_time` is set; there is no master here that
+    // stores it, so a publisher of `/clock` is searched for.
     let is_told = launched.dialect == Dialect::Ros1 && tells_time(&live);
     if (bringup.follows_clock() || is_told)
         && let Ok(node) = &node
     {
         match live.follow_clock(node) {
-            Ok(()) if !options.quiet => terminal::say("time is that of /clock"),
+            Ok(()) if !options.quiet => terminal::say("using the time of /clock"),
             Ok(()) => {}
             Err(error) => {
                 terminal::complain(&error.to_string());
@@ -377,12 +377,12 @@ fn among_others(
     while !stop.load(Ordering::Relaxed) && !bringup.is_over() && !is_time(&since) {
         live.go_on();
         let graph = live.graph.clone();
-        // Timers of launch files go by the wall, whatever time nodes live by.
+        // Timers of launch files use wall time, whatever clock the nodes use.
         let now_ns = i64::try_from(since.elapsed().as_nanos()).unwrap_or(i64::MAX);
         bringup.work(&graph, now_ns, None);
         teller.tell(&mut bringup, &|write| drop(write()));
         if bringup.is_idle() {
-            terminal::say("nothing of it runs (any more)");
+            terminal::say("all nodes and programs of the launch have ended");
             break;
         }
         live.tell();
@@ -402,13 +402,13 @@ fn among_others(
     drop(bringup);
     live.end(LAST_WORD);
     if teller.has_failed {
-        terminal::complain("parts of the launch have errors and took no part");
+        terminal::complain("parts of the launch have errors and were not started");
         return Ok(ExitCode::FAILURE);
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Whether somebody on the network tells the time; they have a moment to be found.
+/// Returns true if `/clock` has a publisher on the network, after some time for discovery.
 fn tells_time(live: &Live) -> bool {
     let since = Stopwatch::start();
     while since.elapsed() < DISCOVERY {
@@ -421,14 +421,14 @@ fn tells_time(live: &Live) -> bool {
     false
 }
 
-/// Tells what becomes of a plan.
+/// Prints the log of a launch.
 struct Teller {
     told: usize,
     is_quiet: bool,
     has_failed: bool,
 }
 
-/// Writes to a terminal on which something else is.
+/// Writes to a terminal that also shows a progress bar.
 type Aside<'a> = dyn Fn(&mut dyn FnMut() -> io::Result<()>) + 'a;
 
 impl Teller {
@@ -469,7 +469,7 @@ impl Teller {
     }
 }
 
-/// The beginning of a long text.
+/// Truncates a long text.
 fn short(text: &str) -> String {
     const MOST: usize = 80;
     if text.chars().count() <= MOST {
@@ -495,13 +495,13 @@ impl PlayOptions {
         })
     }
 
-    /// Whether there is to be a page: asked for, or in the place of a window of the launch file's.
+    /// Returns true if a page is requested, or replaces a window of the launch file.
     fn wants_page(&self, bringup: &Bringup, is_paced: bool) -> bool {
         self.page.page.is_some() || (!self.headless && is_paced && bringup.wants_page())
     }
 
-    /// Opens the page, and a browser on it where the launch file opens a window. Unasked, it goes on
-    /// without where it cannot be.
+    /// Opens the page, and a browser if the launch file opens a window. A page that was not
+    /// requested is optional: a failure is a warning.
     fn open(
         &self,
         graph: &periplus_graph::Graph,
@@ -521,14 +521,14 @@ impl PlayOptions {
         };
         let url = page.url();
         if !self.quiet {
-            terminal::say(&format!("the page is at {url}"));
+            terminal::say(&format!("page: {url}"));
             if let Some(view) = bringup.views().first() {
-                terminal::say(&format!("it opens {}", view.display()));
+                terminal::say(&format!("it shows {}", view.display()));
             }
         }
         let opens = !self.headless && !self.no_browser && bringup.wants_page();
         if opens && !browser::open(&url) && !self.quiet {
-            terminal::say("no browser could be opened; open the page yourself");
+            terminal::say("no browser could be started; open the page yourself");
         }
         Ok(Some(page))
     }

@@ -1,4 +1,4 @@
-//! Launch files in Python, evaluated by a python3 of the machine's.
+//! Launch files in Python, evaluated by the python3 of the machine.
 
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -11,23 +11,23 @@ use serde_json::{Map, Value, json};
 
 use super::tools::Tools;
 
-/// The longest answer [bytes]: descriptions of robots are some hundred thousand long.
+/// Maximum size of an answer \[bytes\]: robot descriptions have some hundred thousand.
 const LONGEST: u64 = 256 << 20;
 
-/// A python3 that waits for requests.
+/// Python process that serves requests.
 pub(super) struct Python {
     child: Child,
     requests: ChildStdin,
     answers: Receiver<io::Result<String>>,
-    /// How long an answer may take.
+    /// Time limit of an answer.
     limit: Duration,
 }
 
 impl Python {
-    /// Starts one.
+    /// Starts the process.
     pub(super) fn start(limit: Duration, tools: Option<&Tools>) -> Result<Self, String> {
         let mut child = Command::new("python3")
-            // Whatever the machine has under the names of ROS: ours come first.
+            // Our modules come first, before installed ones with the names of ROS packages.
             .args(["-c", BOOT])
             .env("PYTHONDONTWRITEBYTECODE", "1")
             .envs(tools.map(|tools| ("PATH", tools.path())))
@@ -53,9 +53,7 @@ impl Python {
     fn send(&mut self, message: &Value) -> Result<(), String> {
         let mut line = message.to_string();
         line.push('\n');
-        self.requests
-            .write_all(line.as_bytes())
-            .map_err(|error| format!("python3 has ended: {error}"))
+        self.requests.write_all(line.as_bytes()).map_err(|error| format!("python3 ended: {error}"))
     }
 
     fn message(&mut self) -> Result<Value, Complaint> {
@@ -64,25 +62,23 @@ impl Python {
             Err(RecvTimeoutError::Timeout) => {
                 return Err(Complaint {
                     message: format!(
-                        "this launch file is still being evaluated after {} s",
+                        "evaluation of this launch file exceeded {} s",
                         self.limit.as_secs_f64()
                     ),
                     line: None,
-                    help: Some(
-                        "if it does need longer, allow it: `--evaluation-limit SECONDS`".into(),
-                    ),
+                    help: Some("if it needs longer, raise `--evaluation-limit SECONDS`".into()),
                 });
             }
             Err(RecvTimeoutError::Disconnected) => {
-                return Err("python3 has ended before it has answered".to_owned().into());
+                return Err("python3 ended before it answered".to_owned().into());
             }
         };
         serde_json::from_str(&line)
-            .map_err(|error| format!("python3 has answered what is no JSON: {error}").into())
+            .map_err(|error| format!("the answer of python3 is not JSON: {error}").into())
     }
 }
 
-/// The lines of a pipe, read on a thread of its own so that nobody waits for them without end.
+/// Lines of a pipe, read on a separate thread so that waiting can time out.
 fn lines(pipe: ChildStdout) -> Receiver<io::Result<String>> {
     let (send, lines) = channel();
     std::thread::spawn(move || {
@@ -130,7 +126,7 @@ impl Interpreter for Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        // It ends by itself with its input; a file that hangs must not keep us.
+        // The process ends with its input; the kill covers a launch file that blocks.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,10 +1,10 @@
-//! What a person reads about a launch file.
+//! Text output of launch files.
 
 use std::io;
 
 use periplus_launch::Plan;
 
-/// The arguments that a file takes, as `ros2 launch --show-args` lists them.
+/// Prints the arguments of a launch file, as `ros2 launch --show-args` does.
 pub(super) fn arguments(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
     if plan.arguments.is_empty() {
         return writeln!(out, "No arguments.");

@@ -1,4 +1,4 @@
-//! Programs that launch files expect on the PATH and that are built in: `xacro`.
+//! Built-in programs that launch files expect on the PATH: `xacro`.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -10,20 +10,20 @@ use periplus_resources::Host as _;
 
 use crate::terminal;
 
-/// The word behind the program that makes it `xacro`. It is no command for people.
+/// Argument that makes this program act as `xacro`. Not a command for users.
 pub(crate) const XACRO_VERB: &str = "__xacro";
 
-/// Folders that are tried until one is free.
+/// Number of folder names that are tried.
 const MOST_FOLDERS: u32 = 1000;
 
-/// A private folder with these programs. It goes at the end of the PATH, behind those that are
-/// installed, and is removed with this value.
+/// Private folder with these programs. It is last on the PATH, after installed ones, and is removed
+/// on drop.
 pub(super) struct Tools {
     folder: PathBuf,
 }
 
 impl Tools {
-    /// Makes the folder; none where it cannot be made, or where scripts are no programs.
+    /// Creates the folder; `None` where it cannot be created, or where scripts are not executable.
     pub(super) fn make(resource_path: &[PathBuf]) -> Option<Self> {
         let own = std::env::current_exe().ok()?;
         let here = terminal::working_folder();
@@ -44,7 +44,7 @@ impl Tools {
         &self.folder
     }
 
-    /// The PATH of this process, with the folder at its end.
+    /// PATH of this process, with the folder at its end.
     pub(super) fn path(&self) -> OsString {
         let mut path = OsString::from(Machine.variable("PATH").unwrap_or_default());
         if !path.is_empty() {
@@ -61,12 +61,12 @@ impl Drop for Tools {
     }
 }
 
-/// A word as a shell reads it.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
-/// A new folder that nobody else can write into.
+/// Creates a new folder that other users cannot write to.
 #[cfg(unix)]
 fn private_folder() -> Option<PathBuf> {
     use std::os::unix::fs::DirBuilderExt as _;
@@ -97,8 +97,8 @@ fn program(_path: &Path, _text: &str) -> Option<()> {
     None
 }
 
-/// The work of the program as `xacro`: `N FOLDER...`, where packages are looked for, and then the words
-/// of the command.
+/// Runs `xacro`: `N FOLDER...`, the folders searched for packages, followed by the arguments of the
+/// command.
 pub(crate) fn run_xacro(words: &[String]) -> std::io::Result<ExitCode> {
     let (count, words) = match words.split_first() {
         Some((count, words)) => (count.parse().unwrap_or(0).min(words.len()), words),

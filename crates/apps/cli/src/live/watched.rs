@@ -1,4 +1,4 @@
-//! What a node says, and a managed one becomes.
+//! Log messages and lifecycle state of a node.
 
 use periplus_graph::{GraphError, Level, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::lifecycle_msgs::{State, TransitionEvent};
@@ -6,7 +6,7 @@ use periplus_msgs::rcl_interfaces::Log;
 
 use crate::terminal::say;
 
-/// What a node says, and a managed one becomes.
+/// Monitor of the log messages and the lifecycle state of a node.
 pub(crate) struct Watched {
     logger: String,
     logs: Mailbox<Log>,
@@ -15,10 +15,10 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// Watches a node, from a hidden one beside it.
+    /// Monitors a node, from a hidden node.
     ///
     /// # Errors
-    /// When the graph refuses the names.
+    /// An error when the graph refuses the names.
     pub(crate) fn new(watched: &Node) -> Result<Self, GraphError> {
         let name = watched.full_name().replace('/', "_");
         let node = watched.graph().node(NodeSettings::new(format!("{name}_watch")).bare())?;
@@ -31,9 +31,9 @@ impl Watched {
         })
     }
 
-    /// Writes what has been logged; whether the node gave up.
+    /// Prints new log messages; returns true if the node failed.
     pub(crate) fn tell(&self) -> bool {
-        // Before the lines, which come first.
+        // Read before the log, whose lines come first.
         let events = self.events.drain();
         for line in self.logs.drain().iter().filter(|line| line.name == self.logger) {
             say(&format!("[{}] [{}]: {}", Level::of_number(line.level), line.name, line.msg));

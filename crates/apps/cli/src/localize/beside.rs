@@ -1,4 +1,4 @@
-//! Localization beside other nodes: the map server and `amcl`.
+//! Localization beside a simulation: the nodes `map_server` and `amcl`.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use periplus_yaml::Node;
 use super::options::{self, Yaml};
 use crate::sim::stack::RobotProfile;
 
-/// What `periplus sim` takes for localization.
+/// Localization options of `periplus sim`.
 #[derive(Debug, Args)]
 pub(crate) struct BesideOptions {
     /// Run `map_server` and `amcl` of Nav2 beside the robot: the YAML of a map, a file with their
@@ -24,21 +24,22 @@ pub(crate) struct BesideOptions {
     localize: Vec<PathBuf>,
 }
 
-/// Nodes that find the robot.
+/// Localization nodes.
 pub(crate) struct Localization {
     amcl: AmclNode,
     _server: Option<MapServer>,
 }
 
 impl BesideOptions {
-    /// Whether the robot is to be found on a map.
+    /// Returns true if localization is requested.
     pub(crate) fn is_wanted(&self) -> bool {
         !self.localize.is_empty()
     }
 }
 
 impl Localization {
-    /// As nodes of a graph, if they are wanted: `Ok(Ok(None))` when not; in words why they cannot be.
+    /// Adds the nodes to a graph, if requested: `Ok(Ok(None))` if not; a message if they cannot
+    /// start.
     pub(crate) fn join(
         graph: &Graph,
         options: &BesideOptions,
@@ -67,7 +68,7 @@ impl Localization {
         Ok(Self::new(graph, map.as_deref(), values).map(Some))
     }
 
-    /// Starts both, the server only where there is a map; in words why not.
+    /// Starts both nodes, `map_server` only if there is a map; a message if they cannot start.
     pub(crate) fn new(graph: &Graph, map: Option<&Path>, values: Values) -> Result<Self, String> {
         let server = map.map(|path| {
             let settings = MapServerSettings {
@@ -94,7 +95,7 @@ impl Localization {
         &self.amcl
     }
 
-    /// What there is to say at the end of a run.
+    /// Prints the report at the end of a run.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         let told = self.amcl.look(|amcl| {
             let status = amcl.status();
@@ -106,8 +107,8 @@ impl Localization {
                     pose.x_m, pose.y_m
                 )
             });
-            let place = place.unwrap_or_else(|| "nowhere yet".into());
-            format!("localization: at {place}: {:?}, {}", status.state, status.reason)
+            let place = place.unwrap_or_else(|| "no pose yet".into());
+            format!("localization: {place}: {:?}, {}", status.state, status.reason)
         });
         writeln!(out, "{}", told.unwrap_or_else(|| "localization: not configured".into()))?;
         if let Some(trouble) = self.amcl.trouble() {
@@ -117,12 +118,12 @@ impl Localization {
     }
 }
 
-/// Whether a file is that of a map.
+/// Returns true if a file describes a map.
 fn is_map(yaml: &Yaml) -> bool {
     yaml.tree.as_ref().is_some_and(|tree| tree.get("image").is_some())
 }
 
-/// The map that a file with parameters names for `map_server`, beside the file.
+/// Map that a parameter file sets for `map_server`, relative to the file.
 fn map_of(yaml: &Yaml, path: &Path) -> Option<PathBuf> {
     let parameters = yaml.tree.as_ref()?.get("map_server")?.get("ros__parameters")?;
     let name = parameters.get("yaml_filename").and_then(Node::text).filter(|it| !it.is_empty())?;

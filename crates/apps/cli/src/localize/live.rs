@@ -1,4 +1,4 @@
-//! Localization among the programs of ROS 2.
+//! Localization on ROS 2.
 
 use std::io;
 use std::process::ExitCode;
@@ -13,11 +13,11 @@ use crate::live::{Live, Watched};
 use crate::stop;
 use crate::terminal::{complain, diagnostics};
 
-/// Shortest and longest time between two steps of the clock: the filter looks for scans every 20 ms.
+/// Shortest and longest sleep of the loop: the filter polls for scans every 20 ms.
 const SHORTEST_STEP: Duration = Duration::from_millis(5);
 const LONGEST_STEP: Duration = Duration::from_millis(20);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
@@ -62,7 +62,7 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
         live.go_on();
         live.sleep_until_due(SHORTEST_STEP, LONGEST_STEP);
         if watched.tell() {
-            // It has been logged why.
+            // The reason has been logged.
             code = ExitCode::FAILURE;
             break;
         }

@@ -1,4 +1,4 @@
-//! A log, localized scan by scan.
+//! Localization of a log, scan by scan.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -15,28 +15,28 @@ use super::report::Report;
 use crate::log::{Log, LogOptions, Logged};
 use crate::{picture, terminal};
 
-/// So many faults of a log are told one by one.
+/// Number of log errors that are printed; the others are counted.
 const MOST_TOLD: usize = 20;
-/// More changes of the state are counted, not listed.
+/// Number of state changes that are listed; the others are counted.
 const MOST_CHANGES: usize = 1000;
 
-/// What came of a log.
+/// Result of localizing a log.
 #[derive(Default)]
 pub(super) struct Outcome {
-    /// Stamp and `map_from_base` of each scan after the robot knew where it was.
+    /// Stamp and `map_from_base` of each scan while localized.
     pub(super) trajectory: Vec<(String, Pose2)>,
-    /// Of each scan that was used \[s\].
+    /// Update time of each used scan \[s\].
     pub(super) spent_s: Vec<f64>,
-    /// Scans that could not be used, by why.
+    /// Unusable scans, by reason.
     pub(super) refused: BTreeMap<&'static str, (String, usize)>,
     pub(super) without_odometry: usize,
-    /// Scans in each state.
+    /// Number of scans in each state.
     pub(super) states: BTreeMap<&'static str, usize>,
-    /// When the state changed, to what, why.
+    /// State changes: stamp, new state, reason.
     pub(super) changes: Vec<(String, &'static str, String)>,
-    /// How long \[s\] and how far \[m\] it took until the robot knew where it was.
+    /// Time \[s\] and distance \[m\] until localized.
     pub(super) settled: Option<(f64, f64)>,
-    /// Which part of scans was on walls, summed and counted.
+    /// Sum and count of the fraction of scan points on walls.
     pub(super) fits: (f64, usize),
 }
 
@@ -67,7 +67,7 @@ pub(super) fn run(
         log.scans.retain(|it| it.scan.time_ns - begin_ns >= skip_ns);
     }
     if log.scans.is_empty() {
-        terminal::complain(&format!("{} holds no scans", log_path.display()));
+        terminal::complain(&format!("{} has no scans", log_path.display()));
         return Ok(ExitCode::FAILURE);
     }
     let loaded_s = watch.elapsed().as_secs_f64();
@@ -105,7 +105,7 @@ pub(super) fn run(
     Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// One scan after the other.
+/// Localizes one scan after the other.
 fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
     let mut outcome = Outcome::default();
     let mut way_m = 0.0;
@@ -173,7 +173,7 @@ fn word(state: State) -> &'static str {
     }
 }
 
-/// Writes all that comes of a run.
+/// Writes all results of a run.
 fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), String> {
     crate::paths::make_folder(out)?;
     let put = |name: &str, bytes: &[u8]| crate::paths::write(&out.join(name), bytes);

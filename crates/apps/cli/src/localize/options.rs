@@ -1,4 +1,4 @@
-//! What can be typed after `periplus localize`.
+//! Options of `periplus localize`.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -58,8 +58,8 @@ pub(crate) struct LocalizeOptions {
 }
 
 fn word(word: &str) -> Result<(String, String), String> {
-    let (name, value) = word.split_once(":=").ok_or("it has to be NAME:=VALUE")?;
-    // `amcl:name` is what `--ros-args` would have.
+    let (name, value) = word.split_once(":=").ok_or("expected NAME:=VALUE")?;
+    // `--ros-args` accepts `amcl:name`.
     let name = name.strip_prefix("amcl:").unwrap_or(name);
     Ok((name.to_owned(), value.to_owned()))
 }
@@ -69,12 +69,12 @@ fn pose(word: &str) -> Result<Pose2, String> {
     let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
     match numbers.as_deref() {
         Some(&[x, y, yaw]) => Ok(Pose2::new(x, y, yaw)),
-        _ => Err(format!("`{word}` is no pose; write X,Y,YAW")),
+        _ => Err(format!("`{word}` is not a pose; write X,Y,YAW")),
     }
 }
 
 impl LocalizeOptions {
-    /// All parameters of `amcl`; none when there are errors, which are told.
+    /// All parameters of `amcl`; prints findings and returns `None` on errors.
     pub(crate) fn values(&self) -> io::Result<Option<Values>> {
         let mut words = self.parameters.clone();
         let mut word = |name: &str, value: String| words.push((name.to_owned(), value));
@@ -98,14 +98,14 @@ impl LocalizeOptions {
     }
 }
 
-/// A file, and what is wrong with it.
+/// YAML file with its findings.
 pub(super) struct Yaml {
     pub(super) tree: Option<Node>,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }
 
-/// Reads a file; in words why it cannot be.
+/// Reads a file; a message if it cannot be read.
 pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
     let text = crate::paths::text(path)?;
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
@@ -120,7 +120,8 @@ pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
     Ok(Yaml { tree, diagnostics, sources })
 }
 
-/// The parameters of `amcl` from a file and words, with what is wrong told; none when it is an error.
+/// Parameters of `amcl` from a file and the command line; prints findings and returns `None` on
+/// errors.
 pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> io::Result<Option<Values>> {
     let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
@@ -129,13 +130,13 @@ pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> io::Result
     Ok((!diagnostics.has_errors()).then_some(values))
 }
 
-/// The map of a file; none when it cannot be read, which is told.
+/// Reads a map; prints the error and returns `None` if it cannot be read.
 pub(super) fn map(path: &Path) -> io::Result<Option<OccupancyGrid>> {
     let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &periplus_os::Machine);
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, &loaded.diagnostics, &loaded.sources)?;
     if loaded.map.is_none() {
-        terminal::complain(&format!("{} is no map that can be used", path.display()));
+        terminal::complain(&format!("{} is not a usable map", path.display()));
     }
     Ok(loaded.map.map(|map| map.grid))
 }

@@ -1,4 +1,4 @@
-//! How a run went.
+//! Report of a localization run.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,7 +11,7 @@ use super::offline::Outcome;
 use crate::log::Log;
 use crate::spent::{cpu_s, steps_ms};
 
-/// How a run went.
+/// Report of a localization run.
 pub(super) struct Report<'a> {
     pub(super) log_path: &'a Path,
     pub(super) map_path: &'a Path,
@@ -19,14 +19,14 @@ pub(super) struct Report<'a> {
     pub(super) amcl: &'a Amcl,
     pub(super) log: &'a Log,
     pub(super) outcome: &'a Outcome,
-    /// Reading the log and the map.
+    /// Time to read the log and the map.
     pub(super) loaded_s: f64,
-    /// All together.
+    /// Total time.
     pub(super) wall_s: f64,
 }
 
 impl Report<'_> {
-    /// For a program. It is asked for last of all: the peak of memory has in it what came before.
+    /// JSON report. Called last, so that the peak memory includes the whole run.
     pub(super) fn to_json(&self) -> Value {
         let Outcome { settled, states, changes, refused, .. } = self.outcome;
         let changes: Vec<Value> = changes
@@ -74,7 +74,7 @@ impl Report<'_> {
         })
     }
 
-    /// For a person.
+    /// Prints the report as text.
     pub(super) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         for warning in &self.log.warnings {
             writeln!(out, "warning: {warning}")?;
@@ -92,9 +92,9 @@ impl Report<'_> {
         )?;
         match settled {
             Some((after_s, after_m)) => {
-                writeln!(out, "  it knew where it was after {after_s:.1} s and {after_m:.2} m")?;
+                writeln!(out, "  localized after {after_s:.1} s and {after_m:.2} m")?;
             }
-            None => writeln!(out, "  it never knew where it was: {}", self.amcl.status().reason)?,
+            None => writeln!(out, "  never localized: {}", self.amcl.status().reason)?,
         }
         let all = self.log.scans.len().max(1) as f64;
         let share = |(state, count): (&&str, &usize)| {
@@ -102,15 +102,15 @@ impl Report<'_> {
         };
         writeln!(out, "  {}", states.iter().map(share).collect::<Vec<_>>().join(", "))?;
         if let Some(fit) = self.fit() {
-            writeln!(out, "  {:.0} % of the scans are on walls of the map", 100.0 * fit)?;
+            writeln!(out, "  {:.0} % of the scan points are on walls of the map", 100.0 * fit)?;
         }
         for (why, count) in refused.values() {
-            writeln!(out, "  {count} scans were of no use: {why}")?;
+            writeln!(out, "  {count} scans could not be used: {why}")?;
         }
         if self.outcome.without_odometry > 0 {
             writeln!(
                 out,
-                "  {} scans have no odometry at their time, and are left out",
+                "  {} scans have no odometry at their stamp and were left out",
                 self.outcome.without_odometry
             )?;
         }

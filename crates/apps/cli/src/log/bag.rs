@@ -18,10 +18,10 @@ use periplus_tf::{Buffer, Kind, Stamped};
 use super::{Log, LogOptions, Logged};
 use crate::terminal;
 
-/// Names of the robot's own frame, the most telling first.
+/// Common names of the base frame, in order of preference.
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
 
-/// Reads a recording; in words why it cannot be.
+/// Reads a recording; a message if it cannot be read.
 pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
     let bag = match crate::paths::bag(path) {
         Ok(bag) => bag,
@@ -57,7 +57,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
         let frame = message.header.frame_id.trim_start_matches('/').to_owned();
         let base_from_laser = base.as_ref().and_then(|base| {
             let found = frames.buffer.lookup(base, &frame, time_ns);
-            // What is fixed on the robot may be told after the first scan.
+            // Static transforms may be published after the first scan.
             let found = found.or_else(|_| frames.buffer.lookup(base, &frame, 0));
             if found.is_err() {
                 *missing.entry(format!("{base} <- {frame}")).or_default() += 1;
@@ -81,7 +81,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
     });
     log.faults.extend(faults.map_err(|why| why.to_string())?);
     for (edge, count) in missing {
-        log.warnings.push(format!("{count} scans have no transform {edge} at their time"));
+        log.warnings.push(format!("{count} scans have no transform {edge} at their stamp"));
     }
     Ok(log)
 }
@@ -103,7 +103,7 @@ fn scan(message: LaserScan, time_ns: i64, base_from_laser: Pose) -> Scan {
     }
 }
 
-/// The topic with the most scans, or the one that is asked for.
+/// Topic with the most scans, or the requested one.
 fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, String> {
     let with_scans = || {
         let topics = bag.topics().iter().zip(bag.counts());
@@ -120,21 +120,21 @@ fn scan_topic(bag: &Bag, path: &Path, options: &LogOptions) -> Result<String, St
     }
     match &options.scan_topic {
         Some(wanted) => named(wanted).ok_or_else(|| {
-            format!("there are no scans on `{wanted}`; there are on: {}", names.join(", "))
+            format!("no scans on `{wanted}`; topics with scans: {}", names.join(", "))
         }),
         None => with_scans()
             .max_by_key(|(_, count)| **count)
             .map(|(topic, _)| topic.name.clone())
-            .ok_or_else(|| format!("{} holds no scans", path.display())),
+            .ok_or_else(|| format!("{} has no scans", path.display())),
     }
 }
 
-/// The type by its last word: ROS 1 and ROS 2 spell the rest differently.
+/// Compares the last part of the type; ROS 1 and ROS 2 differ in the rest.
 pub(crate) fn has_type(topic: &BagTopic, name: &str) -> bool {
     topic.type_name.rsplit('/').next() == Some(name)
 }
 
-/// Where frames were during the whole recording.
+/// Transforms of the whole recording.
 struct Frames {
     buffer: Buffer,
     faults: Vec<String>,
@@ -160,7 +160,7 @@ impl Frames {
                     translation: DVec3::new(t.x, t.y, t.z),
                     rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
                 };
-                // Repeated and bad ones are refused, as tf2 does.
+                // Repeated and invalid transforms are refused, as in tf2.
                 let _ = buffer.set(&stamped, topic, kind);
             }
         })?;
@@ -169,7 +169,7 @@ impl Frames {
             buffer.frames().filter(has_parent).map(str::to_owned).collect();
         faults.extend(each::<Odometry>(bag, &named("Odometry"), |topic, message| {
             let child = message.child_frame_id.trim_start_matches('/');
-            // Transforms, where there are any, say the same and more.
+            // Transforms, if present, contain odometry and more.
             if told.contains(child) {
                 return;
             }
@@ -186,14 +186,14 @@ impl Frames {
         Ok(Self { buffer, faults })
     }
 
-    /// The robot's frame to which a chain leads: the one that is told, or one of the usual ones.
+    /// Base frame that is connected to odometry: the given one, or one of the common names.
     fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
         let leads = |base: &&str| self.buffer.chain(odom, base).is_some();
         told.into_iter().chain(BASES).find(leads).map(str::to_owned)
     }
 }
 
-/// All messages of some topics, decoded; those that cannot be are faults.
+/// Decodes all messages of some topics; undecodable ones become faults.
 pub(crate) fn each<M: Message>(
     bag: &Bag,
     names: &[&str],

@@ -1,4 +1,4 @@
-//! What can be typed behind `periplus map`.
+//! Options of `periplus map`.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use periplus_maps::Distro;
 
 use crate::verbs::seconds;
 
-/// Save, serve, show, convert and compare maps
+/// Save, serve, inspect, convert and compare maps
 #[derive(Debug, Subcommand)]
 pub(crate) enum MapCommand {
     Save(SaveOptions),
@@ -37,7 +37,7 @@ pub(crate) struct SaveOptions {
     pub(crate) words: Vec<String>,
 }
 
-/// Serve a map, as the node `map_server`: on `/map` and `/map_metadata`, through the services
+/// Serve a map as the node `map_server`: on `/map`, `/map_metadata` and the services
 /// `/map_server/map` and `/map_server/load_map`
 ///
 /// A lifecycle node that configures and activates itself; with `--managed` it waits for a lifecycle
@@ -61,7 +61,7 @@ pub(crate) struct ServeOptions {
     /// Remap a topic or the node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     pub(crate) remaps: Vec<String>,
-    /// What some tutorials write for `map save -f`
+    /// Hidden option of tutorials that mean `map save -f`
     #[arg(short = 'f', value_name = "NAME", hide = true)]
     pub(crate) file: Option<String>,
 }
@@ -87,7 +87,7 @@ pub(crate) struct ConvertOptions {
     /// Path of the output files, without extension
     #[arg(long, short, value_name = "NAME")]
     pub(crate) output: String,
-    /// pgm, png or bmp; png in mode scale, else pgm
+    /// Image format: pgm, png or bmp (default png in mode scale, else pgm)
     #[arg(long, value_name = "FORMAT")]
     pub(crate) fmt: Option<String>,
     /// trinary, scale or raw
@@ -142,13 +142,13 @@ pub(crate) struct DiffOptions {
 }
 
 fn distro(word: &str) -> Result<Distro, String> {
-    Distro::from_name(word).ok_or_else(|| "it has to be jazzy, humble or noetic".into())
+    Distro::from_name(word).ok_or_else(|| "expected jazzy, humble or noetic".into())
 }
 
-/// A size of a window that a search can end in.
+/// Size of a search window.
 fn window(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if (0.0..=360.0).contains(&number) => Ok(number),
-        _ => Err("it has to be a number from 0 to 360".into()),
+        _ => Err("expected a number from 0 to 360".into()),
     }
 }

@@ -17,15 +17,15 @@ use crate::live::{Live, Watched};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
-/// How often it is looked whether it is over.
+/// Polling period.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     if let Some(name) = &options.file {
-        say(&format!("`-f` is for saving a map; this is `periplus map save -f {name}`"));
+        say(&format!("`-f` saves a map; running `periplus map save -f {name}`"));
         let words = vec!["-f".to_owned(), name.clone()];
         return super::save(&SaveOptions { distro: options.distro, timeout: None, words }, &ros);
     }
@@ -72,7 +72,7 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
         live.go_on();
         sleep(LOOK);
         if watched.tell() && !options.managed {
-            // It has been logged why.
+            // The reason has been logged.
             code = ExitCode::FAILURE;
             break;
         }

@@ -6,7 +6,7 @@ use super::{Sensor, Simulator};
 
 const ROBOT: &str = include_str!("../../templates/robot.urdf.xacro");
 const WORLD: &str = include_str!("../../templates/world.sdf");
-/// Systems of a world of Gazebo Harmonic; Gazebo Classic has them built in.
+/// Systems of a world for Gazebo Harmonic; Gazebo Classic has them built in.
 const SYSTEMS: &str = include_str!("../../templates/systems.part.sdf");
 const LAUNCH: &str = include_str!("../../templates/package/simulation.launch.py");
 
@@ -21,11 +21,11 @@ const PACKAGE: [(&str, &str); 7] = [
     ("rviz/@NAME@.rviz", include_str!("../../templates/package/robot.rviz")),
 ];
 
-/// The parts of a package that differ between simulators.
+/// Parts of a package that depend on the simulator.
 struct Dialect {
     /// `<exec_depend>` lines of package.xml.
     depends: &'static str,
-    /// The actions that start the simulation.
+    /// Launch actions that start the simulation.
     launch: &'static str,
     name: &'static str,
     bridge_row: &'static str,
@@ -45,12 +45,12 @@ const CLASSIC: Dialect = Dialect {
     bridge_row: "",
 };
 
-/// The bridge of ROS 2 and Gazebo Harmonic.
+/// Bridge configuration of ROS 2 and Gazebo Harmonic.
 const BRIDGE: &str = include_str!("../../templates/package/bridge.yaml");
 
-/// A file to write.
+/// File to write.
 pub(super) struct NewFile {
-    /// Relative to the folder that is written to.
+    /// Path relative to the output folder.
     pub(super) path: PathBuf,
     pub(super) text: String,
 }
@@ -61,7 +61,7 @@ impl NewFile {
     }
 }
 
-/// A robot's xacro file.
+/// Xacro file of a robot.
 pub(super) fn robot(name: &str, simulator: Simulator, without: &[Sensor]) -> NewFile {
     let has = |sensor: Sensor| if without.contains(&sensor) { "false" } else { "true" };
     let text = ROBOT
@@ -73,7 +73,7 @@ pub(super) fn robot(name: &str, simulator: Simulator, without: &[Sensor]) -> New
     NewFile::new(&format!("{name}.urdf.xacro"), text)
 }
 
-/// A world file.
+/// World file.
 pub(super) fn world(name: &str, simulator: Simulator) -> NewFile {
     let systems = match simulator {
         Simulator::Gz => SYSTEMS,

@@ -1,9 +1,10 @@
 //! Names of robots, worlds and packages.
 
-/// A name that ROS 2 accepts for a package (REP 144), which is also a valid model, world and file name.
+/// Checks a name by the rules of ROS 2 packages (REP 144); it is then also a valid model, world and
+/// file name.
 ///
 /// # Errors
-/// The rule, with the nearest name that keeps it.
+/// The rule, with the nearest valid name.
 pub(super) fn name(word: &str) -> Result<String, String> {
     let is_first = |letter: char| letter.is_ascii_lowercase();
     let is_inner = |letter: char| is_first(letter) || letter.is_ascii_digit() || letter == '_';

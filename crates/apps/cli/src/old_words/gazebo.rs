@@ -4,14 +4,14 @@ use super::answers::{elsewhere, lacking, needless, unknown};
 use super::ros2::without;
 use super::{Reading, become_words};
 
-/// Verbs of `gz` that are translated.
+/// Subcommands of `gz` that are translated.
 const WORDS: [&str; 7] = ["sim", "topic", "service", "model", "sdf", "launch", "gui"];
 
-const AT_ONCE: &str = "it runs at once; pause and step it on the page";
+const AT_ONCE: &str = "it starts running; pause and step it on the page";
 
 pub(super) fn read(program: &str, words: &[String]) -> Reading {
     let Some((verb, rest)) = words.split_first() else {
-        return elsewhere(format!("`{program}` needs a word behind it, such as `{program} sim`"));
+        return elsewhere(format!("`{program}` needs a subcommand, such as `{program} sim`"));
     };
     match verb.as_str() {
         "sim" | "gazebo" => simulate(program, rest),
@@ -24,7 +24,7 @@ pub(super) fn read(program: &str, words: &[String]) -> Reading {
             .noting("recordings are bags: `periplus sim WORLD --record FILE.mcap`"),
         "stats" => lacking(
             &format!("{program} stats"),
-            "listen to the world's own: `periplus topic echo /world/NAME/stats`",
+            "subscribe to the statistics of the world: `periplus topic echo /world/NAME/stats`",
         ),
         "param" => become_words(&["param"], vec!["list".into()]),
         "joint" | "physics" | "camera" => lacking(
@@ -69,7 +69,7 @@ fn simulate(program: &str, rest: &[String]) -> Reading {
             "-r" => runs = true,
             "-rs" | "-sr" => (has_page, runs) = (false, true),
             "--headless-rendering" => has_page = false,
-            // Options of ours may stand here too: the messages of a run name them.
+            // Periplus options are accepted here too: messages of a run suggest them.
             "--no-browser" => words.push(word.clone()),
             _ if word == "--page" || word.starts_with("--page=") => {
                 has_own_page = true;
@@ -102,13 +102,13 @@ fn simulate(program: &str, rest: &[String]) -> Reading {
     }
     if !has_world {
         return elsewhere(
-            "name the world: `periplus sim WORLD.sdf --page`; for a first look, `periplus demo`",
+            "give a world: `periplus sim WORLD.sdf --page`; for a first look, `periplus demo`",
         );
     }
     if has_page && !has_own_page {
         words.push("--page".into());
     }
-    // As there, programs of Gazebo and bridges see the run.
+    // As in Gazebo, Gazebo programs and bridges can connect to the run.
     words.push("--gz".into());
     if program == "ign" {
         words.extend(["--gz-types".into(), "ignition".into()]);
@@ -129,7 +129,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
     while let Some(word) = rest.next() {
         match word.as_str() {
             "--seed" => words.extend(["--seed".to_owned()].into_iter().chain(rest.next().cloned())),
-            // What plugins of ROS do is built in.
+            // ROS plugins are built in.
             "-s" | "--server-plugin" | "-g" | "--gui-plugin" => {
                 rest.next();
             }
@@ -149,7 +149,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
     }
     if !has_world {
         return elsewhere(
-            "name the world: `periplus sim FILE.world --page`; for a first look, `periplus demo`",
+            "give a world: `periplus sim FILE.world --page`; for a first look, `periplus demo`",
         );
     }
     if program == "gazebo" {
@@ -158,7 +158,7 @@ pub(super) fn classic(program: &str, rest: &[String]) -> Reading {
     without(become_words(&["sim"], words), &dropped)
 }
 
-/// What stands behind a flag.
+/// Value of a flag.
 fn value<'w>(words: &'w [String], flags: &[&str]) -> Option<&'w str> {
     words.iter().enumerate().find_map(|(at, word)| {
         if flags.contains(&word.as_str()) {
@@ -198,7 +198,7 @@ fn topic(program: &str, words: &[String]) -> Reading {
             }
             None => lacking(
                 &format!("{program} topic -m {wanted}"),
-                "give the type of ROS: `periplus topic pub TOPIC geometry_msgs/msg/Twist VALUES`",
+                "give the ROS type: `periplus topic pub TOPIC geometry_msgs/msg/Twist VALUES`",
             ),
         };
     }
@@ -209,7 +209,7 @@ fn topic(program: &str, words: &[String]) -> Reading {
     become_words(&["topic", "echo"], ours)
 }
 
-/// Types of Gazebo and those of ROS that hold the same.
+/// Gazebo types and the equivalent ROS types.
 /// Source: the table in `ros_gz_bridge/README.md`.
 const TYPES: [(&str, &str); 19] = [
     ("Boolean", "std_msgs/msg/Bool"),
@@ -255,7 +255,7 @@ fn service(program: &str, words: &[String]) -> Reading {
         return become_words(&["service", "info"], vec![name.to_owned()]);
     }
     let request = yaml(value(words, &["-r", "--req"]).unwrap_or_default());
-    // Services of a world by their last word, with the types of `ros_gz_interfaces`.
+    // Services of a world by the last part of their name, with the types of `ros_gz_interfaces`.
     let (type_name, request) = match name.rsplit('/').next().unwrap_or_default() {
         "control" => ("ControlWorld", format!("{{world_control: {request}}}")),
         "create" => ("SpawnEntity", format!("{{entity_factory: {request}}}")),

@@ -1,4 +1,4 @@
-//! The packages that can be found.
+//! Search for packages.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -8,13 +8,13 @@ use periplus_resources::{Host as _, Kind};
 
 use crate::terminal::working_folder;
 
-/// How deep they are looked for.
+/// Maximum depth of the search.
 const DEEPEST: usize = 6;
 
-/// What colcon, catkin and others leave behind, and what never holds packages.
+/// Output folders of colcon, catkin and others, and folders that never contain packages.
 const OTHERS: [&str; 7] = ["build", "install", "log", "devel", "target", "node_modules", "venv"];
 
-/// Lists the packages under the working folder and on the paths of the environment, a line each.
+/// Lists the packages under the working folder and on the paths of the environment, one per line.
 pub(super) fn list(out: &mut dyn Write) -> io::Result<()> {
     let here = working_folder();
     let mut found = Vec::new();
@@ -46,7 +46,7 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<(String, PathBuf)>) {
         if let Some(name) = name_in(&text) {
             found.push((name.to_owned(), folder.to_path_buf()));
         }
-        // Packages do not lie in packages.
+        // Packages are not nested.
         return;
     }
     if depth == DEEPEST {
@@ -63,7 +63,7 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<(String, PathBuf)>) {
     }
 }
 
-/// What a manifest calls its package.
+/// Package name of a manifest.
 fn name_in(manifest: &str) -> Option<&str> {
     let (_, rest) = manifest.split_once("<name>")?;
     let name = rest.split_once("</name>")?.0.trim();

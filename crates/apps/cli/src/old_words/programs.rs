@@ -5,22 +5,22 @@ use periplus_graph::ROS_ARGS;
 use super::answers::elsewhere;
 use super::{Reading, become_words};
 
-/// How names and parameters are given.
+/// Syntax of names and parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
     /// `_name:=value`, `__name:=node`, `from:=to`.
     Ros1,
-    /// The same behind `--ros-args`.
+    /// ROS 2 syntax, after `--ros-args`.
     Ros2,
 }
 
-/// A program that has a command here.
+/// Program with an equivalent command.
 struct Program {
     packages: &'static [&'static str],
     names: &'static [&'static str],
-    /// Its command.
+    /// Equivalent command.
     words: &'static [&'static str],
-    /// Whether the command runs a node that takes `--ros-args`.
+    /// True if the command runs a node that takes `--ros-args`.
     is_node: bool,
     note: &'static str,
 }
@@ -48,14 +48,14 @@ const PAGE: &str =
 const ACTIVE: &str =
     "it configures and activates itself; with `--managed` it waits for a lifecycle manager";
 
-/// All that have one. Whatever else is run becomes `periplus run PACKAGE PROGRAM`.
+/// Programs with an equivalent command. All others become `periplus run PACKAGE PROGRAM`.
 const PROGRAMS: &[Program] = &[
     tool(&["tf2_tools", "tf"], &["view_frames"], &["tf", "tree"], ""),
     tool(
         &["tf2_tools", "tf"],
         &["view_frames.py"],
         &["tf", "tree", "--output", "frames"],
-        "since ROS 2 Galactic it is `view_frames` without `.py`, and its files carry the date",
+        "since ROS 2 Galactic it is `view_frames` without `.py`, and its file names contain the date",
     ),
     tool(&["tf2_ros", "tf"], &["tf2_echo", "tf_echo", "tf2_echo.py"], &["tf", "echo"], ""),
     tool(&["tf2_ros", "tf"], &["tf2_monitor", "tf_monitor"], &["tf", "monitor"], ""),
@@ -130,11 +130,11 @@ const PROGRAMS: &[Program] = &[
         &["liburdfdom-tools"],
         &["urdf_to_graphiz", "urdf_to_graphviz"],
         &["check"],
-        "it lists links and joints; a picture of the frames of a running robot is `periplus tf tree`",
+        "it lists links and joints; `periplus tf tree` draws the frames of a running robot",
     ),
 ];
 
-/// Package, program and the rest, whatever options stand before.
+/// Splits into package, program and the rest; skips leading options.
 pub(super) fn split(words: &[String]) -> Option<(&str, &str, &[String])> {
     let mut words = words;
     loop {
@@ -147,7 +147,7 @@ pub(super) fn split(words: &[String]) -> Option<(&str, &str, &[String])> {
     }
 }
 
-/// A program of a package.
+/// Translates a program of a package.
 pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialect) -> Reading {
     let words = Words::read(rest, dialect);
     if program == "xacro" || program == "xacro.py" {
@@ -179,7 +179,7 @@ pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialec
     }
 }
 
-/// A program by its name, as it is typed when its folder is on the PATH.
+/// Translates a program by its name alone, as typed when its folder is on the PATH.
 pub(super) fn alone(program: &str, rest: &[String]) -> Option<Reading> {
     let dialect = Dialect::Ros2;
     Some(match program {
@@ -222,7 +222,7 @@ pub(super) fn alone(program: &str, rest: &[String]) -> Option<Reading> {
     })
 }
 
-/// `map_server -f NAME`, which tutorials print where they mean the saver.
+/// Translates `map_server -f NAME`, which tutorials print where they mean the map saver.
 fn mistaken_saver(package: &str, words: Words) -> Reading {
     let saver = if package == "map_server" { "map_saver" } else { "map_saver_cli" };
     let ours: &[&str] = if package == "map_server" {
@@ -236,7 +236,8 @@ fn mistaken_saver(package: &str, words: Words) -> Reading {
         .noting(format!("`map_server` serves maps; to save one, `{saver} -f NAME` runs instead"))
 }
 
-/// That of ROS 1's `tf` has a period at the end: 9 words with angles, 10 with a quaternion.
+/// `static_transform_publisher` of ROS 1's `tf` ends with a period: 9 words with angles, 10 with a
+/// quaternion.
 fn with_period(mut words: Words) -> Reading {
     let is_period = |word: &String| word.parse::<f64>().is_ok();
     if words.own.len() >= 9 && words.own.last().is_some_and(is_period) {
@@ -251,7 +252,7 @@ fn xacro(rest: &[String]) -> Reading {
     while let Some(word) = rest.next() {
         match word.as_str() {
             "-o" => words.extend(["--output".to_owned()].into_iter().chain(rest.next().cloned())),
-            // Of old; what they ask for is the rule today.
+            // Obsolete options; they request today's default.
             "--inorder" | "-i" | "--check-order" => {}
             _ => words.push(word.clone()),
         }
@@ -263,8 +264,8 @@ fn xacro(rest: &[String]) -> Reading {
     become_words(&["convert"], words)
 }
 
-/// Arguments of RViz and rqt as `periplus view` takes them, and those that it has no use for. Options of
-/// `periplus view` itself stay.
+/// Arguments of RViz and rqt as options of `periplus view`, and the unsupported ones. Options of
+/// `periplus view` itself are kept.
 fn view_arguments(words: &[String]) -> (Vec<String>, Vec<String>) {
     let (mut kept, mut dropped) = (Vec::new(), Vec::new());
     let mut words = words.iter().peekable();
@@ -291,7 +292,7 @@ fn view_arguments(words: &[String]) -> (Vec<String>, Vec<String>) {
                     kept.extend(words.next().cloned());
                 }
             }
-            // A file may stand alone; what follows another option is its value.
+            // A file may be given without an option; a word after another option is its value.
             _ if !name.starts_with('-') && name.ends_with(".rviz") => {
                 kept.extend(["-d".to_owned(), word.clone()]);
             }
@@ -345,13 +346,13 @@ impl Program {
     }
 }
 
-/// Words behind a program: its own, and those that name and set.
+/// Arguments of a program: its own, and those that set names and parameters.
 #[derive(Clone, Debug, Default)]
 struct Words {
     own: Vec<String>,
-    /// Flag and value, as behind `--ros-args`.
+    /// Flag and value, as after `--ros-args`.
     ros: Vec<(String, String)>,
-    /// Whether some were written as in ROS 1 where ROS 2 would not hear them.
+    /// True if some use ROS 1 syntax, which ROS 2 would ignore.
     is_old: bool,
 }
 
@@ -385,7 +386,7 @@ impl Words {
         read
     }
 
-    /// As they are typed, with `--ros-args` in front.
+    /// The arguments for `--ros-args`.
     fn ros(&self) -> Vec<String> {
         if self.ros.is_empty() {
             return Vec::new();
@@ -406,7 +407,7 @@ impl Words {
     }
 }
 
-/// `__name:=n`, `_parameter:=value` and `from:=to`, as ROS 2 has them.
+/// ROS 2 form of `__name:=n`, `_parameter:=value` and `from:=to`.
 fn old_style(word: &str) -> Option<(String, String)> {
     let (from, to) = word.split_once(":=")?;
     let is_name = |letter: char| letter.is_alphanumeric() || "_/~".contains(letter);
@@ -416,7 +417,7 @@ fn old_style(word: &str) -> Option<(String, String)> {
     let pair = match from {
         "__name" => ("-r", format!("__node:={to}")),
         "__ns" => ("-r", word.to_owned()),
-        // The log and the master: there are none.
+        // There is no log file and no master.
         "__log" | "__master" | "__ip" | "__hostname" => return None,
         _ => match from.strip_prefix('_') {
             Some(parameter) => ("-p", format!("{parameter}:={to}")),

@@ -1,4 +1,4 @@
-//! The commands of ROS 1.
+//! ROS 1 commands.
 
 use super::answers::{elsewhere, lacking, needless, with_packages};
 use super::programs::{self, Dialect};
@@ -16,7 +16,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
             Some((package, program, words)) => {
                 programs::run(package, program, words, Dialect::Ros1)
             }
-            None => elsewhere("`rosrun` takes a package and a program of it"),
+            None => elsewhere("`rosrun` takes a package and one of its programs"),
         },
         "rostopic" => topic(verb, behind),
         "rosnode" => node(verb, behind),
@@ -31,11 +31,9 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
             _ => elsewhere(format!("`{program}` takes show, list, package or packages")),
         },
         "roswtf" => become_words(&["doctor"], Vec::new()),
-        "roscore" | "rosmaster" => {
-            needless("no master is needed: programs find each other by themselves")
-        }
+        "roscore" | "rosmaster" => needless("no master is needed: nodes discover each other"),
         "rospack" | "rosstack" | "roscd" | "rosls" | "rosed" => {
-            with_packages("packages are found by their package.xml; here are those that are found")
+            with_packages("packages are found by their package.xml; found here")
         }
         "roscreate-pkg" | "catkin_create_pkg" => created(rest),
         _ => return None,
@@ -86,11 +84,11 @@ fn topic(verb: &str, rest: &[String]) -> Reading {
             ("echo", "-b" | "--bag") => {
                 return lacking(
                     "rostopic echo -b",
-                    "play the bag (`periplus bag play BAG`) and listen in another terminal",
+                    "play the bag (`periplus bag play BAG`) and subscribe in another terminal",
                 );
             }
             ("pub", "-f" | "--file") => {
-                return lacking("rostopic pub -f", "give the values behind the type, as YAML");
+                return lacking("rostopic pub -f", "give the values after the type, as YAML");
             }
             _ => words.push(word.clone()),
         }
@@ -112,7 +110,7 @@ fn node(verb: &str, rest: &[String]) -> Reading {
         "kill" => lacking("rosnode kill", "end the program where it runs, with Ctrl-C"),
         "ping" | "machine" | "cleanup" => lacking(
             &format!("rosnode {verb}"),
-            "nodes that are gone are forgotten by themselves: `periplus node list`",
+            "nodes that ended disappear automatically: `periplus node list`",
         ),
         _ => elsewhere("`rosnode` takes list or info"),
     }
@@ -134,7 +132,7 @@ fn service(verb: &str, rest: &[String]) -> Reading {
     }
 }
 
-/// Parameters of ROS 1 are all in one place; here each belongs to a node: `/amcl/min_particles`.
+/// ROS 1 has one parameter server; here each parameter belongs to a node: `/amcl/min_particles`.
 fn parameter(verb: &str, rest: &[String]) -> Reading {
     let split = |name: &String| {
         let name = format!("/{}", name.trim_start_matches('/'));
@@ -200,14 +198,14 @@ fn bag(verb: &str, rest: &[String]) -> Reading {
         }
         "compress" | "decompress" | "filter" | "fix" => lacking(
             &format!("rosbag {verb}"),
-            "`periplus bag convert BAG --output NEW` packs, unpacks and picks topics and times; cut \
+            "`periplus bag convert BAG --output NEW` compresses, decompresses and selects topics and times; truncated \
              recordings are read as they are",
         ),
         _ => elsewhere("`rosbag` takes record, play, info, check or reindex"),
     }
 }
 
-/// `--clock` may have a rate behind it, which the name of a bag is not.
+/// `--clock` takes an optional rate, which must not be confused with the name of a bag.
 pub(super) fn clock_last(mut words: Vec<String>) -> Vec<String> {
     if let Some(at) = words.iter().position(|word| word == "--clock")
         && words.get(at + 1).is_some_and(|next| next.parse::<f64>().is_err())

@@ -5,7 +5,7 @@ use super::programs::{self, Dialect};
 use super::ros1::clock_last;
 use super::{Reading, become_words};
 
-/// Verbs of `ros2` that are translated.
+/// Subcommands of `ros2` that are translated.
 const WORDS: [&str; 13] = [
     "action",
     "bag",
@@ -24,7 +24,7 @@ const WORDS: [&str; 13] = [
 
 pub(super) fn read(words: &[String]) -> Reading {
     let Some((verb, rest)) = words.split_first() else {
-        return elsewhere("`ros2` needs a word behind it; `periplus --help` lists what there is");
+        return elsewhere("`ros2` needs a subcommand; `periplus --help` lists the commands");
     };
     match verb.as_str() {
         "topic" | "node" | "service" | "param" | "action" | "lifecycle" | "interface" => {
@@ -36,7 +36,7 @@ pub(super) fn read(words: &[String]) -> Reading {
             Some((package, executable, words)) => {
                 programs::run(package, executable, words, Dialect::Ros2)
             }
-            None => elsewhere("`ros2 run` takes a package and a program of it"),
+            None => elsewhere("`ros2 run` takes a package and one of its programs"),
         },
         "doctor" | "wtf" => become_words(&["doctor"], doctored(rest)),
         "multicast" => become_words(&["doctor"], Vec::new())
@@ -49,7 +49,7 @@ pub(super) fn read(words: &[String]) -> Reading {
         ),
         "control" => lacking(
             "ros2 control",
-            "the simulation drives robots by Gazebo's own plugins, not by ros2_control",
+            "the simulation drives robots with Gazebo's drive plugins, not with ros2_control",
         ),
         "security" => lacking("ros2 security", "DDS Security is not supported"),
         "test" => lacking("ros2 test", "run tests of launch files where ROS 2 is installed"),
@@ -61,7 +61,7 @@ pub(super) fn read(words: &[String]) -> Reading {
     }
 }
 
-/// Options of `ros2 launch` that say how it shows things, not what it starts.
+/// Translates `ros2 launch`; display options are dropped.
 fn launch(rest: &[String]) -> Reading {
     let mut words = Vec::new();
     let mut dropped = Vec::new();
@@ -84,7 +84,7 @@ fn launch(rest: &[String]) -> Reading {
     without(become_words(&["launch"], words), &dropped)
 }
 
-/// Says which words count for nothing.
+/// Notes which arguments are ignored.
 pub(super) fn without(reading: Reading, dropped: &[String]) -> Reading {
     if dropped.is_empty() {
         return reading;
@@ -93,21 +93,22 @@ pub(super) fn without(reading: Reading, dropped: &[String]) -> Reading {
 }
 
 fn doctored(rest: &[String]) -> Vec<String> {
-    // `--report` and the like print what the doctor prints by itself.
+    // The doctor always prints what `--report` and similar options request.
     let is_known = |word: &&String| matches!(word.as_str(), "--json");
     rest.iter().filter(is_known).cloned().collect()
 }
 
-/// `ros2 pkg create` and `catkin_create_pkg`: the name is the one word that belongs to no option.
+/// Translates `ros2 pkg create` and `catkin_create_pkg`: the name is the one word that belongs to
+/// no option.
 pub(super) fn created(rest: &[String]) -> Reading {
     let (mut name, mut dropped) = (None, Vec::new());
     let mut rest = rest.iter().peekable();
     while let Some(word) = rest.next() {
         if word.starts_with('-') {
             dropped.push(word.clone());
-            // `--dependencies` takes several words, the others one.
+            // `--dependencies` takes several words, other options one.
             while let Some(value) = rest.next_if(|next| !next.starts_with('-')) {
-                // The name may stand last, behind an option's one word.
+                // The name may be last, after the single word of an option.
                 if name.is_none() && rest.peek().is_none() && word != "--dependencies" {
                     name = Some(value.clone());
                 } else {
@@ -125,14 +126,14 @@ pub(super) fn created(rest: &[String]) -> Reading {
     }
     match name {
         Some(name) => without(become_words(&["new", "package"], vec![name]), &dropped),
-        None => elsewhere("name the package: `periplus new package NAME`"),
+        None => elsewhere("give a name: `periplus new package NAME`"),
     }
 }
 
 fn package(rest: &[String]) -> Reading {
     match rest.first().map(String::as_str) {
         Some("list" | "prefix" | "xml" | "executables") => {
-            with_packages("packages are found by their package.xml; here are those that are found")
+            with_packages("packages are found by their package.xml; found here")
         }
         Some("create") => created(&rest[1..]),
         _ => elsewhere("`ros2 pkg` takes list, prefix, executables or xml"),

@@ -1,4 +1,4 @@
-//! Installing, building, and what the shell does by itself.
+//! Installing, building, and shell commands.
 
 use super::Reading;
 use super::answers::{elsewhere, needless, with_packages};
@@ -6,7 +6,7 @@ use super::answers::{elsewhere, needless, with_packages};
 const NOT_BUILT: &str = "nothing needs building: packages are found by their package.xml below the working \
                          folder and on --resource-path; packages found";
 
-/// Variables of the environment that mean something to Periplus.
+/// Environment variables that Periplus reads.
 const VARIABLES: [&str; 14] = [
     "GAZEBO_MODEL_PATH",
     "GAZEBO_RESOURCE_PATH",

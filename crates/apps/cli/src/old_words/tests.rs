@@ -1,6 +1,6 @@
-//! The table, against what can be typed, and against the three tutorials.
+//! Tests of the table: translations parse, and commands of three tutorials are covered.
 #![allow(clippy::disallowed_methods, reason = "the tutorials are read where they are at hand")]
-#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+#![allow(clippy::print_stderr, reason = "skipped tests are reported")]
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -12,7 +12,7 @@ use periplus_graph::split_arguments;
 use super::{Reading, read, shown};
 use crate::options::Options;
 
-/// Words as a shell would hand them over.
+/// Splits a line into words as a shell does.
 pub(crate) fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;
@@ -32,19 +32,19 @@ pub(crate) fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Whether words of ours can be typed.
+/// Asserts that a translated command parses.
 fn parse(line: &str, words: &[String], own: Vec<String>) {
     let typed = ["periplus".to_owned()].into_iter().chain(own);
     if let Err(error) = Options::try_parse_from(typed) {
-        // A page of help is what was asked for.
+        // A page of help is a valid result.
         assert!(!error.use_stderr(), "`{line}` becomes `{}`: {error}", shown(words));
     }
 }
 
-/// What a line becomes; when that are words of ours, they must be some.
+/// Translation of a line, which must be a valid command or an explanation.
 fn becomes(line: &str) -> String {
     match read(&words(line)) {
-        Reading::Ours => panic!("nobody knows `{line}`"),
+        Reading::Ours => panic!("`{line}` is not translated"),
         Reading::Words { words, notes } => {
             let (own, ros) = split_arguments(words.iter().cloned());
             parse(line, &words, own);
@@ -94,7 +94,7 @@ fn a_line_of_several_commands_is_its_last_one() {
     assert!(becomes("mkdir x && ros2 topic list").contains("is a shell command"));
 }
 
-/// A printed command: tutorial, line, command.
+/// Command printed in a tutorial: tutorial, line, command.
 fn printed() -> Vec<(&'static str, usize, &'static str)> {
     include_str!("../../tests/tutorials/commands.tsv")
         .lines()
@@ -134,7 +134,7 @@ fn no_command_of_the_tutorials_is_missing() {
         let text = std::fs::read_to_string(folder.join(name).with_extension("txt")).unwrap();
         let known: Vec<_> = printed().into_iter().filter(|(of, ..)| *of == name).collect();
         for (number, line) in (1..).zip(text.lines()) {
-            // Numbers of items, and the numbered lines of listings, stand before commands.
+            // Item numbers and line numbers of listings precede commands.
             let bare =
                 line.trim_start_matches(|it: char| it.is_ascii_digit() || " |)".contains(it));
             let is_command = starts.iter().any(|start| bare.starts_with(start));

@@ -1,4 +1,4 @@
-//! Files that a page may have: what the models in a run are made of.
+//! Files that a page may read: parts of the loaded models.
 
 use std::path::{Path, PathBuf};
 
@@ -7,16 +7,16 @@ use periplus_resources::{Host as _, Resolver};
 
 use crate::terminal;
 
-/// What models are made of. A project holds much else that is nobody's business.
+/// File types of models. All other files of a project are private.
 const KINDS: [&str; 24] = [
     "bin", "bmp", "config", "dae", "gif", "glb", "gltf", "jpeg", "jpg", "material", "mtl", "obj",
     "pgm", "ply", "png", "sdf", "stl", "svg", "tga", "tif", "tiff", "urdf", "world", "xacro",
 ];
 
-/// A file that is not there, so deep that nothing is around it.
+/// A path of a missing file so deep that its surroundings are empty.
 const NOWHERE: &str = "/.periplus/no/file/was/loaded/so/nothing/is/around/it";
 
-/// Gives files by their URI as the loaded files themselves could name them, through the same fence.
+/// Returns files by URI, with the same access rules as for references in the loaded files.
 pub(super) fn fetch(
     files: Vec<PathBuf>,
     resource_path: Vec<PathBuf>,
@@ -24,14 +24,14 @@ pub(super) fn fetch(
     let here = terminal::working_folder();
     let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
     let mut from: Vec<PathBuf> = files.iter().map(|file| here.join(file)).collect();
-    // The neighbourhood of a file at the root of the disk would be all of the disk.
+    // The surroundings of a file at the root of the disk would be the whole disk.
     from.retain(|file| file.parent().is_some_and(|folder| folder.parent().is_some()));
     if from.is_empty() {
-        // Nothing was loaded: only packages and models that the environment names.
+        // Nothing was loaded: only packages and models of the environment are accessible.
         from.push(PathBuf::from(NOWHERE));
     }
     move |uri| {
-        // A new one each time: it keeps what it has seen, and files change.
+        // A new resolver for each request: it caches, and files change.
         let resolver = Resolver::new(&Machine, &folders);
         let mut missed = None;
         for file in &from {
@@ -47,7 +47,9 @@ pub(super) fn fetch(
 fn read(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
     let kind = path.extension().map(|kind| kind.to_string_lossy().to_ascii_lowercase());
     if !kind.as_deref().is_some_and(|kind| KINDS.contains(&kind)) {
-        return Err(format!("`{uri}` is no mesh, picture or description; only these are given"));
+        return Err(format!(
+            "access to `{uri}` denied: only meshes, images and descriptions are served"
+        ));
     }
     Machine.read(path).map_err(|error| format!("`{uri}`: {error}"))
 }
@@ -56,7 +58,7 @@ fn read(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
 mod tests {
     use super::*;
 
-    /// A project with a package in it, and a secret beside it.
+    /// Project with a package, and a private file beside it.
     fn project(name: &str) -> PathBuf {
         let root =
             std::env::temp_dir().join(format!("periplus-assets-{name}-{}", std::process::id()));

@@ -1,9 +1,9 @@
-//! What others have on the network of ROS 2, as the page takes it.
+//! Remote topics of the ROS 2 network, for the page.
 
 use periplus_dds::{Remote, RemoteEndpoint};
 use periplus_wire_live::{Far, FarEnd, FarService, FarTopic};
 
-/// Of a topic on which ends do not agree the first type counts.
+/// Converts remote topics; if types differ, the first one counts.
 pub(super) fn far(remote: &Remote) -> Far {
     let topics = remote.topics.iter().filter_map(|topic| {
         let type_name = topic.type_names.first()?.clone();

@@ -1,4 +1,4 @@
-//! A running world among the programs of Gazebo.
+//! Simulation on the Gazebo Transport network.
 
 use std::io;
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use periplus_sim::{GazeboOutlet, Services, Simulation, gazebo_topic};
 
 use crate::terminal;
 
-/// Topics that are for programs of ROS alone.
+/// Topics for ROS programs only.
 const OF_ROS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"];
 
-/// Who can see a run.
+/// Visibility of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GzReach {
     /// Gazebo programs on this machine
@@ -24,23 +24,23 @@ pub(crate) enum GzReach {
     Network,
 }
 
-/// Which names types have.
+/// Prefix of message types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GzTypes {
     /// `gz.msgs.LaserScan`: Garden, Harmonic and later
     Gz,
-    /// `ignition.msgs.LaserScan`: Fortress and before, and what Debian has
+    /// `ignition.msgs.LaserScan`: Fortress and before, and Debian
     Ignition,
 }
 
-/// A run that programs of Gazebo see, as long as it is there.
+/// Connection of a run to Gazebo programs.
 pub(crate) struct Gazebo {
-    // First, so that the graph is left before the network is.
+    // Declared first, so that the graph is left before the network is dropped.
     link: Link,
     _servers: Vec<Server>,
 }
 
-/// Sends what the world says of itself.
+/// Publishers of world state and statistics.
 struct Outlet(Vec<Publisher>);
 
 impl GazeboOutlet for Outlet {
@@ -56,7 +56,8 @@ impl GazeboOutlet for Outlet {
 }
 
 impl Gazebo {
-    /// Joins as asked; none inside when it was not, and none at all when it fails, which is told.
+    /// Connects if requested: without a connection if not, and `None` on failure, after printing
+    /// the error.
     pub(crate) fn join(
         simulation: &Simulation,
         services: &mut Services,
@@ -122,7 +123,7 @@ impl Gazebo {
         Ok(Self { link, _servers: servers })
     }
 
-    /// Says what is wrong on the network.
+    /// Prints network problems.
     pub(crate) fn tell(&self) -> io::Result<()> {
         let findings = self.link.take_findings();
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())

@@ -1,4 +1,4 @@
-//! How far a run is, for a person who waits.
+//! Progress of a run.
 
 use std::io::IsTerminal as _;
 use std::time::Duration;
@@ -6,23 +6,23 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use periplus_sim::Progress;
 
-/// Between two lines where there is no terminal.
+/// Period of lines without a terminal.
 const LINES: Duration = Duration::from_secs(10);
 
-/// Between two drawings of the line.
+/// Redraw period of the progress bar.
 const REDRAW: Duration = Duration::from_millis(100);
 
-/// A line at the bottom of the terminal; nothing where stderr is no terminal.
+/// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
 pub(crate) struct Line {
     bar: ProgressBar,
     drawn: Duration,
     end_s: Option<f64>,
-    /// When the next line is due where there is no terminal; none where nothing is to be shown.
+    /// Time of the next line without a terminal; `None` if nothing is shown.
     next_line: Option<Duration>,
 }
 
 impl Line {
-    /// For a run of so many simulated seconds, or without end.
+    /// Progress of a run of `end_s` simulated seconds, or without end.
     pub(crate) fn new(end_s: Option<f64>, quiet: bool) -> Self {
         let bar = match end_s {
             _ if quiet => ProgressBar::hidden(),
@@ -34,12 +34,12 @@ impl Line {
         Self { bar, drawn: Duration::ZERO, end_s, next_line }
     }
 
-    /// Shows how far the run is, not too often.
+    /// Updates the display, at a limited rate.
     #[expect(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "for the eye"
+        reason = "for display"
     )]
     pub(crate) fn show(&mut self, progress: Progress) {
         if progress.wall < self.drawn + REDRAW {
@@ -69,13 +69,13 @@ impl Line {
         }
     }
 
-    /// Lets something else be written to the terminal.
+    /// Writes something else to the terminal.
     pub(crate) fn aside(&self, write: impl FnOnce() -> std::io::Result<()>) {
-        // A terminal that is gone is no reason to end a run.
+        // A closed terminal must not end a run.
         let _ = self.bar.suspend(write);
     }
 
-    /// Takes the line away.
+    /// Clears the bar.
     pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();
     }

@@ -1,4 +1,4 @@
-//! A recording that fails while a run goes on.
+//! Monitor of a recording.
 
 use std::io;
 use std::time::Duration;
@@ -7,21 +7,21 @@ use periplus_sim::{Progress, Recorder};
 
 use crate::terminal;
 
-/// How often a recording is looked at.
+/// Polling period of a recording.
 const PERIOD: Duration = Duration::from_millis(200);
 
-/// Reports at once when a recording ends before its run, such as on a full disk.
+/// Reports immediately when a recording ends before its run, for example on a full disk.
 #[derive(Debug, Default)]
 pub(crate) struct RecordingWatch {
     next: Duration,
     has_reported: bool,
 }
 
-/// Writes to a terminal on which something else is.
+/// Writes to a terminal that also shows a progress bar.
 type Aside<'a> = dyn Fn(&mut dyn FnMut() -> io::Result<()>) + 'a;
 
 impl RecordingWatch {
-    /// Looks at a recording, if it is time.
+    /// Checks a recording, at a limited rate.
     pub(crate) fn look(
         &mut self,
         recorder: Option<&Recorder>,
@@ -34,11 +34,11 @@ impl RecordingWatch {
         self.next = progress.wall + PERIOD;
         let Some((path, why)) = recorder.and_then(Recorder::failure) else { return };
         self.has_reported = true;
-        #[expect(clippy::cast_precision_loss, reason = "seconds, to be read")]
+        #[expect(clippy::cast_precision_loss, reason = "for display")]
         let time_s = progress.time_ns as f64 * 1e-9;
         aside(&mut || {
             terminal::warn(&format!(
-                "recording to {} has stopped at {time_s:.1} s: {why}; messages from here on are \
+                "recording to {} stopped at {time_s:.1} s: {why}; later messages are \
                  lost, those before can be read; the run goes on",
                 path.display()
             ));

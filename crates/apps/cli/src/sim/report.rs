@@ -1,4 +1,4 @@
-//! What a run was like.
+//! Report of a run.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -6,18 +6,18 @@ use std::time::Duration;
 use periplus_sim::{Recording, Shares, Simulation, Work};
 use serde_json::{Value, json};
 
-/// What a run was like.
+/// Report of a run.
 pub(crate) struct Report<'a> {
     pub(crate) simulation: &'a Simulation,
-    /// From the start of the program to the first step.
+    /// Time from the start of the program to the first step.
     pub(crate) start_up: Duration,
-    /// Of all steps together.
+    /// Wall time of all steps.
     pub(crate) wall: Duration,
     pub(crate) recording: Option<&'a Recording>,
 }
 
 impl Report<'_> {
-    /// For a person.
+    /// Prints the report as text.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         let simulated_s = self.simulated_s();
         let wall_s = self.wall.as_secs_f64();
@@ -39,7 +39,7 @@ impl Report<'_> {
         Ok(())
     }
 
-    /// For a program.
+    /// JSON report.
     pub(crate) fn to_json(&self) -> Value {
         let shares = self.simulation.shares();
         let spent = Work::ALL
@@ -79,7 +79,7 @@ fn percent(shares: &Shares, work: Work) -> f64 {
     shares.spent(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
 }
 
-#[expect(clippy::cast_precision_loss, reason = "for the eye")]
+#[expect(clippy::cast_precision_loss, reason = "for display")]
 fn size(bytes: u64) -> String {
     match bytes {
         0..10_000 => format!("{bytes} bytes"),

@@ -1,4 +1,4 @@
-//! `--robot`, and the options that belong to the robot before them.
+//! `--robot`, and the options that apply to the preceding robot.
 
 use std::path::PathBuf;
 
@@ -6,11 +6,11 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, err
 use periplus_geometry::{Pose, Rpy};
 use periplus_sim::{Placement, Standing};
 
-/// The robots of a command line, in order.
+/// Robots of a command line, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Robots {
     pub(crate) placements: Vec<Placement>,
-    /// Words behind a robot that are none of its arguments: the world may be one.
+    /// Words after a robot that are not its arguments: one may be the world.
     pub(crate) others: Vec<String>,
 }
 
@@ -52,7 +52,8 @@ impl Args for Robots {
 
 impl FromArgMatches for Robots {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        // Files with their places on the command line, then what belongs to the nearest before.
+        // Files with their positions on the command line, then the options of the nearest preceding
+        // one.
         let mut robots: Vec<(usize, Placement)> = Vec::new();
         let mut others = Vec::new();
         for (group, index) in groups(matches, ROBOT) {
@@ -72,7 +73,7 @@ impl FromArgMatches for Robots {
                 for (group, index) in groups(matches, id) {
                     let before = robots.iter_mut().rev().find(|(place, _)| *place < index);
                     let Some((_, robot)) = before else {
-                        return Err(wrong(format!("--{id} belongs to a --robot before it")));
+                        return Err(wrong(format!("--{id} must follow a --robot")));
                     };
                     tell(robot, &group.concat()).map_err(wrong)?;
                 }
@@ -100,7 +101,7 @@ impl FromArgMatches for Robots {
     }
 }
 
-/// The values of each use of an option, with the place of the first.
+/// Values of each use of an option, with the index of the first.
 fn groups(matches: &ArgMatches, id: &str) -> Vec<(Vec<String>, usize)> {
     let Some(uses) = matches.get_occurrences::<String>(id) else { return Vec::new() };
     let mut indices = matches.indices_of(id).into_iter().flatten();
@@ -123,7 +124,7 @@ fn standing(word: &str) -> Result<Standing, String> {
         Some(&[x, y, z, roll, pitch, yaw]) => {
             Ok(Standing::At(Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw })))
         }
-        _ => Err(format!("`{word}` is no pose; write X,Y,YAW or X,Y,Z,ROLL,PITCH,YAW")),
+        _ => Err(format!("`{word}` is not a pose; write X,Y,YAW or X,Y,Z,ROLL,PITCH,YAW")),
     }
 }
 
@@ -169,7 +170,7 @@ mod tests {
     #[test]
     fn slips_are_told() {
         assert!(
-            read("sim world --pose 1,2,3").unwrap_err().contains("--pose belongs to a --robot")
+            read("sim world --pose 1,2,3").unwrap_err().contains("--pose must follow a --robot")
         );
         assert!(read("sim world --robot a.urdf --pose 1,x").unwrap_err().contains("X,Y,YAW"));
     }

@@ -1,4 +1,4 @@
-//! A running world among the programs of ROS 2.
+//! Simulation on the ROS 2 network.
 
 use std::io;
 use std::time::Duration;
@@ -14,10 +14,10 @@ use crate::terminal;
 #[cfg(feature = "zenoh")]
 mod zenoh;
 
-/// Between two looks at what is wrong on the network.
+/// Period of checking for network problems.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// Who can see a run.
+/// Visibility of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Reach {
     /// No program
@@ -30,14 +30,14 @@ pub(crate) enum Reach {
     Zenoh,
 }
 
-/// A run on the network, or one that is not.
+/// Connection of a run to ROS 2, if any.
 pub(crate) struct Ros2 {
     wire: Option<Joined>,
     looked: Duration,
     quiet: bool,
 }
 
-/// The network that was joined.
+/// Network of the connection.
 enum Joined {
     Dds(Wire),
     #[cfg(feature = "zenoh")]
@@ -55,8 +55,9 @@ impl Joined {
 }
 
 impl Ros2 {
-    /// Joins as asked. Unasked, a run that keeps pace with the wall joins on this machine, or as the
-    /// environment says, and goes on without where that fails; none when it was asked and fails.
+    /// Connects as requested. By default a real-time run joins on this machine, or as the
+    /// environment sets, and continues without ROS 2 if that fails; `None` when it was requested
+    /// and fails.
     pub(crate) fn join(
         simulation: &Simulation,
         asked: Option<Reach>,
@@ -106,12 +107,12 @@ impl Ros2 {
         Ok(Some(joined))
     }
 
-    /// Whether others can see the run.
+    /// Returns true if the run is on the network.
     pub(crate) fn is_joined(&self) -> bool {
         self.wire.is_some()
     }
 
-    /// Whether it is time to say what is wrong on the network.
+    /// Returns true if the next check for network problems is due.
     pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
         let is_due = self.wire.is_some() && wall >= self.looked + LOOK;
         if is_due {
@@ -120,7 +121,7 @@ impl Ros2 {
         is_due
     }
 
-    /// What others have on the network; none where none of ROS 2's own was joined.
+    /// Remote topics and nodes; `None` without a DDS network.
     pub(crate) fn remote(&self) -> Option<Remote> {
         match self.wire.as_ref()? {
             Joined::Dds(wire) => Some(wire.remote()),
@@ -129,7 +130,7 @@ impl Ros2 {
         }
     }
 
-    /// Says what is wrong on the network.
+    /// Prints network problems.
     pub(crate) fn tell(&self) -> io::Result<()> {
         let Some(wire) = &self.wire else { return Ok(()) };
         let findings = wire.take_findings();
@@ -143,12 +144,12 @@ impl Ros2 {
 #[cfg(feature = "zenoh")]
 use zenoh::join as join_zenoh;
 
-/// Without the feature nobody can.
+/// Reports that this build has no Zenoh.
 #[cfg(not(feature = "zenoh"))]
 #[expect(clippy::unnecessary_wraps, reason = "as the one with the feature")]
 fn join_zenoh(_: &Simulation, _: bool) -> io::Result<Option<Ros2>> {
     terminal::complain(
-        "this periplus was built without Zenoh, which takes 200 crates more; build one with \
+        "this periplus was built without Zenoh, which needs 200 more crates; build one with \
          `cargo build --release --features zenoh`",
     );
     Ok(None)

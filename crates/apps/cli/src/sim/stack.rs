@@ -1,8 +1,8 @@
-//! The usual stack beside any robot: what it publishes and listens to is found out, not asked for.
+//! Navigation stack for any robot: topics and frames are detected.
 //!
-//! The world runs for a moment before the run begins. From the messages of that moment come the topics
-//! of scans, odometry and IMU, the frames, and whether anybody publishes where the robot is in
-//! odometry. Then everything is set back to time zero.
+//! The world runs briefly before the run begins. Its messages give the topics of scans, odometry
+//! and IMU, the frames, and whether the odometry transform is published. Then the simulation is
+//! reset to time zero.
 
 use std::collections::BTreeMap;
 
@@ -17,54 +17,53 @@ use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_params::{Given, Value, Values};
 use periplus_sim::{Diverged, Simulation};
 
-/// The longest time that the world runs to be looked at \[ns\]: odometry and scans come several times
-/// a second.
+/// Longest detection phase \[ns\]: odometry and scans are published several times per second.
 const LONGEST_LOOK_NS: i64 = 2_000_000_000;
 
-/// The shortest, so that slow publishers of transforms are seen too \[ns\].
+/// Shortest detection phase \[ns\], for slow publishers of transforms.
 const SHORTEST_LOOK_NS: i64 = 500_000_000;
 
-/// Radius of a robot whose collisions say nothing about its size \[m\], the default of Nav2 in tutorials.
+/// Radius of a robot whose collisions give no size \[m\], the default of Nav2's example.
 const USUAL_RADIUS_M: f64 = 0.22;
 
-/// A chain of frames is followed this far at most.
+/// Maximum depth of a chain of frames.
 const MAX_DEPTH: usize = 100;
 
-/// What a robot publishes, as far as the stack needs it.
+/// Topics and frames of a robot that the stack needs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RobotProfile {
-    /// The topic of laser scans.
+    /// Topic of laser scans.
     pub(crate) scan: Option<String>,
-    /// The topic of odometry.
+    /// Topic of odometry.
     pub(crate) odometry: Option<String>,
-    /// The topic of an IMU.
+    /// Topic of an IMU.
     pub(crate) imu: Option<String>,
-    /// The frame in which odometry has the robot.
+    /// Odometry frame.
     pub(crate) odom_frame: Option<String>,
-    /// The frame of the robot from which all its others lead on.
+    /// Root of the robot's frames.
     pub(crate) base_frame: Option<String>,
-    /// Whether a transform leads from `base_frame` to `odom_frame`.
+    /// True if a transform connects `base_frame` to `odom_frame`.
     pub(crate) has_odom_transform: bool,
-    /// The radius of a circle around the robot \[m\].
+    /// Radius of a circle around the robot \[m\].
     pub(crate) radius_m: f64,
 }
 
-/// The subscriptions of a look.
+/// Subscriptions of the detection phase.
 struct Look {
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     odometry: Option<Mailbox<Odometry>>,
     scan: Option<Mailbox<LaserScan>>,
     profile: RobotProfile,
-    /// Parents by their children.
+    /// Parent of each frame.
     parents: BTreeMap<String, String>,
 }
 
 impl RobotProfile {
-    /// Runs the world for a moment, finds out, and sets it back.
+    /// Runs the world briefly, detects topics and frames, and resets it.
     ///
     /// # Errors
-    /// When the world cannot run, or a name is not valid.
+    /// An error when the world cannot run, or a name is invalid.
     pub(crate) fn of(simulation: &mut Simulation) -> Result<Self, String> {
         let mut look = Look::new(simulation.graph()).map_err(|error| error.to_string())?;
         let words = |diverged: Diverged| diverged.to_string();
@@ -81,16 +80,16 @@ impl RobotProfile {
         Ok(profile)
     }
 
-    /// Whether a filter has to publish where the robot is in odometry, and can.
+    /// Returns true if an EKF has to publish the odometry transform, and has the inputs.
     pub(crate) fn needs_filter(&self) -> bool {
         !self.has_odom_transform && self.odometry.is_some()
     }
 
-    /// The filter of `robot_localization` on what the robot publishes: the speeds of its wheels, and
-    /// how fast its IMU turns.
+    /// EKF of `robot_localization` on the robot's topics: wheel velocities and the yaw rate of the
+    /// IMU.
     ///
     /// # Errors
-    /// When it cannot run.
+    /// An error when it cannot run.
     pub(crate) fn filter(&self, graph: &Graph) -> Result<EkfNode, GraphError> {
         const WHEELS: &str = "[false, false, false, false, false, false, true, true, false, \
                               false, false, true, false, false, false]";
@@ -113,8 +112,8 @@ impl RobotProfile {
         EkfNode::at(graph.node(NodeSettings::new("ekf_filter_node"))?, settings, values)
     }
 
-    /// Sets parameters of a node that nobody has given: the frames of odometry and of the robot, and the
-    /// topic of scans, by these names.
+    /// Sets unset parameters of a node: the frames of odometry and robot, and the topic of scans,
+    /// by these names.
     pub(crate) fn fill(&self, values: &mut Values, names: [&'static str; 3]) {
         let known = [&self.odom_frame, &self.base_frame, &self.scan];
         for (name, known) in names.into_iter().zip(known) {
@@ -127,17 +126,17 @@ impl RobotProfile {
         }
     }
 
-    /// The frame of odometry, or its usual name.
+    /// Odometry frame, or its default name.
     pub(crate) fn odom(&self) -> &str {
         self.odom_frame.as_deref().unwrap_or("odom")
     }
 
-    /// The frame of the robot, or its usual name.
+    /// Base frame, or its default name.
     pub(crate) fn base(&self) -> &str {
         self.base_frame.as_deref().unwrap_or("base_link")
     }
 
-    /// Both costmaps of Nav2 with the values of its own example, for this robot.
+    /// Both costmaps of Nav2 with the values of Nav2's example, for this robot.
     pub(crate) fn costmaps(&self) -> String {
         let (odom, base, radius_m) = (self.odom(), self.base(), self.radius_m);
         let scan = self.scan.as_deref().unwrap_or("/scan");
@@ -191,7 +190,7 @@ impl Look {
         })
     }
 
-    /// Takes in what has come.
+    /// Reads received messages.
     fn take(&mut self) {
         for message in self.moving.drain().into_iter().chain(self.fixed.drain()) {
             for edge in &message.transforms {
@@ -210,7 +209,7 @@ impl Look {
         }
     }
 
-    /// Whether nothing that was waited for is left.
+    /// Returns true if everything was detected.
     fn has_all(&self) -> bool {
         self.odometry.is_none() && self.scan.is_none()
     }
@@ -223,7 +222,7 @@ impl Look {
             self.profile.has_odom_transform = true;
             base = Some(child.clone());
         } else if let Some(start) = base.take() {
-            // All frames of the robot hang below its first one.
+            // All frames of the robot are descendants of its root frame.
             let mut top = start;
             for _ in 0..MAX_DEPTH {
                 match self.parents.get(&top) {
@@ -243,7 +242,7 @@ fn mailbox<M: Message>(node: &Node, topic: Option<&str>) -> Result<Option<Mailbo
     topic.map(|topic| node.mailbox(topic, Qos::best_effort(10))).transpose()
 }
 
-/// The topic of a type that somebody publishes: the one with this word at its end, else the first.
+/// Published topic of a type: the one whose name ends with this word, else the first.
 fn of_type<M: Message>(topics: &[TopicInfo], word: &str) -> Option<String> {
     let all = || {
         let is_it = |it: &&TopicInfo| it.type_name == M::TYPE_NAME && !it.publishers.is_empty();

@@ -1,4 +1,4 @@
-//! `periplus slam --live`: the map of what is heard on ROS 2.
+//! `periplus slam --live`: mapping on ROS 2.
 
 use std::io;
 use std::process::ExitCode;
@@ -17,9 +17,9 @@ use crate::mapping::{Mapping, parameters};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
-/// How often time is told: work beside the scans comes in slices of this.
+/// Period of clock updates: background work is split into slices of this duration.
 const LOOK: Duration = Duration::from_millis(4);
-/// How long the last words may take to arrive.
+/// Timeout for delivering the last messages at the end.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {

@@ -1,4 +1,4 @@
-//! What can be typed after `periplus slam`.
+//! Options of `periplus slam`.
 
 use std::path::PathBuf;
 
@@ -60,7 +60,7 @@ pub(crate) struct SlamOptions {
     /// Maximum range of readings that are used [m]
     #[arg(long, value_name = "M")]
     pub(crate) max_range: Option<f32>,
-    /// Close no loops (`graph`)
+    /// Disable loop closure (`graph`)
     #[arg(long)]
     pub(crate) no_loops: bool,
     #[command(flatten)]
@@ -79,7 +79,7 @@ pub(crate) struct SlamOptions {
     pub(crate) quiet: bool,
 }
 
-/// Mapping of what is heard on ROS 2.
+/// Options of mapping on ROS 2.
 #[derive(Debug, Args)]
 pub(crate) struct LiveOptions {
     /// Run as a SLAM node on ROS 2: subscribe to scans, `/tf` and `/tf_static`; publish `/map` and
@@ -96,10 +96,10 @@ pub(crate) struct LiveOptions {
 }
 
 fn side(text: &str) -> Result<f64, String> {
-    let side: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    let side: f64 = text.parse().map_err(|_| format!("`{text}` is not a number"))?;
     if (0.005..=2.0).contains(&side) {
         Ok(side)
     } else {
-        Err("cells have sides of 0.005 to 2 m".into())
+        Err("the cell size must be 0.005 to 2 m".into())
     }
 }

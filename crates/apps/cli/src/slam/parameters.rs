@@ -1,5 +1,5 @@
-//! Parameters for a method of mapping: from files as `slam_toolbox` and `slam_gmapping` have them, and
-//! from the command line.
+//! Parameters of a SLAM method, from files of `slam_toolbox` and `slam_gmapping` and from the
+//! command line.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_nav_nodes::slam_toolbox::{Written, in_file};
@@ -9,7 +9,7 @@ use periplus_slam::{Method, tables};
 use super::options::SlamOptions;
 use crate::log::LogOptions;
 
-/// What parameters say, and what is wrong with them.
+/// Parameters with their findings.
 pub(super) struct Parameters {
     pub(super) method: Method,
     pub(super) values: Values,
@@ -18,12 +18,13 @@ pub(super) struct Parameters {
 }
 
 impl Parameters {
-    /// Reads what the options name: flags of their own win, then `-p`, then the file. In words why it cannot be.
+    /// Reads parameters in order of precedence: dedicated options, `-p`, the file. A message if
+    /// they cannot be read.
     pub(super) fn read(options: &SlamOptions) -> Result<Self, String> {
         let mut sources = SourceMap::new();
         let mut diagnostics = Diagnostics::new();
         let mut layers: Vec<Vec<Written>> = Vec::new();
-        // The method that the node stands for whose parameters are in the file.
+        // Method of the node whose parameters the file has.
         let mut named = None;
         if let Some(path) = &options.live.params_file {
             let text = crate::paths::text(path)?;
@@ -35,7 +36,7 @@ impl Parameters {
                     layers.push(found.written);
                 }
                 Ok(None) => diagnostics.push(
-                    Diagnostic::warning("no-parameters", "there are no parameters in here")
+                    Diagnostic::warning("no-parameters", "the file has no parameters")
                         .at(sources.whole(file)),
                 ),
                 Err(wrong) => diagnostics.push(*wrong),
@@ -45,7 +46,7 @@ impl Parameters {
         for word in &options.parameters {
             typed.push(on_command_line(word, &mut sources)?);
         }
-        // The last one of a name counts.
+        // The last parameter of a name counts.
         typed.reverse();
         let of = |layer: &[Written]| {
             tables::method_of(&layer.iter().map(Written::given).collect::<Vec<_>>())
@@ -75,7 +76,7 @@ impl Parameters {
         Ok(Self { method, values, diagnostics, sources })
     }
 
-    /// Where to find what in the log: flags of their own win, then what the parameters say.
+    /// Topics and frames of the log: options first, then parameters.
     pub(super) fn input(&self, flags: &LogOptions) -> LogOptions {
         let told = |name: &str| {
             self.values.table().find(name)?;
@@ -90,14 +91,14 @@ impl Parameters {
         }
     }
 
-    /// Every so manieth scan is used.
+    /// Scan interval: every Nth scan is used.
     pub(super) fn every(&self) -> usize {
         let every = self.values.integer("throttle_scans").unwrap_or(1);
         usize::try_from(every).unwrap_or(1).max(1)
     }
 }
 
-/// What flags of their own say, by the names that the method has for it.
+/// Values of dedicated options, by the parameter names of the method.
 fn own(options: &SlamOptions, method: Method) -> Vec<Written> {
     let mut all = Vec::new();
     let mut give = |graph: &str, gmapping: &str, text: Option<String>| {
@@ -126,7 +127,7 @@ fn on_command_line(word: &str, sources: &mut SourceMap) -> Result<Written, Strin
     let file = sources.add("-p", word);
     let whole = sources.whole(file);
     let at = |from: usize, to: usize| Origin(Some(whole.part(from, to)));
-    // `node:name:=value` is for that node, and there is one.
+    // `node:name:=value` names the node, and there is only one.
     let name_from = name.rfind(':').map_or(0, |at| at + 1);
     Ok(Written {
         name: name[name_from..].to_owned(),

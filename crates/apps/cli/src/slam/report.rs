@@ -1,4 +1,4 @@
-//! How a run went.
+//! Report of a mapping run.
 
 use std::io::{self, Write};
 
@@ -11,26 +11,26 @@ use super::parameters::Parameters;
 use crate::log::Log;
 use crate::spent::{cpu_s, steps_ms};
 
-/// How a run went.
+/// Report of a mapping run.
 pub(super) struct Report<'a> {
     pub(super) options: &'a SlamOptions,
     pub(super) slam: &'a dyn Mapper,
     pub(super) parameters: &'a Parameters,
     pub(super) log: &'a Log,
-    /// Reading the log.
+    /// Time to read the log.
     pub(super) loaded_s: f64,
-    /// The last refinement.
+    /// Time of the last optimization.
     pub(super) finish_s: f64,
-    /// All together.
+    /// Total time.
     pub(super) wall_s: f64,
-    /// For each scan.
+    /// Time per scan.
     pub(super) spent_s: &'a [f64],
     /// The map was made again with this fault of the data undone.
     pub(super) remedy: Option<MountingCorrection>,
 }
 
 impl Report<'_> {
-    /// For a program. It is asked for last of all: the peak of memory has in it what came before.
+    /// JSON report. Called last, so that the peak memory includes the whole run.
     pub(super) fn to_json(&self) -> Value {
         let counts = self.slam.counts();
         let closures: Vec<Value> = self
@@ -79,8 +79,8 @@ impl Report<'_> {
         })
     }
 
-    /// Every edge of the graph, as `--g2o` writes it: from which kept scan to which, by what, and how far the
-    /// map is off from it \[m, rad\].
+    /// Edges of the graph, as `--g2o` writes them: both keyframes, the source, and the residual
+    /// \[m, rad\].
     fn edges(&self) -> Vec<Value> {
         let edges = self.slam.edges().into_iter();
         let told = edges.map(|edge| {
@@ -98,8 +98,9 @@ impl Report<'_> {
         told.collect()
     }
 
-    /// Places where two passes contradict each other: where the map has them \[m\], the share of what both see
-    /// that agrees, and for both passes the kept scans and stamps of the stretch, as in the trajectory.
+    /// Regions where two passes contradict each other: position in the map \[m\], fraction of
+    /// agreement of the commonly seen area, and for both passes the keyframes and stamps of the
+    /// stretch, as in the trajectory.
     fn contradictions(&self) -> Vec<Value> {
         let stamp = |time_ns: i64| {
             let logged = self.log.scans.iter().find(|it| it.scan.time_ns == time_ns);
@@ -131,7 +132,7 @@ impl Report<'_> {
         })
     }
 
-    /// For a person.
+    /// Prints the report as text.
     pub(super) fn tell(&self, out: &mut dyn Write, is_written: bool) -> io::Result<()> {
         let counts = self.slam.counts();
         for warning in self.warnings() {
@@ -140,7 +141,7 @@ impl Report<'_> {
         let how = match self.slam.method() {
             Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.proximity),
             Method::Gmapping => format!(
-                "{} particles, drawn anew {} times",
+                "{} particles, resampled {} times",
                 self.parameters.values.integer("particles").unwrap_or_default(),
                 self.slam.resamplings()
             ),
@@ -155,26 +156,30 @@ impl Report<'_> {
             self.log.span_s() / self.wall_s.max(1e-9),
         )?;
         if counts.lost + counts.ignored > 0 {
-            writeln!(out, "  {} scans did not fit, {} said nothing", counts.lost, counts.ignored)?;
+            writeln!(
+                out,
+                "  {} scans did not match, {} had no usable range",
+                counts.lost, counts.ignored
+            )?;
         }
         if is_written {
-            writeln!(out, "  map and trajectory are in {}", self.options.out.display())?;
+            writeln!(out, "  map and trajectory: {}", self.options.out.display())?;
         }
         Ok(())
     }
 
-    /// What is odd about the log, and about what the drive in it shows.
+    /// Warnings on the log, and on what its drive shows.
     fn warnings(&self) -> Vec<String> {
         let begin_ns = self.log.scans.first().map_or(0, |it| it.scan.time_ns);
         let remarks = self.slam.remarks().iter().map(|remark| {
             let after_s = remark.time_ns.saturating_sub(begin_ns) as f64 * 1e-9;
             format!("{remark} (noticed after {after_s:.0} s)")
         });
-        let remedy = self.remedy.map(|it| format!("the map was made again: {it}"));
+        let remedy = self.remedy.map(|it| format!("the map was rebuilt: {it}"));
         self.log.warnings.iter().cloned().chain(remedy).chain(remarks).collect()
     }
 
-    /// Parameters that somebody set.
+    /// Parameters set by the user.
     fn given(&self) -> serde_json::Map<String, Value> {
         let values = &self.parameters.values;
         let given = values.table().names().filter(|name| values.is_given(name));

@@ -1,4 +1,4 @@
-//! The map to be made, and sessions as files.
+//! The map to build, and session files.
 
 use std::path::Path;
 
@@ -7,14 +7,14 @@ use periplus_slam::{Gmapping, GmappingSettings, Mapper, Method, Settings, Slam};
 use super::options::SlamOptions;
 use super::parameters::Parameters;
 
-/// A map, by the method that is asked for.
+/// Map, by method.
 pub(super) enum Made {
     Graph(Box<Slam>),
     Gmapping(Box<Gmapping>),
 }
 
 impl Made {
-    /// The map to go on with: an empty one, or that of the session that is named.
+    /// Initial map: an empty one, or that of the given session.
     pub(super) fn new(options: &SlamOptions, parameters: &Parameters) -> Result<Self, String> {
         let values = &parameters.values;
         match (parameters.method, &options.session) {
@@ -45,7 +45,7 @@ impl Made {
         }
     }
 
-    /// The graph, of the method that has one.
+    /// Pose graph, if the method has one.
     pub(super) fn graph(&self) -> Option<&Slam> {
         match self {
             Self::Graph(slam) => Some(slam),
@@ -57,5 +57,5 @@ impl Made {
 fn read(path: &Path, settings: Settings) -> Result<Slam, String> {
     let bytes = crate::paths::read(path)?;
     Slam::resume(&bytes, settings)
-        .map_err(|why| format!("{} is no session to go on with: {why}", path.display()))
+        .map_err(|why| format!("cannot continue the session {}: {why}", path.display()))
 }

@@ -1,4 +1,4 @@
-//! A terminal that gives each key as it is pressed.
+//! Terminal that returns each key as it is pressed.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -6,10 +6,10 @@ use std::time::Duration;
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers, poll, read};
 use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
 
-/// What Ctrl-C is as a character.
+/// Ctrl-C as a character.
 const END_OF_TEXT: char = '\u{3}';
 
-/// A terminal in raw mode, until this is dropped.
+/// Terminal in raw mode, until dropped.
 pub(super) struct RawTerminal;
 
 impl RawTerminal {
@@ -18,14 +18,14 @@ impl RawTerminal {
         Ok(Self)
     }
 
-    /// Writes text; in raw mode a line's end does not go back to its beginning by itself.
+    /// Writes text; raw mode needs a carriage return at the end of a line.
     pub(super) fn write(&self, text: &str) -> io::Result<()> {
         let mut out = io::stdout().lock();
         out.write_all(text.replace('\n', "\r\n").as_bytes())?;
         out.flush()
     }
 
-    /// The next key, if one comes in time.
+    /// Returns the next key, if one is pressed within the time.
     pub(super) fn key(&self, wait: Duration) -> io::Result<Option<char>> {
         if !poll(wait)? {
             return Ok(None);
@@ -39,7 +39,7 @@ impl RawTerminal {
                 END_OF_TEXT
             }
             KeyCode::Char(key) => key,
-            // Arrows and the like stop the robot, as every other key.
+            // Arrow keys and others stop the robot, as every unknown key.
             _ => '\0',
         }))
     }

@@ -1,4 +1,4 @@
-//! Options that many verbs have.
+//! Common options of verbs.
 
 use clap::Args;
 use periplus_ros2cli::QosWish;
@@ -15,15 +15,15 @@ pub(crate) struct Common {
     /// repeatable
     #[arg(long, value_name = "DIR")]
     pub(crate) interfaces: Vec<std::path::PathBuf>,
-    /// Taken for the sake of scripts; there is no daemon
+    /// Accepted for compatibility with scripts; there is no daemon
     #[arg(long, hide = true)]
     pub(crate) no_daemon: bool,
-    /// Taken for the sake of scripts; rates are by the wall's clock
+    /// Accepted for compatibility with scripts; rates use the wall clock
     #[arg(long, short = 's', hide = true)]
     pub(crate) use_sim_time: bool,
 }
 
-/// Words of `--qos-profile`.
+/// Values of `--qos-profile`.
 const PROFILES: [&str; 6] = [
     "default",
     "sensor_data",
@@ -33,7 +33,7 @@ const PROFILES: [&str; 6] = [
     "parameter_events",
 ];
 
-/// Words of each policy; the last two leave the choice to the profile, as in ROS 2.
+/// Values of each policy; the last two leave the choice to the profile, as in ROS 2.
 const HISTORIES: [&str; 4] = ["keep_last", "keep_all", "system_default", "best_available"];
 const RELIABILITIES: [&str; 4] = ["reliable", "best_effort", "system_default", "best_available"];
 const DURABILITIES: [&str; 4] = ["volatile", "transient_local", "system_default", "best_available"];
@@ -80,26 +80,26 @@ impl QosOptions {
     }
 }
 
-/// A time that a machine can wait for.
+/// Parses a duration \[s\].
 pub(crate) fn seconds(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if (0.0..=1e9).contains(&number) => Ok(number),
-        _ => Err("it has to be a number of seconds, 0 or more".into()),
+        _ => Err("expected a number of seconds, 0 or more".into()),
     }
 }
 
-/// A rate \[Hz\].
+/// Parses a rate \[Hz\].
 pub(crate) fn rate(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(number) if (1e-6..=1e6).contains(&number) => Ok(number),
-        _ => Err("it has to be a number above 0".into()),
+        _ => Err("expected a number above 0".into()),
     }
 }
 
-/// A count above zero.
+/// Parses a count above zero.
 pub(crate) fn count(word: &str) -> Result<usize, String> {
     match word.parse() {
-        Ok(0) | Err(_) => Err("it has to be a whole number above 0".into()),
+        Ok(0) | Err(_) => Err("expected a whole number above 0".into()),
         Ok(number) => Ok(number),
     }
 }

@@ -13,21 +13,21 @@ use serde_json::json;
 use super::Common;
 use crate::terminal;
 
-/// Longest time for programs of Gazebo to answer; they send heartbeats every second.
+/// Longest wait for Gazebo programs, which send heartbeats every second.
 const DISCOVERY: Duration = Duration::from_millis(2500);
 
-/// Time without a new topic after which all are taken to be found.
+/// Time without a new topic after which discovery is complete.
 const QUIET: Duration = Duration::from_millis(500);
 
-/// Time between two looks.
+/// Polling period.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Lists the topics that programs of Gazebo publish, as `gz topic -l` does.
+/// Lists the topics of Gazebo programs, as `gz topic -l` does.
 pub(super) fn topics(common: &Common, show_types: bool, count: bool) -> io::Result<ExitCode> {
     list("topic", Transport::topics, common, show_types, count)
 }
 
-/// Lists the services that programs of Gazebo offer, as `gz service -l` does.
+/// Lists the services of Gazebo programs, as `gz service -l` does.
 pub(super) fn services(common: &Common, show_types: bool, count: bool) -> io::Result<ExitCode> {
     list("service", Transport::services, common, show_types, count)
 }
@@ -77,7 +77,7 @@ fn list(
         }
         if found.is_empty() {
             terminal::say(&format!(
-                "no {what} of Gazebo was found in partition `{}`: start a world with `periplus gz sim \
+                "no Gazebo {what} found in partition `{}`: start a world with `periplus gz sim \
                  WORLD` or `periplus sim WORLD --gz`",
                 settings.partition
             ));

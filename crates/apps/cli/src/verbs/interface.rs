@@ -17,7 +17,7 @@ pub(crate) struct InterfaceOptions {
     verb: Verb,
 }
 
-/// Which kinds; all when none is named.
+/// Selected kinds; all if none is given.
 #[derive(Clone, Debug, Args)]
 struct Kinds {
     /// Show messages
@@ -87,7 +87,7 @@ enum Verb {
     },
 }
 
-/// What is left of [`Common`] without a network.
+/// [`Common`] options that apply without a network.
 #[derive(Clone, Debug, Args)]
 struct InterfaceCommon {
     /// Print JSON

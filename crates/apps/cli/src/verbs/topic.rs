@@ -155,7 +155,7 @@ struct HzOptions {
     /// Count only messages that match an expression, such as `m.data > 3`
     #[arg(long, value_name = "EXPR")]
     filter: Option<String>,
-    /// Taken for the sake of scripts; it always does
+    /// Accepted for compatibility with scripts; the wall clock is always used
     #[arg(long, hide = true)]
     wall_time: bool,
     #[command(flatten)]

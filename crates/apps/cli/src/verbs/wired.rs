@@ -1,4 +1,4 @@
-//! The network of ROS 2, for verbs.
+//! ROS 2 network connection of verbs.
 
 use std::path::Path;
 use std::time::Duration;
@@ -10,9 +10,9 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::{Network, Progress, Seen, SeenEnd, SeenNode, SeenService, SeenTopic};
 
-/// A wire and the graph of the command.
+/// Network connection and the graph of the command.
 pub(crate) struct Wired {
-    // First, so that it is left before the graph goes.
+    // Declared first, so that the network is left before the graph is dropped.
     wire: Wire,
     graph: Graph,
     domain_id: u32,
@@ -20,10 +20,10 @@ pub(crate) struct Wired {
 }
 
 impl Wired {
-    /// Joins the network that the environment says.
+    /// Joins the network that the environment selects.
     ///
     /// # Errors
-    /// When there is none: what to say of it.
+    /// A message when the network cannot be joined.
     pub(crate) fn open() -> Result<Self, String> {
         let (settings, findings) = Settings::from_environment(&Machine);
         let wire = Wire::open(&settings).map_err(|error| error.to_string())?;
@@ -32,7 +32,7 @@ impl Wired {
         Ok(Self { wire, graph, domain_id: settings.domain_id, findings })
     }
 
-    /// What was wrong so far.
+    /// Returns the findings so far.
     pub(crate) fn take_findings(&mut self) -> Diagnostics {
         let mut findings = std::mem::take(&mut self.findings);
         findings.append(self.wire.take_findings());
@@ -51,7 +51,7 @@ impl Network for Wired {
 
     fn progress(&self) -> Progress {
         let progress = self.wire.progress();
-        // Linux alone has this file. Without it nobody is known to be missing.
+        // Linux alone has this file. Without it no missing participant is known.
         let ports = Machine.read(Path::new("/proc/net/udp")).unwrap_or_default();
         let here = ports::participants(&String::from_utf8_lossy(&ports), self.domain_id);
         Progress {

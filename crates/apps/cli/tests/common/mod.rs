@@ -1,4 +1,4 @@
-//! What several of these tests need.
+//! Shared helpers of these tests.
 
 use std::path::{Path, PathBuf};
 

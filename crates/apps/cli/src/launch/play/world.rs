@@ -1,4 +1,4 @@
-//! The world that a launch file names.
+//! World of a launch file.
 
 use std::path::{Path, PathBuf};
 
@@ -8,13 +8,13 @@ use periplus_loader::Setting;
 use periplus_resources::Kind;
 use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};
 
-/// Worlds that Gazebo brings along and that are a plane in the sun.
+/// Worlds that Gazebo installs and that are a plane under a sun.
 const PLAIN: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
 
-/// Reads it, with the environment and the folder in which it is started.
+/// Reads the world, with the environment and working folder in which it is started.
 ///
 /// # Errors
-/// In words, when there is no such file.
+/// A message when there is no such file.
 pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, String> {
     let host = search.host();
     let resolver = search.resolver(&host);
@@ -26,7 +26,7 @@ pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, 
             Ok(compose_plain(&setting))
         }
         Err(why) => Err(match &wish.written {
-            Some(written) => format!("{why}  = it is started at {written}"),
+            Some(written) => format!("{why}  = started at {written}"),
             None => why,
         }),
     }
@@ -40,6 +40,9 @@ fn find(file: &str, setting: &Setting<'_>) -> Result<PathBuf, String> {
     }
     setting.resolver.resolve(file, &from).map_err(|miss| {
         let finding = miss.into_diagnostic(Origin::default());
-        format!("there is no world {file}\n{}", render(&finding, &SourceMap::new(), Style::Plain))
+        format!(
+            "world {file} does not exist\n{}",
+            render(&finding, &SourceMap::new(), Style::Plain)
+        )
     })
 }

@@ -1,4 +1,4 @@
-//! A running world among programs that use `rmw_zenoh`.
+//! Simulation on a Zenoh network with `rmw_zenoh`.
 
 use std::io;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use periplus_sim::Simulation;
 use super::{Joined, Ros2};
 use crate::terminal;
 
-/// Joins as the environment says; none when that fails.
+/// Connects as the environment sets; `None` on failure.
 pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ros2>> {
     let (settings, findings) = Settings::from_environment(&Machine);
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
@@ -23,7 +23,7 @@ pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ro
         Ok(wire) => {
             if !quiet {
                 let (domain, way) = (settings.domain_id, settings.way());
-                terminal::say(&format!("ROS 2 on Zenoh: domain {domain}, by way of {way}"));
+                terminal::say(&format!("ROS 2 on Zenoh: domain {domain}, through {route}"));
             }
             let wire = Some(Joined::Zenoh(wire));
             Ok(Some(Ros2 { wire, looked: Duration::ZERO, quiet }))

@@ -1,4 +1,4 @@
-//! The tree of frames of a recording.
+//! Tree of frames of a recording.
 
 use std::io;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::log::bag::{each, has_type};
 use crate::terminal;
 use crate::verbs::{Common, without_network};
 
-/// All frames of a recording, from its beginning to its end.
+/// Builds the tree of all frames of a recording.
 pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Result<ExitCode> {
     let bag = match crate::paths::bag(path) {
         Ok(bag) => bag,
@@ -35,7 +35,7 @@ pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Res
     without_network(common, |session| {
         if topics.is_empty() {
             return Err(Failure::failed(format!(
-                "{} holds no transforms: no topic of the type tf2_msgs/msg/TFMessage",
+                "{} has no transforms: no topic of type tf2_msgs/msg/TFMessage",
                 path.display()
             )));
         }
@@ -46,7 +46,7 @@ pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Res
             for transform in &message.transforms {
                 let it = stamped(transform);
                 newest_ns = newest_ns.max(it.stamp_ns);
-                // What is refused is counted, and told below.
+                // Refused transforms are counted, and reported below.
                 let _ = survey.hear(&it, topic, kind);
             }
         });
