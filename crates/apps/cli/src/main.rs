@@ -36,9 +36,9 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_bringup::{GUARD_VERB, guard};
 use periplus_diagnostics::plain_words;
 use periplus_graph::split_arguments;
+use periplus_launch::bringup::{GUARD_VERB, guard};
 
 use demo::DemoOptions;
 use options::Command;

@@ -1,10 +1,12 @@
 //! Launch files of ROS 1 and ROS 2 as a plan: what runs, with which parameters, names and environment,
 //! after conditions are decided and included files read.
 //!
-//! A plan is data. Who runs it, and what runs in the place of programs that are not here, is for others
-//! to say. Files in Python are evaluated by an [`Interpreter`] of the caller's, which knows the modules of
-//! [`MODULES`].
+//! A plan is data. Files in Python are evaluated by an [`Interpreter`] of the caller's, which knows the
+//! modules of [`MODULES`]. The module `bringup` runs a plan; without the feature of that name the crate
+//! only makes plans, and needs neither a simulation nor a graph.
 
+#[cfg(feature = "bringup")]
+pub mod bringup;
 mod context;
 mod dialect;
 mod ending;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use periplus_bringup::{STOOD_FOR, stands_for};
 use periplus_diagnostics::{Diagnostic, closest};
+use periplus_launch::bringup::{STOOD_FOR, stands_for};
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Kind, Resolver};
 

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use periplus_bringup::xacro;
+use periplus_launch::bringup::xacro;
 use periplus_launch::{Interpreter, Outside, Printed};
 use periplus_loader::Setting;
 use periplus_os::{Machine, Stopwatch};

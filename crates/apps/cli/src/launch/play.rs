@@ -11,9 +11,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use periplus_bringup::{Bringup, Kind, Settings};
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Arguments, Graph, Level};
+use periplus_launch::bringup::{Bringup, Kind, Settings};
 use periplus_launch::{Dialect, Plan};
 use periplus_os::{Stopwatch, sleep};
 use periplus_sim::{

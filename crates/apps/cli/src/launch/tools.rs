@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use periplus_bringup::xacro;
+use periplus_launch::bringup::xacro;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_bringup::WorldWish;
 use periplus_diagnostics::{Origin, SourceMap, Style, render};
+use periplus_launch::bringup::WorldWish;
 use periplus_loader::Setting;
 use periplus_resources::Kind;
 use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};

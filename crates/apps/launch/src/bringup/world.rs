@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::environment::Environment;
+use crate::bringup::environment::Environment;
 
 /// A world that a plan asks for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

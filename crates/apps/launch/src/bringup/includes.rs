@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 
-use periplus_launch::{Identity, Node, Parameters, Process, What};
+use crate::{Identity, Node, Parameters, Process, What};
 use serde_json::json;
 
-use crate::parts::{truth, values};
-use crate::world::{self, WorldWish};
+use crate::bringup::parts::{truth, values};
+use crate::bringup::world::{self, WorldWish};
 
 /// What stands for a launch file.
 pub(crate) enum StandIn {

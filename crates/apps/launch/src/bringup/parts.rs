@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use periplus_launch::{Component, Identity, Node, Plan, Process, Running, Step, Trigger, What};
+use crate::{Component, Identity, Node, Plan, Process, Running, Step, Trigger, What};
 use serde_json::{Value, json};
 
-use crate::catalogue::{Entry, Role, of_plugin, of_program};
-use crate::environment;
-use crate::includes;
-use crate::words::{self, Told};
-use crate::world::{self, WorldWish};
+use crate::bringup::catalogue::{Entry, Role, of_plugin, of_program};
+use crate::bringup::environment;
+use crate::bringup::includes;
+use crate::bringup::words::{self, Told};
+use crate::bringup::world::{self, WorldWish};
 
 /// What is to be done, and when.
 #[derive(Clone, Debug)]
@@ -268,7 +268,7 @@ fn ours(
 fn server_wish(identity: &Identity) -> WorldWish {
     let mut wish = WorldWish::default();
     for values in &identity.parameters {
-        if let periplus_launch::Parameters::Values(values) = values
+        if let crate::Parameters::Values(values) = values
             && let Some(Value::String(file)) = values.get("world_sdf_file")
         {
             wish.file = Some(file.clone()).filter(|file| !file.is_empty());
@@ -377,11 +377,9 @@ pub(crate) fn searched<'a>(
 }
 
 /// Parameters of one node by itself, for stand-ins.
-pub(crate) fn values(value: &Value) -> periplus_launch::Parameters {
+pub(crate) fn values(value: &Value) -> crate::Parameters {
     let values = value.as_object().into_iter().flatten();
-    periplus_launch::Parameters::Values(
-        values.map(|(name, value)| (name.clone(), value.clone())).collect(),
-    )
+    crate::Parameters::Values(values.map(|(name, value)| (name.clone(), value.clone())).collect())
 }
 
 /// A truth as launch files write it.

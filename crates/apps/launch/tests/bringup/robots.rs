@@ -1,8 +1,8 @@
 //! Robots of `robot_state_publisher`, from what a launch or a command gives it.
 
-use periplus_bringup::{Bringup, Settings};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, Qos};
+use periplus_launch::bringup::{Bringup, Settings};
 use periplus_launch::{Dialect, Node, Plan, Step, What};
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::tf2_msgs::TFMessage;

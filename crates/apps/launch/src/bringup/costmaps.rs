@@ -8,8 +8,8 @@ use periplus_graph::{
 };
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
-use crate::make::{self, Written};
-use crate::parts::Ask;
+use crate::bringup::make::{self, Written};
+use crate::bringup::parts::Ask;
 
 /// A managed node in the place of a server, and the costmap that lives as it does.
 pub(crate) struct Host {

@@ -9,7 +9,7 @@ use periplus_os::{Machine, unix_ns};
 use periplus_resources::Store as _;
 
 use super::{Done, Hand, Stage};
-use crate::told::Said;
+use crate::bringup::told::Said;
 
 /// Saves one map.
 pub(crate) struct Saver {

@@ -24,7 +24,7 @@ pub(crate) use saver::Saver;
 pub(crate) use spawner::Spawner;
 pub(crate) use unstamp::Unstamp;
 
-use crate::told::Said;
+use crate::bringup::told::Said;
 
 /// What there is to work with.
 pub(crate) struct Stage<'a> {

@@ -1,12 +1,11 @@
 //! Launch files that run: what their nodes publish, also after the world was set back.
-#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use periplus_bringup::{Bringup, Settings, xacro};
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
+use periplus_launch::bringup::{Bringup, Settings, xacro};
 use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
 use periplus_loader::Setting;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -46,7 +45,7 @@ fn top() -> PathBuf {
 /// A launch file of these tests.
 fn bringup(file: &str, folder: &Path) -> Bringup {
     let search = Search { working_folder: folder.to_owned(), ..Search::default() };
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/running").join(file);
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bringup/running").join(file);
     let resolver = Resolver::new(&Machine, &[]);
     let request = Request {
         file: own,

@@ -1,6 +1,6 @@
-//! Plans of launch files, run.
+//! Execution of plans.
 //!
-//! [`Bringup`] takes a [`periplus_launch::Plan`] and does step by step what it says. Programs of ROS
+//! [`Bringup`] takes a [`crate::Plan`] and does step by step what it says. Programs of ROS
 //! that are known here become nodes of ours on one graph ([`table`] lists them); Gazebo becomes a
 //! [`periplus_sim::Simulation`] that whoever runs the plan has made from [`Bringup::world`]. Other
 //! programs run if the machine has them. What is left is told, and the rest runs.

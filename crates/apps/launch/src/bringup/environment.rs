@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use periplus_launch::{Running, Step};
+use crate::{Running, Step};
 use periplus_resources::SEARCH_VARIABLES;
 
-use crate::world::WorldWish;
+use crate::bringup::world::WorldWish;
 
 /// Of a value of a variable, at most this many characters are repeated in messages.
 const MAX_SHOWN_CHARS: usize = 200;

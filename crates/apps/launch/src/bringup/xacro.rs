@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::{MissingInput, Printed};
 use periplus_diagnostics::{Diagnostic, Severity, SourceMap, Style, render};
-use periplus_launch::{MissingInput, Printed};
 use periplus_loader::{Setting, load};
 use periplus_os::Machine;
 use periplus_resources::Store as _;

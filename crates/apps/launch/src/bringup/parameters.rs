@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::Parameters;
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
 use periplus_graph::Arguments;
-use periplus_launch::Parameters;
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_os::Machine;
 use periplus_resources::Host as _;

@@ -9,8 +9,8 @@ use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vect
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 
-use crate::parameters::{Named, number_of, text_of};
-use crate::words;
+use crate::bringup::parameters::{Named, number_of, text_of};
+use crate::bringup::words;
 
 /// A frame in another, as words or parameters give it.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use periplus_launch::Trigger;
+use crate::Trigger;
 
-use crate::parts::{Part, Work};
+use crate::bringup::parts::{Part, Work};
 
 /// A process that names the file of the world may go on for longer once the file is there \[ns\].
 pub(crate) const LONGEST_WAIT_NS: i64 = 2_000_000_000;

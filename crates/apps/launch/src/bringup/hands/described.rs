@@ -8,7 +8,7 @@ use periplus_sim::Search;
 use periplus_sim_nodes::states::{JointStateOptions, JointStateSource};
 
 use super::{Done, Hand, Stage};
-use crate::told::Said;
+use crate::bringup::told::Said;
 
 /// A `joint_state_publisher` that waits for `robot_description`.
 pub(crate) struct Described {

@@ -6,9 +6,9 @@ use periplus_msgs::std_msgs;
 use periplus_sim::{Arrival, ArrivalFrom};
 
 use super::{Done, Hand, Stage};
-use crate::parameters::{Named, number_of, text_of};
-use crate::told::Said;
-use crate::words;
+use crate::bringup::parameters::{Named, number_of, text_of};
+use crate::bringup::told::Said;
+use crate::bringup::words;
 
 /// After so long it is said what it waits for \[ns\].
 const PATIENCE_NS: i64 = 5_000_000_000;

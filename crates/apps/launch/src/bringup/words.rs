@@ -1,7 +1,7 @@
 //! The words behind a program: its own, and those that rename it and give it parameters.
 
+use crate::Identity;
 use periplus_graph::split_arguments;
-use periplus_launch::Identity;
 
 /// What a program is told.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@ use periplus_graph::{Client, Graph, NodeSettings, Pending};
 use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, Transition};
 
 use super::{Done, Hand, Stage};
-use crate::told::Said;
+use crate::bringup::told::Said;
 
 /// Asks for one transition.
 pub(crate) struct Changer {

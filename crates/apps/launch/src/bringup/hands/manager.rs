@@ -19,7 +19,7 @@ use super::bonds::{Bonds, Broken};
 use super::changer::transition;
 use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
 use super::{Done, Hand, Stage};
-use crate::told::Said;
+use crate::bringup::told::Said;
 
 /// After so long it is said for whom it waits \[ns\].
 const PATIENCE_NS: i64 = 5_000_000_000;

@@ -6,17 +6,17 @@ use std::process::{Child as Running_, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use periplus_launch::{Dialect, Parameters, Running};
+use crate::{Dialect, Parameters, Running};
 use periplus_os::{Machine, Overlay, Stopwatch, sleep};
 use periplus_resources::{Host as _, Kind, Resolver};
 
 use super::{Done, Hand, Stage};
-use crate::crew::Settings;
-use crate::environment;
-use crate::guard::{self, Ending, Guard, own_group};
-use crate::parameters::parameter;
-use crate::parts::{Program, own_folder};
-use crate::told::Said;
+use crate::bringup::crew::Settings;
+use crate::bringup::environment;
+use crate::bringup::guard::{self, Ending, Guard, own_group};
+use crate::bringup::parameters::parameter;
+use crate::bringup::parts::{Program, own_folder};
+use crate::bringup::told::Said;
 
 /// How long a program may take to end when it is asked to.
 const LAST_WORDS: Duration = Duration::from_secs(5);

@@ -3,22 +3,22 @@
 use std::any::Any;
 use std::path::PathBuf;
 
+use crate::{Dialect, Plan, Trigger};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
-use periplus_launch::{Dialect, Plan, Trigger};
 use periplus_msgs::lifecycle_msgs::TransitionEvent;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_sim::{Search, Simulation};
 
-use crate::environment;
-use crate::guard::Guard;
-use crate::hands::{Changer, Child, Done, Hand, Stage};
-use crate::make::{Made, make};
-use crate::parts::{self, Ask, Part, Program, Work, own_folder};
-use crate::preparation::{self, LONGEST_WAIT_NS};
-use crate::told::{Became, Kind, Line, Said};
-use crate::world::WorldWish;
-use crate::xacro::xacro;
+use crate::bringup::environment;
+use crate::bringup::guard::Guard;
+use crate::bringup::hands::{Changer, Child, Done, Hand, Stage};
+use crate::bringup::make::{Made, make};
+use crate::bringup::parts::{self, Ask, Part, Program, Work, own_folder};
+use crate::bringup::preparation::{self, LONGEST_WAIT_NS};
+use crate::bringup::told::{Became, Kind, Line, Said};
+use crate::bringup::world::WorldWish;
+use crate::bringup::xacro::xacro;
 
 /// How a plan is run.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub struct Settings {
     /// Whether the run keeps pace with the wall.
     pub is_paced: bool,
     /// The program that ends what is left when this one is killed: its own file, which runs
-    /// [`crate::guard`] when it is given [`crate::GUARD_VERB`].
+    /// [`crate::bringup::guard`] when it is given [`crate::bringup::GUARD_VERB`].
     pub guarding_program: Option<PathBuf>,
     /// A folder of programs that its processes find behind all others on the PATH.
     pub tools: Option<PathBuf>,
@@ -109,7 +109,7 @@ impl Bringup {
         bringup.world_search = bringup.search_of_world(plan);
         bringup.lacking = bringup
             .asks()
-            .filter(|(_, ask)| ask.entry.role == crate::catalogue::Role::Lacking)
+            .filter(|(_, ask)| ask.entry.role == crate::bringup::catalogue::Role::Lacking)
             .map(|(_, ask)| ask.full_name())
             .collect();
         bringup
@@ -203,13 +203,14 @@ impl Bringup {
     /// Whether a node of the plan tells where joints are, so that nobody else has to.
     #[must_use]
     pub fn tells_joints(&self) -> bool {
-        self.has(crate::catalogue::Role::JointStatePublisher)
+        self.has(crate::bringup::catalogue::Role::JointStatePublisher)
     }
 
     /// Whether the plan wants to be looked at: RViz, or a window of Gazebo.
     #[must_use]
     pub fn wants_page(&self) -> bool {
-        self.has(crate::catalogue::Role::Viewer) || self.world().is_some_and(|wish| wish.has_window)
+        self.has(crate::bringup::catalogue::Role::Viewer)
+            || self.world().is_some_and(|wish| wish.has_window)
     }
 
     /// Files of RViz that the plan opens.
@@ -236,13 +237,13 @@ impl Bringup {
     pub fn follows_clock(&self) -> bool {
         let mut notes = Vec::new();
         let wants = |ask: &Ask, notes: &mut Vec<String>| {
-            let named = crate::make::parameters(ask, notes);
-            crate::parameters::truth_of(&named, "use_sim_time") == Some(true)
+            let named = crate::bringup::make::parameters(ask, notes);
+            crate::bringup::parameters::truth_of(&named, "use_sim_time") == Some(true)
         };
         self.asks().any(|(_, ask)| wants(ask, &mut notes))
     }
 
-    fn has(&self, role: crate::catalogue::Role) -> bool {
+    fn has(&self, role: crate::bringup::catalogue::Role) -> bool {
         self.asks().any(|(_, ask)| ask.entry.role == role)
     }
 
@@ -571,6 +572,9 @@ fn nanoseconds(seconds: f64) -> i64 {
 /// Value of an option of RViz, by its short or its long name.
 fn option_of_viewer<'a>(ask: &'a Ask, short: &str, long: &str) -> Option<&'a str> {
     let words = &ask.told.own;
-    let value = || crate::words::option(words, short).or_else(|| crate::words::option(words, long));
-    if ask.entry.role == crate::catalogue::Role::Viewer { value() } else { None }
+    let value = || {
+        crate::bringup::words::option(words, short)
+            .or_else(|| crate::bringup::words::option(words, long))
+    };
+    if ask.entry.role == crate::bringup::catalogue::Role::Viewer { value() } else { None }
 }

@@ -22,17 +22,17 @@ use periplus_sim_nodes::states::{
 };
 use serde_json::Value;
 
-use crate::bridge::{self, Direction};
-use crate::catalogue::Role;
-use crate::costmaps::{self, Host};
-use crate::crew::Settings;
-use crate::hands::{
+use crate::bringup::bridge::{self, Direction};
+use crate::bringup::catalogue::Role;
+use crate::bringup::costmaps::{self, Host};
+use crate::bringup::crew::Settings;
+use crate::bringup::hands::{
     Described, Hand, Manager, ManagerSettings, Relay, Saver, Spawner, Unstamp, robot,
 };
-use crate::parameters::{self, Named, text_of, texts_of, truth_of};
-use crate::parts::{Ask, searched};
-use crate::told::Kind;
-use crate::transform::FixedFrame;
+use crate::bringup::parameters::{self, Named, text_of, texts_of, truth_of};
+use crate::bringup::parts::{Ask, searched};
+use crate::bringup::told::Kind;
+use crate::bringup::transform::FixedFrame;
 
 /// What was made.
 #[derive(Default)]

@@ -1,0 +1,7 @@
+//! Plans that run, as other nodes see them.
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+#![allow(clippy::disallowed_methods, reason = "one of them reads the documentation")]
+
+mod document;
+mod robots;
+mod running;
