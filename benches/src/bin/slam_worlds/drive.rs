@@ -7,7 +7,7 @@ use periplus_geometry::Pose2;
 use periplus_graph::{NodeSettings, Qos};
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
-use periplus_script::{Goal, Script};
+use periplus_sim::script::{Goal, Script};
 use periplus_sim::{Composition, Driver, Mode, Options, Recorder, Simulation};
 
 use crate::stage::{LASER_M, Stage};

@@ -5,6 +5,7 @@ use std::fmt;
 use std::fs::File;
 use std::path::Path;
 
+use crate::script::{Body, Pilot, Script};
 use periplus_bags::Reader;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, Publisher, Qos};
@@ -13,7 +14,6 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_os::Machine;
 use periplus_resources::Host as _;
-use periplus_script::{Body, Pilot, Script};
 
 use crate::Simulation;
 
@@ -272,7 +272,7 @@ fn written(path: &Path, findings: &mut ScriptFindings) -> Script {
         Ok(bytes) => {
             let text = String::from_utf8_lossy(&bytes).into_owned();
             let file = findings.sources.add(path.display().to_string(), text);
-            periplus_script::read(file, &findings.sources, &mut findings.diagnostics)
+            crate::script::read(file, &findings.sources, &mut findings.diagnostics)
         }
         Err(error) => {
             findings.diagnostics.push(unreadable(path, &error.to_string()));
@@ -287,7 +287,7 @@ fn replayed(path: &Path, findings: &mut ScriptFindings) -> Script {
         .map_err(|error| error.to_string())
         .and_then(|file| Reader::open(file).map_err(|error| error.to_string()))
         .and_then(|mut bag| {
-            periplus_script::replay(&mut bag, &mut findings.diagnostics)
+            crate::script::replay(&mut bag, &mut findings.diagnostics)
                 .map_err(|error| error.to_string())
         });
     match commands {

@@ -12,6 +12,7 @@ mod hear;
 mod pace;
 mod record;
 mod run;
+pub mod script;
 mod services;
 mod shares;
 mod simulation;

@@ -9,7 +9,7 @@ use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::{DecodeError, Message};
 use periplus_rosidl::TypeName;
 
-use crate::command::{Body, Command};
+use crate::script::command::{Body, Command};
 
 /// Times from here on are those of a real clock \[ns\]: the year 2001. Earlier ones are simulated.
 const REAL_TIMES_NS: i64 = 1_000_000_000_000_000_000;

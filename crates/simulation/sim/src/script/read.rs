@@ -6,8 +6,8 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped, Vector3};
 use periplus_yaml::Node;
 
-use crate::command::{self, Body, Command};
-use crate::pilot::Goal;
+use crate::script::command::{self, Body, Command};
+use crate::script::pilot::Goal;
 
 /// What a script says.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::Message;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::std_msgs::String as Text;
-use periplus_script::{Body, Goal, Script, read, replay};
+use periplus_sim::script::{Body, Goal, Script, read, replay};
 use proptest::prelude::*;
 
 /// The script, and the findings as `line:column message`.
@@ -26,7 +26,7 @@ fn parse(text: &str) -> (Script, Vec<String>) {
 
 /// Time, topic, forward, left.
 fn sends(script: &Script) -> Vec<(i64, &str, f64, f64)> {
-    let row = |command: &'_ periplus_script::Command| {
+    let row = |command: &'_ periplus_sim::script::Command| {
         (command.time_ns, command.body.twist().linear.x, command.body.twist().angular.z)
     };
     let commands = script.commands.iter();
