@@ -4,7 +4,7 @@
 use std::fs;
 
 use libfuzzer_sys::fuzz_target;
-use periplus_bagfiles::Bag;
+use periplus_bags::files::Bag;
 use periplus_bags::Selection;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -6,6 +6,6 @@ use crate::step::{Failed, cargo, run};
 /// away again. Needs six gigabytes in the folder for temporary files.
 pub(crate) fn bench() -> Result<(), Failed> {
     let mut speed = cargo();
-    speed.args(["run", "--quiet", "--release", "--package", "periplus-bagfiles"]);
-    run(speed.args(["--example", "speed"]), "see that the folder for temporary files has room")
+    speed.args(["run", "--quiet", "--release", "--package", "periplus-bags"]);
+    run(speed.args(["--example", "file_speed"]), "see that the folder for temporary files has room")
 }

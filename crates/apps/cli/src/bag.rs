@@ -15,7 +15,7 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use periplus_bagfiles::Bag;
+use periplus_bags::files::Bag;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
 use crate::{paths, terminal};

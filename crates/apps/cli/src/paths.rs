@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
 
-use periplus_bagfiles::{Bag, BagError};
+use periplus_bags::files::{Bag, BagError};
 use periplus_diagnostics::plain_words;
 use periplus_os::Machine;
 use periplus_resources::{Host as _, ReadError, Store as _, nearest};

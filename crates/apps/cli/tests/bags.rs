@@ -9,7 +9,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use common::Folder;
-use periplus_bagfiles::{Bag, BagWriter, Storage, WriteSettings};
+use periplus_bags::files::{Bag, BagWriter, Storage, WriteSettings};
 use periplus_bags::{BagTopic, Selection, Stamp};
 use periplus_msgs::Message;
 use periplus_msgs::std_msgs::String as Text;

@@ -9,8 +9,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use common::Folder;
-use periplus_bagfiles::Bag;
 use periplus_bags::Selection;
+use periplus_bags::files::Bag;
 use periplus_msgs::Message as _;
 use periplus_msgs::nav_msgs::Odometry;
 

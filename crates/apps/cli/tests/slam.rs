@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use common::Folder;
-use periplus_bagfiles::{Bag, BagWriter, Conversion, Storage, WriteSettings, convert};
+use periplus_bags::files::{Bag, BagWriter, Conversion, Storage, WriteSettings, convert};
 use periplus_bags::{BagTopic, Selection, Stamp};
 use periplus_geometry::Pose2;
 use periplus_msgs::Message;

@@ -3,8 +3,9 @@
 //! A [`Writer`] makes MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and Lichtblick
 //! open; [`BagInfo`] is the `metadata.yaml` beside them. A [`Reader`] gives the messages of any MCAP
 //! file and of bags of ROS 1 in the order of their times, also of files that were cut off; a
-//! [`Ros1Writer`] makes such bags, and a [`Translation`] the messages for either. Nothing here opens files: sinks
-//! and sources come in.
+//! [`Ros1Writer`] makes such bags, and a [`Translation`] the messages for either. These take
+//! sinks and sources; the module `files`, a feature that is on unless asked otherwise, opens recordings
+//! on the disk, also databases, and connects them to a graph.
 //!
 //! ```
 //! use periplus_bags::{QosProfile, Settings, Stamp, Topic, Writer};
@@ -25,6 +26,8 @@
 mod carmen;
 mod check;
 mod compression;
+#[cfg(feature = "files")]
+pub mod files;
 mod metadata;
 mod qos;
 mod read;

@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use periplus_bagfiles::check;
+use periplus_bags::files::check;
 use periplus_diagnostics::{Severity, SourceMap, to_json};
 use serde_json::json;
 

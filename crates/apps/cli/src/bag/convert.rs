@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use periplus_bagfiles::{Bag, Conversion, Kind, Storage, WriteSettings, convert};
+use periplus_bags::files::{Bag, Conversion, Kind, Storage, WriteSettings, convert};
 
 use super::options::{ConvertOptions, CutOptions, SelectOptions};
 use super::outputs;

@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use periplus_bagfiles::Info;
+use periplus_bags::files::Info;
 use serde_json::{Value, json};
 
 use super::options::InfoOptions;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use periplus_bagfiles::{ChunkPacking, Packing, PackingMode, Storage};
 use periplus_bags::Style;
+use periplus_bags::files::{ChunkPacking, Packing, PackingMode, Storage};
 
 /// Record, play, convert, cut, check and repair bags
 ///

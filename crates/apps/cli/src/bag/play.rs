@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use periplus_bagfiles::{Bag, BagError, PlaySettings, Player};
+use periplus_bags::files::{Bag, BagError, PlaySettings, Player};
 use periplus_graph::Arguments;
 use periplus_os::{Stopwatch, sleep};
 

@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use periplus_bagfiles::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
+use periplus_bags::files::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
 use periplus_dds::{Remote, RemoteTopic};
 use periplus_graph::{
     Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
@@ -57,7 +57,7 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let settings = RecordSettings {
         // This node publishes nothing, so every received message was subscribed to.
         wanted: Box::new(|_| true),
-        clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bagfiles::Now),
+        clock: (!options.use_sim_time).then(|| Box::new(unix_ns) as periplus_bags::files::Now),
         offered: Some(Box::new(move |topic| known.of(topic))),
         ..RecordSettings::all(WriteSettings {
             // The name that rosbag2 gives to the recorder.
@@ -200,5 +200,5 @@ impl RecordOptions {
 
 /// Default name: `rosbag2_` and the UTC time, as `ros2 bag record` names its folders.
 fn named_by_time() -> PathBuf {
-    PathBuf::from(format!("rosbag2_{}", periplus_bagfiles::stamp_name(unix_ns())))
+    PathBuf::from(format!("rosbag2_{}", periplus_bags::files::stamp_name(unix_ns())))
 }

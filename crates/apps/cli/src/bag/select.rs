@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use periplus_bagfiles::{Bag, Storage, WriteSettings};
 use periplus_bags::Selection;
+use periplus_bags::files::{Bag, Storage, WriteSettings};
 
 use super::options::{NameOptions, SelectOptions, WriteOptions};
 

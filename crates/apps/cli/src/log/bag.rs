@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
 
-use periplus_bagfiles::{Bag, BagError};
+use periplus_bags::files::{Bag, BagError};
 use periplus_bags::{BagTopic, Selection, Target, Translation};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::{DQuat, DVec3, Pose, Pose2};

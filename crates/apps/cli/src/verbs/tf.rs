@@ -67,7 +67,7 @@ impl TreeOptions {
 
 /// `frames_2026-11-21_15.04.05`, as `view_frames` names files.
 fn dated(time_ns: i64) -> PathBuf {
-    let stamp = periplus_bagfiles::stamp_name(time_ns);
+    let stamp = periplus_bags::files::stamp_name(time_ns);
     let (date, time) = stamp.split_once('-').unwrap_or((&stamp, ""));
     format!("frames_{}_{}", date.replace('_', "-"), time.replace('_', ".")).into()
 }

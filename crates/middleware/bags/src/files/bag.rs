@@ -1,0 +1,330 @@
+//! The one door.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::{BagTopic, Metadata, Selection, Style, read_metadata};
+use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+
+use crate::files::BagError;
+use crate::files::naming::bag_files;
+use crate::files::part::Part;
+use crate::files::stream::BagMessages;
+use crate::files::write::Storage;
+
+/// What kind of recording it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A folder of `ros2 bag`, or files as it has them.
+    Ros2,
+    /// Bags of ROS 1.
+    Ros1,
+}
+
+/// A recording, of one file or many.
+#[derive(Debug)]
+pub struct Bag {
+    path: PathBuf,
+    parts: Vec<Part>,
+    topics: Vec<BagTopic>,
+    counts: Vec<u64>,
+    metadata: Option<Metadata>,
+    findings: Diagnostics,
+}
+
+/// The name of the description in a folder.
+pub(crate) const METADATA: &str = "metadata.yaml";
+
+/// A `metadata.yaml` larger than this is none \[bytes\].
+const LARGEST_METADATA: u64 = 64 << 20;
+
+impl Bag {
+    /// Opens whatever recording is there. What is damaged or missing is said in the
+    /// [findings](Self::findings); what is left can be read.
+    ///
+    /// # Errors
+    /// When nothing there is a recording.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, BagError> {
+        let path = path.as_ref();
+        let about = path.metadata().map_err(BagError::file(path))?;
+        let mut findings = Diagnostics::new();
+        if !about.is_dir() && path.file_name().is_some_and(|name| name == METADATA) {
+            let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+            return Self::open(folder.unwrap_or(Path::new(".")));
+        }
+        let (files, metadata) = if about.is_dir() {
+            folder_files(path, &mut findings)?
+        } else {
+            (vec![path.to_owned()], None)
+        };
+        let mut parts = Vec::new();
+        let mut failure = None;
+        for file in &files {
+            match Part::look(file) {
+                Ok(part) => parts.push(part),
+                Err(error) => {
+                    let wrong = Diagnostic::error("unreadable-part", error.to_string());
+                    findings.push(wrong.help("the other files are read without it"));
+                    failure.get_or_insert(error);
+                }
+            }
+        }
+        if parts.is_empty() {
+            let why = "the folder holds no .mcap and no .db3 file".to_owned();
+            return Err(failure.unwrap_or(BagError::NoBag(path.to_owned(), why)));
+        }
+        for part in &parts {
+            for fault in &part.faults {
+                let wrong = format!("`{}`: {fault}", part.path.display());
+                findings.push(Diagnostic::warning("damaged-bag", wrong));
+            }
+        }
+        let mut bag = Self {
+            path: path.to_owned(),
+            parts,
+            topics: Vec::new(),
+            counts: Vec::new(),
+            metadata,
+            findings,
+        };
+        bag.join_topics();
+        Ok(bag)
+    }
+
+    fn join_topics(&mut self) {
+        let mut index = TopicIndex::default();
+        for part in &self.parts {
+            for (topic, count) in part.topics.iter().zip(&part.counts) {
+                let at = index.add(topic);
+                if at == self.topics.len() {
+                    self.topics.push(topic.clone());
+                    self.counts.push(0);
+                }
+                self.counts[at] = self.counts[at].saturating_add(*count);
+                if self.topics[at].schema.is_empty() {
+                    self.topics[at].schema.clone_from(&topic.schema);
+                    self.topics[at].schema_encoding.clone_from(&topic.schema_encoding);
+                }
+            }
+        }
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What kind of recording it is.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        let is_ros1 = self.parts.iter().any(|part| part.storage == Storage::Ros1);
+        if is_ros1 { Kind::Ros1 } else { Kind::Ros2 }
+    }
+
+    /// How its files are stored.
+    #[must_use]
+    pub fn storage(&self) -> Storage {
+        self.parts.first().map_or(Storage::Mcap, |part| part.storage)
+    }
+
+    /// Its topics.
+    #[must_use]
+    pub fn topics(&self) -> &[BagTopic] {
+        &self.topics
+    }
+
+    /// How many messages each topic has.
+    #[must_use]
+    pub fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+
+    /// How many messages there are.
+    #[must_use]
+    pub fn message_count(&self) -> u64 {
+        self.counts.iter().fold(0, |sum, count| u64::saturating_add(sum, *count))
+    }
+
+    /// Time of the first message and of the last \[ns\]; none without messages.
+    #[must_use]
+    pub fn span_ns(&self) -> Option<(i64, i64)> {
+        let spans = self.parts.iter().filter_map(|part| part.span_ns);
+        spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)))
+    }
+
+    /// Size of its files \[bytes\].
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.parts.iter().map(|part| part.bytes).sum()
+    }
+
+    /// Its files.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        self.parts.iter().map(|part| &*part.path)
+    }
+
+    /// What `metadata.yaml` says, if there is one.
+    #[must_use]
+    pub fn metadata(&self) -> Option<&Metadata> {
+        self.metadata.as_ref()
+    }
+
+    /// The name of the ROS distribution that recorded it, if it tells.
+    #[must_use]
+    pub fn ros_distro(&self) -> &str {
+        let told = self.metadata.as_ref().map_or("", |metadata| &metadata.info.ros_distro);
+        if !told.is_empty() {
+            return told;
+        }
+        self.parts.iter().map(|part| &*part.ros_distro).find(|name| !name.is_empty()).unwrap_or("")
+    }
+
+    /// Whether every file was closed properly.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.parts.iter().all(|part| part.is_whole)
+    }
+
+    /// What is wrong with it.
+    #[must_use]
+    pub fn findings(&self) -> &Diagnostics {
+        &self.findings
+    }
+
+    /// Its messages in the order of their times, across all files. Files are opened when their time
+    /// comes and closed when they are read.
+    #[must_use]
+    pub fn messages(&self, selection: Selection) -> BagMessages {
+        BagMessages::new(&self.parts, &self.topics, selection)
+    }
+
+    /// What a `metadata.yaml` would say of its files.
+    #[must_use]
+    pub fn describe(&self) -> crate::BagInfo {
+        let mut topics: Vec<_> =
+            self.topics.iter().map(crate::files::profile::topic_info).collect();
+        for (topic, count) in topics.iter_mut().zip(&self.counts) {
+            topic.messages = *count;
+        }
+        let name =
+            |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let file = |part: &Part| crate::FileInfo {
+            path: name(&part.path),
+            span_ns: part.span_ns,
+            messages: part.counts.iter().sum(),
+        };
+        let files = self.parts.iter().map(file).collect();
+        crate::BagInfo { topics, files, ros_distro: self.ros_distro().to_owned() }
+    }
+
+    /// Writes its `metadata.yaml` anew, from what is in the files.
+    ///
+    /// # Errors
+    /// When it is no folder of `ros2 bag`, or the file cannot be written.
+    pub fn reindex(&self, style: Style) -> Result<(), BagError> {
+        if !self.path.is_dir() {
+            let why = "only folders of `ros2 bag` have a metadata.yaml".to_owned();
+            return Err(BagError::NoBag(self.path.clone(), why));
+        }
+        let packing = self.parts.iter().find_map(|part| part.packing);
+        let told = |get: fn(&Metadata) -> &String| {
+            self.metadata.as_ref().map(get).cloned().unwrap_or_default()
+        };
+        let stored = crate::Stored {
+            storage: self.storage().identifier().into(),
+            compression: packing.map_or_else(
+                || told(|metadata| &metadata.compression),
+                |packing| packing.name().into(),
+            ),
+            compression_mode: packing
+                .map_or_else(|| told(|metadata| &metadata.compression_mode), |_| "FILE".into()),
+        };
+        let path = self.path.join(METADATA);
+        let text = self.describe().to_yaml_for(style, &stored);
+        std::fs::write(&path, text).map_err(BagError::file(&path))
+    }
+}
+
+/// Numbers of topics by name, type and encoding. Topics of several files that agree in these are
+/// one.
+#[derive(Default)]
+pub(crate) struct TopicIndex(BTreeMap<[String; 3], usize>);
+
+impl TopicIndex {
+    pub(crate) fn of<'a>(topics: impl IntoIterator<Item = &'a BagTopic>) -> Self {
+        let mut index = Self::default();
+        for topic in topics {
+            index.add(topic);
+        }
+        index
+    }
+
+    /// The number of a topic; the next one for a new topic.
+    pub(crate) fn add(&mut self, topic: &BagTopic) -> usize {
+        let next = self.0.len();
+        *self.0.entry(Self::key(topic)).or_insert(next)
+    }
+
+    pub(crate) fn find(&self, topic: &BagTopic) -> Option<usize> {
+        self.0.get(&Self::key(topic)).copied()
+    }
+
+    fn key(topic: &BagTopic) -> [String; 3] {
+        [&topic.name, &topic.type_name, &topic.encoding].map(Clone::clone)
+    }
+}
+
+/// The files of a folder, by its description or without.
+fn folder_files(
+    folder: &Path,
+    findings: &mut Diagnostics,
+) -> Result<(Vec<PathBuf>, Option<Metadata>), BagError> {
+    let path = folder.join(METADATA);
+    let length = path.metadata().map_or(0, |metadata| metadata.len());
+    let mut metadata = None;
+    if path.is_file() && length <= LARGEST_METADATA {
+        let text = std::fs::read(&path).map_err(BagError::file(&path))?;
+        let mut sources = SourceMap::new();
+        let text = String::from_utf8_lossy(&text).into_owned();
+        let file = sources.add(path.display().to_string(), text);
+        let mut found = Diagnostics::new();
+        metadata = read_metadata(file, &sources, &mut found);
+        for finding in found.iter() {
+            let wrong = format!("`{}`: {}", path.display(), finding.message);
+            findings.push(Diagnostic::warning("bad-metadata", wrong));
+        }
+    }
+    let there = bag_files(folder)?;
+    let Some(metadata) = metadata else {
+        let wrong = format!("`{}` is missing or damaged", path.display());
+        findings.push(
+            Diagnostic::warning("no-metadata", wrong)
+                .help("the files are read without it; `periplus bag reindex` writes it anew"),
+        );
+        return Ok((there, None));
+    };
+    let mut files = Vec::new();
+    for named in &metadata.info.files {
+        // Old ones name the folder too. Whatever is named, it lies in this folder.
+        let Some(name) = Path::new(&named.path).file_name() else { continue };
+        let file = folder.join(name);
+        if file.is_file() {
+            files.push(file);
+        } else {
+            let wrong = format!("`{}` names `{}`, which is not there", path.display(), named.path);
+            findings.push(Diagnostic::error("missing-part", wrong));
+        }
+    }
+    let named: BTreeSet<&PathBuf> = files.iter().collect();
+    let more: Vec<PathBuf> = there.into_iter().filter(|file| !named.contains(file)).collect();
+    for file in &more {
+        let wrong = format!("`{}` does not name `{}`", path.display(), file.display());
+        findings.push(
+            Diagnostic::warning("unnamed-part", wrong)
+                .help("it is read as well; `periplus bag reindex` writes the metadata anew"),
+        );
+    }
+    files.extend(more);
+    Ok((files, Some(metadata)))
+}

@@ -1,0 +1,96 @@
+//! Whether a recording is in order: every sum and index, every message by its type.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use crate::{Selection, Target, Translation};
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use crate::files::{Bag, BagError, Storage};
+
+/// MCAP files up to this size are held against the format byte for byte \[bytes\]; of larger ones
+/// the sums of all chunks are.
+const STRICT: u64 = 256 << 20;
+
+/// So many messages pass from one word about progress to the next.
+const STEP: u64 = 256;
+
+/// Reads everything and decodes every message. Returns how many there are, and what is wrong.
+///
+/// # Errors
+/// When a file cannot be read on.
+pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnostics), BagError> {
+    let mut findings = Diagnostics::new();
+    for path in bag.files() {
+        let bytes = path.metadata().map_err(BagError::file(path))?.len();
+        let is_mcap = Storage::of_path(path) == Some(Storage::Mcap);
+        if is_mcap && bytes <= STRICT {
+            for fault in crate::check(&fs::read(path).map_err(BagError::file(path))?) {
+                let wrong = format!("`{}`: {fault}", path.display());
+                findings.push(Diagnostic::warning("bad-mcap", wrong));
+            }
+        }
+    }
+    // Whoever can be made bytes of ROS 1 was read as its type says, to the last byte.
+    let opposite = |encoding: &str| if encoding == "ros1" { Target::Ros2 } else { Target::Ros1 };
+    let mut ways: Vec<Option<Translation>> = Vec::new();
+    for topic in bag.topics() {
+        let mut unused = Diagnostics::new();
+        let way = Translation::new(topic, opposite(&topic.encoding), &mut unused);
+        if way.is_none() {
+            let wrong = format!(
+                "messages of `{}` (type `{}`, encoded as `{}`) cannot be looked into",
+                topic.name, topic.type_name, topic.encoding
+            );
+            findings.push(Diagnostic::hint("unknown-type", wrong));
+        }
+        ways.push(way);
+    }
+    let mut bad: BTreeMap<usize, (u64, String)> = BTreeMap::new();
+    let mut counts = vec![0_u64; bag.topics().len()];
+    let mut total = 0;
+    let mut messages = bag.messages(Selection::default());
+    while let Some(message) = messages.next()? {
+        total += 1;
+        counts[message.topic] += 1;
+        if let Some(Some(way)) = ways.get_mut(message.topic)
+            && let Err(error) = way.translate(message.data)
+        {
+            let (count, _) = bad.entry(message.topic).or_insert((0, error.to_string()));
+            *count += 1;
+        }
+        if total % STEP == 0 {
+            progress(total);
+        }
+    }
+    for fault in messages.faults() {
+        // What opening it found was told already.
+        findings.push(Diagnostic::warning("damaged-bag", fault.clone()));
+    }
+    for (topic, (count, error)) in bad {
+        let name = &bag.topics()[topic].name;
+        let wrong = format!("{count} messages of `{name}` are none of their type: {error}");
+        findings.push(Diagnostic::warning("bad-message", wrong));
+    }
+    for ((topic, count), told) in bag.topics().iter().zip(&counts).zip(bag.counts()) {
+        if count != told {
+            let wrong = format!("`{}` has {count} messages, not {told} as told", topic.name);
+            findings.push(Diagnostic::warning("wrong-count", wrong));
+        }
+    }
+    compare_metadata(bag, total, &mut findings);
+    Ok((total, findings))
+}
+
+/// What `metadata.yaml` says against what is there.
+fn compare_metadata(bag: &Bag, total: u64, findings: &mut Diagnostics) {
+    let Some(metadata) = bag.metadata() else { return };
+    let told = metadata.info.messages();
+    if told != total {
+        let wrong = format!("metadata.yaml tells of {told} messages, and there are {total}");
+        findings.push(
+            Diagnostic::warning("wrong-metadata", wrong)
+                .help("`periplus bag reindex` writes it anew"),
+        );
+    }
+}

@@ -1,0 +1,154 @@
+//! From one kind of recording to another.
+
+use crate::{BagInfo, Selection, Stamp, Target, Translation};
+use periplus_diagnostics::{Diagnostic, Diagnostics};
+
+use crate::files::stream::BagMessages;
+use crate::files::{Bag, BagError, BagWriter, Storage, WriteSettings};
+
+/// What to convert, and into what.
+#[derive(Clone, Debug)]
+pub struct Conversion {
+    /// Which messages.
+    pub selection: Selection,
+    /// How the result is written.
+    pub write: WriteSettings,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Report {
+    /// What is in the result.
+    pub info: BagInfo,
+    /// Bytes of all messages that were read.
+    pub bytes: u64,
+    /// What was left out, and why.
+    pub findings: Diagnostics,
+}
+
+/// So many messages pass from one word about progress to the next, at most.
+const STEP: u64 = 256;
+
+/// Writes the messages of recordings to a new one, in the order of their times; between ROS 1 and
+/// ROS 2 they are translated. `progress` is told how many messages are done.
+///
+/// # Errors
+/// When one cannot be read on or the result cannot be written. A message that cannot be translated is
+/// left out, and the findings tell.
+pub fn convert(
+    bags: &[Bag],
+    output: impl AsRef<std::path::Path>,
+    conversion: Conversion,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Report, BagError> {
+    let target =
+        if conversion.write.storage == Storage::Ros1 { Target::Ros1 } else { Target::Ros2 };
+    let mut findings = Diagnostics::new();
+    let mut writer = BagWriter::create(output, conversion.write)?;
+    let mut inputs = Vec::new();
+    for bag in bags {
+        inputs.push(Input::new(bag, &conversion.selection, target, &mut writer, &mut findings)?);
+    }
+    let (mut count, mut bytes) = (0, 0);
+    while let Some(at) = earliest(&mut inputs)? {
+        bytes += inputs[at].pass(&mut writer, &mut findings)?;
+        count += 1;
+        if count % STEP == 0 {
+            progress(count);
+        }
+    }
+    progress(count);
+    for input in &inputs {
+        for fault in input.messages.faults() {
+            findings.push(Diagnostic::warning("damaged-bag", fault.clone()));
+        }
+    }
+    Ok(Report { info: writer.finish()?, bytes, findings })
+}
+
+/// Which recording has the earliest message.
+fn earliest(inputs: &mut [Input]) -> Result<Option<usize>, BagError> {
+    if let [only] = inputs {
+        return Ok(only.messages.peek_ns()?.map(|_| 0));
+    }
+    let mut first: Option<(i64, usize)> = None;
+    for (at, input) in inputs.iter_mut().enumerate() {
+        if let Some(time_ns) = input.messages.peek_ns()?
+            && first.is_none_or(|(before_ns, _)| time_ns < before_ns)
+        {
+            first = Some((time_ns, at));
+        }
+    }
+    Ok(first.map(|(_, at)| at))
+}
+
+struct Input {
+    messages: BagMessages,
+    /// By topic: what becomes of its messages, its number in the result, and how many were lost.
+    ways: Vec<Option<(Translation, usize)>>,
+    lost: Vec<u64>,
+}
+
+impl Input {
+    fn new(
+        bag: &Bag,
+        selection: &Selection,
+        target: Target,
+        writer: &mut BagWriter,
+        findings: &mut Diagnostics,
+    ) -> Result<Self, BagError> {
+        let wanted =
+            |name: &String| selection.topics.as_ref().is_none_or(|names| names.contains(name));
+        let mut ways = Vec::new();
+        for topic in bag.topics() {
+            let is_foreign = target == Target::Ros2 && !["cdr", "ros1"].contains(&&*topic.encoding);
+            let way = match wanted(&topic.name) {
+                // Whatever it is, a recording of ROS 2 can hold it as it is.
+                true if is_foreign => Some(Translation::untouched(topic)),
+                true => Translation::new(topic, target, findings),
+                false => None,
+            };
+            ways.push(match way {
+                Some(way) => {
+                    let id = writer.topic(way.topic())?;
+                    Some((way, id))
+                }
+                None => None,
+            });
+        }
+        let lost = vec![0; ways.len()];
+        Ok(Self { messages: bag.messages(selection.clone()), ways, lost })
+    }
+
+    /// Writes the next message. Returns how many bytes it has.
+    fn pass(
+        &mut self,
+        writer: &mut BagWriter,
+        findings: &mut Diagnostics,
+    ) -> Result<u64, BagError> {
+        let Some(message) = self.messages.next()? else { return Ok(0) };
+        let bytes = message.data.len() as u64;
+        let Some(Some((way, id))) = self.ways.get_mut(message.topic) else { return Ok(bytes) };
+        let stamp = Stamp {
+            log_ns: message.log_ns,
+            publish_ns: message.publish_ns,
+            sequence: Some(message.sequence).filter(|&sequence| sequence > 0),
+        };
+        let name = way.topic().name.clone();
+        match way.translate(message.data) {
+            Ok(data) => writer.write(*id, stamp, data)?,
+            Err(error) => {
+                self.lost[message.topic] += 1;
+                // One word for each topic is enough.
+                if self.lost[message.topic] == 1 {
+                    let wrong = format!("a message of `{name}` cannot be translated: {error}");
+                    findings.push(
+                        Diagnostic::warning("bad-message", wrong)
+                            .help("it is left out, and so are others like it"),
+                    );
+                }
+            }
+        }
+        Ok(bytes)
+    }
+}

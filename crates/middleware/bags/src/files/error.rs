@@ -1,0 +1,89 @@
+//! What can go wrong with a recording.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::{ReadError, WriteError};
+use periplus_diagnostics::plain_words;
+use periplus_graph::GraphError;
+
+/// Why a recording cannot be opened, read or written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum BagError {
+    /// A file or folder cannot be opened or made.
+    File(PathBuf, io::Error),
+    /// Nothing there is a recording.
+    NoBag(PathBuf, String),
+    /// A file cannot be read on.
+    Read(PathBuf, ReadError),
+    /// A database cannot be read or written.
+    Database(PathBuf, rusqlite::Error),
+    /// A packed file or message cannot be unpacked.
+    Unpack(PathBuf, String),
+    /// A recording cannot be written on.
+    Write(PathBuf, WriteError),
+    /// Something is there already.
+    Exists(PathBuf),
+    /// The settings contradict each other.
+    Settings(String),
+    /// The graph refuses.
+    Graph(GraphError),
+}
+
+impl BagError {
+    pub(crate) fn file(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |error| Self::File(path, error)
+    }
+
+    pub(crate) fn read(path: &Path) -> impl FnOnce(ReadError) -> Self {
+        let path = path.to_owned();
+        move |error| Self::Read(path, error)
+    }
+
+    pub(crate) fn write(path: &Path) -> impl FnOnce(WriteError) -> Self {
+        let path = path.to_owned();
+        move |error| Self::Write(path, error)
+    }
+
+    pub(crate) fn database(path: &Path) -> impl FnOnce(rusqlite::Error) -> Self {
+        let path = path.to_owned();
+        move |error| Self::Database(path, error)
+    }
+}
+
+impl fmt::Display for BagError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(path, error) => {
+                write!(f, "`{}`: {}", path.display(), plain_words(error))
+            }
+            Self::NoBag(path, why) => write!(f, "`{}` is no recording: {why}", path.display()),
+            Self::Read(path, error) => write!(f, "`{}`: {error}", path.display()),
+            Self::Database(path, error) => {
+                write!(f, "`{}`: the database cannot be used: {error}", path.display())
+            }
+            Self::Unpack(path, why) => {
+                write!(f, "`{}` cannot be unpacked: {why}", path.display())
+            }
+            Self::Write(path, error) => write!(f, "`{}`: {error}", path.display()),
+            Self::Exists(path) => write!(
+                f,
+                "`{}` is there already; take it away or name another place",
+                path.display()
+            ),
+            Self::Settings(why) => f.write_str(why),
+            Self::Graph(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for BagError {}
+
+impl From<GraphError> for BagError {
+    fn from(error: GraphError) -> Self {
+        Self::Graph(error)
+    }
+}

@@ -1,0 +1,64 @@
+//! What bags and graphs call quality of service, from the one to the other.
+
+use crate as bags;
+use crate::{BagTopic, QosProfile, TopicInfo};
+use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
+
+/// What `metadata.yaml` says of a topic.
+pub(crate) fn topic_info(topic: &BagTopic) -> TopicInfo {
+    let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
+    TopicInfo {
+        name: topic.name.clone(),
+        type_name: topic.type_name.clone(),
+        type_hash: about("topic_type_hash").into(),
+        encoding: topic.encoding.clone(),
+        qos: topic.offered_qos(),
+        messages: 0,
+    }
+}
+
+/// The profile of a publisher. A depth of 0 is one that it does not announce: programs of DDS need
+/// not, and rosbag2 writes `unknown` for these.
+pub(crate) fn profile(qos: &Qos) -> QosProfile {
+    let span = |ns: Option<i64>| ns.and_then(|ns| u64::try_from(ns).ok());
+    QosProfile {
+        history: match qos.history {
+            History::KeepLast if qos.depth == 0 => bags::History::Unknown,
+            History::KeepLast => bags::History::KeepLast,
+            History::KeepAll => bags::History::KeepAll,
+        },
+        depth: qos.depth as u64,
+        reliability: match qos.reliability {
+            Reliability::Reliable => bags::Reliability::Reliable,
+            Reliability::BestEffort => bags::Reliability::BestEffort,
+        },
+        durability: match qos.durability {
+            Durability::TransientLocal => bags::Durability::TransientLocal,
+            Durability::Volatile => bags::Durability::Volatile,
+        },
+        deadline_ns: span(qos.deadline_ns),
+        lifespan_ns: span(qos.lifespan_ns),
+        liveliness: match qos.liveliness {
+            Liveliness::Automatic => bags::Liveliness::Automatic,
+            Liveliness::ManualByTopic => bags::Liveliness::ManualByTopic,
+        },
+        lease_ns: span(qos.lease_ns),
+    }
+}
+
+/// What a player offers on a topic that was offered like this: reliable when all were, and latched
+/// when all were, so that whoever could listen then can listen now. Deadlines and lifespans belong to
+/// the time of the recording.
+pub(crate) fn offer(profiles: &[QosProfile]) -> Qos {
+    let reliable = |one: &QosProfile| one.reliability != bags::Reliability::BestEffort;
+    let latched = |one: &QosProfile| one.durability == bags::Durability::TransientLocal;
+    let depth = profiles.iter().map(|one| one.depth).max().unwrap_or(0).clamp(1, 10_000);
+    let mut qos = Qos::reliable(usize::try_from(depth).unwrap_or(10).max(10));
+    if !profiles.is_empty() && profiles.iter().all(latched) {
+        qos = Qos::latched(usize::try_from(depth).unwrap_or(1));
+    }
+    if !profiles.iter().all(reliable) {
+        qos = qos.with_reliability(Reliability::BestEffort);
+    }
+    qos
+}

@@ -1,0 +1,13 @@
+//! Recordings on the disk.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+#![allow(clippy::print_stdout, reason = "a parent reads what its child says; skipped tests say so")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "these tests look at files, clocks and the environment"
+)]
+
+mod common;
+mod doors;
+mod live;
+mod many;
+mod peers;
