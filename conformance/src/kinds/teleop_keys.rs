@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use periplus_teleop::Keyboard;
+use periplus_ros2cli::teleop::Keyboard;
 use serde_json::{Value, json};
 
 use super::Setting;

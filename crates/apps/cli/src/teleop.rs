@@ -15,7 +15,7 @@ use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_msgs::std_msgs::Header;
 use periplus_os::{Stopwatch, unix_ns};
 use periplus_params::Given;
-use periplus_teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
+use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
 
 use crate::arguments;
 use crate::live::Live;

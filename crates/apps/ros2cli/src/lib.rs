@@ -1,6 +1,7 @@
 //! What the `ros2` command does with topics, nodes, services, parameters, actions, lifecycle nodes
 //! and interfaces: the same words, the same output. [`map`] does what the programs of
-//! map servers do, and [`tf`] what those of tf2 do.
+//! map servers do, [`tf`] what those of tf2 do, with pictures of the tree by [`frames`], and
+//! [`teleop`] drives by keys.
 //!
 //! A [`Network`] says who is there and lets a graph take part; a [`Session`] is one use of the
 //! command: its network, the types it knows, and where it writes. Each verb is a function over a
@@ -14,6 +15,7 @@ pub mod clock;
 pub mod doctor;
 mod failure;
 mod filter;
+pub mod frames;
 pub mod interface;
 pub mod lifecycle;
 mod listen;
@@ -26,6 +28,7 @@ mod seen;
 pub mod service;
 mod session;
 pub mod show;
+pub mod teleop;
 pub mod tf;
 pub mod topic;
 mod types;

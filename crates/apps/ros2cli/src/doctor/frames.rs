@@ -1,7 +1,7 @@
 //! The tree of frames, and frames that messages name.
 
+use crate::frames::{Fault, Forest};
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
-use periplus_frames::{Fault, Forest};
 use periplus_tf::Kind;
 
 use super::Picture;

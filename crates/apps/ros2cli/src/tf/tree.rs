@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use periplus_frames::{Forest, Frame};
+use crate::frames::{Forest, Frame};
 use periplus_os::{Machine, Stopwatch, sleep, unix_ns};
 use periplus_resources::Store as _;
 use periplus_tf::{Kind, Survey, display_time};

@@ -4,13 +4,13 @@
 use std::time::Duration;
 
 use expect_test::expect;
-use periplus_frames::Forest;
 use periplus_geometry::Pose;
 use periplus_graph::Qos;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_ros2cli::frames::Forest;
 use periplus_ros2cli::tf::{Echo, Monitor, Pictures, Tree, echo, monitor, put_tree, tree};
 use periplus_tf::{Kind, Stamped, Survey};
 

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use periplus_diagnostics::SourceMap;
-use periplus_frames::Forest;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_ros2cli::Failure;
+use periplus_ros2cli::frames::Forest;
 use periplus_ros2cli::tf::{Pictures, put_tree, stamped};
 use periplus_tf::{Kind, Survey};
 

@@ -4,7 +4,7 @@
 //! Source: E. M. Reingold and J. S. Tilford, "Tidier Drawings of Trees", 1981; each subtree keeps how far it
 //! reaches to both sides on every layer below it.
 
-use crate::forest::Forest;
+use crate::frames::forest::Forest;
 
 /// Between neighbours on a layer \[pt\].
 const GAP: f64 = 18.0;

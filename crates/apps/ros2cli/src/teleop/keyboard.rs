@@ -2,7 +2,7 @@
 
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 
-use crate::bindings::{Direction, direction, factors};
+use crate::teleop::bindings::{Direction, direction, factors};
 
 /// Speeds, and the way that is driven.
 #[derive(Clone, Debug, PartialEq)]

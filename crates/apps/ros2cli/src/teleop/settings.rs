@@ -2,7 +2,7 @@
 
 use periplus_params::{Table, Values, flag, number, text};
 
-use crate::Keyboard;
+use crate::teleop::Keyboard;
 
 /// The parameters of the node, by the names that `teleop_twist_keyboard` has for them.
 pub static TELEOP: Table = Table {

@@ -3,7 +3,7 @@
 //!
 //! ```
 //! use periplus_geometry::Pose;
-//! use periplus_frames::Forest;
+//! use periplus_ros2cli::frames::Forest;
 //! use periplus_tf::{Kind, Stamped, Survey};
 //!
 //! let mut survey = Survey::default();

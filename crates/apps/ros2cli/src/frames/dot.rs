@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use periplus_tf::Kind;
 
-use crate::forest::Forest;
+use crate::frames::forest::Forest;
 
 impl Forest {
     /// The tree for `dot`; with the time at which it was recorded \[s\].

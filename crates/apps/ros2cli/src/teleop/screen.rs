@@ -1,6 +1,6 @@
 //! What stands on the screen.
 
-use crate::Keyboard;
+use crate::teleop::Keyboard;
 
 /// The keys, in their places.
 pub const SCREEN: &str = "\
@@ -38,7 +38,7 @@ pub fn status(keyboard: &Keyboard) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{direction, factors};
+    use crate::teleop::{direction, factors};
 
     #[test]
     fn every_key_with_a_meaning_is_on_the_screen() {

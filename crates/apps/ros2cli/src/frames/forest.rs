@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use periplus_tf::{Kind, Survey, display_time};
 
-use crate::faults::Fault;
+use crate::frames::faults::Fault;
 
 /// What leads to a frame from its parent.
 #[derive(Clone, Debug, PartialEq)]

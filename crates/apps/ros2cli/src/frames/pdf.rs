@@ -4,9 +4,9 @@
 use pdf_writer::types::LineCapStyle;
 use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 
-use crate::drawing::{Colour, Drawing, Shape};
-use crate::forest::Forest;
-use crate::widths::width;
+use crate::frames::drawing::{Colour, Drawing, Shape};
+use crate::frames::forest::Forest;
+use crate::frames::widths::width;
 
 /// No page may be longer (PDF 1.7, annex C).
 const LONGEST_PT: f64 = 14_400.0;

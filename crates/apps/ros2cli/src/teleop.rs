@@ -4,7 +4,7 @@
 //! does. Nobody here reads a terminal or publishes.
 //!
 //! ```
-//! use periplus_teleop::{Keyboard, Pressed};
+//! use periplus_ros2cli::teleop::{Keyboard, Pressed};
 //!
 //! let mut keyboard = Keyboard::default();
 //! assert_eq!(keyboard.press('i'), Pressed::Drive);

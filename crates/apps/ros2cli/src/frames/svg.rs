@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::drawing::{Colour, Drawing, Shape};
-use crate::forest::Forest;
+use crate::frames::drawing::{Colour, Drawing, Shape};
+use crate::frames::forest::Forest;
 
 impl Forest {
     /// A picture of the trees; with the time at which they were recorded \[s\].

@@ -2,9 +2,9 @@
 
 use periplus_tf::Kind;
 
-use crate::forest::{Forest, Frame};
-use crate::layout::{Layout, layout};
-use crate::widths::width;
+use crate::frames::forest::{Forest, Frame};
+use crate::frames::layout::{Layout, layout};
+use crate::frames::widths::width;
 
 /// Red, green, blue.
 pub(crate) type Colour = [u8; 3];

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use periplus_teleop::Keyboard;
+use periplus_ros2cli::teleop::Keyboard;
 use serde_json::Value;
 
 #[test]
