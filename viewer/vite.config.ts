@@ -6,7 +6,7 @@ export default defineConfig({
   plugins: [svelte()],
   base: './',
   build: {
-    outDir: '../crates/transports/server/page',
+    outDir: '../crates/transports/web/page',
     emptyOutDir: true,
     target: 'es2022',
     chunkSizeWarningLimit: 900,

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_server::{Door, Head, LONGEST_HEAD};
+use periplus_web::server::{Door, Head, LONGEST_HEAD};
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(Some((head, length))) = Head::read(bytes) else { return };

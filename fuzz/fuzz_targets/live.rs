@@ -8,7 +8,7 @@ use std::time::Duration;
 use libfuzzer_sys::fuzz_target;
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::nav_msgs::OccupancyGrid;
-use periplus_wire_live::{Hub, Kind, Settings, Taken};
+use periplus_web::foxglove::{Hub, Kind, Settings, Taken};
 
 /// A graph with something to hear, and a hub before it.
 struct Place {

@@ -8,7 +8,7 @@ import { brotliDecompressSync } from 'node:zlib';
 import { chromium } from 'playwright-core';
 
 export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
-const PAGE = join(ROOT, 'crates/transports/server/page');
+const PAGE = join(ROOT, 'crates/transports/web/page');
 export const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 

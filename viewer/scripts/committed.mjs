@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 import { brotliDecompressSync } from 'node:zlib';
 
 const ROOT = fileURLToPath(new URL('../..', import.meta.url));
-const PAGE = 'crates/transports/server/page';
+const PAGE = 'crates/transports/web/page';
 const git = (...words) => execFileSync('git', words, { cwd: ROOT, maxBuffer: 1 << 28 });
 const content = (name, bytes) => (name.endsWith('.br') ? brotliDecompressSync(bytes) : bytes);
 

@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync, constants } from 'node:zlib';
 
-const page = fileURLToPath(new URL('../../crates/transports/server/page', import.meta.url));
+const page = fileURLToPath(new URL('../../crates/transports/web/page', import.meta.url));
 const total = { raw: 0, packed: 0, first: 0 };
 
 for (const name of readdirSync(page, { recursive: true }).map(String).sort()) {

@@ -168,7 +168,7 @@ enum Task {
 /// What is done with the page.
 #[derive(Clone, Copy, Subcommand)]
 enum Page {
-    /// Build it into `crates/transports/server/page`, where it is committed
+    /// Build it into `crates/transports/web/page`, where it is committed
     Build,
     /// Formatting, types, tests; whether it is committed as it is built
     Check,

@@ -1,4 +1,4 @@
-//! The page: checked, tested, built, and held against what is committed in `crates/transports/server/page`.
+//! The page: checked, tested, built, and held against what is committed in `crates/transports/web/page`.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -26,7 +26,7 @@ pub(crate) fn check() -> Result<(), Failed> {
     timed("page: as committed", || {
         npm(
             &["run", "committed"],
-            "`cargo xtask viewer build`, then commit crates/transports/server/page",
+            "`cargo xtask viewer build`, then commit crates/transports/web/page",
         )
     })
 }

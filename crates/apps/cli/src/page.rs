@@ -13,8 +13,9 @@ use periplus_dds::Remote;
 use periplus_graph::Graph;
 use periplus_os::{Machine, unix_ns};
 use periplus_resources::Host as _;
-use periplus_server::{Hub, Server, ServerSettings, token};
-use periplus_wire_live::Settings;
+use periplus_web::foxglove::Hub;
+use periplus_web::foxglove::Settings;
+use periplus_web::server::{Server, ServerSettings, token};
 
 use crate::terminal;
 

@@ -1,7 +1,7 @@
 //! Remote topics of the ROS 2 network, for the page.
 
 use periplus_dds::{Remote, RemoteEndpoint};
-use periplus_wire_live::{Far, FarEnd, FarService, FarTopic};
+use periplus_web::foxglove::{Far, FarEnd, FarService, FarTopic};
 
 /// Converts remote topics; if types differ, the first one counts.
 pub(super) fn far(remote: &Remote) -> Far {

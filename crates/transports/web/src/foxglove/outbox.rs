@@ -10,9 +10,9 @@ use periplus_msgs::map_msgs::OccupancyGridUpdate;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_transport::lock;
 
-use crate::frame::Frame;
-use crate::grid::{Difference, difference};
-use crate::protocol;
+use crate::foxglove::frame::Frame;
+use crate::foxglove::grid::{Difference, difference};
+use crate::foxglove::protocol;
 
 /// Messages of one subscription that wait: as many as fit here by the size of the last one, but one
 /// at least \[bytes\].

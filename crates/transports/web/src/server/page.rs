@@ -4,7 +4,7 @@ use std::io::Read as _;
 
 use sha2::{Digest as _, Sha256};
 
-use crate::http::{Answer, Head};
+use crate::server::http::{Answer, Head};
 
 /// Every file of `page/`, by its path. One that ends in `.br` is packed, and is had under its name
 /// without that.

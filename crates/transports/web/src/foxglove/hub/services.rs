@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_graph::RawClient;
 
 use super::{Shared, State};
-use crate::protocol::{self, ServiceText};
+use crate::foxglove::protocol::{self, ServiceText};
 
 /// A service that somebody answers.
 pub(super) struct Offered {

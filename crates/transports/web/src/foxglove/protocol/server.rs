@@ -6,7 +6,7 @@ use periplus_msgs::TypeRegistry;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::frame::Frame;
+use crate::foxglove::frame::Frame;
 
 /// What is done here beyond channels.
 const CAPABILITIES: [&str; 7] = [

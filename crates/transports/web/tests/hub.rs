@@ -11,7 +11,7 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_wire_live::{
+use periplus_web::foxglove::{
     Far, FarEnd, FarTopic, Frame, Hub, Kind, Limits, Session, Settings, Taken,
 };
 use serde_json::{Value, json};

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::parameters::Followed;
 use super::{Shared, State};
-use crate::outbox::Outbox;
-use crate::outgoing::Hearer;
-use crate::protocol::{self, Subscription};
+use crate::foxglove::outbox::Outbox;
+use crate::foxglove::outgoing::Hearer;
+use crate::foxglove::protocol::{self, Subscription};
 
 /// A client.
 pub(crate) struct Client {

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use periplus_graph::{EndpointId, Policy, Qos, TopicInfo, Unfit};
 
 use super::{Shared, State};
-use crate::far::Far;
-use crate::protocol::{MismatchText, PartyText, PolicyText};
+use crate::foxglove::far::Far;
+use crate::foxglove::protocol::{MismatchText, PartyText, PolicyText};
 
 pub(super) type Mismatch = MismatchText;
 

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::mismatches::{Mismatch, mismatches};
 use super::{Shared, State};
-use crate::frame::Frame;
-use crate::protocol::{self, ConnectionGraph};
+use crate::foxglove::frame::Frame;
+use crate::foxglove::protocol::{self, ConnectionGraph};
 
 type Names = BTreeMap<String, BTreeSet<String>>;
 

@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs::{String as Words, UInt8MultiArray};
-use periplus_server::{Hub, Server, ServerSettings};
-use periplus_wire_live::{Limits, Settings};
+use periplus_web::foxglove::Hub;
+use periplus_web::foxglove::{Limits, Settings};
+use periplus_web::server::{Server, ServerSettings};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Error, Message, WebSocket};

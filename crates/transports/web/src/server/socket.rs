@@ -6,19 +6,19 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use crate::foxglove::{Frame, Outbox, Session, Taken, protocol};
 use periplus_os::{Stopwatch, sleep};
-use periplus_wire_live::{Frame, Outbox, Session, Taken, protocol};
 use tungstenite::error::Error;
 use tungstenite::handshake::derive_accept_key;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-use crate::admit::Refused;
-use crate::frame;
-use crate::http::{Answer, Head, HeadError, LONGEST_HEAD};
-use crate::page;
-use crate::patient::Patient;
-use crate::server::Room;
+use crate::server::admit::Refused;
+use crate::server::frame;
+use crate::server::http::{Answer, Head, HeadError, LONGEST_HEAD};
+use crate::server::listener::Room;
+use crate::server::page;
+use crate::server::patient::Patient;
 
 /// How long a request may take to come, and a connection stay open without one.
 const PATIENCE: Duration = Duration::from_secs(15);
@@ -221,7 +221,7 @@ fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
 
 /// Sends a message without putting its parts together first.
 fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
-    use periplus_wire_live::Kind;
+    use crate::foxglove::Kind;
     let [head, body] = frame.parts();
     let before = match frame.kind() {
         Kind::Raw => Vec::new(),

@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use periplus_graph::{Qos, RawPublisher};
 use periplus_transport::lock;
 
-use crate::frame::Frame;
-use crate::hub::Shared;
-use crate::outbox::Outbox;
-use crate::protocol::{self, ClientBinary, ClientChannel, ClientText, Level, Malformed};
+use crate::foxglove::frame::Frame;
+use crate::foxglove::hub::Shared;
+use crate::foxglove::outbox::Outbox;
+use crate::foxglove::protocol::{self, ClientBinary, ClientChannel, ClientText, Level, Malformed};
 
 /// One client. It leaves when this is dropped.
 pub struct Session {

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::authority::{is_own_origin, is_this_machine};
-use crate::http::Head;
-use crate::token;
+use crate::server::authority::{is_own_origin, is_this_machine};
+use crate::server::http::Head;
+use crate::server::token;
 
 /// Who may open a WebSocket.
 ///

@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use periplus_wire_live::Hub;
+use crate::foxglove::Hub;
 
-use crate::admit::Door;
-use crate::guesses::Guesses;
-use crate::socket;
-use crate::token::{MIN_TOKEN_CHARACTERS, encoded};
+use crate::server::admit::Door;
+use crate::server::guesses::Guesses;
+use crate::server::socket;
+use crate::server::token::{MIN_TOKEN_CHARACTERS, encoded};
 
 /// Connections at one time: each has a thread.
 const MOST_CONNECTIONS: usize = 256;

@@ -14,9 +14,9 @@ use super::clients::Client;
 use super::connections::Connections;
 use super::parameters::Jobs;
 use super::services::Offered;
-use crate::far::Far;
-use crate::frame::Frame;
-use crate::outgoing::Outgoing;
+use crate::foxglove::far::Far;
+use crate::foxglove::frame::Frame;
+use crate::foxglove::outgoing::Outgoing;
 
 /// What a hub knows.
 #[derive(Default)]

@@ -11,7 +11,7 @@ use periplus_msgs::rcl_interfaces::ParameterEvent;
 use periplus_transport::lock;
 
 use super::{Shared, State};
-use crate::protocol::{self, ParameterText};
+use crate::foxglove::protocol::{self, ParameterText};
 
 use convert::{Named, to_json};
 pub(super) use job::{Jobs, News};

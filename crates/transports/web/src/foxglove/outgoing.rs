@@ -8,10 +8,10 @@ use periplus_msgs::Message as _;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_transport::{Way, lock};
 
-use crate::frame::Frame;
-use crate::outbox::{Outbox, Rule};
-use crate::protocol;
-use crate::recent_frames::RecentFrames;
+use crate::foxglove::frame::Frame;
+use crate::foxglove::outbox::{Outbox, Rule};
+use crate::foxglove::protocol;
+use crate::foxglove::recent_frames::RecentFrames;
 
 /// The topic of moving frames. Its newest transforms are kept for clients that come later: without
 /// them a client that comes while time stands still could not draw anything.

@@ -16,11 +16,11 @@ use std::time::Duration;
 use periplus_graph::{Graph, GraphError, Node, NodeSettings};
 use periplus_transport::lock;
 
-use crate::far::Far;
-use crate::outbox::Outbox;
-use crate::protocol::AssetAnswer;
-use crate::session::Session;
-use crate::settings::Settings;
+use crate::foxglove::far::Far;
+use crate::foxglove::outbox::Outbox;
+use crate::foxglove::protocol::AssetAnswer;
+use crate::foxglove::session::Session;
+use crate::foxglove::settings::Settings;
 
 use parameters::News;
 pub(crate) use state::State;

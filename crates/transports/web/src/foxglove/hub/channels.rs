@@ -6,8 +6,8 @@ use std::sync::Arc;
 use periplus_graph::{EndpointId, TopicInfo};
 
 use super::{Shared, State};
-use crate::outgoing::{Hearer, Outgoing};
-use crate::protocol::{self, ChannelText};
+use crate::foxglove::outgoing::{Hearer, Outgoing};
+use crate::foxglove::protocol::{self, ChannelText};
 
 /// Maps, of which updates are made where nobody publishes any.
 const MAP: &str = "nav_msgs/msg/OccupancyGrid";

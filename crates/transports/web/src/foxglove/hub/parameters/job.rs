@@ -14,21 +14,21 @@ use periplus_transport::Since;
 
 use super::convert::{Named, from_json, to_json};
 use super::{Shared, State};
-use crate::outbox::Outbox;
-use crate::protocol::{self, Level, ParameterText};
+use crate::foxglove::outbox::Outbox;
+use crate::foxglove::protocol::{self, Level, ParameterText};
 
 /// So long nodes may take to answer; then the client is told what is there.
 const PATIENCE: Duration = Duration::from_secs(4);
 
 /// Wishes that wait for answers, by number.
 #[derive(Default)]
-pub(in crate::hub) struct Jobs {
+pub(in crate::foxglove::hub) struct Jobs {
     last: u64,
     open: BTreeMap<u64, Job>,
 }
 
 /// One wish.
-pub(in crate::hub) struct Job {
+pub(in crate::foxglove::hub) struct Job {
     outbox: Arc<Outbox>,
     id: Option<String>,
     /// Whether the values are to be told at the end.
@@ -39,7 +39,7 @@ pub(in crate::hub) struct Job {
 }
 
 /// What a node answered.
-pub(in crate::hub) enum News {
+pub(in crate::foxglove::hub) enum News {
     /// The names of its parameters.
     Names(String, Vec<String>),
     /// Their values.
