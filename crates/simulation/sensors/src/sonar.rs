@@ -142,19 +142,19 @@ fn spiral(axis: DVec3, half_angle_rad: f64, count: usize) -> impl Iterator<Item 
 
 #[cfg(test)]
 mod tests {
-    use periplus_raycast::{Shape, Tags, World};
+    use periplus_raycast::{RaycastShape, RaycastWorld, Tags};
 
     use super::*;
 
-    fn ball(x: f64, y: f64, group: u32) -> World {
-        let mut builder = World::builder();
+    fn ball(x: f64, y: f64, group: u32) -> RaycastWorld {
+        let mut builder = RaycastWorld::builder();
         let tags = Tags { group, ..Tags::default() };
-        let ball = Shape::Sphere { radius_m: 0.25 };
+        let ball = RaycastShape::Sphere { radius_m: 0.25 };
         builder.add_shape(&ball, &Pose::from_xyz(x, y, 0.0), tags).unwrap();
         builder.build(1).unwrap()
     }
 
-    fn measure(world: &World, own_group: u32) -> f64 {
+    fn measure(world: &RaycastWorld, own_group: u32) -> f64 {
         let sonar = Sonar::new("cone", 0.3, 4.0, 2.0).unwrap();
         sonar.measure(&View { own_group, ..View::of(world) }, Pose::IDENTITY)
     }
@@ -169,8 +169,8 @@ mod tests {
     /// A wall across the axis is nearest on the axis; one along it, where the cone first meets it.
     #[test]
     fn the_nearest_point_of_a_wall_may_lie_on_the_rim() {
-        let mut builder = World::builder();
-        let wall = Shape::Box { size_m: DVec3::new(20.0, 0.2, 20.0) };
+        let mut builder = RaycastWorld::builder();
+        let wall = RaycastShape::Box { size_m: DVec3::new(20.0, 0.2, 20.0) };
         builder.add_shape(&wall, &Pose::from_xyz(0.0, 0.6, 0.0), Tags::default()).unwrap();
         // The wall's face is at y = 0.5; the rim leads 1 m ahead for every 0.5 m aside.
         let expected = libm::hypot(1.0, 0.5);

@@ -1,13 +1,13 @@
 //! What rays of a sensor see.
 
-use periplus_raycast::{Filter, InstanceId, World};
+use periplus_raycast::{Filter, InstanceId, RaycastWorld};
 
 /// What rays of a sensor see, and with how many threads they are cast (few stay on one; the answers
 /// are the same for any number).
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// The shapes.
-    pub rays: &'a World,
+    pub rays: &'a RaycastWorld,
     /// What the sensor looks for: its visibility mask.
     pub filter: Filter,
     /// The group of the sensor's own model, whose parts do not count when they are nearer than the
@@ -22,7 +22,7 @@ pub struct View<'a> {
 impl<'a> View<'a> {
     /// Everything there is, on one thread.
     #[must_use]
-    pub fn of(rays: &'a World) -> Self {
+    pub fn of(rays: &'a RaycastWorld) -> Self {
         Self { rays, filter: Filter::default(), own_group: 0, retro: None, threads: 1 }
     }
 

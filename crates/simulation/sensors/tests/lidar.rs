@@ -1,7 +1,7 @@
 //! Lidars against closed forms, brute force, and the rules of REP 117.
 
 use periplus_geometry::{DVec3, Pose, Rpy, Stream};
-use periplus_raycast::{InstanceId, Shape, Tags, World};
+use periplus_raycast::{InstanceId, RaycastShape, RaycastWorld, Tags};
 use periplus_scene::{Noise, NoiseKind, ScanAxis};
 use periplus_sensors::{Lidar, Streams, Sweep, View};
 use proptest::prelude::*;
@@ -35,8 +35,8 @@ fn lidar(spec: &periplus_scene::Lidar) -> Lidar {
     Lidar::new(spec, &Streams::new(3, "robot::base::lidar")).expect("a sound lidar")
 }
 
-fn world(shapes: &[(Shape, Pose)]) -> World {
-    let mut builder = World::builder();
+fn world(shapes: &[(RaycastShape, Pose)]) -> RaycastWorld {
+    let mut builder = RaycastWorld::builder();
     for (shape, pose) in shapes {
         builder.add_shape(shape, pose, Tags::default()).expect("a sound shape");
     }
@@ -47,13 +47,17 @@ fn turned(xyz: [f64; 3], roll: f64, pitch: f64, yaw: f64) -> Pose {
     Pose::from_xyz_rpy(xyz, Rpy { roll, pitch, yaw })
 }
 
-fn ranges(lidar: &mut Lidar, world: &World, pose: Pose) -> Vec<f32> {
+fn ranges(lidar: &mut Lidar, world: &RaycastWorld, pose: Pose) -> Vec<f32> {
     let mut stream = Stream::keyed(0, "", 0);
     lidar.scan(&View::of(world), Sweep::Still(pose), &mut stream).ranges_m.clone()
 }
 
 /// Every range of a scan from the origin against a closed form: azimuth and elevation to metres.
-fn check(spec: &periplus_scene::Lidar, world: &World, form: impl Fn(f64, f64) -> Option<f64>) {
+fn check(
+    spec: &periplus_scene::Lidar,
+    world: &RaycastWorld,
+    form: impl Fn(f64, f64) -> Option<f64>,
+) {
     let mut lidar = lidar(spec);
     let measured = ranges(&mut lidar, world, Pose::IDENTITY);
     let mut hits = 0;
@@ -86,7 +90,7 @@ fn direction(azimuth: f64, elevation: f64) -> DVec3 {
 fn a_sphere_by_16_360_and_1440_beams() {
     let middle = DVec3::new(3.0, 0.5, 0.0);
     let pose = Pose::from_xyz(3.0, 0.5, 0.0);
-    let world = world(&[(Shape::Sphere { radius_m: 1.0 }, pose)]);
+    let world = world(&[(RaycastShape::Sphere { radius_m: 1.0 }, pose)]);
     for samples in [16, 360, 1440] {
         check(&flat(samples), &world, |a, e| sphere(middle, 1.0, direction(a, e)));
     }
@@ -95,7 +99,7 @@ fn a_sphere_by_16_360_and_1440_beams() {
 /// The walls of a square room 8 m wide, from its middle: 4 / max(|cos|, |sin|).
 #[test]
 fn a_room_by_16_360_and_1440_beams() {
-    let room = world(&[(Shape::Box { size_m: DVec3::new(8.0, 8.0, 3.0) }, Pose::IDENTITY)]);
+    let room = world(&[(RaycastShape::Box { size_m: DVec3::new(8.0, 8.0, 3.0) }, Pose::IDENTITY)]);
     for samples in [16, 360, 1440] {
         check(&flat(samples), &room, |a, _| Some(4.0 / a.cos().abs().max(a.sin().abs())));
     }
@@ -108,7 +112,7 @@ fn a_wall_at_an_angle() {
     let (x, y) = (2.0 * tilt.cos(), 2.0 * tilt.sin());
     let pose = turned([x, y, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
     let pose = Pose { rotation: turned([0.0; 3], 0.0, 0.0, tilt).rotation * pose.rotation, ..pose };
-    let world = world(&[(Shape::Plane { size_m: None }, pose)]);
+    let world = world(&[(RaycastShape::Plane { size_m: None }, pose)]);
     for samples in [16, 360, 1440] {
         check(&flat(samples), &world, |a, _| {
             let distance = 2.0 / (a - tilt).cos();
@@ -121,8 +125,8 @@ fn a_wall_at_an_angle() {
 #[test]
 fn a_column_and_the_floor_by_64_by_1024() {
     let world = world(&[
-        (Shape::Cylinder { radius_m: 0.5, length_m: 100.0 }, Pose::from_xyz(2.0, 0.0, 0.0)),
-        (Shape::Plane { size_m: None }, Pose::from_xyz(0.0, 0.0, -1.0)),
+        (RaycastShape::Cylinder { radius_m: 0.5, length_m: 100.0 }, Pose::from_xyz(2.0, 0.0, 0.0)),
+        (RaycastShape::Plane { size_m: None }, Pose::from_xyz(0.0, 0.0, -1.0)),
     ]);
     let pi = std::f64::consts::PI;
     let spec = spec(axis(1024, -pi, pi), axis(64, -0.4, 0.3));
@@ -154,7 +158,8 @@ fn angles_run_from_end_to_end() {
 #[test]
 fn out_of_range_is_told_by_rep_117() {
     let ball = |x: f64| {
-        let world = world(&[(Shape::Sphere { radius_m: 0.02 }, Pose::from_xyz(x, 0.0, 0.0))]);
+        let world =
+            world(&[(RaycastShape::Sphere { radius_m: 0.02 }, Pose::from_xyz(x, 0.0, 0.0))]);
         ranges(&mut lidar(&spec(axis(1, 0.0, 0.0), axis(1, 0.0, 0.0))), &world, Pose::IDENTITY)[0]
     };
     assert_eq!(ball(0.05), f32::NEG_INFINITY);
@@ -167,14 +172,14 @@ fn out_of_range_is_told_by_rep_117() {
 #[test]
 fn the_own_housing_is_not_seen() {
     let scene = |cable_group: u32| {
-        let mut builder = World::builder();
+        let mut builder = RaycastWorld::builder();
         let own = Tags { group: 1, ..Tags::default() };
-        let housing = Shape::Cylinder { radius_m: 0.05, length_m: 0.06 };
+        let housing = RaycastShape::Cylinder { radius_m: 0.05, length_m: 0.06 };
         builder.add_shape(&housing, &Pose::IDENTITY, own).unwrap();
-        let mast = Shape::Cylinder { radius_m: 0.02, length_m: 1.0 };
+        let mast = RaycastShape::Cylinder { radius_m: 0.02, length_m: 1.0 };
         builder.add_shape(&mast, &Pose::from_xyz(-0.3, 0.0, 0.0), own).unwrap();
         let cable = Tags { group: cable_group, ..Tags::default() };
-        let thin = Shape::Cylinder { radius_m: 0.01, length_m: 1.0 };
+        let thin = RaycastShape::Cylinder { radius_m: 0.01, length_m: 1.0 };
         builder.add_shape(&thin, &Pose::from_xyz(0.0, 0.07, 0.0), cable).unwrap();
         builder.build(1).expect("few shapes")
     };
@@ -194,8 +199,8 @@ fn the_own_housing_is_not_seen() {
 #[test]
 fn intensities_are_those_of_what_was_met() {
     let world = world(&[
-        (Shape::Sphere { radius_m: 1.0 }, Pose::from_xyz(3.0, 0.0, 0.0)),
-        (Shape::Sphere { radius_m: 1.0 }, Pose::from_xyz(-3.0, 0.0, 0.0)),
+        (RaycastShape::Sphere { radius_m: 1.0 }, Pose::from_xyz(3.0, 0.0, 0.0)),
+        (RaycastShape::Sphere { radius_m: 1.0 }, Pose::from_xyz(-3.0, 0.0, 0.0)),
     ]);
     let retro = |InstanceId(number)| if number == 0 { 100.0 } else { 2000.0 };
     let view = View { retro: Some(&retro), ..View::of(&world) };
@@ -209,7 +214,7 @@ fn intensities_are_those_of_what_was_met() {
 fn noise_stays_within_the_range_and_leaves_infinities() {
     let noise = Noise { kind: NoiseKind::Gaussian, mean: 0.05, stddev: 0.1, ..Noise::default() };
     let spec = periplus_scene::Lidar { noise, ..flat(20_000) };
-    let wall = Shape::Plane { size_m: None };
+    let wall = RaycastShape::Plane { size_m: None };
     let ahead = turned([2.0, 0.0, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
     let world = world(&[(wall, ahead)]);
     let mut lidar = lidar(&spec);
@@ -237,7 +242,7 @@ fn resolution_makes_ranges_between_rays() {
     let quarter = std::f64::consts::FRAC_PI_4;
     let horizontal = ScanAxis { resolution: 1.5, ..axis(2, -quarter, quarter) };
     let wall = turned([1.0, 0.0, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
-    let world = world(&[(Shape::Plane { size_m: None }, wall)]);
+    let world = world(&[(RaycastShape::Plane { size_m: None }, wall)]);
     let mut lidar = lidar(&spec(horizontal, axis(1, 0.0, 0.0)));
     let scan = ranges(&mut lidar, &world, Pose::IDENTITY);
     assert_eq!(scan.len(), 3);
@@ -250,7 +255,7 @@ fn resolution_makes_ranges_between_rays() {
 #[test]
 fn a_rolling_scan_is_distorted_by_motion() {
     let wall = turned([2.0, 0.0, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
-    let world = world(&[(Shape::Plane { size_m: None }, wall)]);
+    let world = world(&[(RaycastShape::Plane { size_m: None }, wall)]);
     let mut lidar = lidar(&spec(axis(11, 0.0, 0.0), axis(1, 0.0, 0.0)));
     let path = [(0.0, Pose::IDENTITY), (1.0, Pose::from_xyz(0.1, 0.0, 0.0))];
     let view = View::of(&world);
@@ -280,8 +285,8 @@ fn impossible_lidars_are_told() {
 #[test]
 fn threads_change_nothing() {
     let shapes = [
-        (Shape::Sphere { radius_m: 1.0 }, Pose::from_xyz(3.0, 0.5, 0.2)),
-        (Shape::Plane { size_m: None }, Pose::from_xyz(0.0, 0.0, -0.5)),
+        (RaycastShape::Sphere { radius_m: 1.0 }, Pose::from_xyz(3.0, 0.5, 0.2)),
+        (RaycastShape::Plane { size_m: None }, Pose::from_xyz(0.0, 0.0, -0.5)),
     ];
     let world = world(&shapes);
     let noise = Noise { kind: NoiseKind::Gaussian, stddev: 0.01, ..Noise::default() };
@@ -326,10 +331,10 @@ proptest! {
             let middle = draw(12.0);
             [middle + draw(3.0), middle + draw(3.0), middle + draw(3.0)]
         }).collect();
-        let mut builder = World::builder();
+        let mut builder = RaycastWorld::builder();
         for ball in &balls {
             let pose = Pose { translation: *ball, ..Pose::IDENTITY };
-            builder.add_shape(&Shape::Sphere { radius_m: 0.4 }, &pose, Tags::default()).unwrap();
+            builder.add_shape(&RaycastShape::Sphere { radius_m: 0.4 }, &pose, Tags::default()).unwrap();
         }
         let positions: Vec<[f64; 3]> = corners.iter().map(|corner| corner.to_array()).collect();
         let triangles: Vec<[u32; 3]> = (0..60).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
