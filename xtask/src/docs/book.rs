@@ -10,7 +10,7 @@ use crate::step::{Failed, root, run};
 /// The folder with the pages of the site.
 pub(crate) const SOURCES: &str = "docs/";
 /// The table of contents of the site.
-const CONTENTS: &str = "docs/SUMMARY.md";
+pub(crate) const CONTENTS: &str = "docs/SUMMARY.md";
 /// The way to install mdbook.
 const INSTALL: &str = "install it with `cargo install --locked mdbook`";
 

@@ -66,6 +66,12 @@ impl Tree<'_> {
                 book::SOURCES
             ));
         }
+        if in_site(shown_on) && shown_on != book::CONTENTS && path.ends_with("/README.md") {
+            return fault(format!(
+                "link `{target}`: the site has a README.md as index.html, and the link would break: \
+                 name the page `index.md`"
+            ));
+        }
         if !anchor.is_empty()
             && let Some(why) = self.anchor_fault(&path, anchor)
         {
@@ -214,6 +220,22 @@ mod tests {
         assert_eq!(
             faults(&[("a.md", "[r](../b.md)")]),
             ["a.md:1:1: link `../b.md` leaves the tree: write a path inside of it"]
+        );
+    }
+
+    #[test]
+    fn indexes_of_the_site_are_not_linked_as_readme() {
+        let index = ("docs/cli/README.md", "# Commands");
+        assert_eq!(
+            faults(&[("README.md", "[c](docs/cli/README.md)"), index]),
+            Vec::<String>::new()
+        );
+        assert_eq!(
+            faults(&[("docs/a.md", "[c](cli/README.md)"), index]),
+            [
+                "docs/a.md:1:1: link `cli/README.md`: the site has a README.md as index.html, and the link \
+              would break: name the page `index.md`"
+            ]
         );
     }
 

@@ -19,9 +19,9 @@ pub use toolbox::SLAM_TOOLBOX;
 use crate::method::Method;
 
 /// Meaning of `correct_mounting`, which neither program of ROS has.
-const CORRECT_MOUNTING: &str = "Whether a fault of the scanner's mounting or of odometry's axes is \
-                                corrected once it is certain: the map then begins again (offline: the \
-                                log is mapped again).";
+const CORRECT_MOUNTING: &str = "If true, an error of the scanner's mounting or of the odometry axes is \
+                                corrected once it is certain, and the map is restarted (offline: the log \
+                                is mapped again).";
 
 /// Parameters that change nothing here.
 struct Idle {

@@ -8,17 +8,16 @@ use periplus_slam::{Method, tables};
 #[test]
 fn the_reference_is_up_to_date() {
     let mut out =
-        "# Parameters of mapping\n\nWhat `periplus slam` and the nodes for mapping read, \
-                   by the names that the programs of ROS have for it. Made from the tables in \
-                   `crates/estimation/slam/src/tables`.\nWhere a default is not that of the original it is \
-                   the one with which maps come out best here.\n"
+        "# SLAM parameters\n\nParameters of `periplus slam` and of the SLAM nodes, with the names that the ROS \
+                   programs have for them. This page is generated from tables: `UPDATE_EXPECT=1 cargo \
+                   test -p periplus-slam --test parameters` rewrites it.\nWhere a default differs \
+                   from that of the original, it gives better maps here.\n"
             .to_owned();
     for method in Method::ALL {
         let _ = write!(
             out,
-            "\n## `--method {method}`\n\n{}\n#### What changes nothing\n\nThese are read, so that files \
-             can be taken as they are. A warning tells when one is set to something else than its \
-             default.\n\n",
+            "\n## `--method {method}`\n\n{}\n#### Parameters without effect\n\nThese are accepted, so that existing files can be used unchanged. A \
+             warning reports a value other than the default.\n\n",
             method.table().to_markdown()
         );
         for (names, because) in tables::reasons(method) {

@@ -19,8 +19,8 @@ fn the_reference_has_every_command() {
     let mut program = command();
     program.build();
     let folder = folder();
-    let mut written = BTreeSet::from(["README.md".to_owned()]);
-    expect_file![folder.join("README.md")].assert_eq(&index(&program));
+    let mut written = BTreeSet::from(["index.md".to_owned()]);
+    expect_file![folder.join("index.md")].assert_eq(&index(&program));
     for (name, below) in commands(&program) {
         let mut page = String::new();
         write_command(&mut page, below, name, 1);
@@ -157,7 +157,7 @@ fn write_argument(page: &mut String, argument: &Arg) {
     let defaults: Vec<String> = argument
         .get_default_values()
         .iter()
-        .filter(|_| takes_values)
+        .filter(|value| takes_values && !value.is_empty())
         .map(|value| format!("`{}`", value.to_string_lossy()))
         .collect();
     if !defaults.is_empty() {

@@ -23,7 +23,7 @@ use crate::terminal;
 /// the node `amcl` on ROS 2. The exit code is 1 if the robot was never localized.
 #[derive(Debug, Args)]
 pub(crate) struct LocalizeOptions {
-    /// Log
+    /// CARMEN log, or recording of ROS 1 or ROS 2
     #[arg(value_name = "LOG", required_unless_present = "live", conflicts_with = "live")]
     pub(crate) log: Option<PathBuf>,
     /// Run as the node `amcl` on ROS 2

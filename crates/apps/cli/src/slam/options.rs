@@ -20,7 +20,7 @@ use crate::log::LogOptions;
 /// is 1.
 #[derive(Debug, Args)]
 pub(crate) struct SlamOptions {
-    /// Log
+    /// CARMEN log, or recording of ROS 1 or ROS 2
     #[arg(
         value_name = "LOG",
         required_unless_present = "live",

@@ -12,133 +12,126 @@ use crate::gmapping::{GmappingSettings, Noise};
 /// Of the node.
 pub static GMAPPING: Table = Table {
     name: "slam_gmapping",
-    doc: "A map from scans and odometry, by particles that each have a map of their own.",
+    doc: "Particle filter SLAM from laser scans and odometry, with one map per particle.",
     parameters: &[
         // Frames, topics, time.
-        text("base_frame", "The frame of the robot.").or("base_link").naming(Names::Frame),
-        text("map_frame", "The frame of the map.").or("map").naming(Names::Frame),
-        text("odom_frame", "The frame of odometry.").or("odom").naming(Names::Frame),
-        integer("throttle_scans", "Every so manieth scan is used.").or("1").min(1.0),
-        number("map_update_interval", "s", "How often the map is sent.").or("5").min(0.0),
-        number("transform_publish_period", "s", "How often `map -> odom` is sent; 0 for never.")
+        text("base_frame", "Frame of the robot base.").or("base_link").naming(Names::Frame),
+        text("map_frame", "Frame of the map.").or("map").naming(Names::Frame),
+        text("odom_frame", "Frame of odometry.").or("odom").naming(Names::Frame),
+        integer("throttle_scans", "Use every Nth scan.").or("1").min(1.0),
+        number("map_update_interval", "s", "Period of the published map.").or("5").min(0.0),
+        number("transform_publish_period", "s", "Period of the transform `map -> odom`; 0: never published.")
             .or("0.05")
             .min(0.0),
         number(
             "tf_delay",
             "s",
-            "How far ahead `map -> odom` is stamped; the period of sending \
-                                 when it is not set.",
+            "Time by which the stamp of `map -> odom` is ahead (default: the publication period).",
         )
         .min(0.0),
-        flag("inverted_laser", "Whether the scanner hangs upside down.").or("false"),
-        flag("use_sim_time", "Whether time comes from `/clock`.").or("false"),
+        flag("inverted_laser", "If true, the scanner is mounted upside down.").or("false"),
+        flag("use_sim_time", "If true, use simulated time (`/clock`).").or("false"),
         // What is used of scans.
         number(
             "maxUrange",
             "m",
-            "The map is drawn and scans are laid onto it up to here; `maxRange` \
-                                  when it is not set.",
+            "Maximum range for drawing the map and for scan matching (default: `maxRange`).",
         )
         .above(0.0),
         number(
             "maxRange",
             "m",
-            "Readings beyond say nothing at all; when it is not set, what scans \
-                                 say less a centimetre.",
+            "Maximum range of valid readings (default: that of the scans minus 0.01 m).",
         )
         .above(0.0),
-        number("minUrange", "m", "Nearer readings are not used.").or("0").min(0.0),
+        number("minUrange", "m", "Minimum range of readings that are used.").or("0").min(0.0),
         integer(
             "lskip",
-            "So many beams are left out after each one, when scans are laid onto \
-                          maps.",
+            "Number of beams skipped after each beam in scan matching.",
         )
         .or("0")
         .within(0.0, 10_000.0),
         flag("correct_mounting", CORRECT_MOUNTING).or("true"),
         // When scans are used.
-        number("linearUpdate", "m", "A scan is used after so much motion ...").or("1").min(0.0),
-        number("angularUpdate", "rad", "... or turn ...").or("0.5").min(0.0),
-        number("temporalUpdate", "s", "... or time since the last one; below 0 for never.")
+        number("linearUpdate", "m", "Minimum distance between scans that are used ...").or("1").min(0.0),
+        number("angularUpdate", "rad", "... or minimum rotation ...").or("0.5").min(0.0),
+        number("temporalUpdate", "s", "... or minimum time; negative: never.")
             .or("-1"),
         // How scans are laid onto maps.
         number(
             "sigma",
             "m^2",
-            "In the match of a scan a beam counts exp(-d^2 / sigma) when it ends \
-                                a distance d from what the map has.",
+            "Scan matching: a beam that ends at distance d from an occupied cell counts exp(-d^2 / sigma).",
         )
         .or("0.05")
         .above(0.0),
-        integer("kernelSize", "So many cells around the end of a beam are looked at.")
+        integer("kernelSize", "Number of cells around the end of a beam that are searched.")
             .or("1")
             .within(1.0, 8.0),
-        number("lstep", "m", "First step of a search up the hill.").or("0.05"),
-        number("astep", "rad", "First step of a search up the hill.").or("0.05"),
-        integer("iterations", "Steps towards the best fit.").or("5").within(1.0, 100.0),
-        number("minimumScore", "", "A scan fits when its beams count more than this together.")
+        number("lstep", "m", "Initial step of the position search.").or("0.05"),
+        number("astep", "rad", "Initial step of the heading search.").or("0.05"),
+        integer("iterations", "Number of steps of the search for the best match.").or("5").within(1.0, 100.0),
+        number("minimumScore", "", "Minimum sum of the beam scores of a match.")
             .or("0")
             .min(0.0),
         // How likely a scan is.
-        number("lsigma", "m^2", "A beam is likely by exp(-d^2 / lsigma).").or("0.075").above(0.0),
+        number("lsigma", "m^2", "Variance of the beam likelihood exp(-d^2 / lsigma).").or("0.075").above(0.0),
         number(
             "ogain",
             "",
-            "How much likelihoods are flattened for weights: beams are not \
-                             independent.",
+            "Factor by which likelihoods are flattened for weights, because beams are not independent.",
         )
         .or("3")
         .above(0.0),
-        number("llsamplerange", "m", "Around the best fit the likelihood is sampled so far ...")
+        number("llsamplerange", "m", "Half-width of the position sampling around the best match ...")
             .or("0.01")
             .within(0.0, 1.0),
-        number("llsamplestep", "m", "... in such steps ...").or("0.01").above(0.0),
-        number("lasamplerange", "rad", "... and so far in heading ...")
+        number("llsamplestep", "m", "... and its step.").or("0.01").above(0.0),
+        number("lasamplerange", "rad", "Half-width of the heading sampling around the best match ...")
             .or("0.005")
             .within(0.0, 1.0),
-        number("lasamplestep", "rad", "... in such steps.").or("0.005").above(0.0),
+        number("lasamplestep", "rad", "... and its step.").or("0.005").above(0.0),
         // How odometry errs.
-        number("srr", "", "Error of the place by way: a standard deviation per metre.")
+        number("srr", "", "Odometry noise: standard deviation of position per metre of distance.")
             .or("0.1")
             .min(0.0),
-        number("srt", "rad/m", "Error of the heading by way.").or("0.2").min(0.0),
-        number("str", "m/rad", "Error of the place by turn.").or("0.1").min(0.0),
-        number("stt", "", "Error of the heading by turn.").or("0.2").min(0.0),
+        number("srt", "rad/m", "Odometry noise: standard deviation of heading per metre of distance.").or("0.2").min(0.0),
+        number("str", "m/rad", "Odometry noise: standard deviation of position per radian of rotation.").or("0.1").min(0.0),
+        number("stt", "", "Odometry noise: standard deviation of heading per radian of rotation.").or("0.2").min(0.0),
         // Particles.
-        integer("particles", "How many there are.").or("30").within(1.0, 10_000.0),
+        integer("particles", "Number of particles.").or("30").within(1.0, 10_000.0),
         number(
             "resampleThreshold",
             "",
-            "They are drawn anew when fewer than this part of them \
-                                         count.",
+            "Effective fraction of particles below which they are resampled.",
         )
         .or("0.5")
         .within(0.0, 1.0),
-        integer("random_seed", "Seed of all randomness.").or("0"),
-        integer("threads", "On so many threads; the result is the same.")
+        integer("random_seed", "Seed of the random numbers.").or("0"),
+        integer("threads", "Number of threads; results do not depend on it.")
             .or("1")
             .within(1.0, 256.0),
         // The map.
-        number("delta", "m", "Side of a cell of the map.").or("0.05").within(0.005, 2.0),
-        number("occ_thresh", "", "A cell is occupied from this share of hits on.")
+        number("delta", "m", "Cell size of the map.").or("0.05").within(0.005, 2.0),
+        number("occ_thresh", "", "Minimum fraction of hits of an occupied cell.")
             .or("0.25")
             .within(0.0, 1.0),
-        number("xmin", "m", "The map reaches at least from here ...").or("-100"),
-        number("ymin", "m", "... and here ...").or("-100"),
-        number("xmax", "m", "... to here ...").or("100"),
-        number("ymax", "m", "... and here. It grows beyond as needed.").or("100"),
+        number("xmin", "m", "Initial bounds of the map; it grows as needed.").or("-100"),
+        number("ymin", "m", "Initial bounds of the map; it grows as needed.").or("-100"),
+        number("xmax", "m", "Initial bounds of the map; it grows as needed.").or("100"),
+        number("ymax", "m", "Initial bounds of the map; it grows as needed.").or("100"),
     ],
 };
 
 pub(super) const IDLE: &[Idle] = &[
     Idle {
         names: &["lstep", "astep"],
-        because: "the best fit is found by derivatives, from where the scans just before have the \
-                  robot, and not by steps of a given length",
+        because: "the best match is found by least squares from the predicted pose, and not by steps \
+                  of a given length",
     },
     Idle {
         names: &["inverted_laser"],
-        because: "which way up the scanner hangs is read from its transform",
+        because: "the orientation of the scanner is read from its transform",
     },
 ];
 
@@ -168,7 +161,7 @@ pub(super) fn conflicts(values: &Values) -> Vec<Diagnostic> {
                 )
                 .at(values.origin(low))
                 .related(values.origin(high), "set here")
-                .note("the map is as large as what was seen"),
+                .note("the map is as large as the explored area"),
             );
         }
     }
