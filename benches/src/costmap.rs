@@ -13,7 +13,7 @@ use serde_json::Value;
 pub(crate) fn compare(python: &Path, script: &Path, work: &Path) -> Result<String, String> {
     let mut rows = inflation::run(python, script, work)?;
     rows.extend(cycles::run());
-    let mut table = String::from("| work | who | ms |\n|---|---|---|\n");
+    let mut table = String::from("| work | program | ms |\n|---|---|---|\n");
     for row in rows {
         table += &format!("| {} | {} | {:.3} |\n", row.work, row.who, row.seconds * 1e3);
     }
