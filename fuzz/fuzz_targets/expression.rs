@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_xacro::expression::{Budget, EmptyScope, Expression, evaluate};
+use periplus_python_expr::{Budget, EmptyScope, Expression, evaluate};
 
 fuzz_target!(|text: &str| {
     let mut budget = Budget::new(100_000, 8 << 20);

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Origin, Severity};
+use periplus_python_expr::{Budget, EmptyScope, Expression, evaluate};
 use periplus_resources::Kind;
-use periplus_xacro::expression::{Budget, EmptyScope, Expression, evaluate};
 use serde_json::json;
 
 use crate::evaluate::{Evaluation, Outcome};

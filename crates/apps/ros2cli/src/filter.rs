@@ -4,9 +4,7 @@ use std::rc::Rc;
 
 use periplus_msgs as msgs;
 use periplus_msgs::{DynamicMessage, Number, Part};
-use periplus_xacro::expression::{
-    Budget, Dialect, Expression, ExpressionError, Scope, Value, evaluate,
-};
+use periplus_python_expr::{Budget, Dialect, Expression, ExpressionError, Scope, Value, evaluate};
 
 use crate::show::whole_number;
 use crate::{Failure, Outcome};

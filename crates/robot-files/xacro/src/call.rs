@@ -9,13 +9,13 @@ use smol_str::SmolStr;
 
 use crate::attributes::value_origin;
 use crate::evaluate::part;
-use crate::expression::Value;
 use crate::frame::Frame;
 use crate::literal::typed;
 use crate::output::Output;
 use crate::parameters::{Parameter, parse};
 use crate::scopes::{Block, Macro, Symbol};
 use crate::state::{Failed, State};
+use periplus_python_expr::Value;
 
 /// A call costs more than an element.
 const PARTS_OF_CALL: usize = 4;

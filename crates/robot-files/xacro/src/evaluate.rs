@@ -6,12 +6,12 @@ use std::rc::Rc;
 use periplus_diagnostics::{Diagnostic, Origin, Span};
 use smol_str::SmolStr;
 
-use crate::expression::{Dialect, Expression, ExpressionError, Value, evaluate};
 use crate::literal::typed;
 use crate::names::{ALREADY_SAID, Names};
 use crate::scopes::{LazyText, ScopeId, Symbol};
 use crate::state::{Failed, Resolving, State};
 use crate::text::{Piece, pieces};
+use periplus_python_expr::{Dialect, Expression, ExpressionError, Value, evaluate};
 
 /// Of the properties that define each other in a circle, so many are shown.
 const MOST_SHOWN_IN_CIRCLE: usize = 5;

@@ -6,9 +6,9 @@ use std::rc::Rc;
 use periplus_diagnostics::{Diagnostic, Origin, closest};
 
 use crate::evaluate::part;
-use crate::expression::Dialect;
 use crate::scopes::ScopeId;
 use crate::state::{Failed, State};
+use periplus_python_expr::Dialect;
 
 const COMMANDS: [&str; 7] = ["find", "arg", "env", "optenv", "dirname", "cwd", "eval"];
 

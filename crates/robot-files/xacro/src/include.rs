@@ -7,11 +7,11 @@ use periplus_resources::{Kind, MissKind};
 use periplus_xml::{Element, decode, parse};
 
 use crate::attributes::value_origin;
-use crate::expression::{EmptyScope, Expression, Value, evaluate};
 use crate::frame::Frame;
 use crate::output::Output;
 use crate::state::{Failed, State};
 use crate::yaml;
+use periplus_python_expr::{EmptyScope, Expression, Value, evaluate};
 
 /// How deep files may include files.
 const DEEPEST: usize = 40;

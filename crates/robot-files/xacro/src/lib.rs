@@ -12,7 +12,6 @@ mod attributes;
 mod call;
 mod evaluate;
 mod expand;
-pub mod expression;
 mod extension;
 mod frame;
 mod include;

@@ -1,6 +1,6 @@
 //! What a property's text is when it holds no expression, and what counts as true.
 
-use crate::expression::Value;
+use periplus_python_expr::Value;
 
 /// The value of a text: a number, a truth value, or the text itself. Single quotes keep a text a
 /// text, and are taken off; so does an underscore, which Python would allow in a number.

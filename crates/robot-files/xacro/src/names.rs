@@ -6,10 +6,10 @@ use std::rc::Rc;
 
 use periplus_diagnostics::Diagnostic;
 
-use crate::expression::{Budget, Dialect, ExpressionError, Scope, Value};
 use crate::literal::automatic;
 use crate::scopes::{ScopeId, Symbol};
 use crate::state::{Failed, State};
+use periplus_python_expr::{Budget, Dialect, ExpressionError, Scope, Value};
 
 /// The message of an error that a diagnostic has told already.
 pub(crate) const ALREADY_SAID: &str = "\0";

@@ -7,11 +7,11 @@ use periplus_xml::{Attribute, Element};
 use smol_str::SmolStr;
 
 use crate::attributes::value_origin;
-use crate::expression::{Value, is_built_in};
 use crate::frame::Frame;
 use crate::literal::{condition, is_name, literal, typed};
 use crate::scopes::{Block, LazyText, ScopeId, Symbol, TOP};
 use crate::state::{Failed, State};
+use periplus_python_expr::{Value, is_built_in};
 
 const ATTRIBUTES: [&str; 6] = ["name", "value", "default", "remove", "scope", "lazy_eval"];
 

@@ -10,8 +10,8 @@ use periplus_diagnostics::{ContextId, Origin};
 use periplus_xml::{Element, Node};
 use smol_str::SmolStr;
 
-use crate::expression::Value;
 use crate::parameters::Parameter;
+use periplus_python_expr::Value;
 
 /// Names a scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

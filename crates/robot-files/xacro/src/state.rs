@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use smol_str::SmolStr;
 
-use crate::expression::{Budget, Value};
 use crate::scopes::{ScopeId, Scopes};
 use crate::setting::Setting;
+use periplus_python_expr::{Budget, Value};
 
 /// Steps that all expressions of a file may take together; the PR2, as large as robots get, takes
 /// some ten thousand.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 
-use crate::expression::Value;
+use periplus_python_expr::Value;
 
 /// How deep lists and mappings may nest.
 const DEEPEST: usize = 60;
@@ -281,7 +281,7 @@ mod tests {
     fn check(text: &str, expected: &str) {
         let mut evaluate = |text: &str| text.parse::<f64>().map_err(|error| error.to_string());
         let shown = match load(text, &mut evaluate) {
-            Ok(value) => value.to_repr(&mut crate::expression::Budget::default()).unwrap(),
+            Ok(value) => value.to_repr(&mut periplus_python_expr::Budget::default()).unwrap(),
             Err(error) => format!("{}:{}: {}", error.line, error.column, error.message),
         };
         assert_eq!(shown, expected, "{text}");

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Origin};
-use periplus_xacro::expression::{
+use periplus_python_expr::{
     Budget, Dialect, Expression, ExpressionError, Scope as Names, Value, evaluate,
 };
 use periplus_xml::Attribute;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use expect_test::{Expect, expect};
-use periplus_xacro::expression::{
+use periplus_python_expr::{
     Budget, Dialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
 };
 

@@ -1,6 +1,6 @@
 //! The evaluator against Python itself, by the table that python_expressions.py writes.
 
-use periplus_xacro::expression::{
+use periplus_python_expr::{
     Budget, Dialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
 };
 

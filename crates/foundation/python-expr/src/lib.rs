@@ -1,5 +1,5 @@
-//! The expressions of xacro: the part of Python's expression language that robot descriptions use, with
-//! Python 3's results.
+//! A safe evaluator of Python expressions: the part of the language that robot descriptions, launch files
+//! and filters of messages use, with Python 3's results.
 //!
 //! What differs from Python on purpose:
 //! - Integers have 128 bits; larger ones are an error.
