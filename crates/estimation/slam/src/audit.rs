@@ -1,9 +1,9 @@
-//! The map held against itself after the last solve.
+//! Consistency check of the map against its own scans.
 //!
-//! Where the robot passed a place twice, each pass saw what the other saw, unless something moved or the
-//! map is wrong there: then one pass looks through the walls of the other. Kept scans of different passes
-//! that lie close together are held against each other both ways, and what they say is summed along the
-//! way, so that a door or a person does not count as a wall.
+//! Where the robot passed the same position twice, each pass saw what the other saw, unless something moved
+//! or the map is wrong there: then one pass looks through the walls of the other. Keyframes of different
+//! passes that are near each other are compared in both directions, and the results are summed along the
+//! path, so that a door or a person does not count as a wall.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::graph::Graph;
 use crate::keyframe::Keyframe;
 use crate::local::{apart, both_ways};
 
-/// A stretch of the way that contradicts what another pass saw.
+/// A stretch of path that contradicts what another pass saw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contradiction {
     /// Kept scans at its ends.
@@ -27,25 +27,25 @@ pub(crate) struct Contradiction {
     pub(crate) agreeing: f64,
 }
 
-/// Scans of different passes this near to each other are held against each other \[m\]. A turn of a radian
-/// counts as so much way \[m\].
+/// Maximum distance of two keyframes of different passes that are compared; a rotation of a radian counts
+/// as `TURN_M`.
 pub(crate) const NEAR_M: f64 = 2.5;
 const TURN_M: f64 = 0.5;
-/// Way between two scans before they belong to different passes \[m\].
+/// Minimum path between two keyframes of different passes \[m\].
 const OTHER_PASS_M: f64 = 12.0;
-/// How near two points are the same \[m\].
+/// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 /// Length over which scans are summed \[m\], and points that are evidence.
 const STRETCH_M: f64 = 3.0;
 const JUDGED: u32 = 400;
-/// Outdoors both judge few points: a stretch then grows up to so much way \[m\].
+/// Maximum length of a stretch outdoors, where few points are judged \[m\].
 const LONGEST_M: f64 = 20.0;
 /// Stretches whose scans agree on less are contradictions.
 const AGREEING: f64 = 0.7;
-/// Passes that each scan is held against.
+/// Maximum number of passes that each keyframe is compared with.
 const PASSES: usize = 2;
 
-/// A scan held against another pass.
+/// A keyframe compared with one of another pass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ConstraintResidual {
     pub(crate) keyframe: usize,
@@ -54,12 +54,12 @@ pub(crate) struct ConstraintResidual {
     pub(crate) sum: Agreement,
 }
 
-/// All stretches that contradict another pass, in the order of the way.
+/// Returns all stretches that contradict another pass, in path order.
 pub(crate) fn audit(keyframes: &[Keyframe], graph: &Graph) -> Vec<Contradiction> {
     contradictions(&passes(keyframes, graph), keyframes)
 }
 
-/// The same of scans that were held against each other before, in the order of the way.
+/// Returns all contradictions among keyframes already compared, in path order.
 pub(crate) fn contradictions(
     held: &[ConstraintResidual],
     keyframes: &[Keyframe],
@@ -126,7 +126,7 @@ fn passes(keyframes: &[Keyframe], graph: &Graph) -> Vec<ConstraintResidual> {
     .collect()
 }
 
-/// Of each kept scan the nearest ones of earlier passes, one of each.
+/// Returns, for each keyframe, the nearest keyframes of earlier passes, one per pass.
 pub(crate) fn all_other_passes(keyframes: &[Keyframe], graph: &Graph) -> Vec<Vec<usize>> {
     let cell =
         |pose: Pose2| ((pose.x_m / NEAR_M).floor() as i32, (pose.y_m / NEAR_M).floor() as i32);
@@ -172,7 +172,7 @@ pub(crate) fn other_passes(
     chosen
 }
 
-/// A scan held against one of another pass.
+/// Compares a keyframe with one of another pass.
 pub(crate) fn hold(
     keyframes: &[Keyframe],
     graph: &Graph,
@@ -185,8 +185,8 @@ pub(crate) fn hold(
     ConstraintResidual { keyframe, other, other_from_keyframe, sum }
 }
 
-/// Scans around one kept scan held against those around another, both ways; and how many points
-/// that are.
+/// Compares the scans around two keyframes with each other in both directions; also returns the number of
+/// their points.
 pub(crate) fn overlap(
     keyframes: &[Keyframe],
     graph: &Graph,

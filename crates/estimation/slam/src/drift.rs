@@ -1,4 +1,4 @@
-//! How uncertain poses are as seen from one of them.
+//! Uncertainty of poses relative to one of them.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -17,7 +17,7 @@ pub(crate) struct RelativeUncertainty {
 }
 
 impl RelativeUncertainty {
-    /// One standard deviation of the place in its worst direction \[m\].
+    /// One standard deviation of the position along its worst direction \[m\].
     pub(crate) fn shift_m(&self) -> f64 {
         self.covariance.largest_shift().sqrt()
     }
@@ -44,7 +44,7 @@ pub(crate) fn uncertainties_from(
     within(graph, start, most_m, f64::INFINITY)
 }
 
-/// The same by paths that stay within some way of the pose as the crow flies \[m\].
+/// Like [`uncertainties_from`], over paths that stay within `reach_m` of the start in a straight line.
 pub(crate) fn within(
     graph: &Graph,
     start: usize,

@@ -223,7 +223,7 @@ impl Slam {
         let step = self.odometry_step(scan.time_ns, odom_from_base);
         // 2. Match the scan against the last keyframes, with odometry as the prior.
         let found = self.match_with_prior(scan, &step);
-        // 3. A scan of another place begins a new component of the map.
+        // 3. A scan that matches nothing nearby begins a new component of the map.
         if self.is_kidnapped(&found, &step) {
             return self.begin_component(scan, odom_from_base, &found);
         }

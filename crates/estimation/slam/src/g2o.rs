@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::engine::Slam;
 
 impl Slam {
-    /// How far the edges that count are from agreeing: the sum of their squared Mahalanobis distances.
+    /// Sum of the squared Mahalanobis distances of the active edges.
     #[must_use]
     pub fn chi2(&self) -> f64 {
         let graph = self.graph();

@@ -1,22 +1,22 @@
-//! Particles that each have a map of their own: a Rao-Blackwellized particle filter.
+//! Rao-Blackwellized particle filter: each particle has a map of its own.
 //!
-//! Written from the equations of Grisetti, Stachniss, Burgard 2007, "Improved Techniques for Grid
-//! Mapping With Rao-Blackwellized Particle Filters"; numbers in comments are theirs. The way of a scan:
-//! 1. how the robot has moved since the last one is found by laying scans onto those just before
-//!    (Haehnel et al. 2003 do the same before they draw particles);
-//! 2. after enough motion each particle moves along, lays the scan onto its own map (`fit`), and goes
-//!    to a place drawn from what is likely around there (`proposal`);
-//! 3. it draws the scan into its map, of which it shares with others what is the same (`cells`);
-//! 4. when few particles explain most of what was seen, these are multiplied (`resample`);
-//! 5. the front end is a graph that closes loops: each way that comes of a closure is offered to some of the
-//!    particles, and weighed against what they explain (`offers`); at the end its closures decide where the
-//!    particles' map violates them and nothing contradicts the graph's (`fallback`).
+//! Written from the equations of Grisetti, Stachniss, Burgard 2007, "Improved Techniques for Grid Mapping
+//! With Rao-Blackwellized Particle Filters"; equation numbers in comments are theirs. Processing of a scan:
+//! 1. A graph SLAM front end estimates the motion by scan matching (Haehnel et al. 2003 do the same before
+//!    sampling).
+//! 2. After enough motion each particle is moved, matches the scan against its own map (`fit`), and samples
+//!    a pose from the proposal distribution (`proposal`).
+//! 3. The scan is inserted into its map, which shares unchanged tiles with other maps (`cells`).
+//! 4. Particles are resampled if the effective sample size is low (`resample`).
+//! 5. Each trajectory that a loop closure of the front end gives is offered to some of the particles and
+//!    weighted against theirs (`offers`); at the end its closures decide where the particles' map violates
+//!    them and nothing contradicts the graph's map (`fallback`).
 //!
-//! Along corridors, where only odometry tells how far the robot went, particles are spread as widely as the
-//! front end is uncertain, each with errors of its own that last for some way (`proposal`). What the maps
-//! take of memory is bounded: where they share too little, fewer particles go on, and that is told.
+//! Along corridors, where only odometry measures the distance, particles are spread as widely as the front
+//! end is uncertain, each with slowly varying errors of its own (`proposal`). Memory is bounded: if the
+//! maps share too little, fewer particles continue, with a remark.
 //!
-//! The map is that of the particle that has explained the most on its whole way (`ways`).
+//! The result is the map of the particle with the highest weight over its whole trajectory (`ways`).
 
 mod beams;
 mod cells;
@@ -60,7 +60,7 @@ const SOLID_SHARE: f64 = 0.1;
 const LEAST_POINTS: usize = 12;
 /// Part of the points that the map must have something near for a scan to fit.
 const LEAST_MATCHED: f64 = 0.3;
-/// How far odometry is off at least \[m, rad\].
+/// Minimum standard deviation of odometry \[m, rad\].
 const LEAST_SIGMA: [f64; 2] = [0.01, 0.005];
 /// Kept scans that the front end remembers; it lays new ones onto no more.
 const REMEMBERED: usize = 30;
@@ -70,31 +70,31 @@ const MOST_REMEMBERED: usize = 64 << 20;
 /// Bytes that the maps of all particles may take, and after how many scans that are used these are weighed.
 const MOST_OF_MAPS: usize = 80 << 20;
 const WEIGHED_EVERY: u64 = 4;
-/// Room for what so many scans are drawn to, that share nothing, is kept for each particle.
+/// Number of scans for whose unshared tiles memory is reserved per particle.
 const ROOM: usize = 2;
 /// Errors that last do so for about this way \[m\].
 const LASTING_M: f64 = 20.0;
-/// A turn of a radian counts as so much way \[m\].
+/// Path length equivalent of a rotation by one radian \[m\].
 const TURN_WAY_M: f64 = 0.3;
-/// Scans farther apart in time tell nothing of how beams of one scan are shifted \[s\].
+/// Longest interval between scans over which the motion within a scan is interpolated \[s\].
 const RECENT_S: f64 = 1.0;
 
-/// What one particle believes.
+/// State of one particle.
 #[derive(Clone)]
 struct Particle {
     map_from_base: Pose2,
     cells: Cells,
     tip: Tip,
-    /// Logarithm of its weight since particles were drawn anew, and of its whole way.
+    /// Logarithm of the weight since the last resampling, and over the whole trajectory.
     log: f64,
     log_of_way: f64,
-    /// Whether its last scan fit.
+    /// True if its last scan matched.
     is_matched: bool,
-    /// Errors of the front end that it believes in for some way, in standard deviations.
+    /// Slowly varying errors of the front end that it assumes, in standard deviations.
     lasting: [f64; 3],
 }
 
-/// Where the robot was at a scan, from where it was at the last one that was used.
+/// Pose of the robot at a scan relative to the last one used.
 struct Step {
     time_ns: i64,
     update: u32,
@@ -113,7 +113,7 @@ pub struct Gmapping {
     /// Bytes of them, about.
     nodes_size: usize,
     offered: Offered,
-    /// Where the front end has the scan that was used last, and the one before.
+    /// Front end nodes of the last scan used, and of the one before.
     used: Option<TrajectoryNode>,
     last: Option<TrajectoryNode>,
     way_m: f64,
@@ -121,7 +121,7 @@ pub struct Gmapping {
     best: usize,
     counts: Counts,
     resamplings: usize,
-    /// What is told, how much of it came from the front end, and what is still to be told.
+    /// Remarks made so far, how many came from the front end, and remarks to be made.
     remarks: Vec<Remark>,
     told_of_front: usize,
     told_of_memory: Option<usize>,
@@ -170,7 +170,7 @@ impl Gmapping {
 
     /// Takes a scan that the front end has placed; whether it was used.
     fn take(&mut self, scan: &Scan, here: TrajectoryNode) -> bool {
-        // The map of the front end may have bent since: ways are as it has them now.
+        // The front end's map may have been revised: use its present poses.
         let front_from_base = self.front.pose_of(&here);
         let since = |node: &TrajectoryNode| {
             (self.front.pose_of(node).inverse() * front_from_base).normalized()
@@ -253,7 +253,7 @@ impl Gmapping {
         self.counts.kept += 1;
     }
 
-    /// Moves all particles, weighs them, and draws them anew when it is time.
+    /// Moves, weights and, if needed, resamples all particles.
     fn update(&mut self, beams: &Beams, moved: Pose2) {
         self.counts.kept += 1;
         self.drop_what_has_no_room(beams, moved);
@@ -308,8 +308,8 @@ impl Gmapping {
         }
     }
 
-    /// Each particle copies what a scan is drawn to. Where that is so much that not all have room, only the
-    /// foremost stay.
+    /// Each particle copies the tiles that a scan touches. If memory does not suffice for all, only the
+    /// best remain.
     fn drop_what_has_no_room(&mut self, beams: &Beams, moved: Pose2) {
         let Some(best) = self.particles.get(self.best) else { return };
         let trace = &mut self.traces[0];
@@ -335,7 +335,7 @@ impl Gmapping {
         order
     }
 
-    /// Where the maps of all particles take too much memory, the foremost go on in the place of the others.
+    /// Replaces other particles by the best ones if the maps need too much memory.
     fn save_memory(&mut self) {
         let mut order = self.order();
         while order.len() > 1 && self.maps_size() > MOST_OF_MAPS {
@@ -352,7 +352,7 @@ impl Gmapping {
         self.particles.iter().map(|it| it.cells.size() + size_of::<Particle>()).sum()
     }
 
-    /// Tells what is new.
+    /// Makes new remarks.
     fn tell(&mut self, time_ns: i64) {
         let front = self.front.remarks();
         self.remarks.extend_from_slice(&front[self.told_of_front..]);
@@ -366,7 +366,7 @@ impl Gmapping {
         }
     }
 
-    /// The particle that has explained the most on its whole way.
+    /// Index of the particle with the highest weight over its whole trajectory.
     fn foremost(&self) -> usize {
         (0..self.particles.len()).fold(0, |best, other| {
             let is_better = self.particles[other].log_of_way > self.particles[best].log_of_way;
@@ -374,7 +374,7 @@ impl Gmapping {
         })
     }
 
-    /// Draws particles anew when too few of them count.
+    /// Resamples if the effective sample size is too low.
     fn resample(&mut self, number: u64) {
         let count = self.particles.len() as f64;
         let logs: Vec<f64> = self.particles.iter().map(|it| it.log).collect();
@@ -426,7 +426,7 @@ impl Gmapping {
 }
 
 impl Particle {
-    /// Errors that last change slowly, each particle's in its own way.
+    /// Advances the slowly varying errors of each particle.
     fn go_on_lasting(&mut self, metres: f64, stream: &mut Stream) {
         let kept = libm::exp(-metres / LASTING_M);
         let fresh = (1.0 - kept * kept).sqrt();

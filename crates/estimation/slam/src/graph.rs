@@ -26,7 +26,7 @@ pub enum ConstraintKind {
     LoopClosure,
 }
 
-/// What is known between two poses.
+/// A constraint between two poses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     pub(crate) from: usize,
@@ -63,7 +63,7 @@ impl Edge {
         Self::new((from, to), from_from_to, nothing, ConstraintKind::Sequential)
     }
 
-    /// Whether nothing is known of it.
+    /// True if it constrains nothing: a new map component begins after it.
     pub(crate) fn is_gap(&self) -> bool {
         self.kind == ConstraintKind::Sequential && self.information.xx <= GAP
     }
@@ -75,7 +75,7 @@ impl Edge {
         Self { covariances: covariances.covariances, ..self }
     }
 
-    /// Shift and turn by which poses differ from what this says.
+    /// Residual: translation and rotation between the constrained and the present relative pose.
     pub(crate) fn error(&self, poses: &[Pose2]) -> [f64; 3] {
         error(poses, (self.from, self.to), self.from_from_to)
     }
@@ -118,7 +118,7 @@ impl Graph {
         index
     }
 
-    /// Whether a tie or a closure holds a pose to older ones.
+    /// True if a proximity constraint or a loop closure connects a pose to older ones.
     pub(crate) fn is_held(&self, keyframe: usize) -> bool {
         self.at[keyframe].iter().any(|&edge| {
             let edge = &self.edges[edge as usize];
@@ -126,7 +126,7 @@ impl Graph {
         })
     }
 
-    /// Puts poses from one on where they hang on those that they came after.
+    /// Recomputes poses from `from` on along their sequential constraints.
     pub(crate) fn hang(&mut self, from: usize) {
         for keyframe in from..self.poses.len() {
             let chain = self.at[keyframe]

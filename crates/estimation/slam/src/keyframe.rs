@@ -12,7 +12,7 @@ pub(crate) struct Keyframe {
     pub(crate) cloud: Arc<PackedCloud>,
     /// Ends of beams for drawing, in the base's frame; none where the cloud holds enough of them.
     pub(crate) ends: Option<Arc<PackedPlaces>>,
-    /// Length of the way from the first one \[m\], a turn counted as a little way.
+    /// Path length from the first keyframe \[m\], rotation included.
     pub(crate) travel_m: f64,
 }
 
@@ -33,13 +33,13 @@ impl Keyframe {
     }
 }
 
-/// Scans that were kept on a part of the way \[m\].
+/// Returns the keyframes within a range of path length \[m\].
 pub(crate) fn between(keyframes: &[Keyframe], from_m: f64, to_m: f64) -> Range<usize> {
     let start = keyframes.partition_point(|keyframe| keyframe.travel_m < from_m);
     start..keyframes.partition_point(|keyframe| keyframe.travel_m <= to_m)
 }
 
-/// Where a scan that came in was, relative to one that is kept.
+/// Pose of a scan relative to a keyframe.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TrajectoryNode {
     pub(crate) time_ns: i64,

@@ -1,20 +1,21 @@
-//! Simultaneous localization and mapping from flat laser scans.
+//! Simultaneous localization and mapping (SLAM) with 2D laser scans.
 //!
-//! [`Slam::add_scan`] takes a scan and where odometry has the robot, and tells where the robot is.
-//! Values in, values out: no clock, no files, and the same input gives the same bits.
+//! [`Slam::add_scan`] takes a scan and the odometry pose and returns the corrected pose of the robot. The
+//! crate uses no clock and no files; equal input gives equal output, bit for bit.
 //!
-//! The way of a scan:
-//! 1. it becomes a cloud of points with the surfaces they lie on (`scan`);
-//! 2. it is searched for and laid onto the scans just before (`local`), odometry being a prior whose
-//!    trust is learnt (`odometry`);
-//! 3. when the robot has moved enough it is kept: a pose in the graph, and an edge (`graph`);
-//! 4. old scans nearby whose place is well known are tied to it directly (`near`);
-//! 5. where the uncertainty has grown, loops are searched, doubted and believed (`loops`, `drift`);
-//! 6. what odometry and scans say of each other is weighed, and told when it is odd (`diagnostics`);
-//! 7. at the end all scans are held against their neighbours at once (`refine`), and drawn (`map`).
+//! Processing of a scan:
+//! 1. The scan becomes a point cloud with surface normals (`scan`).
+//! 2. It is matched against the last keyframes (`local`) with odometry as the prior, weighted by the
+//!    learned odometry noise (`odometry_noise`).
+//! 3. After enough motion it becomes a keyframe: a pose and a sequential constraint in the graph (`graph`).
+//! 4. Old keyframes nearby with a well-known relative pose get a proximity constraint (`proximity`).
+//! 5. Where the uncertainty has grown (`drift`), loop closures are searched, verified and decided
+//!    (`loops`).
+//! 6. Odometry is compared with the scans, and faults are reported (`odometry_diagnostics`).
+//! 7. At the end all keyframes are refined together (`refine`) and the map is drawn (`map`).
 //!
-//! [`Gmapping`] is another method behind the same interface, [`Mapper`]: particles with a map each.
-//! Both take the parameters that programs of ROS have for them ([`tables`]).
+//! [`Gmapping`] is a second method with the same interface, [`Mapper`]: a Rao-Blackwellized particle
+//! filter. Both accept the parameters of the corresponding ROS nodes ([`tables`]).
 
 // Worlds of the tests are written for the crate as others see it.
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Where a scan is among those just before.
+//! Matching of a scan against the last keyframes.
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::{
@@ -16,13 +16,13 @@ const SEARCH_POINTS: usize = 120;
 const MOST_SPREAD: usize = 350;
 /// A scan of which fewer points find partners is not where it was searched.
 const LEAST_MATCHED: f64 = 0.45;
-/// Scans and steps with which starts are told apart.
+/// Number of scans and iterations for comparing start poses.
 const FEW_SCANS: usize = 3;
 const FEW_STEPS: usize = 5;
 /// A fit that matches less than this part of what is usual is doubted.
 const POOR: f64 = 0.75;
-/// What odometry counts when it is doubted, and by how much (squared standard deviations) a fit must
-/// be better then.
+/// Weights of the odometry prior where it is doubted, and the squared Mahalanobis distance by which such a
+/// match must be better.
 const HALF_TRUST: f64 = 0.1;
 const DISTRUST: f64 = 0.004;
 const PRICE: f64 = 20.0;
@@ -30,22 +30,23 @@ const PRICE: f64 = 20.0;
 /// more than the second they belong together.
 const DOUBTFUL: f64 = 0.75;
 const SURE: f64 = 0.9;
-/// With the range of most points, headings are so far apart that their ends move by a cell.
+/// Range over which the heading step is computed: with the range of most points, ends move by a cell per
+/// step \[m\].
 const ARM_M: std::ops::Range<f64> = 2.0..12.0;
 
-/// Where a scan was found.
+/// Result of matching a scan.
 pub(crate) struct LocalMatch {
     pub(crate) fit: Fit,
-    /// What scans and odometry together say.
+    /// Information of scans and odometry together.
     pub(crate) information: Symmetric3,
-    /// The same for asking how far off the place may be.
+    /// Information for the uncertainty of a path.
     pub(crate) doubted: Symmetric3,
-    /// Whether the scan fits, or only odometry tells where it is.
+    /// True if the scan matches; otherwise the pose is the one by odometry.
     pub(crate) is_matched: bool,
-    /// Whether it fits although scans contradict each other there.
+    /// True if it matches although scans contradict each other there.
     pub(crate) is_doubted: bool,
-    /// Where fewer points than usual find partners: the share that agrees of what both the scan and those
-    /// before see; else 1. Where it is small, it may be a scan of another place.
+    /// Agreement of the points seen by both the scan and those before it, if fewer points than usual find
+    /// partners; else 1. Low if the scan may belong elsewhere.
     pub(crate) agreeing: f64,
 }
 
@@ -153,7 +154,7 @@ pub(crate) fn match_locally(
     let information = covariance.inverse().unwrap_or(Symmetric3::diagonal(1.0, 1.0, 1.0));
     let mut prior = Prior { target_from_moving: frame_from_base, information };
     let moving = [Placed::alone(cloud)];
-    // To tell starts apart a few scans and steps are enough.
+    // A few scans and iterations suffice to compare start poses.
     let few = &group[..group.len().min(FEW_SCANS)];
     let quick = RegisterSettings { steps: FEW_STEPS, ..settings.register };
     let fit_from = |start, prior: &Prior| register(&moving, few, start, Some(prior), &quick);
@@ -232,13 +233,14 @@ pub(crate) fn match_locally(
     LocalMatch { fit, information, doubted, is_matched, is_doubted: false, agreeing }
 }
 
-/// Weighs scans against odometry where the two differ and scans contradict each other as well.
+/// Reduces the weight of scans against odometry where the two differ and scans contradict each other as
+/// well.
 ///
-/// Ground that rises before the scanner gives lines that move along with the robot, and so do people
-/// who walk beside it: a scan fits them where the robot is not, but other points are then seen through.
-/// Hedges are so rough that a fit along them drifts. `typical` is the covariance of an ordinary step
-/// of odometry: where the scan was found farther off, it counts the less, the less scans agree there
-/// and, within what is possible for odometry, the rougher they are.
+/// Rising floor in front of the scanner gives lines that move along with the robot, and so do people
+/// walking beside it: a scan fits them at a wrong pose, where other points are then seen through. Hedges
+/// are so rough that a match along them drifts. `typical` is the covariance of an ordinary odometry step: a
+/// match farther off counts less, the less scans agree there and, within the bounds of odometry, the
+/// rougher they are.
 pub(crate) fn reweighted(
     located: LocalMatch,
     cloud: &Cloud,
@@ -279,7 +281,7 @@ pub(crate) fn reweighted(
     LocalMatch { fit, information, is_doubted: true, ..located }
 }
 
-/// Whether a scan clearly fits better in one place than in another.
+/// True if a match is clearly better than another one.
 pub(crate) fn is_better(
     cloud: &Cloud,
     group: &[Placed<'_>],
@@ -293,8 +295,7 @@ pub(crate) fn is_better(
     !other.is_matched || seen(one) > (seen(other) + CLEARLY_SEEN).min(SURE)
 }
 
-/// What scans and odometry leave uncertain, for asking how far off a place may be; `typical` is the
-/// covariance of an ordinary step of odometry.
+/// Information for the uncertainty of a path; `typical` is the covariance of an ordinary odometry step.
 pub(crate) fn uncertain(located: &LocalMatch, typical: &Symmetric3) -> Symmetric3 {
     let firmness = if located.is_doubted { 0.0 } else { located.fit.firmness };
     match typical.inverse() {
@@ -307,28 +308,26 @@ pub(crate) fn uncertain(located: &LocalMatch, typical: &Symmetric3) -> Symmetric
 const ORDINARY: f64 = 1.0;
 /// Beyond this the step cannot be an ordinary one: 99.9 % for 3 degrees of freedom.
 const POSSIBLE: f64 = 16.3;
-/// Scans that agree on this part of what both can see count in full; at the second hardly at all. At
-/// least so much of their weight is left, before its fourth power.
+/// Agreement at which scans have full weight, and almost none; minimum weight before its fourth power.
 const AGREED: f64 = 0.95;
 const DISAGREED: f64 = 0.65;
 const LEAST_PART: f64 = 0.05;
-/// A scan fits clearly better where so many times the points find partners, and so much more of what both
-/// see agrees.
+/// Minimum ratio of matched points and minimum difference of agreement for a clearly better match.
 const CLEARLY: f64 = 1.1;
 const CLEARLY_SEEN: f64 = 0.05;
-/// Where scans agree less by this part when odometry is followed, they are right.
+/// Decrease of the agreement that shows that following odometry is wrong.
 const WORSE: f64 = 0.02;
 /// Scans that keep more than this part of their weight are left as they are.
 const NEARLY_ALL: f64 = 0.9;
 
-/// What odometry tells where scans do not hold, when it is asked how far off a place may be. Along a
-/// corridor its errors are all to one side: they add up and do not average out, so that for the
-/// uncertainty of a way it counts less than its scatter would have it.
+/// Weight of odometry in the uncertainty of a path where walls leave a direction free. Along a corridor its
+/// errors have one sign: they add up instead of averaging out, so that odometry counts less than its
+/// scatter suggests.
 fn doubted(information: &Symmetric3, firmness: f64) -> Symmetric3 {
     *information * (ALONG + (1.0 - ALONG) * firmness)
 }
 
-/// A scan held against the first few of a group, both ways.
+/// Compares a scan with the first few of a group in both directions.
 fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agreement {
     let mut sum = Agreement::default();
     for one in group.iter().take(3) {
@@ -338,7 +337,7 @@ fn against(cloud: &Cloud, group: &[Placed<'_>], group_from_cloud: Pose2) -> Agre
     sum
 }
 
-/// Each scan of one group held against the nearest few of another, both ways.
+/// Compares each scan of one group with the nearest few of another in both directions.
 pub(crate) fn against_nearest(
     new: &[Placed<'_>],
     old: &[Placed<'_>],
@@ -359,25 +358,25 @@ pub(crate) fn against_nearest(
     sum
 }
 
-/// Two scans held against each other: what each sees of the points of the other.
+/// Compares two scans: each against the points of the other.
 pub(crate) fn both_ways(a: &Cloud, b: &Cloud, b_from_a: Pose2, tolerance_m: f32) -> Agreement {
     let mut sum = agreement(a, b, b_from_a, tolerance_m);
     sum += agreement(b, a, b_from_a.inverse(), tolerance_m);
     sum
 }
 
-/// What odometry counts where scans do not hold: errors of 3 % over a hundred steps are as likely as
-/// their scatter says only when one step errs by so much more.
+/// Weight of odometry where walls leave a direction free: errors of 3 % over a hundred steps are as likely
+/// as their scatter implies only if one step errs by that much more.
 const ALONG: f64 = 0.15;
-/// How near two points are the same \[m\].
+/// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 
-/// What neighbours in time leave uncertain at least: readings of all beams are off together, and
-/// walls are not straight. One standard deviation \[m, rad\].
+/// Minimum uncertainty between consecutive keyframes: the beams of a scan share errors, and walls are not
+/// straight. One standard deviation.
 const FLOOR_M: f64 = 0.008;
 const FLOOR_RAD: f64 = 0.0025;
 
-/// An information that never claims more than scans can say.
+/// Returns the information with that uncertainty added.
 pub(crate) fn floored(information: &Symmetric3) -> Symmetric3 {
     let some = *information + Symmetric3::diagonal(1e-2, 1e-2, 1e-2);
     let floor = Symmetric3::diagonal(FLOOR_M * FLOOR_M, FLOOR_M * FLOOR_M, FLOOR_RAD * FLOOR_RAD);

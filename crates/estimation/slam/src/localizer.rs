@@ -1,4 +1,4 @@
-//! Where a robot is on a stored graph.
+//! Localization on a stored pose graph.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -25,15 +25,15 @@ const LEAST_POINTS: usize = 12;
 /// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
 const JUMP_M: f64 = 4.0;
 const FASTEST_M_S: f64 = 5.0;
-/// How fast it is learnt what is usual.
+/// Gain of the running mean of the inlier ratio.
 const USUAL: f64 = 0.05;
 /// Poses that are remembered.
 const REMEMBERED: usize = 10_000;
-/// What the place is uncertain by at least and at most: one standard deviation \[m, rad\]. What is lost
-/// is searched for in all of that.
+/// Minimum and maximum uncertainty of the pose; a lost robot is searched within the maximum. One standard
+/// deviation \[m, rad\].
 const LEAST: [f64; 2] = [0.02, 0.01];
 const MOST: [f64; 2] = [1.0, 0.5];
-/// How sure people are of where they start \[m, rad\].
+/// Default uncertainty of an initial pose \[m, rad\].
 const START: [f64; 2] = [0.5, 0.26];
 
 /// Finds the robot on a stored graph. The graph stays as it is; of what the robot sees itself it keeps
@@ -76,8 +76,8 @@ fn spread([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
 }
 
 impl Localizer {
-    /// On a stored graph; the robot remembers so many scans of its own. It starts where the graph
-    /// began, until somebody says otherwise ([`Localizer::place`]).
+    /// Creates a localizer on a stored graph that remembers `most_own` scans of its own. It starts at the
+    /// origin of the graph unless [`Localizer::place`] sets another pose.
     #[must_use]
     pub fn new(stored: Slam, most_own: usize) -> Self {
         let mut squares: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -99,8 +99,8 @@ impl Localizer {
         }
     }
 
-    /// Somebody says where the robot is, and how sure that is (along the axes of the map): the next
-    /// scan is looked for around there. What the robot has seen itself is forgotten.
+    /// Sets the pose of the robot with its covariance along the axes of the map: the next scan is matched
+    /// around it. The localizer's own scans are dropped.
     pub fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) {
         if map_from_base.is_finite() {
             self.own.clear();
@@ -120,19 +120,19 @@ impl Localizer {
         &self.stored
     }
 
-    /// What the map is drawn of: the stored graph alone.
+    /// Returns a snapshot of the stored map.
     #[must_use]
     pub fn snapshot(&self) -> MapSnapshot {
         self.stored.snapshot()
     }
 
-    /// Scans of its own that it remembers.
+    /// Number of the localizer's own scans in memory.
     #[must_use]
     pub fn own_scans(&self) -> usize {
         self.own.len()
     }
 
-    /// How uncertain the place of the robot is, along the axes of the map \[m, rad\].
+    /// Covariance of the pose along the axes of the map \[m, rad\].
     #[must_use]
     pub fn covariance(&self) -> Symmetric3 {
         self.last.as_ref().map_or(self.start.1, |last| last.covariance)
@@ -231,7 +231,7 @@ impl Localizer {
         outcome
     }
 
-    /// Stored scans around a place, the nearest first; a turn counts a little.
+    /// Returns the stored keyframes near a pose, nearest first; a rotation adds to the distance.
     fn near(&self, place: Pose2) -> Vec<usize> {
         let (column, row) = square(place);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (column + dx, row + dy)));

@@ -1,13 +1,13 @@
-//! Closing of loops: searching, doubting, believing.
+//! Loop closure: search, verification, decision.
 //!
-//! A closure is believed for reasons that are counted, not for a score:
-//! 1. the stretch of way just driven is found in an old stretch within all of the region that the
-//!    uncertainty allows (three standard deviations; branch and bound, so nothing better was missed);
-//! 2. held against each other both ways, scans do not see through each other's walls;
-//! 3. no other place in the region passes the same tests (else it waits for more of the way);
-//! 4. where the region is large, other stretches must tell the same, independently: closures agree
-//!    pairwise with each other over the ways between them, and more do so than with any rival;
-//! 5. when the map has been bent accordingly, all that now overlaps still agrees; else all is undone.
+//! A closure is accepted by counted evidence instead of a score:
+//! 1. the stretch of path just driven matches an old stretch within the whole region that the uncertainty
+//!    allows (three standard deviations; branch and bound, so the best match is found);
+//! 2. compared in both directions, the scans do not see through each other's walls;
+//! 3. no other pose in the region passes the same tests (else it waits for more path);
+//! 4. if the region is large, other stretches confirm it independently: closures agree pairwise over the
+//!    paths between them, and more do so than with any competing hypothesis;
+//! 5. after optimization all newly overlapping scans still agree; else everything is undone.
 
 mod scale;
 mod state;
@@ -37,29 +37,29 @@ const EVERY_M: f64 = 2.5;
 /// Length of a stretch in which is searched, and how much of its surroundings belongs to it \[m\].
 const PLACE_M: f64 = 5.0;
 const AROUND_M: f64 = 3.0;
-/// Way between two stretches before one is old for the other \[m\].
+/// Minimum path between two stretches for one to be old relative to the other \[m\].
 const OLD_M: f64 = 15.0;
 /// Middles of two stretches that show the same are not farther apart \[m\].
 const MEET_M: f64 = 9.0;
-/// So far is searched, to see whether something better lies just beyond \[m\].
+/// Half side of the searched window, beyond `MEET_M` to detect better matches just outside \[m\].
 const SEEN_M: f64 = 10.5;
-/// Beyond this nothing is searched \[m\]: standard deviation of the place.
+/// Maximum standard deviation of a position that is searched for \[m\].
 const MOST_M: f64 = 60.0;
 /// Below this ties to near scans find all there is, 3 standard deviations \[m, rad\].
 const KNOWN_M: f64 = 0.5;
 const KNOWN_RAD: f64 = 0.2;
 /// Searched points have a mean likelihood of at least this.
 const LEAST_SCORE: f64 = 0.42;
-/// The second best place is looked at when its score is this part of the best one's.
+/// The second best pose is verified if its score is at least this fraction of the best one's.
 const RIVAL: f64 = 0.8;
-/// Places farther apart than this are different ones \[m, rad\].
+/// Minimum distance of two different poses \[m, rad\].
 const OTHER_M: f64 = 0.8;
 const OTHER_RAD: f64 = 0.5;
 /// Part of judged points that must agree; points to judge; part of points with partners.
 const AGREEING: f64 = 0.88;
 const JUDGED: u32 = 400;
 const MATCHED: f64 = 0.6;
-/// Scans of the old stretch that each of the new one is held against.
+/// Number of scans of the old stretch that each of the new one is compared with.
 const COMPARED: usize = 3;
 /// The same where two stretches were driven in opposite directions, and each shows a part that is
 /// hidden from the other: fewer partners, but more points that both can judge and that agree.
@@ -78,21 +78,20 @@ const TWO_WITNESSES_M: f64 = 12.0;
 const CLEAR: f64 = 0.93;
 /// Witnesses for each against, where those against would be enough for another closure.
 const MAJORITY: usize = 3;
-/// Witnesses are at least this way apart \[m\], and are heard over so much way.
+/// Minimum path between two witnesses, and maximum path over which they count \[m\].
 const APART_M: f64 = 4.0;
 const HEARD_M: f64 = 60.0;
-/// That two closures agree says nothing where three standard deviations of the ways between them are
-/// more than this part of the smaller region, and more than this \[m\]: by chance they would agree as well.
+/// Two closures are uninformative about each other if three standard deviations of the paths between them
+/// exceed this fraction of the smaller region, and this distance: they would agree by chance.
 const EMPTY: f64 = 0.5;
 const EMPTY_M: f64 = 2.0;
 /// Searches for one stretch, and searches that wait, at most.
 const MOST_ASKED: usize = 30;
 const MOST_WAITING: usize = 300;
-/// What is known of places in other pieces of map: nothing. As many of them are asked for at once, each
-/// as if it were so far out in its region.
+/// Covariance of poses in other map components: unknown.
 const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
-/// Whole buildings look alike in places: where nothing is known, likelihood, agreement and witnesses must
-/// be better.
+/// Stricter limits for closures between components, where nothing is known of the relative pose: region,
+/// score, agreement, witnesses, searches per stretch, and their priority.
 const ANYWHERE_M: f64 = 250.0;
 const ANYWHERE_SCORE: f64 = 0.5;
 const ANYWHERE_AGREEING: f64 = 0.95;
@@ -104,30 +103,31 @@ const KEPT_FIELDS: usize = 12;
 /// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
 const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
-/// Where scans see farther, cells are larger up to so many times.
+/// Maximum factor of the cell size for long-range scanners.
 const COARSE: f64 = 2.0;
 /// Scans of a stretch that are laid onto others, and more where they have few points.
 const FEW_SCANS: usize = 8;
 const FEW_POINTS: usize = 800;
 
-/// What became of a closure.
+/// A loop closure candidate with the decision on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Kept scans that it ties, the old one first.
     pub keyframes: (usize, usize),
-    /// The place of the later in the frame of the older.
+    /// Pose of the later keyframe in the frame of the earlier one.
     pub old_from_new: Pose2,
-    /// Whether it is part of the map.
+    /// True if it is part of the map.
     pub is_accepted: bool,
-    /// Three standard deviations of the place before, in the worst direction \[m\].
+    /// Three standard deviations of the relative position before the closure, along the worst direction
+    /// \[m\].
     pub region_m: f64,
     /// Part of judged points that agreed.
     pub agreeing: f64,
-    /// Why it was accepted, or why not.
+    /// Reason for accepting or rejecting it.
     pub reason: String,
 }
 
-/// One search: a stretch of way in an old one.
+/// One search: a stretch of path in an old one.
 struct Task {
     stretch: Range<usize>,
     anchor: usize,
@@ -135,7 +135,7 @@ struct Task {
     covariance: Symmetric3,
 }
 
-/// A stretch of way in which others are searched.
+/// A stretch of path in which later ones are searched.
 struct Place {
     keyframes: Range<usize>,
     middle: usize,
@@ -151,7 +151,7 @@ struct Candidate {
     region_m: f64,
     share: f64,
     is_unique: bool,
-    /// Whether most points of one stretch are hidden from the other.
+    /// True if most points of each stretch are occluded from the other.
     is_partial: bool,
 }
 
@@ -173,37 +173,37 @@ impl Candidate {
     }
 }
 
-/// What other closures say of one.
+/// Evidence of the other closures about one.
 struct Evidence {
     /// Closures that agree with it.
     agreeing: Vec<usize>,
-    /// Independent stretches that tell the same, itself among them.
+    /// Independent stretches that confirm it, itself included.
     witnesses: usize,
     wanted: usize,
-    /// Independent stretches that tell something else.
+    /// Independent stretches that contradict it.
     rivals: usize,
 }
 
 impl Evidence {
     fn is_enough(&self) -> bool {
-        // As many against it as would do for another closure: two places look alike.
+        // As many against it as would suffice for another closure: two areas look alike.
         let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY * self.rivals;
         self.witnesses >= self.wanted + self.rivals && is_clear
     }
 }
 
-/// What two closures say of each other.
+/// Relation between two closures.
 enum Consistency {
     Agrees,
     Contradicts,
-    /// The ways between them are so uncertain that anything would agree.
+    /// The paths between them are so uncertain that they would agree by chance.
     Uninformative,
 }
 
-/// A field that is kept, of a place.
+/// A cached likelihood field of an old stretch.
 struct Kept {
     place: usize,
-    /// What it was made of: keys, and where they were from the middle of the place.
+    /// Keyframes and poses that it was built from, relative to the middle of the stretch.
     of: Vec<(usize, Pose2)>,
     /// Made when it is asked for.
     field: Option<Field>,
@@ -245,7 +245,7 @@ impl Loops {
         if travel_m - self.searched_m < EVERY_M {
             return;
         }
-        // Where near scans hold the way, nothing is to be searched.
+        // Where proximity constraints hold the path, no search is needed.
         self.searched_m = travel_m;
         if travel_m - proximity_m < STRETCH_M {
             return;
@@ -285,14 +285,14 @@ impl Loops {
         }
         let mut asked: Vec<(f64, Task)> = Vec::new();
         let mut elsewhere: Vec<(f64, Task)> = Vec::new();
-        // Places reach over those beside them.
+        // Stretches overlap their neighbours.
         for (place, old) in self.places.iter().enumerate().step_by(scale as usize) {
             let gone_m = keyframes[start].travel_m - keyframes[old.keyframes.end - 1].travel_m;
             if gone_m < scale * (OLD_M - STRETCH_M) {
                 break;
             }
             let Some(uncertainty) = &covariances[old.middle] else {
-                // It lies in another piece of map, or so far away that nothing is known of it.
+                // Another map component, or too far away for a bound on the uncertainty.
                 let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
                 elsewhere.push((FARTHER, task));
                 continue;
@@ -340,7 +340,7 @@ impl Loops {
         ends
     }
 
-    /// Whether searches are waiting.
+    /// True if searches are queued.
     pub(crate) fn is_busy(&self) -> bool {
         !self.tasks.is_empty()
     }
@@ -429,7 +429,7 @@ impl Loops {
         }
         if is_anywhere && verdict.share < ANYWHERE_AGREEING {
             told.reason = format!(
-                "{:.0} % of the points are seen through, too many for a place that may be anywhere",
+                "{:.0} % of the points are seen through, too many for an unbounded search",
                 100.0 * (1.0 - verdict.share)
             );
             self.closures.push(told);
@@ -454,7 +454,7 @@ impl Loops {
         })
     }
 
-    /// Keys of a place and those around it.
+    /// Keyframes of an old stretch and around it.
     fn around(&self, place: usize, keyframes: &[Keyframe], scale: f64) -> Range<usize> {
         let own = &self.places[place].keyframes;
         let around_m = scale * AROUND_M + 0.5 * (scale - 1.0) * PLACE_M;
@@ -463,7 +463,7 @@ impl Loops {
         between(keyframes, from_m, to_m)
     }
 
-    /// The field of a place: the one that is kept, or one of these keys.
+    /// Returns the likelihood field of an old stretch, from the cache or built from these keyframes.
     fn field(
         &mut self,
         place: usize,
@@ -485,11 +485,11 @@ impl Loops {
         })
     }
 
-    /// Whether enough speaks for a closure, and for those that agree with it; then their edges.
+    /// Decides on a new candidate and those that agree with it; returns the edges of the accepted ones.
     ///
-    /// Each is believed by its own evidence: as many witnesses as its own region asks for, among those
-    /// that agree with it. Those that fit elsewhere too are never believed: near scans will tell better
-    /// once the place is known. But they are done with.
+    /// Each is accepted by its own evidence: as many agreeing witnesses as its region requires. Ambiguous
+    /// candidates are never accepted, since proximity constraints are better once the pose is known; they
+    /// are dropped.
     fn weigh(&mut self, new: Candidate, keyframes: &[Keyframe], graph: &Graph) -> Vec<Edge> {
         self.closures.push(new.closure());
         self.pending.push(new);
@@ -511,7 +511,7 @@ impl Loops {
             }
         }
         let edges = believed.iter().map(|&index| self.pending[index].edge()).collect();
-        // Others that agreed may still find witnesses of their own.
+        // Others that agree may still find more witnesses.
         let is_done = |index: usize, it: &Candidate| {
             believed.contains(&index) || (evidence.agreeing.contains(&index) && !it.is_unique)
         };
@@ -523,7 +523,7 @@ impl Loops {
         edges
     }
 
-    /// What other closures say of one.
+    /// Evidence of the other closures about one.
     fn evidence(&self, of: usize, keyframes: &[Keyframe], graph: &Graph) -> Evidence {
         let it = &self.pending[of];
         let from_anchor = uncertainties(graph, it.anchor);
@@ -539,7 +539,7 @@ impl Loops {
         }
         for (index, other) in self.pending.iter().enumerate().rev() {
             let there_m = keyframes[other.anchor].travel_m;
-            // What is far away says nothing of what is here.
+            // Distant closures are no evidence.
             if index == of || (here_m - there_m).abs() > HEARD_M {
                 continue;
             }
@@ -571,9 +571,9 @@ impl Loops {
         let it = &self.pending[index];
         let (keyframes, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
         let words = match (it.is_unique, is_believed) {
-            (true, _) => "the only place in the region",
-            (false, false) => "fits elsewhere too",
-            (false, true) => "fits elsewhere too, though others agree with it",
+            (true, _) => "unique in the region",
+            (false, false) => "matches elsewhere too",
+            (false, true) => "matches elsewhere too, though others agree with it",
         };
         let is_accepted = is_believed && it.is_unique;
         let told = self.closures.iter_mut().rev();
@@ -606,7 +606,7 @@ impl Loops {
         waiting.into_iter().map(|it| self.pending[it.2].edge()).collect()
     }
 
-    /// Of the closures that contradict one, the best supported: the other answer to where the robot was.
+    /// Returns the best supported closure that contradicts the given one.
     pub(crate) fn rival_of(
         &self,
         edge: &Edge,
@@ -681,7 +681,7 @@ impl Loops {
         self.fields.clear();
     }
 
-    /// What is told of the closures that these edges are.
+    /// Returns the reports of these edges.
     pub(crate) fn closures_of<'a>(
         &'a mut self,
         edges: &'a [Edge],
@@ -700,7 +700,7 @@ impl Loops {
     }
 }
 
-/// The field of loops where scans see so many times as far as indoors.
+/// Settings of the likelihood field for scanners with `scale` times the range of indoor ones.
 fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
     let indoors = settings.loop_field;
     let (scale, coarse) = (scale as f32, scale.min(COARSE) as f32);
@@ -712,7 +712,7 @@ fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
     }
 }
 
-/// What came of a test.
+/// Result of a verification.
 struct Verdict {
     fit: Fit,
     share: f64,
@@ -729,7 +729,7 @@ fn few<'a>(group: &[Placed<'a>]) -> Vec<Placed<'a>> {
 
 /// Registers two stretches from a start and holds them against each other both ways.
 fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Settings) -> Verdict {
-    // Far from where it was searched it would be another place.
+    // Far from the start it would be another hypothesis.
     let prior =
         Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
     let (new_few, old_few) = (few(new), few(old));
@@ -759,9 +759,9 @@ fn uncertainties(graph: &Graph, keyframe: usize) -> Vec<Option<Symmetric3>> {
     found
 }
 
-/// Whether two closures agree over the ways between them, by squared Mahalanobis distance: from the one
-/// old place along the old way to the other, by its closure to the new way, back along it, and by the
-/// first closure home. (Pairwise consistency: Mangelson et al. 2018.)
+/// Compares two closures over the paths between them by squared Mahalanobis distance: from the old keyframe
+/// of one along the old path to that of the other, through its closure to the new path, back along it, and
+/// through the first closure to the start. (Pairwise consistency: Mangelson et al. 2018.)
 fn consistency(
     a: &Candidate,
     b: &Candidate,
@@ -772,7 +772,7 @@ fn consistency(
     let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
         return Consistency::Uninformative;
     };
-    // Both paths from the old place of a to the anchor of b.
+    // Both paths from the old keyframe of `a` to the anchor of `b`.
     let by_old = graph.between(a.middle, b.middle);
     let by_new = graph.between(a.anchor, b.anchor);
     let loose = Symmetric3::diagonal(0.01, 0.01, 0.0005);

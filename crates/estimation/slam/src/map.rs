@@ -1,4 +1,4 @@
-//! Maps from scans at known places.
+//! Occupancy grids from scans at known poses.
 
 use std::ops::Range;
 
@@ -8,8 +8,8 @@ use periplus_scan_matching::PackedPlaces;
 
 use crate::keyframe::Keyframe;
 
-/// What a beam that passes a cell, and one that ends in it, say of it: log odds in hundredths, for
-/// chances of 0.4 and 0.75; sums end at +-4, so that a cell that changed is learnt anew.
+/// Log odds in hundredths that a beam adds to a cell that it passes and to the one it ends in, for
+/// probabilities of 0.4 and 0.75; sums are limited to ±4, so that changed cells are relearned.
 const MISS: i16 = -41;
 const HIT: i16 = 110;
 const LIMIT: i16 = 400;
@@ -18,8 +18,8 @@ const MARGIN: f64 = 4.0;
 /// Neither seen nor passed.
 const UNSEEN: i16 = i16::MIN;
 
-/// Scans at their places at one moment. It can be drawn somewhere else while the map grows on; the
-/// scans themselves are shared.
+/// Scans and poses at one moment. It can be rasterized on another thread while mapping continues; the scans
+/// are shared.
 #[derive(Clone, Debug, Default)]
 pub struct MapSnapshot {
     scans: Vec<Drawn>,
@@ -55,7 +55,7 @@ impl MapSnapshot {
         Some(plan.rows(0..plan.lattice.height))
     }
 
-    /// What it takes to draw the map a few rows at a time; none when it would be too large even so.
+    /// Prepares rasterization by rows; `None` if even that would be too large.
     #[must_use]
     pub fn plan(self) -> Option<SnapshotRaster> {
         let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
@@ -81,7 +81,7 @@ impl MapSnapshot {
         if self.scans.is_empty() {
             (low, high) = ([0.0; 2], [0.0; 2]);
         }
-        // Corners at whole cells, so that the same place has the same cell in every run.
+        // Corners at whole cells: the same position has the same cell in every run.
         let resolution_m = self.resolution_m;
         let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN) * resolution_m);
         let cells = |axis: usize| {
@@ -102,14 +102,14 @@ impl MapSnapshot {
 
 /// A map that can be drawn a few rows at a time, so that it is never held as a whole.
 pub trait Plan {
-    /// Where its cells are.
+    /// Returns the geometry of its cells.
     fn lattice(&self) -> Lattice;
 
     /// Some of its rows, counted from the lowest.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid;
 }
 
-/// Scans at their places, and which rows of the map each of them touches.
+/// Scans with the rows of the map that each of them touches.
 pub struct SnapshotRaster {
     scans: Vec<Drawn>,
     lattice: Lattice,
@@ -122,8 +122,8 @@ impl Plan for SnapshotRaster {
         self.lattice
     }
 
-    /// Draws scans at their places: cells that beams passed are free, those where they ended occupied.
-    /// Within a scan a cell where a beam ends is not passed by others.
+    /// Rasterizes scans: cells that beams passed are free, those where they ended are occupied. Within a
+    /// scan a cell where a beam ends is not passed by others.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
         let part = part(&self.lattice, &rows);
         let mut odds: Grid<i16> = Grid::new(part, UNSEEN);
@@ -143,8 +143,8 @@ pub(crate) fn part(lattice: &Lattice, rows: &Range<usize>) -> Lattice {
     Lattice { height: rows.len(), ..lattice.moved(0, rows.start as i64) }
 }
 
-/// Which cells of some rows the beams of a scan passed, and in which they ended: a bit for each. It is kept
-/// to be filled again.
+/// Bit masks of the cells that the beams of a scan passed, and in which they ended, for some rows. The
+/// buffers are reused.
 #[derive(Default)]
 struct Marks {
     /// First column, at a border of words, and first row.
@@ -206,7 +206,7 @@ impl Marks {
         }
     }
 
-    /// What the scan says of each of these cells.
+    /// Adds the log odds of the scan to each of these cells.
     fn vote(&self, odds: &mut Grid<i16>, first_row: usize) {
         if self.words == 0 {
             return;
@@ -227,7 +227,7 @@ impl Marks {
     }
 }
 
-/// How likely a cell is occupied.
+/// Occupancy probability of a cell in percent.
 fn percent(&odds: &i16) -> i8 {
     if odds == UNSEEN {
         return occupancy::UNKNOWN;
@@ -249,7 +249,7 @@ mod tests {
     use super::*;
     use crate::settings::Settings;
 
-    /// Scans of a room, at places in a row.
+    /// Scans of a room from poses in a row.
     fn snapshot() -> MapSnapshot {
         let settings = Settings::default();
         let mut stream = Stream::keyed(1, "sketch", 0);

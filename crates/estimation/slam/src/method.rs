@@ -1,4 +1,4 @@
-//! What every method of mapping offers.
+//! Interface of the mapping methods.
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,12 +12,12 @@ use crate::map::Plan;
 use crate::remark::Remark;
 use crate::scan::Scan;
 
-/// A map that grows with every scan, by whichever method.
+/// A map under construction by any method.
 ///
-/// Methods differ in what they believe: [`Slam`] keeps one graph of poses and bends it when a loop is
-/// closed. What only one of them knows is asked of that one.
+/// [`Slam`] optimizes one pose graph; [`Gmapping`] keeps a map per particle. Functions of only one of them
+/// are on its own type.
 pub trait Mapper: Send {
-    /// Which method this is.
+    /// Returns the method.
     fn method(&self) -> Method;
 
     /// Takes a scan, and where odometry has the robot at its time, if it does.
@@ -26,14 +26,13 @@ pub trait Mapper: Send {
     /// Finishes what was left for later, and makes the map as good as it gets. More scans may follow.
     fn finish(&mut self);
 
-    /// Where the robot was at the last scan.
+    /// Returns the pose of the robot at the last scan.
     fn map_from_base(&self) -> Pose2;
 
-    /// Where the robot was at each scan that was not ignored, in the order in which they came \[ns\].
+    /// Returns the pose at each scan that was not rejected, with its stamp \[ns\], in the order of arrival.
     fn trajectory(&self) -> Vec<(i64, Pose2)>;
 
-    /// What it takes to draw the map as it is now a few rows at a time; none when it would be too large
-    /// even so.
+    /// Prepares rasterization of the current map by rows; `None` if even that would be too large.
     fn plan(&self) -> Option<Box<dyn Plan + '_>>;
 
     /// The map as it is now; none when it would be too large to hold.
@@ -48,8 +47,8 @@ pub trait Mapper: Send {
     /// Bytes held, about.
     fn size(&self) -> usize;
 
-    /// What became of every closure of a loop that was looked at in earnest, of methods that close
-    /// loops one by one.
+    /// Returns the loop closure candidates with the decision on each, for methods that close loops one by
+    /// one.
     fn closures(&self) -> &[Closure] {
         &[]
     }
@@ -59,7 +58,7 @@ pub trait Mapper: Send {
         Vec::new()
     }
 
-    /// What a person should know of the drive, in the order in which it was noticed; grows only.
+    /// Warnings and notices in the order of detection. The list only grows.
     fn remarks(&self) -> &[Remark] {
         &[]
     }
@@ -69,24 +68,24 @@ pub trait Mapper: Send {
         Vec::new()
     }
 
-    /// Places where passes contradict each other in the map, of methods that audit it.
+    /// Contradictions between passes in the map, for methods that audit it.
     fn contradictions(&self) -> Vec<MapContradiction> {
         Vec::new()
     }
 
-    /// How often particles were drawn anew, of methods that have some.
+    /// Number of resamplings, for particle filters.
     fn resamplings(&self) -> usize {
         0
     }
 }
 
-/// How maps are made.
+/// Mapping method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
-    /// A graph of poses: one map, which is bent when a loop is closed.
+    /// Pose graph: one map, optimized when a loop is closed.
     #[default]
     Graph,
-    /// Particles, each with a map of its own; those whose maps explain scans best go on.
+    /// Rao-Blackwellized particle filter: a map per particle.
     Gmapping,
 }
 

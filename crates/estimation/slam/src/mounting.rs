@@ -9,7 +9,7 @@ use periplus_geometry::{Pose2, normalize_angle};
 use crate::remark::{Remark, RemarkKind};
 use crate::scan::Scan;
 
-/// What undoes a fault of a scanner's mounting or of odometry's axes.
+/// Correction of a scanner mounting or of odometry axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MountingCorrection {
     /// The scanner is taken as one that hangs upside down, or the other way round.
@@ -28,14 +28,14 @@ pub enum MountingCorrection {
 
 /// Mountings are by quarter turns; an angle this near to one is one \[rad\].
 const QUARTER_RAD: f64 = 0.1;
-/// Smaller angles are told, and left to the person: wheels that pull to one side look the same \[rad\].
+/// Smaller angles are reported but not corrected: a drive that pulls to one side looks the same \[rad\].
 const LEAST_TURN_RAD: f64 = 0.3;
 
 impl MountingCorrection {
-    /// What undoes the fault that remarks tell of, if they tell of one.
+    /// Returns the correction of the fault that the remarks report, if any.
     ///
-    /// A drive that is reversed looks mirrored as long as it has only turned, so that the more special
-    /// fault counts.
+    /// A reversed drive looks mirrored while it has only rotated, so that the more specific fault has
+    /// priority.
     #[must_use]
     pub fn of(remarks: &[Remark]) -> Option<Self> {
         let first = |pick: fn(&RemarkKind) -> Option<Self>| {
@@ -190,7 +190,7 @@ mod tests {
         assert!((twice.unwrap().x_m - right.x_m).abs() < 1e-9);
     }
 
-    /// What has only turned so far looks mirrored; a quarter turn that is 0.3 degrees off is one.
+    /// A drive that has only rotated looks mirrored; a quarter turn with an error of 0.3 degrees is one.
     #[test]
     fn the_more_special_fault_counts() {
         let remarks = [remark(RemarkKind::ScanMirrored), remark(RemarkKind::OdometryReversed)];

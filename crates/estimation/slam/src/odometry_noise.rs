@@ -1,16 +1,16 @@
-//! How far odometry can be trusted.
+//! Odometry noise, learned from scan matching.
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::Symmetric3;
 
-/// How odometry errs, learnt as the robot drives.
+/// Scale of the odometry errors relative to the noise model.
 #[derive(Clone, Debug)]
 pub(crate) struct OdometryNoise {
-    /// Errors are so many times those of the model, squared: of place and of heading.
+    /// Squared factors of the model's errors: of position and heading.
     place: f64,
     heading: f64,
-    /// The same of ordinary steps: a step that is far off counts no more than one three times as far
-    /// off as usual, so that wheels that slip once are not held against all others.
+    /// The same for ordinary steps: a step counts at most as one three times as far off as usual, so that a
+    /// single wheel slip does not count against all others.
     typical_place: f64,
     typical_heading: f64,
     /// The longest step of late, forgotten slowly \[m\].
@@ -26,12 +26,13 @@ const LEAST: f64 = 0.25;
 const MOST: f64 = 36.0;
 /// Lower bound of what is learnt, squared.
 const LEAST_LEARNT: f64 = 0.01;
-/// A step counts for the factor of ordinary steps up to so many times it, squared.
+/// Maximum squared factor with which a step counts for ordinary steps.
 const CLIPPED: f64 = 9.0;
 /// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
 const JUMP_M: f64 = 4.0;
 const FASTEST_M_S: f64 = 5.0;
-/// So has a step of so many times the longest of late, of at least this, and faster than that.
+/// A step is a jump too if it exceeds this multiple of the longest recent one, this distance, and this
+/// speed.
 const USUAL_STEPS: f64 = 3.0;
 const LEAST_JUMP_M: f64 = 0.5;
 const FAST_M_S: f64 = 3.0;
@@ -43,7 +44,7 @@ const HIDDEN_M_S: f64 = 0.3;
 const HIDDEN_RAD_S: f64 = 0.1;
 const MOVED_M: f64 = 0.3;
 const MOVED_RAD: f64 = 0.3;
-/// How fast it learns.
+/// Learning rate.
 const RATE: f64 = 0.04;
 
 impl Default for OdometryNoise {
@@ -53,15 +54,15 @@ impl Default for OdometryNoise {
 }
 
 impl OdometryNoise {
-    /// Covariance of a motion that odometry tells; errors as along the axes of where it began.
+    /// Covariance of an odometry motion, along the axes of its start.
     pub(crate) fn covariance(&self, motion: Pose2, seconds: f64) -> Symmetric3 {
         let model = Self::model(motion, seconds);
         let place = model[0] * self.place.max(LEAST);
         Symmetric3::diagonal(place, place, model[1] * self.heading.max(LEAST))
     }
 
-    /// The same for an ordinary step, in which no wheel slips, without the lower bound that searches ask
-    /// for: how uncertain a way is that only odometry tells.
+    /// Covariance of an ordinary step without wheel slip and without the lower bound for searches: the
+    /// uncertainty of path measured by odometry alone.
     pub(crate) fn typical(&self, motion: Pose2, seconds: f64) -> Symmetric3 {
         let [place, heading] = Self::model(motion, seconds);
         let place = place * self.typical_place;
@@ -73,14 +74,14 @@ impl OdometryNoise {
         Symmetric3::diagonal(0.09, 0.09, 0.04)
     }
 
-    /// Whether a robot can have moved so in so long a time.
+    /// True if a robot can have moved this far in this time.
     pub(crate) fn is_possible(&self, motion: Pose2, seconds: f64) -> bool {
         let way_m = libm::hypot(motion.x_m, motion.y_m);
         let usual_m = (USUAL_STEPS * self.step_m).max(LEAST_JUMP_M) + FAST_M_S * seconds.max(0.0);
         way_m < usual_m.min(JUMP_M + FASTEST_M_S * seconds.max(0.0))
     }
 
-    /// Variances of place and heading. In a time without scans the robot went some way that does not show.
+    /// Variances of position and heading. Without scans for a while the robot may have moved unseen.
     fn model(motion: Pose2, seconds: f64) -> [f64; 2] {
         let way = libm::hypot(motion.x_m, motion.y_m);
         let turn = normalize_angle(motion.yaw_rad).abs();

@@ -1,8 +1,8 @@
-//! Passes through one place whose walls lie side by side in the map.
+//! Doubled walls: passes through the same area whose walls are side by side in the map.
 //!
-//! Where the map has two passes within a few metres of each other and nothing ties them, their scans are
-//! laid onto each other. When they then fit clearly better than where the map has them, the map draws
-//! those walls twice, too near to each other for one pass to look through the walls of the other.
+//! Where two passes are within a few metres of each other and no constraint connects them, their scans are
+//! registered. If they then match clearly better than at their poses in the map, the map draws those walls
+//! twice, too near to each other for one pass to look through the walls of the other.
 
 use std::ops::Range;
 
@@ -17,26 +17,26 @@ use crate::local::{
 };
 use crate::settings::Settings;
 
-/// What two passes say of each other where nothing ties them.
+/// Relative pose of two passes that no constraint connects.
 pub(crate) struct Offset {
-    /// Where the later pass lies, as seen from the earlier one, by their scans.
+    /// Pose of the later pass relative to the earlier one by their scans.
     pub(crate) edge: Edge,
-    /// How far the map is off from it \[m\].
+    /// Distance from it to the relative pose in the map \[m\].
     pub(crate) shift_m: f64,
-    /// Where, in the map.
+    /// Position in the map.
     pub(crate) map_from_base: Pose2,
 }
 
-/// Way over which scans of a pass are taken together \[m\], and at least so many.
+/// Path over which scans of a pass are combined \[m\], and their minimum number.
 const STRETCH_M: f64 = 3.0;
 const LEAST_SCANS: usize = 3;
-/// Scans of the other pass up to so much way before and after the nearest one \[m\].
+/// Path of the other pass before and after its nearest keyframe \[m\].
 const AROUND_M: f64 = 3.0;
 /// Ties within this way of both passes hold them together \[m\].
 const TIED_M: f64 = 4.0;
 /// Ties that leave more open than this in some direction do not count (one standard deviation) \[m\].
 const FIRM_M: f64 = 0.3;
-/// So far beside where the map has it a pass is looked for \[m, rad\].
+/// Search window around the pose in the map.
 const WINDOW_M: f64 = 1.5;
 const WINDOW_RAD: f64 = 0.15;
 /// Points searched with: their spacing, and how far away they are at most \[m\].
@@ -47,7 +47,7 @@ const LEAST_M: f64 = 0.15;
 /// Squared Mahalanobis distance of an offset that scans are sure of.
 const SURE: f64 = 30.0;
 
-/// How much of a stretch must be seen from another pass, and agree.
+/// Minimum overlap and agreement of a stretch with another pass.
 #[derive(Clone, Copy)]
 struct Least {
     /// Share of the points that find partners.
@@ -58,32 +58,31 @@ struct Least {
     agreeing: f64,
 }
 
-/// Where the map has it, and elsewhere.
+/// Limits at the pose in the map, and at another pose.
 const HERE: Least = Least { matched: 0.5, judged: 0.4, agreeing: 0.85 };
 const ELSEWHERE: Least = Least { matched: 0.6, judged: 0.6, agreeing: 0.9 };
-/// Points this near to a point of the other pass lie on the same wall \[m\]. So much more of them must lie
-/// so near than where the map has them.
+/// Maximum distance of two points on the same wall \[m\]; minimum increase of the fraction of such points
+/// over the pose in the map.
 const SAME_M: f32 = 0.1;
 const CLEARLY: f64 = 0.15;
 /// Mean likelihood of points that are where they were searched, at least.
 const LEAST_SCORE: f64 = 0.5;
-/// Another place in the window with this part of the likelihood makes it ambiguous, when it is as far
-/// away as this \[m, rad\].
+/// A second pose in the window is ambiguous with this fraction of the likelihood, at least this far away.
 const RIVAL: f64 = 0.9;
 const OTHER_M: f64 = 0.5;
 const OTHER_RAD: f64 = 0.5;
 
-/// Passes through the same places, held against each other.
+/// Comparison of the passes through the same areas.
 #[derive(Default)]
 pub(crate) struct Passes {
-    /// Where walls lie side by side, in the order of the way.
+    /// Doubled walls, in path order.
     pub(crate) offsets: Vec<Offset>,
-    /// Way that leads through places of another pass: what ties or scans confirm, and all \[m\].
+    /// Path through the area of another pass: confirmed by constraints or scans, and all \[m\].
     pub(crate) confirmed_m: f64,
     pub(crate) whole_m: f64,
 }
 
-/// What scans say of a stretch and another pass.
+/// Result of comparing a stretch with another pass.
 enum Consistency {
     /// They fit where the map has them.
     Fits,
@@ -120,7 +119,7 @@ pub(crate) fn compare(keyframes: &[Keyframe], graph: &Graph, settings: &Settings
     found
 }
 
-/// Whether something ties two passes around two kept scans.
+/// True if a constraint connects two passes around two keyframes.
 fn is_tied(keyframes: &[Keyframe], graph: &Graph, old: usize, new: usize) -> bool {
     let is_near =
         |a: usize, b: usize| (keyframes[a].travel_m - keyframes[b].travel_m).abs() < TIED_M;
@@ -135,7 +134,7 @@ fn is_tied(keyframes: &[Keyframe], graph: &Graph, old: usize, new: usize) -> boo
     })
 }
 
-/// Whether an edge holds in all directions: walls of a corridor do not hold along it.
+/// True if an edge constrains all directions; walls of a corridor do not constrain the one along it.
 fn is_firm(edge: &Edge) -> bool {
     let covariance = edge.information.inverse();
     covariance.is_some_and(|it| it.largest_shift() < FIRM_M * FIRM_M)

@@ -1,4 +1,4 @@
-//! Ties to old scans at places that are known well enough to compare directly.
+//! Proximity constraints: direct matches with old keyframes whose relative pose is known well enough.
 
 use periplus_geometry::normalize_angle;
 use periplus_scan_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, register};
@@ -11,9 +11,9 @@ use crate::local::{
 };
 use crate::settings::Settings;
 
-/// A place is known well enough when its uncertainty is below this \[m\] (a turn counted with it).
+/// Maximum uncertainty of the relative pose \[m\], rotation included.
 const MOST_M: f64 = 0.6;
-/// Paths to them lead no farther away than this and the way since the last tie \[m\].
+/// Maximum distance of paths to them, besides the path since the last constraint \[m\].
 const NEAR_M: f64 = 12.0;
 /// Scans this near look at the same things \[m\].
 const REACH_M: f64 = 4.0;
@@ -24,15 +24,15 @@ const OLD_M: f64 = 10.0;
 const JUDGED: u32 = 50;
 const AGREEING: f64 = 0.85;
 const MATCHED: f64 = 0.6;
-/// Beyond these uncertainties (3 standard deviations) the place is searched for \[m, rad\].
+/// Uncertainties (3 standard deviations) beyond which the pose is searched for.
 const KNOWN_M: f64 = 0.2;
 const KNOWN_RAD: f64 = 0.06;
-/// Another place farther than this \[m\] with this part of the likelihood makes a tie ambiguous.
+/// A match is ambiguous if another pose at least this far away has this fraction of its likelihood.
 const OTHER_M: f64 = 0.5;
 const RIVAL: f64 = 0.8;
 /// Squared Mahalanobis distance of what is possible: 99.9 % for 3 degrees of freedom.
 const POSSIBLE: f64 = 16.3;
-/// How near two points are the same \[m\].
+/// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 /// Old scans on either side of the one that is compared with.
 const BESIDE: usize = 2;
@@ -46,7 +46,7 @@ pub(crate) fn proximity(
     keyframe: usize,
     settings: &Settings,
 ) -> Vec<Edge> {
-    // What leads to an old scan nearby goes back to where the way was last held, and along an old way.
+    // Paths to nearby old keyframes lead back to the last constraint and along an old path.
     let held =
         (0..keyframe).rev().find(|&it| graph.is_held(it)).map_or(0.0, |it| keyframes[it].travel_m);
     let reach_m = NEAR_M + (keyframes[keyframe].travel_m - held).max(0.0);
@@ -139,7 +139,7 @@ pub(crate) fn tie(
             rival = second.map(|peak| register(&moving, &group, peak.pose, Some(&prior), &how));
         }
     }
-    // What ties say must be possible by what is known, in every direction.
+    // The match must be possible by the known uncertainty, in every direction.
     let found = fit.target_from_moving;
     let off = graph.between(keyframe, old.keyframe).inverse() * found.inverse();
     let off = [off.x_m, off.y_m, normalize_angle(off.yaw_rad)];

@@ -13,24 +13,25 @@ use crate::settings::Settings;
 
 /// Scans farther apart than this are not compared \[m\].
 const REACH_M: f64 = 5.0;
-/// A turn of a radian between two scans counts as so far apart \[m\].
+/// Distance equivalent of a rotation by one radian between two scans \[m\].
 const TURN_M: f64 = 0.3;
 /// Scans within this way of each other need no proof that they see the same \[m\].
 const SAME_VISIT_M: f64 = 6.0;
 /// Widths of partners and of weights from the first sweep to the last \[m\].
 const PARTNERS_M: [f32; 2] = [0.3, 0.15];
 const WEIGHTS_M: [f32; 2] = [0.12, 0.06];
-/// What chains say counts this much beside: along corridors only odometry knows.
+/// Weight of the sequential constraints: along corridors only odometry measures the distance.
 const CHAIN: f64 = 0.1;
 /// A sweep moves poses by centimetres: one that would move some by more is not believed \[m\].
 const FARTHEST_M: f64 = 2.0;
 
-/// Refines all poses: each scan is held against its neighbours in place, points of each against lines
-/// of the other, and all poses are solved for together; a few times, as points find better partners.
-/// So a pose is held by all that was ever seen from around it, and not by the order of the drive.
+/// Refines all poses: each keyframe is compared with its spatial neighbours, points of each against lines
+/// of the other, and all poses are solved for together, several times, since better poses give better
+/// correspondences. Each pose is then constrained by everything seen around it, independent of the order of
+/// the drive.
 ///
-/// What a pair of scans tells goes straight into the equations: of a map of kilometres there are some
-/// hundred thousand pairs.
+/// Each pair is added to the normal equations directly: a map of kilometres has some hundred thousand
+/// pairs.
 pub(crate) fn refine(keyframes: &[Keyframe], graph: &mut Graph, settings: &Settings) {
     let pairs = choose(keyframes, graph, settings);
     for sweep in 0..settings.refine_sweeps {
@@ -91,7 +92,7 @@ struct Clouds<'a> {
     kept: Vec<Option<(usize, Rc<Cloud>)>>,
 }
 
-/// So many are kept.
+/// Size of the cache.
 const KEPT_CLOUDS: usize = 128;
 
 impl<'a> Clouds<'a> {
@@ -160,7 +161,7 @@ fn choose(keyframes: &[Keyframe], graph: &Graph, settings: &Settings) -> Vec<(us
     pairs
 }
 
-/// Whether two scans see the same.
+/// True if two scans overlap and agree.
 fn is_alike(clouds: &mut Clouds<'_>, graph: &Graph, a: usize, b: usize) -> bool {
     let a_from_b = graph.between(a, b);
     let keyframes = clouds.keyframes;

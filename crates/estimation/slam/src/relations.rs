@@ -1,13 +1,12 @@
-//! How well a trajectory keeps to relations that are known.
+//! Error of a trajectory by known relations.
 //!
-//! The metric of Kümmerle et al. 2009, "On measuring the accuracy of SLAM algorithms": a relation
-//! says where the robot was at one time, as seen from where it was at another, and the error is by
-//! how much the estimate says something else. No frame has to be laid onto another, and an error made
-//! once counts once.
+//! The metric of Kümmerle et al. 2009, "On measuring the accuracy of SLAM algorithms": a relation gives the
+//! relative pose of the robot between two times, and the error is the difference of the estimate. No
+//! alignment of frames is needed, and an error made once counts once.
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-/// Where the robot was at `to_s` as seen from where it was at `from_s`.
+/// Pose of the robot at `to_s` relative to its pose at `from_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relation {
     /// Stamp \[s\].
@@ -43,7 +42,7 @@ pub fn read_relations(text: &str) -> Result<Vec<Relation>, usize> {
 /// Errors over some relations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// How many.
+    /// Number of relations.
     pub count: usize,
     /// Mean shift \[m\].
     pub mean_m: f64,
@@ -66,21 +65,21 @@ pub struct Score {
     pub local: Errors,
     /// Over the others.
     pub loops: Errors,
-    /// Relations at times of which the trajectory says nothing.
+    /// Number of relations at times that the trajectory does not cover.
     pub missed: usize,
 }
 
 /// A pose and its stamp \[s\].
 pub type Stamped = (f64, Pose2);
 
-/// Relations within so much time are local ones \[s\].
+/// Maximum duration of a local relation \[s\].
 const LOCAL_S: f64 = 60.0;
 /// A pose at a time this near is that of the time, and gaps up to that are bridged \[s\].
 const SAME_S: f64 = 0.005;
 const GAP_S: f64 = 5.0;
 
-/// Scores a trajectory. `odometry` is what stood in the log at each scan and between them, in order
-/// of time: it tells how the robot moved from one pose of the trajectory to the next.
+/// Scores a trajectory. `odometry` has the odometry of the log at each scan and between scans, in order of
+/// time; it interpolates between poses of the trajectory.
 #[must_use]
 pub fn score(
     trajectory: &[Stamped],
@@ -130,13 +129,13 @@ pub struct Miss {
     pub shift_m: f64,
     /// Turn, without its sign \[rad\].
     pub turn_rad: f64,
-    /// Whether its ends are within a minute.
+    /// True if the two times are within a minute.
     pub is_local: bool,
     /// Time from its ends to the nearest poses of the trajectory, the longer one \[s\].
     pub beside_s: f64,
 }
 
-/// How a trajectory misses each relation at whose times something is known of it; see [`score`].
+/// Returns the error of the trajectory for each relation whose times it covers; see [`score`].
 #[must_use]
 pub fn misses(
     trajectory: &[Stamped],
@@ -168,8 +167,8 @@ pub fn misses(
     relations.iter().filter_map(miss).collect()
 }
 
-/// The trajectory with what odometry says of the time between its poses; what it misses by is spread
-/// evenly over the time.
+/// Returns the trajectory with interpolation by odometry; the remaining difference is distributed evenly
+/// over time.
 fn densified(trajectory: &[Stamped], scans: &[Stamped], between: &[Stamped]) -> Vec<Stamped> {
     if between.is_empty() {
         return trajectory.to_vec();

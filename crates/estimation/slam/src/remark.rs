@@ -51,7 +51,7 @@ pub enum RemarkKind {
     DoubledWalls(f64, f64, f64),
     /// The path around this position \[m\] fits two earlier positions equally well, this far apart \[m\].
     AmbiguousClosure(f64, f64, f64),
-    /// Length of the path through known places that no scan confirms, and of all such path \[m\].
+    /// Length of the path through mapped areas that no scan confirms, and of all such path \[m\].
     UnconfirmedPath(f64, f64),
     /// Number of distinct particle maps left after memory ran short.
     ParticlesReduced(usize),

@@ -6,12 +6,12 @@ use periplus_scan_matching::{Cloud, CloudSettings};
 /// Ranges along beams, as `sensor_msgs/LaserScan` has them, and where the scanner is on the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    /// Of the first beam \[ns\].
+    /// Stamp of the first beam \[ns\].
     pub time_ns: i64,
-    /// Where the scanner is \[m, rad\]. With scanners that hang upside down this is where it points
-    /// after [`Scan::is_flipped`] is undone.
+    /// Pose of the scanner \[m, rad\]; for a scanner mounted upside down, its direction after
+    /// [`Scan::is_flipped`] is undone.
     pub base_from_laser: Pose2,
-    /// Whether the scanner hangs upside down: its beams run clockwise as seen from above.
+    /// True if the scanner is mounted upside down: its beams run clockwise seen from above.
     pub is_flipped: bool,
     /// Direction of the first beam \[rad\].
     pub angle_min_rad: f64,
@@ -23,7 +23,7 @@ pub struct Scan {
     pub range_min_m: f32,
     /// Readings at or above saw nothing \[m\].
     pub range_max_m: f32,
-    /// What the beams measured \[m\]; anything that is not a positive number saw nothing.
+    /// Measured ranges \[m\]; values that are not positive numbers are no returns.
     pub ranges_m: Vec<f32>,
 }
 
@@ -38,9 +38,8 @@ pub(crate) struct Ends {
 }
 
 impl Scan {
-    /// Where beams ended in the frame of the base at the time of the scan. `motion` is how the base
-    /// moved in a second, to undo that beams were not at once; readings are used from `nearest_m` to
-    /// `farthest_m`.
+    /// Returns the beam ends in the frame of the base at the stamp. `motion` is the motion of the base per
+    /// second, for deskewing; readings from `nearest_m` to `farthest_m` are used.
     pub(crate) fn ends(&self, motion: Option<Pose2>, [nearest_m, farthest_m]: [f32; 2]) -> Ends {
         let every = self.ranges_m.len().div_ceil(MOST_BEAMS).max(1);
         let sign = if self.is_flipped { -1.0 } else { 1.0 };
@@ -70,7 +69,7 @@ impl Scan {
         }
     }
 
-    /// What makes the scan useless, in words.
+    /// Returns the reason for which the scan is unusable, if any.
     pub(crate) fn fault(&self) -> Option<&'static str> {
         let is_finite = self.base_from_laser.is_finite()
             && self.angle_min_rad.is_finite()
@@ -79,7 +78,7 @@ impl Scan {
             && self.range_min_m.is_finite()
             && !self.range_max_m.is_nan();
         if !is_finite {
-            Some("an angle, a limit of range or the place of the scanner is not a finite number")
+            Some("an angle, a limit of range or the pose of the scanner is not a finite number")
         } else if self.ranges_m.len() > 1 && self.angle_increment_rad == 0.0 {
             Some("all beams point in one direction: the increment of the angle is 0")
         } else {

@@ -1,9 +1,8 @@
-//! Sessions: everything that a map in the making is, as bytes, to go on later as if nothing had been.
+//! Sessions: the whole state of a mapping run as bytes, for resuming it exactly.
 //!
-//! The layout is told in `docs/formats/session.md`. In short: a magic word, a version, sections with a
-//! name and a length each, and a checksum over all before. A section that is not known is passed
-//! over. Whatever the bytes, reading them ends in a map whose parts fit together or in a reason, and
-//! holds no more memory than a small multiple of them.
+//! The format is described in `docs/formats/session.md`: a magic number, a version, sections with name and
+//! length, a checksum. Unknown sections are skipped. Any input ends in a consistent map or an error, and
+//! uses no more memory than a small multiple of its size.
 
 mod bytes;
 
@@ -19,7 +18,7 @@ use crate::settings::Settings;
 
 pub(crate) use bytes::{Bytes, Fault, Pack, Reader, packed};
 
-/// What a file of a session begins with.
+/// Magic number at the start of a session file.
 pub const SESSION_MAGIC: [u8; 8] = *b"PERISLAM";
 /// The version that is written, and the only one that is read.
 pub const SESSION_VERSION: u32 = 3;
@@ -31,15 +30,15 @@ const TAIL: usize = 4;
 /// Coordinates beyond are not of a building \[m\], and turns beyond not of a robot \[rad\].
 const FARTHEST_M: f64 = 1e6;
 const MOST_RAD: f64 = 1e3;
-/// What is farther from the robot no scanner has seen \[m\].
+/// Farthest distance of a point from the robot in a valid session \[m\].
 const FARTHEST_SEEN_M: f32 = 1e4;
 
-/// Why bytes are no session.
+/// Error while reading a session.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SessionError {
-    /// Where, in bytes from the start.
+    /// Offset of the error \[bytes\].
     pub offset: usize,
-    /// What is wrong, and what to do.
+    /// Cause and remedy.
     pub reason: String,
 }
 
@@ -88,7 +87,7 @@ impl Slam {
     }
 }
 
-/// Sections by name, in the order in which they stand.
+/// Sections by name, in file order.
 fn sections(bytes: &[u8]) -> Result<Vec<([u8; 4], Reader<'_>)>, SessionError> {
     let fault = |offset: usize, reason: String| Err(SessionError { offset, reason });
     if !bytes.starts_with(&SESSION_MAGIC) {
@@ -208,7 +207,7 @@ impl Pack for Keyframe {
             return Err(Fault("a scan saw farther than any scanner".into()));
         }
         if !ends.iter().flatten().flatten().all(is_near) || !(0.0..=1e12).contains(&travel_m) {
-            return Err(Fault("beams end nowhere, or the way is endless".into()));
+            return Err(Fault("beam ends or the path length are not finite".into()));
         }
         let ends = ends.map(|ends| PackedPlaces::new(&ends, cloud.origin()));
         Ok(Self::new(&cloud, ends, travel_m))

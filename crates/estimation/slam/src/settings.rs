@@ -1,11 +1,12 @@
-//! What can be set.
+//! Settings of graph SLAM.
 
 use periplus_scan_matching::{CloudSettings, FieldSettings, RegisterSettings};
 
-/// What can be set. The defaults are meant to fit every scanner and building.
+/// Settings of graph SLAM. The defaults suit every scanner and building.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// A scan is kept after so much motion \[m\] ...
+    /// Minimum distance between keyframes \[m\] (default 0.35); a keyframe is inserted after this distance
+    /// ...
     pub keyframe_distance_m: f64,
     /// ... or turn \[rad\] from the last one kept.
     pub keyframe_rotation_rad: f64,
@@ -13,9 +14,9 @@ pub struct Settings {
     pub range_min_m: f32,
     /// Readings from farther away are not used \[m\].
     pub range_max_m: f32,
-    /// How clouds are made.
+    /// Construction of point clouds.
     pub cloud: CloudSettings,
-    /// How scans are laid onto those before.
+    /// Registration of scans.
     pub register: RegisterSettings,
     /// The field in which a scan is searched for among those before.
     pub local_field: FieldSettings,
@@ -23,7 +24,7 @@ pub struct Settings {
     pub loop_field: FieldSettings,
     /// Scans before that a new one is laid onto.
     pub local_scans: usize,
-    /// Whether loops are closed.
+    /// True to close loops (default).
     pub closes_loops: bool,
     /// Side of a cell of the map \[m\].
     pub resolution_m: f64,
@@ -31,26 +32,26 @@ pub struct Settings {
     pub drawn_beams: usize,
     /// Sweeps of the last refinement.
     pub refine_sweeps: usize,
-    /// Neighbours that each scan is held against in the last refinement.
+    /// Neighbours that each keyframe is compared with in the last refinement (default 10).
     pub refine_neighbours: usize,
     /// Slices of work in the background that follow a scan, at most; each takes some milliseconds.
     pub slices_per_scan: usize,
     /// Steps of the solver, at most, after a closure.
     pub solve_steps: usize,
-    /// Whether kept scans go when a newer one shows the same from the same place: in a bounded area the
-    /// map then stays bounded, however long the robot drives, and follows what changes.
+    /// True to remove keyframes that newer ones make redundant (default false): in a bounded area the map
+    /// stays bounded, however long the robot drives, and follows changes.
     pub is_lifelong: bool,
-    /// Whether the pose of each scan stays known. Without it there are at most two for each kept scan, so
-    /// that a robot that stands still costs no memory: for runs without an end.
+    /// True to keep the pose of each scan (default). Otherwise at most two per keyframe are kept, so that a
+    /// robot at rest uses no memory: for runs without an end.
     pub keeps_each_pose: bool,
-    /// Whether the map is audited while the robot drives, when there is no other work in the background:
-    /// see [`Slam::contradictions`](crate::Slam::contradictions). [`Slam::finish`](crate::Slam::finish)
-    /// audits it anyway.
+    /// True to audit the map while mapping, when no other background work is left (default false): see
+    /// [`Slam::contradictions`](crate::Slam::contradictions). [`Slam::finish`](crate::Slam::finish) audits
+    /// it anyway.
     pub audits_live: bool,
 }
 
 impl Settings {
-    /// Which readings are used \[m\].
+    /// Range of readings that are used: minimum, maximum \[m\].
     pub(crate) fn used_m(&self) -> [f32; 2] {
         [self.range_min_m, self.range_max_m]
     }

@@ -1,9 +1,8 @@
-//! Parameters by the names that `slam_toolbox` and `slam_gmapping` have for them, and what they mean
-//! to the methods here.
+//! Parameters of `slam_toolbox` and `slam_gmapping` by their own names, and their mapping to the settings
+//! here.
 //!
-//! A parameter of theirs that nothing here listens to is in the tables all the same, so that files
-//! can be taken as they are. When somebody sets one of these to something else than its default, a
-//! warning tells why that changes nothing ([`idle`]).
+//! Parameters of theirs without effect here are in the tables too, so that parameter files work unchanged.
+//! Setting one of these to something other than its default gives a warning with the reason ([`idle`]).
 
 mod gmapping;
 mod toolbox;
@@ -26,7 +25,7 @@ const CORRECT_MOUNTING: &str = "If true, an error of the scanner's mounting or o
 /// Parameters that change nothing here.
 struct Idle {
     names: &'static [&'static str],
-    /// Why: a sentence without its full stop.
+    /// Reason: a sentence without its full stop.
     because: &'static str,
 }
 
@@ -76,14 +75,14 @@ pub fn idle(values: &Values) -> Vec<Diagnostic> {
     findings
 }
 
-/// What values of a table say together that cannot be meant.
+/// Returns contradictions between values.
 #[must_use]
 pub fn conflicts(values: &Values) -> Vec<Diagnostic> {
     let table = values.table();
     if table.name == GMAPPING.name { gmapping::conflicts(values) } else { Vec::new() }
 }
 
-/// Whether a parameter was set to something else than its default.
+/// True if a parameter differs from its default.
 fn is_changed(values: &Values, name: &str) -> bool {
     let default = values.table().find(name).and_then(|parameter| match parameter.default {
         Default::Value(default) => Value::read(parameter, default).ok(),
@@ -93,17 +92,17 @@ fn is_changed(values: &Values, name: &str) -> bool {
 }
 
 impl Settings {
-    /// What values of [`SLAM_TOOLBOX`] say to the graph. Only what was given counts: the defaults here
-    /// are the engine's own.
+    /// Applies values of [`SLAM_TOOLBOX`] to the settings. Only given values count: the defaults here are
+    /// the mapper's own.
     #[must_use]
     pub fn of(values: &Values) -> Self {
         toolbox::settings(values)
     }
 }
 
-/// Names of parameters that can be told apart from those of the other method by their spelling.
+/// Returns the method whose parameter names a file contains.
 ///
-/// A file that holds parameters of both, or of none, tells nothing.
+/// `None` if it contains names of both or of none.
 #[must_use]
 pub fn method_of<'a>(given: impl IntoIterator<Item = &'a Given<'a>>) -> Option<Method> {
     let (mut graph, mut gmapping) = (false, false);

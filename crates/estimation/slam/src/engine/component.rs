@@ -11,16 +11,16 @@ use crate::local::apart;
 use crate::remark::RemarkKind;
 use crate::scan::{Ends, Scan};
 
-/// The robot was set elsewhere: as far away as this from what was before, by way \[m\]. Old scans are
-/// then old ones, to be tied to.
+/// Path length added at the start of a component, so that earlier scans count as old and can be closed with
+/// \[m\].
 const CARRIED_M: f64 = 30.0;
-/// After so long a time without scans the robot may be anywhere \[s\].
+/// Longest interruption of the scans across which matching is trusted \[s\].
 const GAP_S: f64 = 10.0;
-/// Scans that fit worse than usual, and that agree on less than the first part of what both see, are of
-/// other places; after such a time, or a jump of odometry, on less than the second.
+/// Maximum agreement with the scans before of a scan that belongs elsewhere: without, and with an
+/// interruption or an odometry jump.
 const STRANGE: f64 = 0.6;
 const SURE: f64 = 0.8;
-/// Scans that fit nothing for so much way \[m\], and at least so many.
+/// Minimum path and number of consecutive scans that belong elsewhere.
 const STRANGE_M: f64 = 1.5;
 const STRANGE_SCANS: usize = 4;
 
@@ -34,7 +34,7 @@ pub(super) struct UnmatchedRun {
 crate::session::packed!(UnmatchedRun { scans, way_m });
 
 impl Slam {
-    /// Whether a scan is of another place than those before: where the robot is now is not known.
+    /// True if a scan does not belong to the scans before it: the robot was carried, or scans are missing.
     pub(super) fn is_kidnapped(&mut self, scan_match: &ScanMatch, step: &OdometryStep) -> bool {
         if scan_match.is_blank || !self.settings.closes_loops {
             return false;
@@ -76,7 +76,8 @@ impl Slam {
         ScanOutcome::Inserted
     }
 
-    /// Keeps a scan at a place that the robot did not drive to, and goes on from there; gives its key.
+    /// Inserts a keyframe at a pose that the robot did not drive to and continues from there; returns its
+    /// index.
     pub(super) fn insert_disconnected(
         &mut self,
         (time_ns, odom_from_base): (i64, Option<Pose2>),
@@ -114,8 +115,8 @@ impl Slam {
         starts.filter(|&start| !edges.iter().any(is_across(start))).collect()
     }
 
-    /// Moves the pieces that new closures join to where they say, all that came after with them: bending
-    /// would not find so far.
+    /// Moves the components that new closures connect, and everything after them, to the poses that the
+    /// closures imply; optimization alone would not converge from so far.
     pub(super) fn align_components(&mut self, closures: &[Edge]) {
         let starts = self.disconnected();
         for edge in closures {

@@ -11,10 +11,10 @@ use crate::remark::{Remark, RemarkKind};
 const MIN_UNMATCHED_COUNT: usize = 5;
 const MAX_UNMATCHED_RATIO: f64 = 0.1;
 
-/// Unconfirmed path through known places beyond which a map may be off.
+/// Unconfirmed path through mapped areas beyond which a map may be wrong.
 struct UnconfirmedLimit {
     path_m: f64,
-    /// Fraction of the whole path through known places.
+    /// Fraction of the whole path through mapped areas.
     ratio: f64,
 }
 
@@ -71,7 +71,7 @@ impl Slam {
         }
     }
 
-    /// Adds remarks about passes through the same place that differ or confirm nothing.
+    /// Adds remarks about passes through the same area that differ or confirm nothing.
     fn conclude_passes(&mut self, end_ns: i64) {
         let passes = compare(&self.keyframes, &self.graph, &self.settings);
         let open_m = passes.whole_m - passes.confirmed_m;

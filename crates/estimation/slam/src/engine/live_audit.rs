@@ -23,7 +23,7 @@ const SAME_RAD: f64 = 0.003;
 /// put it right.
 const SETTLED_M: f64 = 15.0;
 
-/// Two passes through the same place that contradict each other.
+/// Two passes through the same area that contradict each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapContradiction {
     /// Kept scans at the ends of the stretch, and of the earlier pass that it contradicts.
@@ -36,7 +36,7 @@ pub struct MapContradiction {
     pub earlier_times_ns: (i64, i64),
     /// Middle of the stretch, where the map has it now.
     pub map_from_base: Pose2,
-    /// Of the points that both passes can judge, the share that agrees.
+    /// Fraction of the points judged by both passes that agree.
     pub agreeing_ratio: f64,
 }
 
@@ -49,9 +49,9 @@ pub(super) struct LiveAudit {
     before: Vec<ConstraintResidual>,
     /// The next kept scan.
     next: usize,
-    /// Bends of the map for which the comparisons hold.
+    /// Map revision for which the comparisons are valid.
     map_revision: usize,
-    /// Whether `found` is of all comparisons.
+    /// True if `found` covers all comparisons.
     is_current: bool,
     found: Vec<Contradiction>,
 }

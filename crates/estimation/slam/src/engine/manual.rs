@@ -1,4 +1,4 @@
-//! What people say: where the robot is, and how scans belong together.
+//! Input from the user: initial poses and manually moved keyframes.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +15,11 @@ use crate::scan::Scan;
 const REACH_M: f64 = 5.0;
 /// Scans within this way of each other belong together anyway \[m\].
 const SAME_VISIT_M: f64 = 3.0;
-/// How sure people are when they move a scan: one standard deviation to search within, and to believe
-/// when scans do not tell \[m, rad\].
+/// Standard deviations of a manually moved keyframe: of the search window, and of the constraint if no scan
+/// matches \[m, rad\].
 const HAND: [f64; 2] = [0.3, 0.15];
 const CLAIM: [f64; 2] = [0.1, 0.05];
-/// Part of the points that must find partners before scans tell better than people.
+/// Minimum fraction of matched points for which the match overrides the user's pose.
 const MATCHED: f64 = 0.5;
 
 fn diagonal([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
@@ -28,16 +28,16 @@ fn diagonal([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
 }
 
 impl Slam {
-    /// Somebody says where the robot is in the map, and how sure that is (along the axes of the map):
-    /// the next scan is looked for around there, and the map goes on from there. Before the first
-    /// scan it says where the map begins.
+    /// Sets the pose of the robot in the map with its covariance along the axes of the map, as
+    /// `/initialpose` does. The next scan is matched around it and mapping continues from there. Before the
+    /// first scan it defines the origin of the map.
     pub fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) {
         if map_from_base.is_finite() {
             self.start = Some((map_from_base.normalized(), covariance));
         }
     }
 
-    /// A scan from where somebody says that the robot is.
+    /// Processes a scan at a pose set by the user.
     pub(super) fn process_scan_at(
         &mut self,
         scan: &Scan,
@@ -49,7 +49,7 @@ impl Slam {
         let ends = scan.ends(None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         if cloud.points().len() < MIN_POINTS_COUNT {
-            // It says nothing; the next one may.
+            // Nothing to match; the next scan may do.
             self.start = Some((start, covariance));
             return ScanOutcome::NoMatch;
         }
@@ -85,13 +85,12 @@ impl Slam {
         );
         self.graph.add_edge(edge.doubting(&floored(&doubted)));
         self.work.proximity.push_back(new);
-        // A scan that fits nothing is kept all the same: somebody knows where it is.
+        // A scan without a match is inserted all the same: the user knows the pose.
         if is_matched || near.is_empty() { ScanOutcome::Inserted } else { ScanOutcome::NoMatch }
     }
 
-    /// Somebody has moved kept scans to where they belong: each is held against the scans that it now
-    /// lies among, and the map is bent accordingly. Gives how many were tied. The work that follows
-    /// is done in the background.
+    /// Adds constraints for keyframes that the user has moved: each is matched against the keyframes around
+    /// its new pose. Returns the number of constraints. The optimization runs in the background.
     pub fn add_manual_constraints(&mut self, moved: &BTreeMap<usize, Pose2>) -> usize {
         let mut proximity_count = 0;
         for (&keyframe, &map_from_keyframe) in moved {
@@ -116,7 +115,7 @@ impl Slam {
         };
         let near = nearest(&self.graph.poses, map_from_keyframe, self.keyframes.len());
         let near: Vec<usize> = near.into_iter().filter(is_other).take(3).collect();
-        // Where nothing else was seen, the place is relative to where the map began.
+        // Without keyframes nearby, the pose is relative to the first keyframe.
         let other = near.first().copied().unwrap_or(0);
         if other == keyframe {
             return false;
@@ -137,9 +136,11 @@ impl Slam {
                 floored(&fit.information),
                 format!("{:.0} % of the points find partners there", 100.0 * fit.matched),
             ),
-            None => {
-                (expected, diagonal(CLAIM), "scans do not tell there; taken as it was put".into())
-            }
+            None => (
+                expected,
+                diagonal(CLAIM),
+                "no scan matches there; the pose set by hand is used".into(),
+            ),
         };
         let (from, to) = if other < keyframe { (other, keyframe) } else { (keyframe, other) };
         let from_from_to = if other < keyframe { pose } else { pose.inverse().normalized() };
@@ -163,7 +164,7 @@ impl Slam {
     }
 }
 
-/// Kept scans around a place, the nearest first; a turn counts a little.
+/// Returns the keyframes near a pose, nearest first; a rotation adds to the distance.
 pub(crate) fn nearest(poses: &[Pose2], place: Pose2, most: usize) -> Vec<usize> {
     let mut near: Vec<(f64, usize)> = poses
         .iter()

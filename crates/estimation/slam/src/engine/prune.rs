@@ -1,4 +1,4 @@
-//! Scans that a newer one has made superfluous go: a map that lives for ever in a bounded place.
+//! Removal of keyframes that newer ones make redundant: lifelong mapping in a bounded area.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -8,23 +8,22 @@ use super::Slam;
 use crate::graph::{ConstraintKind, Edge, Graph};
 use crate::local::apart;
 
-/// Way after which another scan is of an earlier visit \[m\].
+/// Minimum path between two visits of the same area \[m\].
 const VISIT_M: f64 = 10.0;
-/// How near points must be to be the same \[m\].
+/// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
-/// A scan shows what another one showed when it can tell of so many of its points whether they are
-/// still there.
+/// Minimum fraction of the points of a scan that the newer scan must observe, present or gone.
 const COVERED: f64 = 0.75;
-/// Scans are taken from the same place within so many times the way from key to key.
+/// Maximum distance between redundant keyframes, relative to the keyframe distance.
 const BESIDE: f64 = 1.2;
 /// Ties and closures of one key, at most.
 const MOST_TIES: usize = 8;
-/// Poses of scans that were not kept are remembered for the last so many.
+/// Number of recent trajectory nodes kept besides those of keyframes.
 const REMEMBERED: usize = 1000;
 
 impl Slam {
-    /// Lets go of kept scans of earlier visits that a newer one makes superfluous. It has to be tied
-    /// to the map by more than its chain, or its place is no better known than odometry knows it.
+    /// Removes keyframes of earlier visits that a newer one makes redundant. The newer one must have a
+    /// constraint besides its sequential one; otherwise its pose is only as good as odometry.
     pub(super) fn prune(&mut self, keyframe: usize) {
         if keyframe >= self.keyframes.len() || !self.graph.is_held(keyframe) {
             return;
@@ -43,14 +42,14 @@ impl Slam {
         }
     }
 
-    /// Whether one scan sees all that another one saw, or that it is there no more.
+    /// True if one scan observes all that another one saw, present or gone.
     fn is_covered(&self, old: usize, new: usize) -> bool {
         let (cloud, by) = (self.keyframes[old].cloud(), self.keyframes[new].cloud());
         let sum = agreement(&cloud, &by, self.graph.between(new, old), TOLERANCE_M);
         f64::from(sum.judged()) >= COVERED * cloud.points().len() as f64
     }
 
-    /// Forgets keys. What they held together hangs on their neighbours from now on.
+    /// Removes keyframes; their constraints pass to their neighbours.
     fn let_go(&mut self, gone: &BTreeSet<usize>) {
         for &keyframe in gone {
             bypass(&mut self.graph, keyframe);
@@ -114,7 +113,7 @@ fn bypass(graph: &mut Graph, keyframe: usize) {
         .find(|it| it.kind == ConstraintKind::Sequential && it.to == keyframe && it.weight > 0.0);
     for index in at {
         let edge = graph.edges[index];
-        // It is gone with the key, and must not be hung on again with the next one that goes.
+        // The edge is removed with the keyframe, and must not be passed on again with the next one.
         if std::mem::replace(&mut graph.edges[index].weight, 0.0) <= 0.0 {
             continue;
         }

@@ -1,4 +1,4 @@
-//! Where a scan was found, by odometry and by the scans just before.
+//! Matching of a scan with odometry as the prior.
 
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, Symmetric3};
@@ -14,30 +14,31 @@ const STILL_RAD: f64 = 0.001;
 /// More motion than this since the scan before asks for a search \[m, rad\].
 const SEARCH_M: f64 = 0.1;
 const SEARCH_RAD: f64 = 0.05;
-/// After a longer time the motion before tells nothing of the one now \[s\].
+/// Longest interval over which constant velocity is assumed \[s\].
 const RECENT_S: f64 = 1.0;
 
 /// A scan among those before.
 pub(super) struct ScanMatch {
     pub(super) ends: Ends,
     pub(super) cloud: Cloud,
-    /// The step that odometry tells; none when it is not believed.
+    /// Motion by odometry; `None` if it is not used.
     pub(super) odometry: Option<Pose2>,
     /// The step that was expected, and its covariance.
     pub(super) motion: Pose2,
     pub(super) covariance: Symmetric3,
-    /// Where the scan was found, as seen from the last kept one.
+    /// Matched pose relative to the last keyframe.
     pub(super) keyframe_from_base: Pose2,
-    /// What scans and odometry say together; and the same for asking how far off it may be.
+    /// Information of scans and odometry together; `doubted` is the one used for the uncertainty of a path.
     pub(super) information: Symmetric3,
     pub(super) doubted: Symmetric3,
-    /// Whether it has too few points to be laid onto others.
+    /// True if there are too few points to match.
     pub(super) is_blank: bool,
-    /// Whether odometry tells that the robot stands.
+    /// True if odometry reports no motion.
     pub(super) is_still: bool,
     pub(super) is_matched: bool,
     pub(super) is_doubted: bool,
-    /// Where it is small, it may be a scan of another place: see [`crate::local::LocalMatch`].
+    /// Agreement with the scans before; low if the scan may belong elsewhere: see
+    /// [`crate::local::LocalMatch`].
     pub(super) agreeing: f64,
     /// From 0 where walls do not hold along some direction to 1.
     pub(super) firmness: f64,
@@ -113,7 +114,7 @@ impl Slam {
             metres > SEARCH_M || radians > SEARCH_RAD
         };
         if let Some(inertia) = inertia.filter(|it| odometry.is_some() && is_against_inertia(it)) {
-            // Odometry that is told late stands still first, and makes up for it in one step.
+            // Delayed odometry is constant first and catches up in one step.
             let expected = (last_from_base * inertia).normalized();
             let turned = OdometryNoise::blind().turned(last_from_base.yaw_rad);
             let other =

@@ -43,7 +43,7 @@ impl Slam {
             odometry_monitor,
             unmatched,
             component,
-            // What was noticed is no part of the map: who goes on begins with an open mind.
+            // Remarks are not part of the map: a continued run starts without them.
             diagnostics: _,
             live_audit: _,
             is_finished: _,
@@ -88,18 +88,18 @@ impl Slam {
             return misfit(b"POSE", "there are more scans than poses, or fewer");
         }
         if !keyframes.windows(2).all(|pair| pair[0].travel_m <= pair[1].travel_m) {
-            return misfit(b"KEYS", "the way grows shorter");
+            return misfit(b"KEYS", "the path length decreases");
         }
         let edges: Vec<Edge> = whole(section(b"EDGE")?)?;
         if !edges.iter().all(|edge| edge.from.max(edge.to) < keyframes.len()) {
-            return misfit(b"EDGE", "an edge leads to a scan that is not there");
+            return misfit(b"EDGE", "an edge refers to a missing keyframe");
         }
         edges.into_iter().for_each(|edge| {
             graph.add_edge(edge);
         });
         let nodes: Vec<TrajectoryNode> = whole(section(b"TRAK")?)?;
         if !nodes.iter().all(|node| node.keyframe < keyframes.len()) {
-            return misfit(b"TRAK", "a pose hangs on a scan that is not there");
+            return misfit(b"TRAK", "a pose refers to a missing keyframe");
         }
         let odometry_noise: OdometryNoise = whole(section(b"ODOM")?)?;
         let (last, (inlier_ratio, (counts, (start, (odometry_monitor, (unmatched, component)))))): Rest =
@@ -112,15 +112,15 @@ impl Slam {
             None => keyframes.is_empty(),
         };
         if !is_last || !(0.0..=1.0).contains(&inlier_ratio) {
-            return misfit(b"LAST", "the last scan hangs on one that is not there");
+            return misfit(b"LAST", "the last scan refers to a missing keyframe");
         }
         let loops: Loops = whole(section(b"LOOP")?)?;
         if !loops.fits(keyframes.len()) {
-            return misfit(b"LOOP", "a loop is about a scan that is not there");
+            return misfit(b"LOOP", "a loop refers to a missing keyframe");
         }
         let work: Work = whole(section(b"WORK")?)?;
         if !work.fits(&graph) {
-            return misfit(b"WORK", "work is waiting for a scan that is not there");
+            return misfit(b"WORK", "queued work refers to a missing keyframe");
         }
         let diagnostics = OdometryDiagnostics::default();
         let live_audit = LiveAudit::default();

@@ -1,5 +1,5 @@
-//! Closures on trial when all scans are in: those that lacked a witness when the log ended are tried, and
-//! those that the rest of the map pulls at are left out in turn. What the map says of itself decides.
+//! Final decision on closures after the last scan: those that lacked a witness are tried, and those in
+//! conflict with the rest of the map are removed one after another, if that makes the map more consistent.
 
 use super::Slam;
 use crate::audit::{audit, overlap};
@@ -10,8 +10,8 @@ use crate::offsets::{Offset, compare};
 /// Closures that are tried, and that are left out, at most.
 const MOST_TRIED: usize = 8;
 const MOST_LEFT_OUT: usize = 8;
-/// Way around a closure over which its scans are held against each other \[m\], the points that must be
-/// judged (or the part of all points, where scans have few), and the share of them that must agree.
+/// Path around a closure over which its scans are compared \[m\]; number of points that must be judged (or
+/// fraction of all points, if there are few); minimum fraction of them that must agree.
 const AROUND_M: f64 = 6.0;
 const JUDGED: u32 = 600;
 const LEAST_PART: f64 = 0.15;
@@ -28,7 +28,7 @@ const PULLED: f64 = 21.1;
 /// A kept scan around which two closures that contradict each other passed the same trial.
 pub(super) struct Undecided {
     pub(super) keyframe: usize,
-    /// Distance between the places that they give it \[m\].
+    /// Distance between the two poses \[m\].
     pub(super) apart_m: f64,
 }
 
@@ -71,10 +71,11 @@ impl Slam {
         undecided
     }
 
-    /// Bends the map by a closure, and keeps it when both passes agree along it and nowhere else worse.
+    /// Adds a closure and keeps it if both passes agree along it and there are no more contradictions
+    /// elsewhere.
     ///
-    /// Where many places look alike, the best supported closure that contradicts it passes as well: then
-    /// nothing decides between the two, and neither is kept.
+    /// In repetitive environments the best supported closure that contradicts it passes the same test: then
+    /// the decision is ambiguous, and neither is kept.
     fn try_closure(&mut self, edge: Edge) -> Outcome {
         let worse = audit(&self.keyframes, &self.graph).len();
         let rival = self.loops.rival_of(&edge, &self.keyframes, &self.graph);
@@ -97,7 +98,8 @@ impl Slam {
         }
     }
 
-    /// Bends the map by a closure; where it passes, says why, and the map stays so if it is to be kept.
+    /// Optimizes the map with a closure; returns the reason if it passes the test. The result stays if
+    /// `is_kept`.
     fn trial(&mut self, edge: Edge, worse: usize, is_kept: bool) -> Option<String> {
         let poses = self.graph.poses.clone();
         self.align_components(&[edge]);
@@ -118,7 +120,7 @@ impl Slam {
         })
     }
 
-    /// Bends the map by one more edge; gives its number.
+    /// Optimizes the map with one more edge; returns its index.
     fn solve_with(&mut self, edge: Edge) -> usize {
         let index = self.graph.add_edge(edge);
         self.solve(None);
@@ -126,8 +128,8 @@ impl Slam {
         index
     }
 
-    /// Joins passes whose walls lie side by side, those that are farthest apart first, where that leaves
-    /// fewer such places and no more contradictions.
+    /// Adds constraints between passes whose walls are doubled, the largest offset first, as long as that
+    /// leaves fewer of them and no more contradictions.
     pub(super) fn join_offsets(&mut self) {
         let found = |slam: &Self| compare(&slam.keyframes, &slam.graph, &slam.settings).offsets;
         let mut left = found(self);

@@ -13,14 +13,14 @@ use crate::local::{apart, both_ways};
 use crate::loops::Loops;
 use crate::proximity::proximity;
 
-/// What is to be done.
+/// Queues and state of the background work.
 #[derive(Default)]
 pub(super) struct Work {
     /// Keys whose ties to old ones are to be looked for.
     pub(super) proximity: VecDeque<usize>,
     /// Keys for which older ones may go.
     pub(super) prunable: VecDeque<usize>,
-    /// Way at the last tie to an old scan \[m\].
+    /// Path length at the last proximity constraint \[m\].
     pub(super) proximity_m: f64,
     solving: Option<Solving>,
     /// Ties since the map was last solved for, and whether one of them pulls.
@@ -31,12 +31,12 @@ pub(super) struct Work {
     pub(super) proximity_count: usize,
     pub(super) searches: usize,
     pub(super) slices: usize,
-    /// How often the map was bent, in steps and in all.
+    /// Number of optimization steps so far.
     pub(super) map_revision: usize,
     solves: usize,
 }
 
-/// A map that is being bent.
+/// An optimization in progress.
 struct Solving {
     solver: Option<Solver>,
     /// Without a solver, what it was when a session was saved.
@@ -44,16 +44,17 @@ struct Solving {
     steps: usize,
     /// Poses and edges for which the solver was made.
     size: Size,
-    /// What to go back to when the new map is worse: poses before, and the edges that are on trial.
+    /// State to return to if the result is worse: poses before, and the edges on trial.
     trial: Option<(Vec<Pose2>, Vec<usize>)>,
 }
 
 /// A tie that is off by more pulls (squared Mahalanobis distance).
 const STRAIN: f64 = 6.0;
-/// Keys between two times that the map is bent for ties, and of how many more one is added to that.
+/// Minimum number of keyframes between two optimizations for proximity constraints, and number of keyframes
+/// for which it grows by one.
 const SOLVE_EVERY: usize = 4;
 const SOLVE_PART: usize = 60;
-/// So many ties that do not pull are solved for anyway.
+/// Number of satisfied proximity constraints after which the map is optimized anyway.
 const LOOSE: usize = 60;
 /// Products of blocks in one slice of a step: some 4 ms.
 const PRODUCTS: usize = 1_000_000;
@@ -61,17 +62,18 @@ const PRODUCTS: usize = 1_000_000;
 const SETTLED_M: f64 = 1e-3;
 /// Ties whose squared Mahalanobis distance is far above this count little.
 const DOUBTED: f64 = 100.0;
-/// After a closure, points that overlap anew must agree to this part; fewer points are no evidence.
+/// Minimum fraction of newly overlapping points that must agree after a closure, and minimum number of
+/// points for a verdict.
 const AGREEING: f64 = 0.65;
 const JUDGED: u32 = 600;
-/// Scans of the newest way that are looked at after a closure, and how near others are \[m\].
+/// Number of newest keyframes checked after a closure, and maximum distance of the others \[m\].
 const LOOKED_AT: usize = 40;
 const NEAR_M: f64 = 4.0;
-/// Way after which another scan is an old one \[m\].
+/// Minimum path to an old keyframe \[m\].
 const OLD_M: f64 = 10.0;
 
-/// Weight of an edge by its squared distance: closures that were verified, and chains, count as they
-/// are; ties less when the map says otherwise (Geman and McClure).
+/// Weight of an edge by its squared Mahalanobis distance: sequential and loop closure edges have weight 1,
+/// proximity edges the weight of Geman and McClure.
 fn robust(kind: ConstraintKind, chi2: f64) -> f64 {
     match kind {
         ConstraintKind::Proximity => {
@@ -83,7 +85,7 @@ fn robust(kind: ConstraintKind, chi2: f64) -> f64 {
 }
 
 impl Slam {
-    /// Does so many slices of work, or all that there are.
+    /// Runs at most `most` slices of background work.
     pub fn work_slices(&mut self, most: usize) {
         for _ in 0..most {
             if !self.work_slice() {
@@ -94,7 +96,7 @@ impl Slam {
 
     /// Does one slice of work; false when there is none.
     fn work_slice(&mut self) -> bool {
-        // Ties first: a way that nothing holds would be searched for loops.
+        // Proximity constraints first: without them the path would be searched for loops.
         if let Some(keyframe) = self.work.proximity.pop_front() {
             self.tie(keyframe);
         } else if self.work.solving.is_some() {
@@ -114,8 +116,8 @@ impl Slam {
         true
     }
 
-    /// A map is bent for ties that pull, but not for every one: the larger it is, the more scans share
-    /// the work.
+    /// True if the map is to be optimized for proximity constraints in tension; the larger the map, the
+    /// more keyframes share an optimization.
     fn is_to_be_solved(&self) -> bool {
         let keyframes = self.keyframes.len();
         let is_due = keyframes >= self.work.solved_at + SOLVE_EVERY + keyframes / SOLVE_PART;
@@ -147,7 +149,7 @@ impl Slam {
         self.solve(Some((poses, added)));
     }
 
-    /// Begins to bend the map.
+    /// Starts an optimization.
     pub(super) fn solve(&mut self, trial: Option<(Vec<Pose2>, Vec<usize>)>) {
         self.work.loose = 0;
         self.work.is_strained = false;
@@ -157,7 +159,7 @@ impl Slam {
         self.work.solving = Some(solving);
     }
 
-    /// Asks for the map to be bent; when it is being bent, once more after that.
+    /// Requests an optimization, after the current one if there is one.
     pub(super) fn solve_soon(&mut self) {
         self.work.loose += LOOSE + self.keyframes.len() / SOLVE_PART;
     }
@@ -170,7 +172,7 @@ impl Slam {
             resumed.and_then(|it| Solver::resumed(&self.graph, solving.size, &robust, it))
         });
         let Some(mut solver) = solver else {
-            // To prepare is a slice of its own.
+            // Building the solver is a slice of its own.
             solving.solver = Some(Solver::new(&self.graph, solving.size, self.work.solves));
             self.work.solves += 1;
             self.work.solving = Some(solving);
@@ -223,11 +225,11 @@ impl Slam {
             self.graph.edges[edge].weight = 0.0;
         }
         self.graph.poses[..before.len()].copy_from_slice(before);
-        // Keys that came in the meantime hang on the chain.
+        // Keyframes added meanwhile follow the sequential constraints.
         self.graph.hang(before.len());
     }
 
-    /// Holds the newest way against the old scans that it now lies on.
+    /// Compares the newest keyframes with the old ones that they overlap now.
     fn overlap(&self) -> Agreement {
         let mut sum = Agreement::default();
         let first = self.keyframes.len().saturating_sub(LOOKED_AT);
@@ -250,7 +252,8 @@ impl Slam {
         sum
     }
 
-    /// Looks for ties that were missed while places were uncertain, and bends the map until it rests.
+    /// Adds proximity constraints that were missed while poses were uncertain, and optimizes until
+    /// convergence.
     pub(super) fn settle(&mut self) {
         let is_held = |keyframe: &usize| self.graph.is_held(*keyframe);
         self.work.proximity.extend((0..self.keyframes.len()).filter(|keyframe| !is_held(keyframe)));
@@ -258,7 +261,7 @@ impl Slam {
         self.solve(None);
         self.work_slices(usize::MAX);
         if self.settings.closes_loops {
-            // Places are known better now, but for those in other pieces of map, which were asked for.
+            // Poses are known better now, except those of other components, which were searched before.
             for keyframe in Loops::unconstrained(&self.keyframes, &self.graph) {
                 self.loops.ask(&self.keyframes, &self.graph, keyframe, false);
                 self.work_slices(usize::MAX);
@@ -268,7 +271,7 @@ impl Slam {
 }
 
 impl Work {
-    /// So many keys are gone.
+    /// Adjusts counters after the removal of keyframes.
     pub(super) fn renumbered(&mut self, gone: usize) {
         self.solved_at = self.solved_at.saturating_sub(gone);
     }

@@ -11,13 +11,13 @@ const MOST_DRAWN: usize = 720;
 
 /// A scan in the frame of the base \[m\].
 pub(super) struct Beams {
-    /// What is laid onto maps.
+    /// Points to match.
     pub(super) points: Vec<Point>,
-    /// Where beams ended that are drawn.
+    /// Beam ends to draw.
     pub(super) hits: Vec<[f32; 2]>,
-    /// Where those are cut off that ended farther away than the map is drawn.
+    /// Points at which longer beams are cut for drawing.
     pub(super) rims: Vec<[f32; 2]>,
-    /// Where the scanner is.
+    /// Position of the scanner.
     pub(super) origin: [f32; 2],
 }
 

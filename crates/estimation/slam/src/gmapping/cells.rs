@@ -19,13 +19,13 @@ const MOST_PAGES: i64 = 1 << 16;
 /// Counts of a cell are halved when they get here, so that what changed is learnt in the end.
 const MOST_COUNT: u8 = 250;
 
-/// A cell that so many beams passed is free.
+/// Minimum number of passes of a free cell.
 const SURELY: u8 = 3;
 
-/// What a map has where a beam ended.
+/// Content of a map around a beam end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Seen {
-    /// A solid cell, so far away: squared, in cells.
+    /// A solid cell at this squared distance \[cells²\].
     Near(f64),
     /// Too little was seen there.
     Nothing,
@@ -33,7 +33,7 @@ pub(super) enum Seen {
     Through,
 }
 
-/// What beams said of a cell.
+/// Beam counts of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Cell {
     /// Beams that ended in it.
@@ -59,7 +59,7 @@ struct Tile {
     /// For each row a bit for each cell that is solid, and for each in which beams ended.
     solid: [u32; SIDE as usize],
     ended: [u32; SIDE as usize],
-    /// How many cells in which beams ended come before each row.
+    /// Number of hit cells before each row.
     before: [u16; SIDE as usize],
     /// Those cells in order.
     ends: Vec<End>,
@@ -205,8 +205,8 @@ impl Cells {
         }
     }
 
-    /// Of the means of solid cells the nearest to a place, among those of cells at most `kernel` cells
-    /// away; as a shift from there to the place. All in cells.
+    /// Returns the nearest mean of a solid cell within `kernel` cells, as an offset from it to the
+    /// position. All in cells.
     #[inline]
     pub(super) fn nearest(&self, x: f64, y: f64, kernel: i32) -> Option<[f64; 2]> {
         let (column, row) = (floor(x), floor(y));
@@ -236,7 +236,7 @@ impl Cells {
         best.0.is_finite().then_some(best.1)
     }
 
-    /// What the map has where a beam ended, at most `kernel` cells away. Place in cells.
+    /// Returns the content of the map around a beam end at most `kernel` cells away. Position in cells.
     pub(super) fn seen(&self, x: f64, y: f64, kernel: i32) -> Seen {
         if let Some([dx, dy]) = self.nearest(x, y, kernel) {
             return Seen::Near(dx * dx + dy * dy);
@@ -246,7 +246,7 @@ impl Cells {
         if beams < SURELY { Seen::Nothing } else { Seen::Through }
     }
 
-    /// How many solid cells a scan sees through.
+    /// Number of solid cells that a scan sees through.
     pub(super) fn passed(&self, trace: &Trace) -> u32 {
         let (low, high) = trace.bounds();
         let mut sum = 0;
@@ -332,9 +332,8 @@ impl Cells {
         bytes as usize
     }
 
-    /// What it takes to draw the map as others read it: cells of which more than a share of beams ended
-    /// there are occupied. It reaches over all that was seen, and the corners that are asked for \[m\]. None
-    /// when it would be too large.
+    /// Prepares the occupancy grid: cells in which more than a fraction of the beams ended are occupied. It
+    /// covers everything observed and the given corners \[m\]; `None` if it would be too large.
     pub(super) fn plan(self, occupied_share: f64, bounds_m: [Option<f64>; 4]) -> Option<CellsPlan> {
         const MARGIN: i32 = 4;
         let seen = self.extent();
@@ -396,14 +395,14 @@ impl Plan for CellsPlan {
 }
 
 impl Cell {
-    /// Which part of the beams ended here.
+    /// Fraction of the beams that ended in the cell.
     fn share(&self) -> f64 {
         f64::from(self.hits) / f64::from(self.beams.max(1))
     }
 }
 
 impl Tile {
-    /// What beams said of a cell.
+    /// Beam counts of a cell.
     fn cell(&self, index: usize) -> Cell {
         let beams = self.beams[index];
         let end = self.has_end(index).then(|| self.ends[self.end(index)]);
@@ -419,7 +418,7 @@ impl Tile {
         self.ended[index >> 5] >> (index & 31) & 1 == 1
     }
 
-    /// Where the end of a cell is, or belongs.
+    /// Index of the end of a cell, or where it would be inserted.
     #[inline]
     fn end(&self, index: usize) -> usize {
         let (row, bit) = (index >> 5, index & 31);
@@ -521,7 +520,7 @@ fn cell_index(column: i32, row: i32) -> usize {
     ((row & (SIDE - 1)) * SIDE + (column & (SIDE - 1))) as usize
 }
 
-/// Rounds down, without a call; for places within a million cells of the origin and more.
+/// Rounds down without a call; for positions within a million cells of the origin and more.
 #[inline]
 pub(super) fn floor(value: f64) -> i32 {
     const HIGH: f64 = 1_073_741_824.0;
@@ -533,7 +532,7 @@ mod tests {
     use super::*;
     use crate::gmapping::beams::Beams;
 
-    /// A map with a scan from the origin whose beams end at these places [cells of 1 m].
+    /// A map with a scan from the origin whose beams end at these positions [cells of 1 m].
     fn drawn(ends: &[[f32; 2]]) -> Cells {
         let mut cells = Cells::new(1.0, 0.1);
         draw(&mut cells, Pose2::new(0.5, 0.5, 0.0), ends);
@@ -559,7 +558,7 @@ mod tests {
             (0..6).map(|it| at(&cells, it)).collect::<Vec<_>>(),
             [(0, 1), (0, 1), (0, 1), (0, 1), (1, 1), (0, 0)]
         );
-        // The map has the very place: 4.5, 0.75; asked from 4.1, 0.75 it is 0.4 to the right.
+        // The map has the exact position: 4.5, 0.75; queried from 4.1, 0.75 it is 0.4 to the right.
         let off = cells.nearest(4.1, 0.75, 1).unwrap();
         assert!((off[0] + 0.4).abs() < 0.01 && off[1].abs() < 0.01, "{off:?}");
         assert_eq!(cells.nearest(2.5, 0.5, 1), None);

@@ -1,10 +1,11 @@
-//! The graph's trajectory in place of the particles', where these do not close loops that the graph closes.
+//! Replacement of the particles' trajectory by the graph's where the particles do not close loops that the
+//! graph closes.
 //!
-//! An offer is weighed by likelihood, and likelihood prefers the unknown: a torn trajectory that leads a
-//! robot through unseen space never contradicts what was seen there. Where the ground slopes or furniture has
-//! moved, scans of the closed loop contradict each other here and there, and the torn trajectory wins. The
-//! closures of the graph have evidence of their own: independent witnesses, and an audit of the whole map. So
-//! at the end they decide, unless that audit contradicts the graph itself.
+//! An offer is weighted by likelihood, and likelihood prefers the unknown: a torn trajectory that leads
+//! through unseen space never contradicts earlier scans. Where the floor slopes or furniture has moved,
+//! scans of the closed loop contradict each other here and there, and the torn trajectory wins. The
+//! closures of the graph have evidence of their own: independent witnesses, and an audit of the whole map.
+//! They decide at the end, unless the audit contradicts the graph itself.
 
 use periplus_geometry::Pose2;
 

@@ -1,4 +1,4 @@
-//! Where a scan fits onto the map of a particle.
+//! Matching of a scan against the map of a particle.
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::{Point, Symmetric3};
@@ -6,19 +6,17 @@ use periplus_scan_matching::{Point, Symmetric3};
 use super::cells::Cells;
 use super::settings::GmappingSettings;
 
-/// What is thought of a pose before the map is asked: the pose, and standard deviations of place \[m\]
-/// and heading \[rad\].
+/// Prior of a pose: the pose, and standard deviations of position \[m\] and heading \[rad\].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guess {
     pub(super) map_from_base: Pose2,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
-    /// What the front end leaves uncertain of the way to here, along the axes of the robot where it began;
-    /// none where it does not know either.
+    /// Covariance of the front end's motion, along the axes of its start; `None` if unknown.
     pub(super) front: Option<Symmetric3>,
     /// Heading of the robot there \[rad\].
     pub(super) began_rad: f64,
-    /// Errors that last for some way, in standard deviations, along the same axes.
+    /// Slowly varying errors in standard deviations, along the same axes.
     pub(super) lasting: [f64; 3],
 }
 
@@ -33,10 +31,10 @@ struct Pair {
     normal: [f64; 2],
 }
 
-/// How a scan fits at a place.
+/// Match of a scan at a pose.
 pub(super) struct Fit {
     pub(super) map_from_base: Pose2,
-    /// How many points there were, and what the map had near them.
+    /// Number of points, and what the map has near them.
     points: usize,
     pairs: Vec<Pair>,
 }
@@ -47,7 +45,7 @@ const WIDER: usize = 2;
 /// No step is longer \[m, rad\], and a shorter one is the last.
 const MOST_STEP: [f64; 2] = [0.1, 0.06];
 const LEAST_STEP: [f64; 2] = [2e-4, 1e-4];
-/// What a beam without anything near counts: as one that is off by this many times `lsigma`.
+/// Cost of a beam without a match: that of one this many times `lsigma` away.
 const NOTHING: f64 = 0.5;
 
 /// Moves a scan to where it fits best near a guess: least squares with weights, from each point along
@@ -120,7 +118,7 @@ impl Pair {
         self.normal != [0.0; 2]
     }
 
-    /// Adds what this says of a shift and a turn of the scan.
+    /// Adds the gradient and the information of this match.
     #[inline]
     fn add(&self, settings: &GmappingSettings, information: &mut Symmetric3, pull: &mut [f64; 3]) {
         let squared = self.off[0] * self.off[0] + self.off[1] * self.off[1];
@@ -158,13 +156,13 @@ impl Pair {
 }
 
 impl Fit {
-    /// What the points count together: at most one each.
+    /// Sum of the scores of the points, at most one each.
     pub(super) fn score(&self, settings: &GmappingSettings) -> f64 {
         let one = |pair: &Pair| libm::exp(-pair.squared([0.0; 3]) / settings.match_sigma_m2);
         self.pairs.iter().map(one).sum()
     }
 
-    /// What the points say of a shift and a turn of the scan.
+    /// Information of the points about the pose.
     pub(super) fn information(&self, settings: &GmappingSettings) -> Symmetric3 {
         let mut information = Symmetric3::ZERO;
         let mut pull = [0.0; 3];

@@ -7,9 +7,9 @@ use crate::keyframe::TrajectoryNode;
 
 /// A scan that was used. All particles share it.
 pub(super) struct Node {
-    /// Where the front end has it.
+    /// Node of the front end.
     pub(super) node: TrajectoryNode,
-    /// Length of the way up to it \[m\].
+    /// Path length up to it \[m\].
     pub(super) way_m: f64,
     hits: PackedPlaces,
     rims: PackedPlaces,

@@ -1,11 +1,11 @@
-//! What the graph of the front end offers to particles: other ways, and the maps that come of them.
+//! Trajectories that the graph front end offers to particles, with the maps drawn from them.
 //!
-//! Particles that are drawn forward in time cover a long way only when there are very many of them: at the
-//! end of a round of 300 m none of thirty is where it should be. The front end is a graph that closes loops,
-//! and each time that it bends, it proposes a way as a whole. Such a way is a proposal like any other: it is
-//! weighed by how well scans fit what was seen at the same place much earlier, against the best of the
-//! particles, and takes the place of some of those that explain less. The weights do the rest; a wrong
-//! closure of the graph is outlived by the particles that did not go along with it.
+//! Sampling forward in time covers a long trajectory only with very many particles: after a loop of 300 m
+//! none of thirty is at the right pose. The front end is a graph that closes loops, and each revision of
+//! its map proposes a whole trajectory. The proposal is weighted like any other, by how well scans match
+//! what was seen in the same area much earlier, against the best of the particles, and replaces some of
+//! those that explain less. A wrong closure of the graph is outlived by the particles that did not adopt
+//! it.
 
 use periplus_geometry::Pose2;
 
@@ -15,17 +15,16 @@ use super::trace::Trace;
 use super::{Gmapping, GmappingSettings, Particle, SOLID_SHARE};
 use crate::local::apart;
 
-/// What a scan is held against is older by so much way \[m\]: scans just before were laid onto each other
-/// and agree anyhow.
+/// Minimum path to the older scans that a scan is compared with \[m\]: consecutive scans agree anyway.
 const OLD_M: f64 = 10.0;
-/// A way is offered when some pose, as seen from the newest, is elsewhere by more than this \[m\] ...
+/// A trajectory is offered if some pose, relative to the newest, differs by more than this \[m\] ...
 const ELSEWHERE_M: f64 = 0.08;
-/// ... and so much way after the offer before \[m\], or, when a loop was closed, so much.
+/// ... and this path after the previous offer \[m\], or this path if a loop was closed.
 const EVERY_M: f64 = 20.0;
 const LEAST_M: f64 = 2.0;
-/// Of the particles every so manieth keeps its own way.
+/// Every Nth particle keeps its own trajectory.
 const KEEPS: usize = 2;
-/// Ends of beams that are held against the map, at most.
+/// Maximum number of beam ends compared with the map.
 const JUDGED: usize = 120;
 /// Logarithms of the likelihood of an end where nothing was seen, and where the map was seen through.
 const UNKNOWN: f64 = -0.5;
@@ -33,13 +32,13 @@ const OPEN: f64 = -1.0;
 /// The same for each solid cell that the scan sees through.
 const THROUGH: f64 = -0.3;
 
-/// A map drawn along a way, and how well the way explains what was seen twice.
+/// A map drawn along a trajectory, and the likelihood of what was seen twice.
 pub(super) struct Drawn {
     pub(super) cells: Cells,
     log: f64,
 }
 
-/// Draws scans along a way. Each is held against what was drawn of those that are older by some way.
+/// Draws scans along a trajectory; each is compared with what older scans drew.
 pub(super) fn draw(
     nodes: &[Node],
     way: &[Pose2],
@@ -82,7 +81,7 @@ fn judge(cells: &Cells, trace: &Trace, settings: &GmappingSettings) -> f64 {
 }
 
 impl Gmapping {
-    /// Lets the front end offer its way, when it has bent since it did so last.
+    /// Offers the front end's trajectory if its map has been revised since the last offer.
     pub(super) fn offer(&mut self, is_last: bool) {
         let (Some(newest), Some(best)) = (self.nodes.last(), self.particles.get(self.best)) else {
             return;
@@ -140,7 +139,7 @@ impl Gmapping {
     }
 }
 
-/// Whether two ways differ, as seen from their ends.
+/// True if two trajectories differ relative to their ends.
 fn is_elsewhere(way: &[Pose2], own: &[Pose2]) -> bool {
     let (Some(end), Some(own_end)) = (way.last(), own.last()) else { return false };
     let (from_end, from_own_end) = (end.inverse(), own_end.inverse());
@@ -149,7 +148,7 @@ fn is_elsewhere(way: &[Pose2], own: &[Pose2]) -> bool {
         .any(|(pose, own)| apart(from_end * *pose, from_own_end * *own).0 > ELSEWHERE_M)
 }
 
-/// When the front end offered its way.
+/// State at the last offer.
 #[derive(Default)]
 pub(super) struct Offered {
     map_revision: usize,

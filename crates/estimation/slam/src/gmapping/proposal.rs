@@ -1,4 +1,4 @@
-//! Where a particle goes: drawn from what odometry and the scan on its own map say together.
+//! Proposal distribution: pose samples from odometry and the scan on the particle's own map.
 
 use periplus_geometry::{Pose2, Stream, normalize_angle};
 use periplus_scan_matching::Symmetric3;
@@ -78,8 +78,9 @@ pub(super) fn around(
     }
 }
 
-/// What front end and map together leave open, where that is more than what is sampled around the best fit:
-/// along a corridor only odometry tells, and particles that all went where it says would share its error.
+/// Covariance of front end and map together where it exceeds that of the samples around the best match:
+/// along a corridor only odometry measures the distance, and particles that all followed it would share its
+/// error.
 fn open(fit: &Fit, guess: &Guess, settings: &GmappingSettings) -> Option<Symmetric3> {
     let front = guess.front?.turned(guess.began_rad);
     let covariance = (front.inverse()? + fit.information(settings)).inverse()?;
@@ -105,7 +106,7 @@ const LEAST_OPEN_M: f64 = 0.01;
 const FRESH: f64 = 0.6;
 const LASTING: f64 = 0.8;
 
-/// Draws from what the front end says alone, or odometry, where the scan does not fit.
+/// Samples from the front end or odometry alone, where the scan does not match.
 pub(super) fn blind(
     fit: &Fit,
     guess: &Guess,

@@ -1,4 +1,4 @@
-//! Which particles go on.
+//! Resampling of particles.
 
 use periplus_geometry::Stream;
 
@@ -13,15 +13,15 @@ pub(super) fn weights(logarithms: &[f64], gain: f64) -> Vec<f64> {
     weights
 }
 
-/// How many particles count: all when their weights are equal, one when it has all the weight.
+/// Effective sample size: all if the weights are equal, one if one particle has all the weight.
 ///
 /// Grisetti, Stachniss, Burgard 2007, equation (18), after Liu 1996 and Doucet.
 pub(super) fn effective(weights: &[f64]) -> f64 {
     1.0 / weights.iter().map(|it| it * it).sum::<f64>()
 }
 
-/// For each new particle which old one it goes on from, in order: as often as its weight says, rounded
-/// up or down (Thrun, Burgard, Fox 2005, "Probabilistic Robotics", low variance sampler).
+/// Returns the ancestor of each new particle, in order (low variance sampler; Thrun, Burgard, Fox 2005,
+/// "Probabilistic Robotics", table 4.4).
 pub(super) fn resample(weights: &[f64], stream: &mut Stream) -> Vec<usize> {
     let count = weights.len();
     let step = 1.0 / count as f64;

@@ -1,40 +1,40 @@
-//! What can be set of the particles.
+//! Settings of the particle filter.
 
 use periplus_diagnostics::Diagnostics;
 
 use crate::tables::GMAPPING;
 
-/// How odometry errs: standard deviations.
+/// Standard deviations of odometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the place, per metre of way.
+    /// Of the position, per metre of path.
     pub place_by_way: f64,
-    /// Of the place \[m\], per radian of turn.
+    /// Of the position \[m\], per radian of rotation.
     pub place_by_turn: f64,
-    /// Of the heading \[rad\], per metre of way.
+    /// Of the heading \[rad\], per metre of path.
     pub heading_by_way: f64,
-    /// Of the heading, per radian of turn.
+    /// Of the heading, per radian of rotation.
     pub heading_by_turn: f64,
 }
 
-/// What can be set of the particles. The defaults are those of [`GMAPPING`].
+/// Settings of the particle filter. The defaults are those of [`GMAPPING`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct GmappingSettings {
-    /// How many there are.
+    /// Number of particles.
     pub particles: usize,
     /// Seed of all randomness.
     pub seed: u64,
-    /// On so many threads; the result is the same.
+    /// Number of threads; the result does not depend on it.
     pub threads: usize,
     /// Nearer readings are not used \[m\].
     pub range_min_m: f32,
     /// The map is drawn, and scans are laid onto it, up to here \[m\].
     pub range_used_m: f32,
-    /// Readings beyond say nothing at all \[m\]; none for what scans say.
+    /// Maximum range of readings that are used \[m\]; `None` for the scan's own limit.
     pub range_max_m: Option<f32>,
     /// Beams that are left out after each one when scans are laid onto maps.
     pub skipped_beams: usize,
-    /// A scan is used after so much motion \[m\] ...
+    /// A scan is used after this motion \[m\] ...
     pub update_shift_m: f64,
     /// ... or turn \[rad\] ...
     pub update_turn_rad: f64,
@@ -50,15 +50,15 @@ pub struct GmappingSettings {
     pub least_score: f64,
     /// A beam is likely by exp(-d^2 / this) \[m^2\].
     pub likelihood_sigma_m2: f64,
-    /// How much likelihoods are flattened for weights.
+    /// Smoothing factor of the likelihood for weights.
     pub gain: f64,
-    /// How far around the best fit the likelihood is sampled \[m, rad\].
+    /// Half range around the best match in which the likelihood is sampled \[m, rad\].
     pub sample_range: [f64; 2],
     /// In which steps \[m, rad\].
     pub sample_step: [f64; 2],
-    /// How odometry errs.
+    /// Odometry noise.
     pub noise: Noise,
-    /// Particles are drawn anew when fewer than this part of them count.
+    /// Resampling threshold: effective sample size relative to the number of particles.
     pub resample_share: f64,
     /// Side of a cell of the map \[m\].
     pub resolution_m: f64,

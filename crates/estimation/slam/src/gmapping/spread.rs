@@ -1,4 +1,4 @@
-//! How far particles are from agreeing.
+//! Spread of the particles.
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::Symmetric3;
@@ -6,8 +6,8 @@ use periplus_scan_matching::Symmetric3;
 use super::{Gmapping, resample};
 
 impl Gmapping {
-    /// How spread belief is over the particles: the entropy of their weights, 0 when one has all, the
-    /// logarithm of their number when all are alike. `slam_gmapping` publishes it as `entropy`.
+    /// Entropy of the particle weights: 0 if one has all, the logarithm of their number if all are equal.
+    /// `slam_gmapping` publishes it as `entropy`.
     #[must_use]
     pub fn entropy(&self) -> f64 {
         let weighs = |weight: &f64| *weight > 0.0;
@@ -19,7 +19,7 @@ impl Gmapping {
             .sum::<f64>()
     }
 
-    /// How far apart the particles have the robot, along the axes of the map.
+    /// Covariance of the particle poses, along the axes of the map.
     #[must_use]
     pub fn covariance(&self) -> Symmetric3 {
         let best = self.particles.get(self.best).map_or(Pose2::IDENTITY, |it| it.map_from_base);

@@ -1,4 +1,4 @@
-//! Which cells a scan passed, and where it ended.
+//! Ray tracing of a scan in the grid.
 
 use periplus_geometry::Pose2;
 use periplus_grid::Line;
@@ -9,9 +9,8 @@ use super::cells::{SIDE, floor};
 /// Traces are no longer and no wider \[cells\]; nothing is drawn beyond.
 const MOST: i32 = 1 << 13;
 
-/// The cells that the beams of a scan passed, and the places where they ended, in cells. A cell counts
-/// once however many beams passed it, and not at all when one ended there. It is kept to be filled
-/// again.
+/// Cells passed by the beams of a scan, and the positions where they ended, in cells. A cell counts once
+/// however many beams passed it, and not at all if one ended there. The buffers are reused.
 #[derive(Default)]
 pub(super) struct Trace {
     /// First and last column and row, at borders of tiles.
@@ -21,13 +20,13 @@ pub(super) struct Trace {
     words: usize,
     /// Bits of cells that were passed, row by row.
     free: Vec<u32>,
-    /// Whether a tile has any such bit.
+    /// True for tiles with such a bit.
     touched: Vec<bool>,
     ends: Vec<[f64; 2]>,
 }
 
 impl Trace {
-    /// Fills it with a scan taken at a place.
+    /// Traces a scan from a pose.
     pub(super) fn fill(&mut self, beams: &Beams, map_from_base: Pose2, per_m: f64) {
         let (s, c) = libm::sincos(map_from_base.yaw_rad);
         let place = |[x, y]: [f32; 2]| {
@@ -80,7 +79,7 @@ impl Trace {
         }
     }
 
-    /// How many tiles have cells that were passed.
+    /// Number of tiles with passed cells.
     pub(super) fn tiles(&self) -> usize {
         self.touched.iter().filter(|it| **it).count()
     }
@@ -90,7 +89,7 @@ impl Trace {
         (self.low, self.high)
     }
 
-    /// Whether a cell of the tile of a cell was passed.
+    /// True if a cell in the tile of a cell was passed.
     pub(super) fn touches(&self, column: i32, row: i32) -> bool {
         let (x, y) = ((column - self.low[0]) / SIDE, (row - self.low[1]) / SIDE);
         self.touched[y as usize * self.words + x as usize]
@@ -102,7 +101,7 @@ impl Trace {
         self.free[row as usize * self.words + word as usize]
     }
 
-    /// Where beams ended.
+    /// Positions of the beam ends.
     pub(super) fn ends(&self) -> &[[f64; 2]] {
         &self.ends
     }

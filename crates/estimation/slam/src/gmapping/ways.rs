@@ -1,8 +1,8 @@
-//! Where particles were: a tree, for those with the same ancestor share the way to it.
+//! Trajectories of the particles as a tree: particles with the same ancestor share the path to it.
 
 use periplus_geometry::Pose2;
 
-/// A pose of a way.
+/// A pose of a trajectory.
 struct Node {
     map_from_base: Pose2,
     /// The one before; [`NONE`] for the first.
@@ -13,24 +13,24 @@ struct Node {
 
 const NONE: u32 = u32::MAX;
 
-/// The ways of all particles. Stretches that no particle went on are forgotten.
+/// Trajectories of all particles. Branches without a particle are dropped.
 #[derive(Default)]
 pub(super) struct Ways {
     nodes: Vec<Node>,
     unused: Vec<u32>,
 }
 
-/// The end of a way.
+/// End of a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tip(u32);
 
 impl Ways {
-    /// Begins a way.
+    /// Starts a trajectory.
     pub(super) fn begin(&mut self, map_from_base: Pose2) -> Tip {
         self.add(map_from_base, NONE)
     }
 
-    /// A new way along poses, of which there is at least one.
+    /// Creates a trajectory along poses, of which there is at least one.
     pub(super) fn along(&mut self, poses: &[Pose2]) -> Tip {
         let tip = self.begin(poses[0]);
         poses[1..].iter().fold(tip, |tip, &pose| self.go_on(tip, pose))

@@ -74,9 +74,8 @@ impl Factor {
         self.diagonal.len()
     }
 
-    /// Turns columns of the matrix into those of its factor, from the first that is not yet one, up
-    /// to some column or until so many products of blocks are done. Gives the first that is left; none
-    /// when the matrix is not positive definite.
+    /// Factorizes columns from the first that is not yet done up to some column or until a number of block
+    /// products is reached. Returns the first column left; `None` if the matrix is not positive definite.
     pub(crate) fn factorize(&mut self, from: usize, until: usize, most: usize) -> Option<usize> {
         let mut done = 0;
         for column in from..until {

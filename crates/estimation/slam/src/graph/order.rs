@@ -23,24 +23,24 @@ struct Node {
     plain: Vec<u32>,
     /// Elements it is part of.
     elements: Vec<u32>,
-    /// Of an element that is still needed: its nodes.
+    /// Nodes of an active element.
     clique: Vec<u32>,
     /// Nodes that are like it, and go with it.
     alike: Vec<u32>,
-    /// How many unknowns it stands for; 0 when it is left no more.
+    /// Number of unknowns it represents; 0 once eliminated.
     weight: usize,
-    /// At most so many neighbours.
+    /// Upper bound of the number of neighbours.
     degree: usize,
 }
 
-/// What is left of the graph.
+/// Remaining graph during elimination.
 struct Rest {
     nodes: Vec<Node>,
     /// Nodes by degree.
     queue: BTreeSet<(usize, u32)>,
     /// In which round a node was last met.
     met: Vec<u32>,
-    /// How much of an element lies outside of the newest one, and in which round that was counted.
+    /// Weight of an element outside of the newest one, and the round in which it was computed.
     outside: Vec<(u32, usize)>,
     round: u32,
 }
@@ -94,7 +94,7 @@ impl Rest {
         }
     }
 
-    /// How much of the elements around a new one lies outside of it.
+    /// Computes the weight of the elements around a new one outside of it.
     fn count_outside(&mut self, clique: &[u32]) {
         for &it in clique {
             let weight = self.nodes[it as usize].weight;

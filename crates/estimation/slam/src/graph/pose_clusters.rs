@@ -4,18 +4,17 @@ use periplus_geometry::Stream;
 
 use super::{ConstraintKind, Graph, Size};
 
-/// So many bodies are solved for, about.
+/// Approximate maximum number of clusters.
 const MOST: usize = 6000;
 /// Only steps that are known this well are as if they were stiff: one standard deviation \[m\].
 const FIRM_M: f64 = 0.05;
 
-/// The body that each pose is part of, counted in order. Up to some thousand poses each is one of its
-/// own. In a larger map a few poses in a row ride with the first of them: what lies between neighbours
-/// is known to a centimetre, and what is to be spread over kilometres does not ask for each single
-/// step.
+/// Returns the cluster of each pose, numbered in order. Up to some thousand poses each is its own cluster.
+/// In a larger map a few consecutive poses are rigidly attached to the first of them: their relative poses
+/// are known to a centimetre, and errors to be distributed over kilometres do not need every single step.
 ///
-/// Where bodies begin is drawn anew with every turn, so that no step is stiff for ever. Drawn, because
-/// by turns of even and odd pairs a zigzag is hardly ever lost: every body is pulled to both sides.
+/// Cluster boundaries are random and change with every turn, so that no step stays rigid. They are random
+/// because with alternating pairs a zigzag would hardly ever vanish: every cluster is pulled to both sides.
 pub(crate) fn pose_clusters(graph: &Graph, (poses, edges): Size, turn: usize) -> Vec<u32> {
     let together = poses.div_ceil(MOST).max(1);
     let mut is_firm = vec![false; poses];
@@ -45,7 +44,7 @@ mod tests {
     use super::*;
     use crate::graph::Edge;
 
-    /// A way of steps, of which one is known badly.
+    /// A path of steps of which one is uncertain.
     fn way(poses: usize, loose: usize) -> Graph {
         let mut graph = Graph::default();
         for pose in 0..poses {

@@ -6,18 +6,17 @@ use super::pose_clusters::pose_clusters;
 use super::system::System;
 use super::{ConstraintKind, Edge, Graph};
 
-/// How a step went.
+/// Result of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outcome {
-    /// Poses moved by at most so many metres (turns count as an arm of a metre).
+    /// Largest motion of a pose \[m\]; rotations count with an arm of a metre.
     Moved(f64),
     /// No step lowers the cost.
     Settled,
 }
 
-/// Gauss-Newton steps with the damping of Levenberg and Marquardt, in slices. What the graph gains after
-/// the solver was made does not take part: new poses hang on those that they came after. So the order
-/// of elimination is made once.
+/// Gauss-Newton steps with Levenberg-Marquardt damping, in slices. Poses added after the solver was created
+/// do not take part; they follow their predecessors. The elimination order is computed once.
 pub(crate) struct Solver {
     /// Poses and edges for which it was made.
     size: Size,
@@ -29,7 +28,7 @@ pub(crate) struct Solver {
 /// Numbers of poses and edges.
 pub(crate) type Size = (usize, usize);
 
-/// Where a step is.
+/// Progress of a step.
 #[derive(Clone, Copy)]
 struct Stage {
     /// Columns of the matrix that are done.
@@ -40,12 +39,11 @@ struct Stage {
     before: f64,
 }
 
-/// What is to be known to go on later: the place of each pose in the order of elimination (poses that
-/// ride together share one), the damping, and of a step that has begun its columns, tries and cost
-/// before.
+/// State for resuming: the position of each pose in the elimination order (poses of a cluster share one),
+/// the damping, and the columns, tries and previous cost of a step in progress.
 pub(crate) type Saved = (Vec<u32>, (f64, Option<(usize, (usize, f64))>));
 
-/// So many dampings are tried in a step.
+/// Maximum number of damping values tried in a step.
 const TRIES: usize = 6;
 
 /// The edges that take part and count.
@@ -65,7 +63,7 @@ impl Solver {
         Self { size, system, damping: 0.0, stage: None }
     }
 
-    /// What is to be known to go on later.
+    /// Returns the state for resuming.
     pub(crate) fn state(&self) -> Saved {
         let stage = self.stage.map(|it| (it.columns, (it.tries, it.before)));
         (self.system.places().to_vec(), (self.damping, stage))
@@ -92,8 +90,8 @@ impl Solver {
         Some(solver)
     }
 
-    /// A part of a step, of so many products of blocks; how the step went when it is done. The first
-    /// pose stays where it is.
+    /// Advances a step by a number of block products; returns its result when it is done. The first pose is
+    /// fixed.
     pub(crate) fn advance(
         &mut self,
         graph: &mut Graph,

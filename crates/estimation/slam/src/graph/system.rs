@@ -9,7 +9,7 @@ use super::order::order;
 /// The equations for changes of poses. Unknown are the poses that lead a body; the others ride along,
 /// as if the body were stiff (see [`super::riders`]).
 pub(crate) struct System {
-    /// Place of the body of each pose in the order of elimination.
+    /// Position of each pose's cluster in the elimination order.
     place: Vec<u32>,
     /// The pose that leads the body of each.
     lead: Vec<u32>,
@@ -49,7 +49,7 @@ impl System {
         Self { place, lead, factor, right }
     }
 
-    /// The same again, by its places; none when these are none: every body has one of its own.
+    /// Rebuilds the system from positions in the elimination order; `None` if they are not a permutation.
     pub(crate) fn resumed(
         place: Vec<u32>,
         edges: impl Iterator<Item = (usize, usize)>,
@@ -65,12 +65,12 @@ impl System {
         is_taken.iter().all(|&it| it).then(|| Self::placed(place, edges))
     }
 
-    /// Places of the bodies of poses in the order of elimination.
+    /// Positions of the poses' clusters in the elimination order.
     pub(crate) fn places(&self) -> &[u32] {
         &self.place
     }
 
-    /// How many bodies there are.
+    /// Number of clusters.
     pub(crate) fn len(&self) -> usize {
         self.factor.len()
     }
@@ -185,7 +185,7 @@ fn neighbours(body: &[u32], edges: impl Iterator<Item = (usize, usize)>) -> Vec<
     neighbours
 }
 
-/// How many bodies there are.
+/// Number of clusters.
 fn bodies(body: &[u32]) -> usize {
     body.iter().max().map_or(0, |&last| last as usize + 1)
 }
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
     use crate::graph::error;
 
-    /// Which poses ride together changes from turn to turn, so that in the end each is right.
+    /// Clusters change from turn to turn, so that all poses converge.
     #[test]
     fn poses_that_ride_come_to_the_exact_places_by_turns() {
         let mut stream = Stream::keyed(5, "rides", 0);

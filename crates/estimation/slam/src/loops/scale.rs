@@ -1,19 +1,18 @@
-//! How far scans see: lengths that suit corridors are too short where the next wall is 30 m away.
+//! Typical range of the scans: lengths that suit corridors are too short where the next wall is 30 m away.
 
 use crate::keyframe::Keyframe;
 
 /// Scans before, and how many of them are asked.
 const BEFORE: usize = 320;
 const EVERY: usize = 10;
-/// Up to this typical range lengths are those of corridors and halls \[m\]; beyond they grow with it, up
-/// to so many times.
+/// Typical range up to which indoor lengths apply \[m\], and maximum factor beyond it.
 const INDOORS_M: f32 = 12.0;
 const MOST: f64 = 3.0;
-/// Of each scan this part of the points is nearer.
+/// Quantile of the point ranges of a scan.
 const PART: f64 = 0.75;
 
-/// How many times as far as indoors scans typically see on the way up to a kept one: the median, over the
-/// way before, of the range that three quarters of the points of a scan keep to.
+/// Ratio of the typical range to the indoor one: the median, over the path before a keyframe, of the range
+/// within which three quarters of the points of a scan are.
 pub(super) fn scale(keyframes: &[Keyframe], last: usize) -> f64 {
     let first = last.saturating_sub(BEFORE);
     let ranges = keyframes[first..=last].iter().rev().step_by(EVERY).filter_map(range_m);
@@ -38,7 +37,7 @@ mod tests {
 
     use super::*;
 
-    /// So many scans of a round wall.
+    /// Keyframes in a round room.
     fn round(radius_m: f32, count: usize) -> Vec<Keyframe> {
         let beam = |index: u16| {
             let (s, c) = (0.01 * f32::from(index)).sin_cos();

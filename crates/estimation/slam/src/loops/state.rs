@@ -1,4 +1,4 @@
-//! What is known and asked about loops, in a session.
+//! State of the loop search in a session file.
 
 use super::{Candidate, Closure, Kept, Loops, Place, Task};
 use crate::session::{Bytes, Fault, Pack, Reader, packed};
@@ -18,7 +18,7 @@ packed!(Candidate {
 });
 packed!(Loops { places, place_from, searched_m, tasks, pending, fields, closures });
 
-/// What is told of closures, at most, in a map that lives for ever.
+/// Maximum number of closure reports in lifelong mapping.
 const MOST_TOLD: usize = 300;
 
 impl Pack for Kept {
@@ -34,7 +34,7 @@ impl Pack for Kept {
 }
 
 impl Loops {
-    /// The robot was set elsewhere: a stretch of way begins with this key.
+    /// Starts a new stretch of path at a keyframe.
     pub(crate) fn restart(&mut self, keyframe: usize, travel_m: f64) {
         self.place_from = keyframe;
         self.searched_m = travel_m;
@@ -77,7 +77,7 @@ impl Loops {
         });
     }
 
-    /// Whether all keys and places that are named are there.
+    /// True if all referenced keyframes and stretches exist.
     pub(crate) fn fits(&self, keyframes: usize) -> bool {
         let is_key = |keyframe: usize| keyframe < keyframes;
         let is_place = |place: usize| place < self.places.len();

@@ -16,14 +16,14 @@ impl Bytes {
     }
 }
 
-/// What is wrong with a value.
+/// Fault of a value.
 pub(crate) struct Fault(pub(crate) String);
 
 /// Bytes that are being read.
 #[derive(Clone)]
 pub(crate) struct Reader<'a> {
     rest: &'a [u8],
-    /// Place of the first of `rest` in the file.
+    /// Offset of the start of `rest` in the file.
     at: usize,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
         Self::within(&file[at.min(file.len())..], at)
     }
 
-    /// Bytes that stand at a place in the file.
+    /// Bytes at an offset in the file.
     pub(crate) fn within(rest: &'a [u8], at: usize) -> Self {
         Self { rest, at }
     }
@@ -60,14 +60,14 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What can be written and read.
+/// Values that can be written and read.
 pub(crate) trait Pack: Sized {
     fn pack(&self, out: &mut Bytes);
     fn unpack(from: &mut Reader<'_>) -> Result<Self, Fault>;
 }
 
-/// A struct as its fields, in this order. Whoever adds a field is told here, and gives the format of
-/// sessions a new version.
+/// Implements [`Pack`] for a struct as its fields in this order. A new field changes the format: increase
+/// its version.
 macro_rules! packed {
     ($name:ident { $($field:ident),* $(,)? }) => {
         impl $crate::session::Pack for $name {

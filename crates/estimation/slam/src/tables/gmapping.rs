@@ -9,7 +9,7 @@ use periplus_params::{Names, Table, Values, flag, integer, number, text};
 use super::{CORRECT_MOUNTING, Idle};
 use crate::gmapping::{GmappingSettings, Noise};
 
-/// Of the node.
+/// Parameters of the node `slam_gmapping`.
 pub static GMAPPING: Table = Table {
     name: "slam_gmapping",
     doc: "Particle filter SLAM from laser scans and odometry, with one map per particle.",
@@ -169,8 +169,8 @@ pub(super) fn conflicts(values: &Values) -> Vec<Diagnostic> {
 }
 
 impl GmappingSettings {
-    /// What values of [`GMAPPING`] say. The bounds of the map count only where they were given: by
-    /// default it is as large as what was seen.
+    /// Applies values of [`GMAPPING`]. The bounds of the map count only if given: by default it covers
+    /// everything observed.
     #[must_use]
     pub fn of(values: &Values) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();

@@ -8,7 +8,7 @@ use periplus_params::{Names, Table, Values, choice, flag, integer, number, numbe
 use super::{CORRECT_MOUNTING, Idle};
 use crate::settings::Settings;
 
-/// Of the node.
+/// Parameters of the node `slam_toolbox`.
 pub static SLAM_TOOLBOX: Table = Table {
     name: "slam_toolbox",
     doc: "Pose graph SLAM from laser scans and odometry.",

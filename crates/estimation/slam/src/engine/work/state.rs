@@ -40,7 +40,7 @@ impl Pack for Solving {
 }
 
 impl Work {
-    /// Whether all keys and edges that are named are there.
+    /// True if all referenced keyframes and edges exist.
     pub(in crate::engine) fn fits(&self, graph: &Graph) -> bool {
         let (keyframes, edges) = (graph.poses.len(), graph.edges.len());
         self.proximity.iter().chain(&self.prunable).all(|&keyframe| keyframe < keyframes)
