@@ -1,16 +1,16 @@
-//! Compiles Cyclone DDS, from the sources in the crate `cyclonedds-src`, and the shim of ours in `c`.
+//! Compiles Cyclone DDS from the sources in the crate `cyclonedds-src`, and our shim in `c`.
 //!
-//! Only the core is built: no security, no TLS, no shared memory, no compiler for IDL. The C is
-//! optimized in every profile, as its speed is part of what the tests see.
-#![allow(clippy::disallowed_methods, reason = "cargo tells a build script what to do this way")]
+//! Only the core is built: no security, no TLS, no shared memory, no IDL compiler. The C code is
+//! optimized in every profile, since tests depend on its speed.
+#![allow(clippy::disallowed_methods, reason = "cargo passes settings to build scripts this way")]
 
 use std::env;
 use std::path::Path;
 
-/// What the shim was written against; another version wants another look at it.
+/// Version that the shim was written for; another version has to be reviewed.
 const VERSION: &str = "project(CycloneDDS VERSION 11.0.0";
 
-/// `src/ddsrt/src`: what is the same everywhere.
+/// `src/ddsrt/src`: platform-independent files.
 const RUNTIME: &[&str] = &[
     "atomics",
     "avl",
@@ -41,12 +41,12 @@ const RUNTIME: &[&str] = &[
     "heap/posix/heap",
 ];
 
-/// `src/ddsrt/src`: what depends on the system; the folder is named in the middle.
+/// `src/ddsrt/src`: platform-dependent files; the folder name is inserted.
 const RUNTIME_OF_SYSTEM: &[&str] =
     &["dynlib", "environ", "filesystem", "process", "random", "sync", "threads", "ifaddrs"];
 
-/// `src/core/ddsi/src`: the protocol, without what `c/acknack.c`, `c/match.c`, `c/transmit.c` and `c/udp.c`
-/// contain.
+/// `src/core/ddsi/src`: the protocol, without the files that `c/acknack.c`, `c/match.c`,
+/// `c/transmit.c` and `c/udp.c` replace.
 const PROTOCOL: &[&str] = &[
     "ddsi_addrset",
     "ddsi_bitset",
@@ -122,7 +122,7 @@ const PROTOCOL: &[&str] = &[
     "ddsi_xmsg",
 ];
 
-/// `src/core/ddsc/src`: the interface.
+/// `src/core/ddsc/src`: the API.
 const INTERFACE: &[&str] = &[
     "dds_alloc",
     "dds_builtin",
@@ -170,7 +170,7 @@ fn main() {
     let listed = std::fs::read_to_string(source.join("CMakeLists.txt")).unwrap_or_default();
     assert!(
         listed.contains(VERSION),
-        "the sources of Cyclone DDS in {} are not those of `{VERSION}`; read c/*.c against the new \
+        "the sources of Cyclone DDS in {} are not those of `{VERSION}`; compare c/*.c with the new \
          ones and change build.rs and c/include/dds/version.h",
         source.display()
     );

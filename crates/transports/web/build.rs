@@ -1,5 +1,5 @@
-//! Lists the files of `page/`, so that they become part of the program. It runs nothing that makes
-//! them: `cargo xtask viewer` does, and its result is committed.
+//! Lists the files of `page/` for inclusion into the program. `cargo xtask viewer` builds them; the
+//! result is committed.
 #![allow(clippy::disallowed_methods, reason = "a build script reads files")]
 
 use std::fmt::Write as _;

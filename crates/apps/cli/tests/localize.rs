@@ -148,7 +148,7 @@ fn what_is_wrong_with_the_log_is_said() {
     let words = ["none.log", "--map", "room.yaml", "--out", "out"];
     refused(&folder, &words, 1, &["cannot read none.log"]);
     std::fs::write(folder.path("drive.log"), "# CARMEN Logfile\nPARAM robot_width 0.5\n").unwrap();
-    refused(&folder, &USUAL, 1, &["`drive.log` is no recording"]);
+    refused(&folder, &USUAL, 1, &["`drive.log` is not a bag"]);
     // Scans without ranges are left out, and nothing is made up from them.
     std::fs::write(folder.path("drive.log"), "FLASER 0 0 0 0 0 0 0 1000.0 robot 0\n".repeat(20))
         .unwrap();

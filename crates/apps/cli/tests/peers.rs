@@ -362,7 +362,7 @@ fn what_a_ros_2_robot_says_wrong_is_told_and_survived() {
     robot.hears("empty");
     amcl.says("the scan has no ranges");
     robot.hears("scan nowhere");
-    amcl.says("nobody has published the frame `nowhere` on /tf");
+    amcl.says("the frame `nowhere` is not published on /tf");
     robot.hears("scan laser");
     robot.hears("true");
     amcl.says("the robot is said to be at");

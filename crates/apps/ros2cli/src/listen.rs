@@ -132,13 +132,13 @@ pub(crate) fn only_type(topic: &SeenTopic) -> Outcome<String> {
 /// Says which publishers are not heard because of QoS that was asked for.
 fn warn_of_misfits(session: &mut Session<'_>, topic: &SeenTopic, qos: &Qos) {
     for publisher in &topic.publishers {
-        for policy in publisher.qos.lacks(qos) {
+        for policy in publisher.qos.incompatible_policies(qos) {
             let node = publisher.node.as_deref().unwrap_or("a program");
             session.say(&format!(
                 "WARNING: {node} offers {} with {policy} {}, and {} is asked for: it is not heard",
                 topic.name,
-                publisher.qos.spelled(policy),
-                qos.spelled(policy)
+                publisher.qos.policy_value(policy),
+                qos.policy_value(policy)
             ));
         }
     }

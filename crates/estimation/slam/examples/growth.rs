@@ -1,6 +1,5 @@
-//! How work and memory grow with the way: `growth [--km 10] [--lifelong] [--slices 2] [--finish]`. A
-//! robot goes up and down the aisles of a warehouse of 56 m by 44 m, in which every place is seen
-//! again and again.
+//! Growth of CPU time and memory with path length: `growth [--km 10] [--lifelong] [--slices 2] [--finish]`.
+//! A robot drives up and down the aisles of a warehouse of 56 m by 44 m and sees every area repeatedly.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -109,8 +108,8 @@ fn tell(slam: &Slam, way_m: f64, spent: &mut Vec<u64>, slice: &mut u64, truth: &
     *slice = 0;
 }
 
-/// Root mean square and largest error of place, as seen from the first pose, of the scans of which
-/// poses are remembered.
+/// Root mean square and largest position error relative to the first pose, of the scans whose poses are
+/// kept.
 fn error(slam: &Slam, truth: &[[f32; 2]]) -> (f64, f64) {
     let (mut squares, mut most, mut count) = (0.0, 0.0_f64, 0);
     for (time_ns, pose) in slam.trajectory() {

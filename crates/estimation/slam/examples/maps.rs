@@ -23,12 +23,12 @@ use periplus_images::{Layout, pack_png};
 const SIDE_PX: usize = 380;
 const SPACE_PX: usize = 6;
 const COLUMNS: usize = 4;
-/// Of the ends of beams this part may lie outside of the picture on each side: stray readings.
+/// Fraction of the beam ends that may be outside of the picture on each side: stray readings.
 const STRAY_RATIO: f64 = 0.004;
 const MARGIN_M: f64 = 1.0;
 /// A pixel is a wall when this part of the beams that reached it ended there.
 const WALL_RATIO: f64 = 0.25;
-/// A scan is drawn after so much motion \[m, rad\].
+/// Minimum motion between two drawn scans.
 const SHIFT_M: f64 = 0.2;
 const TURN_RAD: f64 = 0.2;
 /// Longer readings are not drawn \[m\].

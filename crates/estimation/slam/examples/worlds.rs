@@ -1,6 +1,6 @@
-//! Generated worlds with known truth, in one table: campuses, ramps, halls, glass, crowds, doors, cheap
-//! scanners, long rings, places that all look the same: `worlds [--kind K,K] [--seeds N] [--seed S]
-//! [--short] [--why]`. With `--why` it tells remarks, and which closures are wrong by the truth.
+//! Generated worlds with ground truth, in one table: campuses, ramps, halls, glass, crowds, doors, low-cost
+//! scanners, long rings, repetitive areas: `worlds [--kind K,K] [--seeds N] [--seed S] [--short] [--why]`.
+//! With `--why` it prints remarks, and the closures that are wrong by ground truth.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -25,7 +25,7 @@ use worlds::kinds::{KINDS, Kind, Outcome, Verdict, outcome};
 const WRONG_M: f64 = 0.5;
 const WRONG_RAD: f64 = 0.2;
 
-/// What a run prints, and what is summed up over seeds.
+/// Printed row of a run, with the values summed over seeds.
 struct Row {
     text: String,
     verdict: Verdict,
@@ -47,7 +47,7 @@ fn main() {
     let is_wanted =
         |kind: &&Kind| wanted.as_ref().is_none_or(|it| it.split(',').any(|it| it == kind.name));
     let seeds: Vec<u64> = only.map_or((0..seeds).collect(), |it| vec![it]);
-    // All kinds of a seed before the next: whoever stops early has seen something of each.
+    // All kinds of a seed before the next, so that an interrupted run has covered each kind.
     let jobs: Vec<(Kind, u64)> = seeds
         .iter()
         .flat_map(|&seed| KINDS.iter().filter(is_wanted).map(move |kind| (*kind, seed)))

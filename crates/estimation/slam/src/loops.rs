@@ -32,7 +32,7 @@ use scale::scale;
 
 /// Length of a stretch that is searched for, and from one search to the next \[m\].
 const STRETCH_M: f64 = 9.0;
-const MIN_STRETCH_M: f64 = 5.0;
+const LEAST_STRETCH_M: f64 = 5.0;
 const EVERY_M: f64 = 2.5;
 /// Length of a stretch in which is searched, and how much of its surroundings belongs to it \[m\].
 const PLACE_M: f64 = 5.0;
@@ -44,71 +44,70 @@ const MEET_M: f64 = 9.0;
 /// Half side of the searched window, beyond `MEET_M` to detect better matches just outside \[m\].
 const SEEN_M: f64 = 10.5;
 /// Maximum standard deviation of a position that is searched for \[m\].
-const MAX_SIGMA_M: f64 = 60.0;
+const MOST_M: f64 = 60.0;
 /// Below this ties to near scans find all there is, 3 standard deviations \[m, rad\].
 const KNOWN_M: f64 = 0.5;
 const KNOWN_RAD: f64 = 0.2;
 /// Searched points have a mean likelihood of at least this.
-const MIN_SCORE_RATIO: f64 = 0.42;
+const LEAST_SCORE: f64 = 0.42;
 /// The second best pose is verified if its score is at least this fraction of the best one's.
-const AMBIGUOUS_SCORE_RATIO: f64 = 0.8;
+const RIVAL: f64 = 0.8;
 /// Minimum distance of two different poses \[m, rad\].
 const OTHER_M: f64 = 0.8;
 const OTHER_RAD: f64 = 0.5;
 /// Part of judged points that must agree; points to judge; part of points with partners.
-const MIN_AGREEING_RATIO: f64 = 0.88;
-const MIN_JUDGED_POINTS: u32 = 400;
-const MIN_MATCHED_RATIO: f64 = 0.6;
+const AGREEING: f64 = 0.88;
+const JUDGED: u32 = 400;
+const MATCHED: f64 = 0.6;
 /// Number of scans of the old stretch that each of the new one is compared with.
-const COMPARED_SCANS: usize = 3;
+const COMPARED: usize = 3;
 /// The same where two stretches were driven in opposite directions, and each shows a part that is
 /// hidden from the other: fewer partners, but more points that both can judge and that agree.
-const PARTIAL_MATCHED_RATIO: f64 = 0.3;
-const PARTIAL_JUDGED_POINTS: u32 = 800;
-const PARTIAL_AGREEING_RATIO: f64 = 0.9;
+const PARTLY_MATCHED: f64 = 0.3;
+const PARTLY_JUDGED: u32 = 800;
+const PARTLY_AGREEING: f64 = 0.9;
 /// Peaks this near to the rim of what was searched are none \[m\].
 const RIM_M: f64 = 0.15;
 /// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
-const CONSISTENT_CHI2: f64 = 11.3;
+const CONSISTENT: f64 = 11.3;
 /// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
 const ONE_WITNESS_M: f64 = 2.0;
-const PARTIAL_ONE_WITNESS_M: f64 = 1.0;
+const PARTLY_ONE_WITNESS_M: f64 = 1.0;
 const TWO_WITNESSES_M: f64 = 12.0;
 /// A closure that others speak against is tried at the end when its scans agree on more than this.
-const TRIAL_AGREEING_RATIO: f64 = 0.93;
+const CLEAR: f64 = 0.93;
 /// Witnesses for each against, where those against would be enough for another closure.
-const MAJORITY_FACTOR: usize = 3;
+const MAJORITY: usize = 3;
 /// Minimum path between two witnesses, and maximum path over which they count \[m\].
 const APART_M: f64 = 4.0;
-const WITNESS_PATH_M: f64 = 60.0;
+const HEARD_M: f64 = 60.0;
 /// Two closures are uninformative about each other if three standard deviations of the paths between them
 /// exceed this fraction of the smaller region, and this distance: they would agree by chance.
-const UNINFORMATIVE_RATIO: f64 = 0.5;
-const UNINFORMATIVE_M: f64 = 2.0;
+const EMPTY: f64 = 0.5;
+const EMPTY_M: f64 = 2.0;
 /// Searches for one stretch, and searches that wait, at most.
-const MAX_SEARCHES_PER_STRETCH: usize = 30;
-const MAX_QUEUED_SEARCHES: usize = 300;
+const MOST_ASKED: usize = 30;
+const MOST_WAITING: usize = 300;
 /// Covariance of poses in other map components: unknown.
-const UNKNOWN_COVARIANCE: Symmetric3 =
-    Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
+const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
 /// Stricter limits for closures between components, where nothing is known of the relative pose: region,
 /// score, agreement, witnesses, searches per stretch, and their priority.
 const ANYWHERE_M: f64 = 250.0;
-const ANYWHERE_SCORE_RATIO: f64 = 0.5;
-const ANYWHERE_AGREEING_RATIO: f64 = 0.95;
-const ANYWHERE_WITNESSES_COUNT: usize = 5;
-const MAX_ELSEWHERE_SEARCHES: usize = 24;
-const ELSEWHERE_PRIORITY_FACTOR: f64 = 2.0;
+const ANYWHERE_SCORE: f64 = 0.5;
+const ANYWHERE_AGREEING: f64 = 0.95;
+const ANYWHERE_WITNESSES: usize = 5;
+const MOST_ELSEWHERE: usize = 24;
+const FARTHER: f64 = 2.0;
 /// Fields that are kept; the larger, the fewer.
-const CACHED_FIELDS: usize = 12;
+const KEPT_FIELDS: usize = 12;
 /// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
 const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
 /// Maximum factor of the cell size for long-range scanners.
-const MAX_CELL_FACTOR: f64 = 2.0;
+const COARSE: f64 = 2.0;
 /// Scans of a stretch that are laid onto others, and more where they have few points.
-const REGISTERED_SCANS: usize = 8;
-const REGISTERED_POINTS: usize = 800;
+const FEW_SCANS: usize = 8;
+const FEW_POINTS: usize = 800;
 
 /// A loop closure candidate with the decision on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -188,7 +187,7 @@ struct Evidence {
 impl Evidence {
     fn is_enough(&self) -> bool {
         // As many against it as would suffice for another closure: two areas look alike.
-        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY_FACTOR * self.rivals;
+        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY * self.rivals;
         self.witnesses >= self.wanted + self.rivals && is_clear
     }
 }
@@ -273,13 +272,13 @@ impl Loops {
             .unwrap_or(0);
         let stretch = start..last + 1;
         let way = keyframes[last].travel_m - keyframes[start].travel_m;
-        if way < MIN_STRETCH_M {
+        if way < LEAST_STRETCH_M {
             return;
         }
         let half = keyframes[start].travel_m + 0.5 * way;
         let anchor =
             stretch.clone().find(|&keyframe| keyframes[keyframe].travel_m >= half).unwrap_or(last);
-        let uncertainties = uncertainties_from(graph, anchor, MAX_SIGMA_M);
+        let uncertainties = uncertainties_from(graph, anchor, MOST_M);
         let mut covariances: Vec<Option<RelativeUncertainty>> = vec![None; keyframes.len()];
         for uncertainty in uncertainties {
             covariances[uncertainty.keyframe] = Some(uncertainty);
@@ -294,13 +293,8 @@ impl Loops {
             }
             let Some(uncertainty) = &covariances[old.middle] else {
                 // Another map component, or too far away for a bound on the uncertainty.
-                let task = Task {
-                    stretch: stretch.clone(),
-                    anchor,
-                    place,
-                    covariance: UNKNOWN_COVARIANCE,
-                };
-                elsewhere.push((ELSEWHERE_PRIORITY_FACTOR, task));
+                let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
+                elsewhere.push((FARTHER, task));
                 continue;
             };
             let (region_m, region_rad) =
@@ -318,13 +312,13 @@ impl Loops {
             asked.push(((metres - scale * MEET_M).max(0.0) / region_m.max(0.1), task));
         }
         asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
-        asked.truncate(MAX_SEARCHES_PER_STRETCH);
+        asked.truncate(MOST_ASKED);
         if is_torn {
-            let every = elsewhere.len().div_ceil(MAX_ELSEWHERE_SEARCHES).max(1);
+            let every = elsewhere.len().div_ceil(MOST_ELSEWHERE).max(1);
             asked.extend(elsewhere.into_iter().skip(anchor % every).step_by(every));
         }
         // Under load the oldest questions go unanswered; they are asked again at the end.
-        let over = (self.tasks.len() + asked.len()).saturating_sub(MAX_QUEUED_SEARCHES);
+        let over = (self.tasks.len() + asked.len()).saturating_sub(MOST_WAITING);
         self.tasks.drain(..over.min(self.tasks.len()));
         self.tasks.extend(asked.into_iter().map(|it| it.1));
     }
@@ -400,14 +394,13 @@ impl Loops {
             middle: Pose2::new(x_m, y_m, expected.yaw_rad),
             half_m: [half_x_m, half_y_m],
             half_rad,
-            step_rad: heading_step(&points, settings.loop_field.resolution_m)
-                / scale.min(MAX_CELL_FACTOR),
+            step_rad: heading_step(&points, settings.loop_field.resolution_m) / scale.min(COARSE),
         };
         let of = around.iter().map(|&keyframe| (keyframe, graph.between(middle, keyframe)));
         let field = self.field(task.place, of, keyframes, settings, scale);
         let region_m = 3.0 * task.covariance.largest_shift().sqrt();
         let is_anywhere = region_m > ANYWHERE_M;
-        let least_score = if is_anywhere { ANYWHERE_SCORE_RATIO } else { MIN_SCORE_RATIO };
+        let least_score = if is_anywhere { ANYWHERE_SCORE } else { LEAST_SCORE };
         let (best, _) = field.search(&points, &window, least_score, None);
         let best = best?;
         // A peak at the rim is the slope of something beyond.
@@ -417,7 +410,7 @@ impl Loops {
         if is_at_rim || is_far {
             return None;
         }
-        let least = (AMBIGUOUS_SCORE_RATIO * best.score).max(least_score);
+        let least = (RIVAL * best.score).max(least_score);
         let (second, _) =
             field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
         let verdict = verify(best.pose, &new, &old, settings);
@@ -434,7 +427,7 @@ impl Loops {
             self.closures.push(told);
             return None;
         }
-        if is_anywhere && verdict.share < ANYWHERE_AGREEING_RATIO {
+        if is_anywhere && verdict.share < ANYWHERE_AGREEING {
             told.reason = format!(
                 "{:.0} % of the points are seen through, too many for an unbounded search",
                 100.0 * (1.0 - verdict.share)
@@ -457,7 +450,7 @@ impl Loops {
             region_m,
             share: verdict.share,
             is_unique: rival.is_none() && verdict.fit.firmness > 0.0,
-            is_partial: verdict.fit.matched < MIN_MATCHED_RATIO,
+            is_partial: verdict.fit.matched < MATCHED,
         })
     }
 
@@ -482,7 +475,7 @@ impl Loops {
         let at = self.fields.iter().position(|kept| kept.place == place);
         let kept = at.and_then(|at| self.fields.remove(at));
         let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
-        self.fields.truncate((CACHED_FIELDS as f64 / scale) as usize - 1);
+        self.fields.truncate((KEPT_FIELDS as f64 / scale) as usize - 1);
         self.fields.push_front(kept);
         let Kept { of, field, .. } = &mut self.fields[0];
         field.get_or_insert_with(|| {
@@ -547,7 +540,7 @@ impl Loops {
         for (index, other) in self.pending.iter().enumerate().rev() {
             let there_m = keyframes[other.anchor].travel_m;
             // Distant closures are no evidence.
-            if index == of || (here_m - there_m).abs() > WITNESS_PATH_M {
+            if index == of || (here_m - there_m).abs() > HEARD_M {
                 continue;
             }
             match consistency(it, other, graph, &from_anchor, &from_middle) {
@@ -564,11 +557,11 @@ impl Loops {
             }
         }
         let wanted = match it.region_m {
-            ..PARTIAL_ONE_WITNESS_M => 1,
+            ..PARTLY_ONE_WITNESS_M => 1,
             ..ONE_WITNESS_M if !it.is_partial => 1,
             ..TWO_WITNESSES_M => 2,
             ..ANYWHERE_M => 3,
-            _ => ANYWHERE_WITNESSES_COUNT,
+            _ => ANYWHERE_WITNESSES,
         };
         Evidence { agreeing, witnesses: witnesses.len(), wanted, rivals: rivals.len() }
     }
@@ -604,8 +597,7 @@ impl Loops {
             .filter_map(|index| {
                 let evidence = self.evidence(index, keyframes, graph);
                 let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
-                let is_clear =
-                    evidence.rivals == 0 || self.pending[index].share > TRIAL_AGREEING_RATIO;
+                let is_clear = evidence.rivals == 0 || self.pending[index].share > CLEAR;
                 let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
                 is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
             })
@@ -628,7 +620,7 @@ impl Loops {
         let here_m = keyframes[it.anchor].travel_m;
         let opposes = |index: &usize| {
             let other = &self.pending[*index];
-            let is_near = (here_m - keyframes[other.anchor].travel_m).abs() <= WITNESS_PATH_M;
+            let is_near = (here_m - keyframes[other.anchor].travel_m).abs() <= HEARD_M;
             let word = || consistency(it, other, graph, &from_anchor, &from_middle);
             other.is_unique && is_near && matches!(word(), Consistency::Contradicts)
         };
@@ -711,7 +703,7 @@ impl Loops {
 /// Settings of the likelihood field for scanners with `scale` times the range of indoor ones.
 fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
     let indoors = settings.loop_field;
-    let (scale, coarse) = (scale as f32, scale.min(MAX_CELL_FACTOR) as f32);
+    let (scale, coarse) = (scale as f32, scale.min(COARSE) as f32);
     FieldSettings {
         resolution_m: coarse * indoors.resolution_m,
         sigma_m: coarse * indoors.sigma_m,
@@ -730,8 +722,8 @@ struct Verdict {
 /// Scans of a group, evenly, that have enough points together to be laid onto others.
 fn few<'a>(group: &[Placed<'a>]) -> Vec<Placed<'a>> {
     let points: usize = group.iter().map(|it| it.cloud.points().len()).sum();
-    let least = REGISTERED_POINTS * group.len() / points.max(1);
-    let every = group.len().div_ceil(least.max(REGISTERED_SCANS)).max(1);
+    let least = FEW_POINTS * group.len() / points.max(1);
+    let every = group.len().div_ceil(least.max(FEW_SCANS)).max(1);
     group.iter().step_by(every).copied().collect()
 }
 
@@ -742,17 +734,16 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
     let (new_few, old_few) = (few(new), few(old));
     let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
-    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED_SCANS);
+    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED);
     let share = sum.share();
     // Seen from the other end, most points of one are hidden from the other.
-    let is_partial = fit.matched > PARTIAL_MATCHED_RATIO
-        && share > PARTIAL_AGREEING_RATIO
-        && sum.judged() > PARTIAL_JUDGED_POINTS;
-    let fault = if fit.matched < MIN_MATCHED_RATIO && !is_partial {
+    let is_partial =
+        fit.matched > PARTLY_MATCHED && share > PARTLY_AGREEING && sum.judged() > PARTLY_JUDGED;
+    let fault = if fit.matched < MATCHED && !is_partial {
         Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
-    } else if sum.judged() < MIN_JUDGED_POINTS {
+    } else if sum.judged() < JUDGED {
         Some(format!("only {} points are seen from both", sum.judged()))
-    } else if share < MIN_AGREEING_RATIO {
+    } else if share < AGREEING {
         Some(format!("{:.0} % of the points are seen through", 100.0 * (1.0 - share)))
     } else {
         None
@@ -762,7 +753,7 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
 
 fn uncertainties(graph: &Graph, keyframe: usize) -> Vec<Option<Symmetric3>> {
     let mut found = vec![None; graph.poses.len()];
-    for uncertainty in uncertainties_from(graph, keyframe, MAX_SIGMA_M) {
+    for uncertainty in uncertainties_from(graph, keyframe, MOST_M) {
         found[uncertainty.keyframe] = Some(uncertainty.covariance);
     }
     found
@@ -796,11 +787,11 @@ fn consistency(
     ];
     let sum = old_covariance + new_covariance;
     let Some(information) = sum.inverse() else { return Consistency::Uninformative };
-    if information.quadratic(error) >= CONSISTENT_CHI2 {
+    if information.quadratic(error) >= CONSISTENT {
         return Consistency::Contradicts;
     }
     let by_chance_m = 3.0 * sum.largest_shift().sqrt();
-    if by_chance_m < (UNINFORMATIVE_RATIO * a.region_m.min(b.region_m)).max(UNINFORMATIVE_M) {
+    if by_chance_m < (EMPTY * a.region_m.min(b.region_m)).max(EMPTY_M) {
         Consistency::Agrees
     } else {
         Consistency::Uninformative

@@ -10,13 +10,13 @@ use crate::keyframe::Keyframe;
 
 /// Log odds in hundredths that a beam adds to a cell that it passes and to the one it ends in, for
 /// probabilities of 0.4 and 0.75; sums are limited to ±4, so that changed cells are relearned.
-const MISS_LOG_ODDS: i16 = -41;
-const HIT_LOG_ODDS: i16 = 110;
-const MAX_LOG_ODDS: i16 = 400;
+const MISS: i16 = -41;
+const HIT: i16 = 110;
+const LIMIT: i16 = 400;
 /// Cells beyond a map's edge \[cells\].
-const MARGIN_CELLS: f64 = 4.0;
+const MARGIN: f64 = 4.0;
 /// Neither seen nor passed.
-const UNKNOWN_LOG_ODDS: i16 = i16::MIN;
+const UNSEEN: i16 = i16::MIN;
 
 /// Scans and poses at one moment. It can be rasterized on another thread while mapping continues; the scans
 /// are shared.
@@ -83,9 +83,9 @@ impl MapSnapshot {
         }
         // Corners at whole cells: the same position has the same cell in every run.
         let resolution_m = self.resolution_m;
-        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN_CELLS) * resolution_m);
+        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN) * resolution_m);
         let cells = |axis: usize| {
-            ((high[axis] - corner[axis]) / resolution_m + MARGIN_CELLS).ceil().max(1.0) as usize
+            ((high[axis] - corner[axis]) / resolution_m + MARGIN).ceil().max(1.0) as usize
         };
         let origin = Pose2::new(corner[0], corner[1], 0.0);
         let lattice = Lattice::new(resolution_m, cells(0), cells(1), origin).ok()?;
@@ -126,7 +126,7 @@ impl Plan for SnapshotRaster {
     /// scan a cell where a beam ends is not passed by others.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
         let part = part(&self.lattice, &rows);
-        let mut odds: Grid<i16> = Grid::new(part, UNKNOWN_LOG_ODDS);
+        let mut odds: Grid<i16> = Grid::new(part, UNSEEN);
         let mut marks = Marks::default();
         for (scan, span) in self.scans.iter().zip(&self.spans) {
             if (span[0] as usize) < rows.end && (span[1] as usize) > rows.start {
@@ -215,7 +215,7 @@ impl Marks {
         for (line, (passed, ended)) in lines.enumerate() {
             let begin = odds.lattice.index((self.low.0, self.low.1 - first_row + line));
             for (word, (&passed, &ended)) in passed.iter().zip(ended).enumerate() {
-                for (mut bits, says) in [(ended, HIT_LOG_ODDS), (passed & !ended, MISS_LOG_ODDS)] {
+                for (mut bits, says) in [(ended, HIT), (passed & !ended, MISS)] {
                     while bits != 0 {
                         let bit = bits.trailing_zeros() as usize;
                         bits &= bits - 1;
@@ -229,7 +229,7 @@ impl Marks {
 
 /// Occupancy probability of a cell in percent.
 fn percent(&odds: &i16) -> i8 {
-    if odds == UNKNOWN_LOG_ODDS {
+    if odds == UNSEEN {
         return occupancy::UNKNOWN;
     }
     let chance = 1.0 / (1.0 + libm::exp(-f64::from(odds) / 100.0));
@@ -237,8 +237,8 @@ fn percent(&odds: &i16) -> i8 {
 }
 
 fn vote(cell: &mut i16, by: i16) {
-    let before = if *cell == UNKNOWN_LOG_ODDS { 0 } else { *cell };
-    *cell = (before + by).clamp(-MAX_LOG_ODDS, MAX_LOG_ODDS);
+    let before = if *cell == UNSEEN { 0 } else { *cell };
+    *cell = (before + by).clamp(-LIMIT, LIMIT);
 }
 
 #[cfg(test)]
@@ -273,7 +273,7 @@ mod tests {
 
     /// Every scan on the whole map, cell by cell.
     fn plain(snapshot: &MapSnapshot, lattice: Lattice) -> Vec<i16> {
-        let mut odds = vec![UNKNOWN_LOG_ODDS; lattice.len()];
+        let mut odds = vec![UNSEEN; lattice.len()];
         for scan in &snapshot.scans {
             let pose = scan.map_from_keyframe;
             let cell = |[x, y]: [f32; 2]| {
@@ -284,10 +284,8 @@ mod tests {
             let ends: std::collections::BTreeSet<_> = scan.ends().iter().map(cell).collect();
             let passed: std::collections::BTreeSet<_> =
                 ends.iter().flat_map(|&end| Line::between(start, end)).collect();
-            ends.iter().for_each(|&cell| vote(&mut odds[lattice.index(cell)], HIT_LOG_ODDS));
-            passed
-                .difference(&ends)
-                .for_each(|&cell| vote(&mut odds[lattice.index(cell)], MISS_LOG_ODDS));
+            ends.iter().for_each(|&cell| vote(&mut odds[lattice.index(cell)], HIT));
+            passed.difference(&ends).for_each(|&cell| vote(&mut odds[lattice.index(cell)], MISS));
         }
         odds
     }

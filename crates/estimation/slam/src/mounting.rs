@@ -29,7 +29,7 @@ pub enum MountingCorrection {
 /// Mountings are by quarter turns; an angle this near to one is one \[rad\].
 const QUARTER_RAD: f64 = 0.1;
 /// Smaller angles are reported but not corrected: a drive that pulls to one side looks the same \[rad\].
-const MIN_CORRECTED_RAD: f64 = 0.3;
+const LEAST_TURN_RAD: f64 = 0.3;
 
 impl MountingCorrection {
     /// Returns the correction of the fault that the remarks report, if any.
@@ -55,7 +55,7 @@ impl MountingCorrection {
             })
             .or_else(|| {
                 first(|kind| match *kind {
-                    RemarkKind::ScannerYaw(turn_rad) if turn_rad.abs() > MIN_CORRECTED_RAD => {
+                    RemarkKind::ScannerYaw(turn_rad) if turn_rad.abs() > LEAST_TURN_RAD => {
                         let quarter_rad = (turn_rad / FRAC_PI_2).round() * FRAC_PI_2;
                         let is_quarter = (turn_rad - quarter_rad).abs() < QUARTER_RAD;
                         Some(Self::Turn(if is_quarter { quarter_rad } else { turn_rad }))

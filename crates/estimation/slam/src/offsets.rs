@@ -29,7 +29,7 @@ pub(crate) struct Offset {
 
 /// Path over which scans of a pass are combined \[m\], and their minimum number.
 const STRETCH_M: f64 = 3.0;
-const MIN_SCANS: usize = 3;
+const LEAST_SCANS: usize = 3;
 /// Path of the other pass before and after its nearest keyframe \[m\].
 const AROUND_M: f64 = 3.0;
 /// Ties within this way of both passes hold them together \[m\].
@@ -43,9 +43,9 @@ const WINDOW_RAD: f64 = 0.15;
 const SPACING_M: f32 = 0.15;
 const FAR_M: f32 = 14.0;
 /// Offsets below this are what maps have \[m\].
-const MIN_SHIFT_M: f64 = 0.15;
+const LEAST_M: f64 = 0.15;
 /// Squared Mahalanobis distance of an offset that scans are sure of.
-const SURE_CHI2: f64 = 30.0;
+const SURE: f64 = 30.0;
 
 /// Minimum overlap and agreement of a stretch with another pass.
 #[derive(Clone, Copy)]
@@ -64,11 +64,11 @@ const ELSEWHERE: Least = Least { matched: 0.6, judged: 0.6, agreeing: 0.9 };
 /// Maximum distance of two points on the same wall \[m\]; minimum increase of the fraction of such points
 /// over the pose in the map.
 const SAME_M: f32 = 0.1;
-const BETTER_RATIO: f64 = 0.15;
+const CLEARLY: f64 = 0.15;
 /// Mean likelihood of points that are where they were searched, at least.
-const MIN_SCORE_RATIO: f64 = 0.5;
+const LEAST_SCORE: f64 = 0.5;
 /// A second pose in the window is ambiguous with this fraction of the likelihood, at least this far away.
-const AMBIGUOUS_SCORE_RATIO: f64 = 0.9;
+const RIVAL: f64 = 0.9;
 const OTHER_M: f64 = 0.5;
 const OTHER_RAD: f64 = 0.5;
 
@@ -177,10 +177,10 @@ fn word(
     let near = fit_from(expected);
     // Along bare walls everything fits, wherever it is.
     let is_firm = near.firmness > 0.0;
-    if is_firm && apart(expected, near.target_from_moving).0 < MIN_SHIFT_M && fits(&near, HERE) {
+    if is_firm && apart(expected, near.target_from_moving).0 < LEAST_M && fits(&near, HERE) {
         return Consistency::Fits;
     }
-    if stretch.len() < MIN_SCANS || place.len() < MIN_SCANS {
+    if stretch.len() < LEAST_SCANS || place.len() < LEAST_SCANS {
         return Consistency::Uninformative;
     }
     let points = spread(&points_of(&moving), SPACING_M, FAR_M);
@@ -192,7 +192,7 @@ fn word(
     };
     let middle = [expected.x_m as f32, expected.y_m as f32];
     let field = Field::new(&points_of(&target), middle, &settings.local_field);
-    let Some(best) = field.search(&points, &window, MIN_SCORE_RATIO, None).0 else {
+    let Some(best) = field.search(&points, &window, LEAST_SCORE, None).0 else {
         return Consistency::Uninformative;
     };
     let fit = fit_from(best.pose);
@@ -201,18 +201,13 @@ fn word(
     let turn_rad = normalize_angle(there.yaw_rad - expected.yaw_rad);
     let off = [there.x_m - expected.x_m, there.y_m - expected.y_m, turn_rad];
     let shift_m = apart(expected, there).0;
-    let is_sure =
-        shift_m > MIN_SHIFT_M && information.quadratic(off) > SURE_CHI2 && fits(&fit, ELSEWHERE);
+    let is_sure = shift_m > LEAST_M && information.quadratic(off) > SURE && fits(&fit, ELSEWHERE);
     let same = |pose: Pose2| part_on_walls(&moving, &target, pose);
-    if !is_sure || same(there) - same(expected) < BETTER_RATIO {
+    if !is_sure || same(there) - same(expected) < CLEARLY {
         return Consistency::Uninformative;
     }
     let elsewhere = (there, OTHER_M, OTHER_RAD);
-    if field
-        .search(&points, &window, AMBIGUOUS_SCORE_RATIO * best.score, Some(elsewhere))
-        .0
-        .is_some()
-    {
+    if field.search(&points, &window, RIVAL * best.score, Some(elsewhere)).0.is_some() {
         return Consistency::Uninformative;
     }
     let edge = Edge::new((old, new), there, information, ConstraintKind::LoopClosure);

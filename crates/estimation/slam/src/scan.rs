@@ -28,7 +28,7 @@ pub struct Scan {
 }
 
 /// Beams of a scan with more are joined by twos, threes and so on to keep to this.
-const MAX_BEAMS: usize = 8192;
+const MOST_BEAMS: usize = 8192;
 
 /// Ends of beams in the base's frame.
 pub(crate) struct Ends {
@@ -41,7 +41,7 @@ impl Scan {
     /// Returns the beam ends in the frame of the base at the stamp. `motion` is the motion of the base per
     /// second, for deskewing; readings from `nearest_m` to `farthest_m` are used.
     pub(crate) fn ends(&self, motion: Option<Pose2>, [nearest_m, farthest_m]: [f32; 2]) -> Ends {
-        let every = self.ranges_m.len().div_ceil(MAX_BEAMS).max(1);
+        let every = self.ranges_m.len().div_ceil(MOST_BEAMS).max(1);
         let sign = if self.is_flipped { -1.0 } else { 1.0 };
         let least = self.range_min_m.max(nearest_m).max(0.01);
         // A little below, for scanners round what they send.

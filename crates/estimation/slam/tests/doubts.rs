@@ -1,4 +1,4 @@
-//! Drives with something broken: which one is told.
+//! Drives with a fault, and the remark it must give.
 
 mod worlds;
 
@@ -44,7 +44,7 @@ fn diagnostics(moments: &[Moment]) -> Vec<RemarkKind> {
     slam.remarks().iter().map(|remark| remark.kind).collect()
 }
 
-/// Odometry that goes the other way leads scans astray along walls for a while.
+/// Reversed odometry misleads scan matching along walls for a while.
 fn but_corridors(diagnostics: &[RemarkKind]) -> Vec<RemarkKind> {
     diagnostics.iter().copied().filter(|it| !matches!(it, RemarkKind::Corridor(_))).collect()
 }
@@ -98,7 +98,7 @@ fn axes_of_the_wrong_sign_are_told() {
 #[test]
 fn a_mirrored_scan_is_told() {
     let mut moments = drive();
-    // Upside down, and nobody said so: beams run the other way round.
+    // Mounted upside down without a roll in the transform: beams run the other way round.
     moments.iter_mut().for_each(|it| it.scan.ranges_m.reverse());
     assert_eq!(diagnostics(&moments), [RemarkKind::ScanMirrored]);
 }
@@ -107,7 +107,7 @@ fn a_mirrored_scan_is_told() {
 fn a_scanner_that_points_elsewhere_is_told() {
     for turn_rad in [FRAC_PI_2, -0.3] {
         let mut moments = drive();
-        // The scanner is turned to the right of where its transform says.
+        // The scanner points to the right of its transform.
         moments.iter_mut().for_each(|it| it.scan.base_from_laser = Pose2::new(0.0, 0.0, turn_rad));
         let diagnostics = diagnostics(&moments);
         let [RemarkKind::ScannerYaw(told)] = diagnostics[..] else { panic!("{diagnostics:?}") };
@@ -161,7 +161,7 @@ fn odometry_that_never_moves_is_none() {
     assert!(off(blind, Pose2::IDENTITY) < 0.1, "{}", off(blind, Pose2::IDENTITY));
 }
 
-/// A robot that is carried across the building: its map goes on as a piece of its own, which closures join.
+/// A robot carried across the building: the map continues as a component, which closures connect.
 #[test]
 fn a_carried_robot_begins_a_piece_that_closures_join() {
     let world = World::ring(16.0, 10.0, 2.4, 1);

@@ -15,7 +15,7 @@ fn map_of(moments: &[Moment], with_odometry: bool) -> Slam {
     slam
 }
 
-/// Largest error of place \[m\] and heading \[rad\], as seen from the first pose.
+/// Largest error of position \[m\] and heading \[rad\], relative to the first pose.
 fn worst(slam: &Slam, moments: &[Moment]) -> (f64, f64) {
     let trajectory = slam.trajectory();
     assert_eq!(trajectory.len(), moments.len());

@@ -1,4 +1,4 @@
-//! What is told of edges is what is in the graph, and nothing else.
+//! The reported edges are those of the graph.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 
@@ -31,8 +31,8 @@ fn written(slam: &Slam) -> Vec<(usize, usize)> {
     keyframes
 }
 
-/// The edges that are told are those of the graph; and closures that are told as accepted are those among
-/// them, each with a residual that is small where the map is right.
+/// The reported edges are those of the graph; closures reported as accepted are among them, each with a
+/// small residual where the map is right.
 fn check(slam: &Slam, name: &str) {
     let mut told: Vec<(usize, usize)> = slam.edges().map(|edge| edge.keyframes).collect();
     told.sort_unstable();
@@ -63,8 +63,8 @@ fn the_edges_of_a_ring_are_told() {
     assert!(closures.iter().all(|edge| edge.residual_m < 0.1), "{closures:?}");
 }
 
-/// Logs with more scans are thinned to motions of this \[m, rad\], and cut after so many scans: the whole of
-/// them is for `cargo xtask bench slam`, which compares report and graph of the program.
+/// Longer logs are reduced to one scan per motion and to this number of scans; `cargo xtask bench slam`
+/// compares report and graph for the whole logs.
 const MAX_SCANS: usize = 450;
 const SHIFT_M: f64 = 0.5;
 const TURN_RAD: f64 = 0.5;

@@ -1,4 +1,4 @@
-//! Short drives through generated worlds of each kind, held against the truth. All seeds, at full
+//! Short drives through generated worlds of each kind, compared with ground truth. All seeds at full
 //! length: `cargo run --release -p periplus-slam --example worlds`.
 
 mod worlds;
@@ -64,8 +64,8 @@ fn a_scanner_that_cost_little() {
     check("low-cost", 1);
 }
 
-/// Nothing tells where along walls without anything on them the robot is: a map that closes its loop by
-/// odometry alone says so.
+/// Along walls without features the position is unobservable: a map that closes its loop by odometry alone
+/// has a warning.
 #[test]
 fn walls_that_are_the_same_all_along_are_no_confirmation() {
     let Some(kind) = KINDS.iter().find(|it| it.name == "bare-ring") else {
@@ -81,8 +81,8 @@ fn walls_that_are_the_same_all_along_are_no_confirmation() {
     );
 }
 
-/// Rows of equal racks: the way back fits one row as well as the next, five metres from it. Seven stretches
-/// speak for the wrong row and five for the right one, so that neither closure is made.
+/// Rows of equal racks: the way back matches one row as well as the next, five metres away. Seven stretches
+/// support the wrong row and five the right one, so that neither closure is made.
 #[test]
 fn equal_racks_leave_a_loop_undecided() {
     let Some(kind) = KINDS.iter().find(|it| it.name == "hall") else {

@@ -19,7 +19,7 @@ fn few() -> GmappingSettings {
     GmappingSettings { particles: 8, ..GmappingSettings::default() }
 }
 
-/// Largest error of place \[m\] and heading \[rad\], as seen from the first pose.
+/// Largest error of position \[m\] and heading \[rad\], relative to the first pose.
 fn worst(slam: &Gmapping, moments: &[Moment]) -> (f64, f64) {
     let trajectory = slam.trajectory();
     assert_eq!(trajectory.len(), moments.len());
@@ -126,7 +126,7 @@ fn maps_of_all_particles_stay_within_their_memory() {
 #[test]
 fn the_same_seed_gives_the_same_map_at_any_number_of_threads() {
     let moments = room().drive(&ROUND[..4], 0.3, &ROBOT, 2);
-    // Drawn anew after every scan, so that who goes on matters.
+    // Resampling after every scan, so that the choice of ancestors matters.
     let often = GmappingSettings { resample_share: 1.0, ..few() };
     let of = |settings: GmappingSettings| {
         let slam = map_of(&moments, settings);

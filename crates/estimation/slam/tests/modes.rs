@@ -56,7 +56,7 @@ fn a_stored_graph_is_used_and_stays_as_it_is() {
     let saved = slam.save();
     let mut localizer =
         Localizer::new(Slam::resume(&saved, Settings::default()).expect("a session"), 3);
-    // Another day: other noise, wheels that start from nothing, and another place to start from.
+    // Another day: other noise, odometry from zero, and another start pose.
     let corners = [(12.0, 2.0), (12.0, 8.0), (0.0, 8.0), (0.0, 0.0), (12.0, 0.0), (12.0, 6.0)];
     let moments = world().drive(&corners, 0.2, &ROUND, 7);
     let (pose, covariance) = said(moments[0].truth);
@@ -134,7 +134,7 @@ fn a_life_in_one_building_is_bounded() {
 #[test]
 fn a_scan_that_is_moved_by_hand_bends_the_map() {
     let robot = Robot { bias_rad_per_m: 0.0, ..ROUND };
-    // A bare ring, so that nothing tells along the corridors but wheels.
+    // A bare ring: along the corridors only odometry measures the distance.
     let mut world = World { walls: Vec::new() };
     world.rectangle([-1.2, -1.2, 25.2, 15.2]);
     world.rectangle([1.2, 1.2, 22.8, 12.8]);

@@ -22,7 +22,7 @@ fn add(slam: &mut Slam, moments: &[Moment]) {
     }
 }
 
-/// In one go, and stopped, saved, read and gone on with at these parts of the way.
+/// Compares an uninterrupted run with one that is saved and resumed at these fractions of the path.
 fn check(settings: &Settings, parts: &[f64]) {
     let moments = moments();
     let mut whole = Slam::new(settings.clone());
@@ -54,7 +54,7 @@ fn going_on_is_as_never_having_stopped() {
 
 #[test]
 fn work_that_waits_goes_on_too() {
-    // Where searches wait, and where the map is just being bent.
+    // With queued searches and an optimization in progress.
     let settings = Settings { slices_per_scan: 2, ..Settings::default() };
     check(&settings, &[0.53, 0.57, 0.63, 0.7]);
 }

@@ -1,4 +1,4 @@
-//! Logs of which few beams are left: walls that passes have side by side are joined, or it is said.
+//! Logs with few beams: doubled walls of different passes are joined, or there is a warning.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 

@@ -1,11 +1,7 @@
-//! How fast large recordings are written, converted and played, and in how much memory:
-//! `cargo run --release -p periplus-bags --example file_speed -- [GIGABYTES] [FOLDER]`; beside them
-//! `rosbags-convert`, where `PERIPLUS_PYTHON` has PyPI's `rosbags`.
-#![allow(
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "an example stands at the edge"
-)]
+//! Measures speed and memory of writing, converting and playing large bags: `cargo run --release -p
+//! periplus-bags --example file_speed -- [GIGABYTES] [FOLDER]`; for comparison `rosbags-convert`, if
+//! `PERIPLUS_PYTHON` has PyPI's `rosbags`.
+#![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "an example is an edge")]
 
 use std::error::Error;
 use std::fs;
@@ -81,7 +77,7 @@ fn play(name: &str, path: &Path, bytes: u64) -> Outcome<()> {
     let node = graph.node(NodeSettings::new("listener"))?;
     let clouds = node.mailbox::<PointCloud2>("/points", Qos::reliable(5))?;
     let start = Start::now();
-    // As fast as it can: everything is due at once.
+    // At maximum speed: everything is due at once.
     let settings = PlaySettings { rate: 1e9, ..PlaySettings::default() };
     let mut player = Player::new(Bag::open(path)?, &graph, settings)?;
     let mut wall_ns = 0;
@@ -96,7 +92,7 @@ fn play(name: &str, path: &Path, bytes: u64) -> Outcome<()> {
     Ok(())
 }
 
-/// When a work began.
+/// Start of a measurement.
 struct Start {
     wall: Instant,
     cpu_s: f64,
@@ -108,7 +104,7 @@ impl Start {
     }
 }
 
-/// CPU time of this process, all threads, and of its children that ended \[s\].
+/// CPU time of this process with all threads, and of its finished children \[s\].
 fn cpu_s() -> f64 {
     let text = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<&str> =
@@ -122,12 +118,12 @@ fn tell(name: &str, bytes: u64, start: Start, file: Option<&Path>) {
     let size = file.and_then(|file| file.metadata().ok()).map_or(0, |about| about.len());
     let size = if size > 0 { format!("{:.0}", size as f64 / 1e6) } else { String::new() };
     let megabytes = bytes as f64 / 1e6;
-    // Of work of a tenth of a second and more: the clock of CPU time is that coarse.
+    // CPU times below 0.1 s are too coarse.
     let of_cpu = if cpu_s < 0.1 { String::new() } else { format!("{:.0}", megabytes / cpu_s) };
     println!("| {name} | {:.0} | {seconds:.1} | {of_cpu} | {size} |", megabytes / seconds);
 }
 
-/// Clouds at 10 Hz, pictures at 30 Hz, scans at 40 Hz, odometry at 1 kHz, with noise.
+/// Point clouds at 10 Hz, images at 30 Hz, scans at 40 Hz, odometry at 1 kHz, with noise.
 fn write(path: &Path, settings: WriteSettings, most: u64) -> Outcome<u64> {
     let mut bag = BagWriter::create(path, settings)?;
     let mut topic = |name: &str, type_name: &str, schema: &str, hash: &str| {
@@ -184,7 +180,7 @@ fn write(path: &Path, settings: WriteSettings, most: u64) -> Outcome<u64> {
     Ok(bytes)
 }
 
-/// 64 rings of 1024 points with noise: hard to pack.
+/// 64 rings of 1024 points with noise, which compress badly.
 fn cloud() -> PointCloud2 {
     let mut state = 1_u64;
     let mut noise = move || {
@@ -217,13 +213,13 @@ fn cloud() -> PointCloud2 {
     }
 }
 
-/// A full turn in half degrees.
+/// A full turn with a resolution of half a degree.
 fn scan() -> LaserScan {
     let ranges = (0..720).map(|beam| 3.0 + (beam as f32 * 0.05).sin()).collect();
     LaserScan { ranges, ..LaserScan::default() }
 }
 
-/// 640 x 480 in three colours: surfaces with some noise.
+/// 640 x 480 RGB: surfaces with some noise.
 fn picture() -> Image {
     let mut state = 7_u64;
     let data = (0..640 * 480 * 3_u32)
@@ -235,7 +231,7 @@ fn picture() -> Image {
     Image { height: 480, width: 640, encoding: "rgb8".into(), step: 1920, data, ..Image::default() }
 }
 
-/// The most memory that this process ever had \[MB\].
+/// Peak memory of this process \[MB\].
 fn peak_mb() -> f64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
@@ -243,7 +239,7 @@ fn peak_mb() -> f64 {
     number.unwrap_or(0.0) * 1024.0 / 1e6
 }
 
-/// The same by PyPI's `rosbags`, ROS 1 to a folder of sqlite3.
+/// The same with PyPI's `rosbags`, from ROS 1 to sqlite3.
 fn peer(from: &Path, to: &Path, bytes: u64) -> Outcome<()> {
     let Some(python) = std::env::var_os("PERIPLUS_PYTHON") else {
         println!("SKIPPED: PERIPLUS_PYTHON names no Python with `rosbags`");

@@ -1,10 +1,6 @@
-//! Writes recordings for other programs to read: every message type of ours, in every packing and
+//! Writes bags for tests of other programs: every message type, with every compression and metadata
 //! style. `cargo run -p periplus-bags --example samples -- FOLDER`
-#![allow(
-    clippy::disallowed_methods,
-    clippy::print_stderr,
-    reason = "an example stands at the edge"
-)]
+#![allow(clippy::disallowed_methods, clippy::print_stderr, reason = "an example is an edge")]
 
 use std::error::Error;
 use std::fs;
@@ -16,7 +12,7 @@ use periplus_bags::{
 use periplus_msgs::{DynamicMessage, Format, TypeRegistry};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("name a folder to write into")?;
+    let folder = std::env::args().nth(1).ok_or("missing argument: output folder")?;
     for (style, style_name) in [(Style::Humble, "humble"), (Style::Jazzy, "jazzy")] {
         for compression in [Compression::None, Compression::Lz4, Compression::Zstd] {
             let packing =
@@ -43,7 +39,7 @@ fn write(
     let mut topics = Vec::new();
     for type_name in types.type_names() {
         let layout = types.layout(type_name).ok_or("a type without layout")?;
-        // Parts of services and actions are not sent on topics.
+        // Parts of services and actions are not published on topics.
         if !type_name.contains("/msg/") {
             continue;
         }
@@ -77,7 +73,7 @@ fn write(
     Ok(())
 }
 
-/// Gives every number and text of a message a value of its own.
+/// Gives every number and text of a message a distinct value.
 fn fill(value: &mut serde_json::Value, count: &mut u32) {
     *count = *count % 100 + 1;
     match value {

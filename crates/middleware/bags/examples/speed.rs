@@ -1,9 +1,6 @@
-//! How fast recordings are written and read: `cargo run --release -p periplus-bags --example speed`
-#![allow(
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "an example stands at the edge"
-)]
+//! Measures the speed of writing and reading bags: `cargo run --release -p periplus-bags --example
+//! speed`
+#![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "an example is an edge")]
 
 use std::error::Error;
 use std::fs;
@@ -16,7 +13,7 @@ use periplus_msgs::sensor_msgs::PointCloud2;
 use periplus_msgs::{Message, TypeRegistry};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // What is known at first use is not measured.
+    // Warm up lazily initialized data.
     let _ = TypeRegistry::builtin().schema_text(Odometry::TYPE_NAME);
     let small = odometry(100_000)?;
     let large = clouds(30);
@@ -42,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A robot that drives a circle: 1 kHz, nearly all of each message as before.
+/// A robot that drives a circle: 1 kHz, consecutive messages nearly equal.
 fn odometry(count: u32) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let mut message = Odometry::default();
     message.header.frame_id = "odom".into();
@@ -60,7 +57,7 @@ fn odometry(count: u32) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     Ok(all)
 }
 
-/// Points with noise: hard to pack.
+/// Points with noise, which compress badly.
 fn clouds(count: u32) -> Vec<Vec<u8>> {
     let mut state = 1_u64;
     let mut noise = move || {

@@ -1,53 +1,53 @@
-//! Logs of CARMEN: text, a line for each reading of the odometry or a laser.
+//! CARMEN log files: text with one line per odometry or laser reading.
 //!
-//! Source: the head of every such log (`message formats defined`), and the CARMEN toolkit's
-//! `logger/logger_io`. Angles of the older kinds of lines are not in them; the convention here is that
-//! of the corrected logs that were published: an even number of beams begins at -90 degrees and ends
-//! a step before 90, an odd one includes both.
+//! Source: the header of every such log (`message formats defined`), and the CARMEN toolkit's
+//! `logger/logger_io`. The old kinds of lines contain no angles; the convention here is that of the
+//! published corrected logs: an even number of beams begins at -90 degrees and ends one step before
+//! 90, an odd number includes both.
 
 use std::f64::consts::PI;
 use std::io::{self, BufRead};
 
 use periplus_geometry::Pose2;
 
-/// A log, and what could not be read in it.
+/// Content of a log, with the lines that could not be parsed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CarmenLog {
-    /// Lasers, in the order of the log.
+    /// Laser scans in the order of the log.
     pub scans: Vec<CarmenScan>,
-    /// Odometry from lines of its own and from those of lasers, in the order of the log.
+    /// Odometry from odometry and laser lines, in the order of the log.
     pub odometry: Vec<CarmenOdometry>,
-    /// Number of a line, from 1, and what is wrong with it.
+    /// Line numbers, from 1, with the error.
     pub faults: Vec<(usize, String)>,
 }
 
-/// Where odometry had the robot.
+/// An odometry pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarmenOdometry {
-    /// Stamp of the sender \[s\].
+    /// Time stamp of the sender \[s\].
     pub time_s: f64,
-    /// Where the robot was.
+    /// Pose of the robot.
     pub odom_from_base: Pose2,
 }
 
-/// What a laser saw.
+/// A laser scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarmenScan {
-    /// The line's name, as `FLASER`.
+    /// Name of the line, such as `FLASER`.
     pub kind: String,
-    /// Stamp of the sender \[s\].
+    /// Time stamp of the sender \[s\].
     pub time_s: f64,
-    /// Where odometry had the robot; none where the line does not say.
+    /// Odometry pose of the robot; none if the line has none.
     pub odom_from_base: Option<Pose2>,
-    /// Where the laser is on the robot.
+    /// Pose of the laser on the robot.
     pub base_from_laser: Pose2,
     /// Direction of the first beam \[rad\].
     pub angle_min_rad: f64,
-    /// From beam to beam \[rad\].
+    /// Angle between beams \[rad\].
     pub angle_increment_rad: f64,
-    /// Readings at or above this saw nothing \[m\].
+    /// Readings at or above this are no returns \[m\].
     pub range_max_m: f32,
-    /// Readings \[m\].
+    /// Ranges \[m\].
     pub ranges_m: Vec<f32>,
 }
 
@@ -60,14 +60,14 @@ impl CarmenLog {
     }
 }
 
-/// A laser has no more beams.
+/// Maximum number of beams of a laser.
 const MOST_BEAMS: usize = 100_000;
-/// So many faults are told.
+/// Maximum number of errors reported.
 const MOST_FAULTS: usize = 100;
-/// A range that this many readings of a log share is what the laser says when nothing comes back.
+/// Minimum number of readings that share the maximum range for it to count as the no-return value.
 const NOTHING: usize = 3;
 
-/// Reads a log. Lines that say something else are passed over; broken ones are told.
+/// Parses a log. Unknown lines are skipped; malformed ones are reported.
 #[must_use]
 pub fn read_carmen(text: &[u8]) -> CarmenLog {
     let mut reading = Reading::default();
@@ -77,7 +77,7 @@ pub fn read_carmen(text: &[u8]) -> CarmenLog {
     reading.finish()
 }
 
-/// Reads a log as [`read_carmen`] does, line by line: its text is never held as a whole.
+/// Parses a log as [`read_carmen`] does, line by line, without loading it into memory.
 ///
 /// # Errors
 /// When the text cannot be read.
@@ -91,7 +91,7 @@ pub fn read_carmen_from(text: &mut dyn BufRead) -> io::Result<CarmenLog> {
     Ok(reading.finish())
 }
 
-/// A log of which some lines were read.
+/// A partly parsed log.
 #[derive(Default)]
 struct Reading {
     log: CarmenLog,
@@ -135,7 +135,7 @@ impl Reading {
     }
 }
 
-/// Whether a text looks like such a log.
+/// True if a text looks like a CARMEN log.
 #[must_use]
 pub fn is_carmen(text: &[u8]) -> bool {
     let head = &text[..text.len().min(64 * 1024)];
@@ -154,12 +154,12 @@ fn odometry(words: &[&str]) -> Result<CarmenOdometry, String> {
     })
 }
 
-/// `FLASER n ranges.. x y theta odom_x odom_y odom_theta stamp host stamp`.
+/// Parses `FLASER n ranges.. x y theta odom_x odom_y odom_theta stamp host stamp`.
 fn old_laser(kind: &str, words: &[&str], offset_m: f64) -> Result<CarmenScan, String> {
     let (ranges_m, rest) = counted(words)?;
     let it = numbers(rest.get(..7).ok_or("it ends before its stamp")?)?;
     let (laser, odom) = (Pose2::new(it[0], it[1], it[2]), Pose2::new(it[3], it[4], it[5]));
-    // Logs write the laser's pose as odometry has it; in corrected ones it is somebody's estimate.
+    // Logs contain the odometry pose of the laser; corrected logs contain an estimate.
     let between = (odom.inverse() * laser).normalized();
     let is_offset = (between.x_m - offset_m).abs() < 1e-3
         && between.y_m.abs() < 1e-3
@@ -178,10 +178,10 @@ fn old_laser(kind: &str, words: &[&str], offset_m: f64) -> Result<CarmenScan, St
     })
 }
 
-/// `type start field resolution maximum accuracy mode n ranges.. n remissions..`, then with `poses`
-/// `laser (x y theta) robot (x y theta) tv rv forward side axis`, then `stamp host stamp`.
+/// Parses `type start field resolution maximum accuracy mode n ranges.. n remissions..`, then with
+/// `poses` `laser (x y theta) robot (x y theta) tv rv forward side axis`, then `stamp host stamp`.
 fn new_laser(kind: &str, words: &[&str], poses: bool) -> Result<CarmenScan, String> {
-    let head = numbers(words.get(..7).ok_or("it ends in its head")?)?;
+    let head = numbers(words.get(..7).ok_or("it ends in its header")?)?;
     let (ranges_m, rest) = counted(&words[7..])?;
     let (_, rest) = counted(rest)?;
     let count = if poses { 12 } else { 1 };
@@ -203,19 +203,20 @@ fn new_laser(kind: &str, words: &[&str], poses: bool) -> Result<CarmenScan, Stri
     })
 }
 
-/// `n` and so many numbers; what follows.
+/// Parses `n` followed by n numbers; returns the rest.
 fn counted<'a, 'b>(words: &'a [&'b str]) -> Result<(Vec<f32>, &'a [&'b str]), String> {
-    let (count, rest) =
-        words.split_first().ok_or("it ends where a number of readings should be")?;
-    let count: usize = count.parse().map_err(|_| format!("`{count}` is no number of readings"))?;
+    let (count, rest) = words.split_first().ok_or("it ends before a number of readings")?;
+    let count: usize =
+        count.parse().map_err(|_| format!("`{count}` is not a number of readings"))?;
     if count > MOST_BEAMS {
         return Err(format!("{count} readings are more than {MOST_BEAMS}"));
     }
     if rest.len() < count {
-        return Err(format!("{count} readings are announced, and {} words follow", rest.len()));
+        return Err(format!("{count} readings are declared, but {} words follow", rest.len()));
     }
     let (readings, rest) = rest.split_at(count);
-    let readings = readings.iter().map(|it| it.parse().map_err(|_| format!("`{it}` is no range")));
+    let readings =
+        readings.iter().map(|it| it.parse().map_err(|_| format!("`{it}` is not a range")));
     Ok((readings.collect::<Result<_, _>>()?, rest))
 }
 
@@ -224,13 +225,12 @@ fn numbers(words: &[&str]) -> Result<Vec<f64>, String> {
         .iter()
         .map(|it| match it.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("`{it}` is no number")),
+            _ => Err(format!("`{it}` is not a number")),
         })
         .collect()
 }
 
-/// Where a line does not say from where on nothing was seen: the largest reading of the log, when
-/// it comes again and again.
+/// Sets the maximum range of lines that have none: the largest reading of the log, if it repeats.
 fn fill_limits(scans: &mut [CarmenScan]) {
     let readings = || {
         scans.iter().filter(|scan| scan.range_max_m.is_infinite()).flat_map(|scan| &scan.ranges_m)
@@ -255,7 +255,7 @@ mod tests {
             b"PARAM robot_frontlaser_offset 0.1 host 0\r\nODOM 1 2 0.5 0 0 0 9.5 h 0.1\n\n\
               FLASER 2 1.5 80 1.1 2 0 1 2 0 10.25 h 0.2\nFLASER x\nODOM 1 2\n\xff\xfe\nFLASER";
         for text in [text, &text[..text.len() - 6], b"", b"\n"] {
-            // Three bytes at once: lines come in pieces.
+            // Three bytes at once: lines arrive in pieces.
             let mut reader = std::io::BufReader::with_capacity(3, text);
             assert_eq!(read_carmen_from(&mut reader).unwrap(), read_carmen(text));
         }

@@ -1,7 +1,7 @@
-//! Whether a file is what the format says, byte for byte: every sum, every offset, every index.
+//! Strict validation of a file against the format: every checksum, offset and index.
 //!
-//! Readers are lenient; this is not. It is how tests know that what we write is right, and it tells
-//! what is wrong with a file of someone else.
+//! Readers are lenient; this is not. Tests use it to verify what we write, and users to diagnose
+//! files of other writers.
 
 mod data;
 mod summary;
@@ -11,12 +11,12 @@ use std::fmt;
 use crate::record::{FOOTER, Footer, MAGIC, op};
 use data::Data;
 
-/// Something that is not as the format says.
+/// A violation of the format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Where: bytes from the start of the file.
+    /// Offset from the start of the file \[bytes\].
     pub offset: u64,
-    /// What is wrong, in one sentence without a full stop.
+    /// Description, in one sentence without a full stop.
     pub message: String,
 }
 
@@ -26,10 +26,10 @@ impl fmt::Display for Fault {
     }
 }
 
-/// More faults than this are not told.
+/// Maximum number of violations reported.
 const MOST_FAULTS: usize = 100;
 
-/// Faults, as they are found.
+/// Violations in the order of detection.
 #[derive(Default)]
 struct Faults(Vec<Fault>);
 
@@ -47,13 +47,13 @@ impl Faults {
     }
 }
 
-/// Holds a whole file against the format. No faults, no words.
+/// Validates a whole file. Returns nothing if it is valid.
 #[must_use]
 pub fn check(bytes: &[u8]) -> Vec<Fault> {
     let mut faults = Faults::default();
-    faults.unless(bytes.starts_with(&MAGIC), 0, "the file does not begin as MCAP does");
+    faults.unless(bytes.starts_with(&MAGIC), 0, "the file does not begin with the MCAP magic");
     let tail = bytes.len().saturating_sub(MAGIC.len());
-    faults.unless(bytes.ends_with(&MAGIC), tail, "the file does not end as MCAP does");
+    faults.unless(bytes.ends_with(&MAGIC), tail, "the file does not end with the MCAP magic");
     if !faults.0.is_empty() {
         return faults.0;
     }
@@ -64,13 +64,13 @@ pub fn check(bytes: &[u8]) -> Vec<Fault> {
         .and_then(|(_, content)| Footer::parse(content));
     match (data, footer) {
         (Some(data), Some(footer)) => summary::check(bytes, &data, footer, footer_at, &mut faults),
-        (_, None) => faults.add(footer_at, "there is no footer in front of the last magic"),
+        (_, None) => faults.add(footer_at, "there is no footer before the last magic"),
         (None, _) => {}
     }
     faults.0
 }
 
-/// The opcode and content of the record at a place.
+/// Opcode and content of the record at an offset.
 fn record_at(bytes: &[u8], at: usize) -> Option<(u8, &[u8])> {
     crate::record::Cursor::new(bytes.get(at..)?).record()
 }

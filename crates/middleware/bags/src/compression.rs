@@ -1,26 +1,26 @@
-//! How the bytes of a chunk are packed.
+//! Compression of chunks.
 
 use std::io::{self, Read, Write as _};
 
 use lz4_flex::frame::{BlockSize, FrameDecoder, FrameEncoder, FrameInfo};
 
-/// How the bytes of a chunk are packed.
+/// Compression of chunks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
-    /// As they are.
+    /// No compression.
     None,
     /// LZ4 frames.
     Lz4,
-    /// Zstandard at its fastest ordinary level.
+    /// Zstandard at level 1.
     #[default]
     Zstd,
 }
 
-/// The level of Zstandard: 1 packs our streams as well as 3 does and takes half the time.
+/// Zstandard level: 1 compresses our streams as well as 3 and takes half the time.
 const ZSTD_LEVEL: i32 = 1;
 
 impl Compression {
-    /// The name that a chunk carries.
+    /// Name of the compression in a chunk.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,14 +30,14 @@ impl Compression {
         }
     }
 
-    /// From the name that a chunk carries.
+    /// Parses the name of the compression in a chunk.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         [Self::None, Self::Lz4, Self::Zstd].into_iter().find(|one| one.name() == name)
     }
 }
 
-/// Packs chunks, one after the other. The same chunks give the same bytes.
+/// Compresses chunks one after the other. The same chunks give the same bytes.
 pub(crate) struct Packer {
     compression: Compression,
     zstd: Option<zstd::bulk::Compressor<'static>>,
@@ -52,7 +52,7 @@ impl Packer {
         Ok(Self { compression, zstd })
     }
 
-    /// Packs bytes into memory that is used again; into nothing where they stay as they are.
+    /// Compresses into a reused buffer, or into none without compression.
     pub(crate) fn pack(&mut self, bytes: &[u8], packed: &mut Option<Vec<u8>>) -> io::Result<()> {
         if self.compression == Compression::None {
             *packed = None;
@@ -78,23 +78,24 @@ impl Packer {
     }
 }
 
-/// Unpacks a chunk of which it is said that it holds `length` bytes. Memory grows with what comes
-/// out, not with what is announced.
+/// Decompresses a chunk with a declared size of `length` bytes. Memory is allocated as data
+/// arrives, not by the declared size.
 ///
 /// # Errors
-/// When the bytes are damaged, or more or fewer come out.
+/// When the bytes are damaged, or the size differs from the declared one.
 pub(crate) fn unpack(compression: Compression, packed: &[u8], length: u64) -> io::Result<Vec<u8>> {
     let damaged = |why: String| io::Error::new(io::ErrorKind::InvalidData, why);
     let (bytes, outcome) = unpack_some(compression, packed, length);
-    outcome.map_err(|error| damaged(format!("a chunk cannot be unpacked: {error}")))?;
+    outcome.map_err(|error| damaged(format!("a chunk cannot be decompressed: {error}")))?;
     if bytes.len() as u64 != length {
         let many = bytes.len();
-        return Err(damaged(format!("a chunk announces {length} bytes and holds {many}")));
+        return Err(damaged(format!("a chunk declares {length} bytes but has {many}")));
     }
     Ok(bytes)
 }
 
-/// As much as comes out, at most one byte more than `length`, and why no more.
+/// Decompresses as much as possible, at most one byte more than `length`; returns the error that
+/// ended it.
 pub(crate) fn unpack_some(
     compression: Compression,
     packed: &[u8],

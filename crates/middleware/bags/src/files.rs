@@ -1,14 +1,14 @@
-//! Recordings on the disk.
+//! Bags on disk.
 //!
-//! [`Bag::open`] is the one door: a folder of `ros2 bag` with MCAP or sqlite3 files, split, packed,
-//! with or without its `metadata.yaml`; a single `.mcap`, `.db3` or `.bag` of ROS 1; whole, cut or
-//! damaged. Its [messages](Bag::messages) come in the order of time across all files, in memory that
-//! does not grow with them. [`BagWriter`] makes the same kinds; [`convert`] goes from one to the
-//! other; [`Player`] and [`Recorder`] connect them to a [`periplus_graph::Graph`].
+//! [`Bag::open`] opens all kinds: a `ros2 bag` folder with MCAP or sqlite3 files, split,
+//! compressed, with or without `metadata.yaml`; a single `.mcap`, `.db3` or ROS 1 `.bag`; complete,
+//! truncated or damaged. Its [messages](Bag::messages) are in the order of time across all files,
+//! and memory does not grow with their number. [`BagWriter`] writes the same kinds; [`convert`]
+//! converts between them; [`Player`] and [`Recorder`] connect them to a [`periplus_graph::Graph`].
 
 #![allow(
     clippy::disallowed_methods,
-    reason = "this is an edge: recordings are larger than memory and are read where they lie"
+    reason = "this is an edge: bags are larger than memory and are read from disk"
 )]
 
 mod bag;

@@ -1,11 +1,11 @@
-//! Recordings of topics.
+//! Reading and writing of bags: MCAP with the ROS 2 profile, and ROS 1.
 //!
-//! A [`Writer`] makes MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and Lichtblick
-//! open; [`BagInfo`] is the `metadata.yaml` beside them. A [`Reader`] gives the messages of any MCAP
-//! file and of bags of ROS 1 in the order of their times, also of files that were cut off; a
-//! [`Ros1Writer`] makes such bags, and a [`Translation`] the messages for either. These take
-//! sinks and sources; the module `files`, a feature that is on unless asked otherwise, opens recordings
-//! on the disk, also databases, and connects them to a graph.
+//! A [`Writer`] creates MCAP files with the profile of ROS 2, which `ros2 bag`, Foxglove and
+//! Lichtblick open; [`BagInfo`] is the content of `metadata.yaml`. A [`Reader`] returns the
+//! messages of any MCAP file and of ROS 1 bags in the order of time, also from truncated files. A
+//! [`Ros1Writer`] creates ROS 1 bags, and a [`Translation`] converts messages between the two. These
+//! work on sinks and sources; the module `files`, a default feature, opens bags on disk, databases
+//! included, and connects them to a graph.
 //!
 //! ```
 //! use periplus_bags::{QosProfile, Settings, Stamp, Topic, Writer};
@@ -20,7 +20,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! File format: the MCAP specification, version 1 (mcap.dev); what ROS 2 puts into it: `ros2/rosbag2`,
+//! File format: the MCAP specification, version 1 (mcap.dev); ROS 2 profile: `ros2/rosbag2`,
 //! packages `rosbag2_storage` and `rosbag2_storage_mcap`.
 
 mod carmen;

@@ -1,4 +1,4 @@
-//! `metadata.yaml`: what is in a recording, as rosbag2 writes it.
+//! `metadata.yaml`: description of a bag, as written by rosbag2.
 
 mod read;
 
@@ -9,18 +9,18 @@ use crate::qos;
 
 pub use read::{Metadata, read_metadata};
 
-/// For which readers the metadata is written. All messages are the same.
+/// Version of the metadata. The messages are the same in all versions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// Version 5 of the metadata: policies as numbers, for ROS 2 Humble and all that came later.
+    /// Version 5: policies as numbers, for ROS 2 Humble and later.
     Humble,
-    /// Version 9 of the metadata: policies as names, for ROS 2 Jazzy and later.
+    /// Version 9: policies as names, for ROS 2 Jazzy and later.
     #[default]
     Jazzy,
 }
 
 impl Style {
-    /// The version number in `metadata.yaml`.
+    /// Version number in `metadata.yaml`.
     #[must_use]
     pub fn version(self) -> u32 {
         match self {
@@ -30,58 +30,58 @@ impl Style {
     }
 }
 
-/// How the files of a recording are stored.
+/// Storage of the files of a bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stored {
     /// `mcap` or `sqlite3`.
     pub storage: String,
-    /// How whole files or messages are packed once more, such as `zstd`; mostly empty.
+    /// Compression format on top of the storage, such as `zstd`; usually empty.
     pub compression: String,
-    /// What is packed that way: `FILE`, `MESSAGE`; mostly empty.
+    /// Compression mode: `FILE`, `MESSAGE`; usually empty.
     pub compression_mode: String,
 }
 
 impl Default for Stored {
-    /// MCAP, not packed once more.
+    /// MCAP without additional compression.
     fn default() -> Self {
         Self { storage: "mcap".into(), compression: String::new(), compression_mode: String::new() }
     }
 }
 
-/// What is in a recording.
+/// Content of a bag.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BagInfo {
-    /// The topics, in the order in which they appeared.
+    /// Topics in the order of their first appearance.
     pub topics: Vec<TopicInfo>,
-    /// The files, in the order of their messages.
+    /// Files in the order of their messages.
     pub files: Vec<FileInfo>,
-    /// The name of the ROS distribution whose messages these are, such as `jazzy`; may be empty.
+    /// Name of the ROS distribution of the message definitions, such as `jazzy`; may be empty.
     pub ros_distro: String,
 }
 
-/// One topic of a recording.
+/// A topic of a bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TopicInfo {
-    /// Its full name, such as `/scan`.
+    /// Full name, such as `/scan`.
     pub name: String,
-    /// The full name of its type, such as `sensor_msgs/msg/LaserScan`.
+    /// Full type name, such as `sensor_msgs/msg/LaserScan`.
     pub type_name: String,
-    /// The type hash, such as `RIHS01_64c1...`; empty when nobody knows.
+    /// Type hash, such as `RIHS01_64c1...`; empty if unknown.
     pub type_hash: String,
-    /// How its messages are encoded: `cdr`.
+    /// Encoding of the messages: `cdr`.
     pub encoding: String,
-    /// How each of its publishers offered it.
+    /// QoS offered by each of its publishers.
     pub qos: Vec<QosProfile>,
     /// Number of messages.
     pub messages: u64,
 }
 
-/// One file of a recording.
+/// A file of a bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileInfo {
-    /// Its name beside `metadata.yaml`.
+    /// File name relative to `metadata.yaml`.
     pub path: String,
-    /// Time of the first message and of the last \[ns\]; none without messages.
+    /// Times of the first and last message \[ns\]; none without messages.
     pub span_ns: Option<(i64, i64)>,
     /// Number of messages.
     pub messages: u64,
@@ -94,26 +94,27 @@ impl BagInfo {
         self.topics.iter().map(|topic| topic.messages).sum()
     }
 
-    /// Time of the first message and of the last \[ns\]; none without messages.
+    /// Times of the first and last message \[ns\]; none without messages.
     #[must_use]
     pub fn span_ns(&self) -> Option<(i64, i64)> {
         let spans = self.files.iter().filter_map(|file| file.span_ns);
         spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)))
     }
 
-    /// The text of `metadata.yaml` beside MCAP files.
+    /// Formats `metadata.yaml` for MCAP files.
     #[must_use]
     pub fn to_yaml(&self, style: Style) -> String {
         self.to_yaml_for(style, &Stored::default())
     }
 
-    /// The text of `metadata.yaml`.
+    /// Formats `metadata.yaml`.
     #[must_use]
     pub fn to_yaml_for(&self, style: Style, stored: &Stored) -> String {
         format!("rosbag2_bagfile_information:\n{}", self.body(style, 2, stored))
     }
 
-    /// The same without its outermost name, as files carry it inside, each line indented by `indent`.
+    /// Formats the content without its top-level key, as embedded in files, with each line indented
+    /// by `indent`.
     pub(crate) fn body(&self, style: Style, indent: usize, stored: &Stored) -> String {
         let pad = " ".repeat(indent);
         let mut yaml = String::new();
@@ -149,7 +150,7 @@ impl BagInfo {
 }
 
 impl TopicInfo {
-    /// The profiles as one text, as a channel or a row carries them.
+    /// Formats the QoS profiles as one text, as in a channel or database row.
     #[must_use]
     pub fn qos_text(&self, style: Style) -> String {
         match style {
@@ -164,7 +165,7 @@ impl TopicInfo {
         line(&format!("      type: {}", quoted(&self.type_name)));
         line(&format!("      serialization_format: {}", quoted(&self.encoding)));
         match style {
-            // Until version 8 the profiles are a text inside the text.
+            // Until version 8 the profiles are a string with YAML inside.
             Style::Humble => {
                 let text = self.qos_text(style);
                 line(&format!("      offered_qos_profiles: {}", quoted(&text)));
@@ -186,14 +187,14 @@ fn list(line: &mut dyn FnMut(&str), name: &str, is_empty: bool) {
     line(&format!("{name}:{}", if is_empty { " []" } else { "" }));
 }
 
-/// Start and duration. Without messages both are zero, as rosbag2 has it.
+/// Formats start and duration. Without messages both are zero, as in rosbag2.
 fn span(line: &mut dyn FnMut(&str), pad: &str, span_ns: Option<(i64, i64)>) {
     let (start_ns, end_ns) = span_ns.unwrap_or_default();
     let order: [(&str, &str, i64); 2] = [
         ("duration", "nanoseconds", end_ns.saturating_sub(start_ns)),
         ("starting_time", "nanoseconds_since_epoch", start_ns),
     ];
-    // rosbag2 has them in this order for the whole, and the other way round for each file.
+    // rosbag2 uses this order for the bag and the reverse for each file.
     let order = if pad.is_empty() { order } else { [order[1], order[0]] };
     for (name, unit, value) in order {
         line(&format!("{pad}{name}:"));
@@ -201,7 +202,7 @@ fn span(line: &mut dyn FnMut(&str), pad: &str, span_ns: Option<(i64, i64)>) {
     }
 }
 
-/// A text in YAML: plain where every reader takes it for a text, else in double quotes.
+/// Formats a YAML string: plain where every parser reads it as a string, otherwise quoted.
 fn quoted(text: &str) -> String {
     let is_word = |c: char| c.is_ascii_alphanumeric() || "/_.-".contains(c);
     let starts = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/');

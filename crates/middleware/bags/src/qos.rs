@@ -1,4 +1,4 @@
-//! How a publisher offered its topic, as bags tell it.
+//! QoS profiles of publishers, as stored in bags.
 //!
 //! Fields, names and numbers are those of `rmw_qos_profile_t`, in the order in which rosbag2 writes
 //! them (`rosbag2_storage/qos.cpp`): numbers up to version 8 of its metadata, names from version 9.
@@ -10,24 +10,24 @@ use periplus_yaml::Node;
 
 use crate::Style;
 
-/// The quality of service that one publisher offered.
+/// QoS offered by a publisher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct QosProfile {
-    /// Which messages are kept for those who are late.
+    /// History policy.
     pub history: History,
-    /// How many, with [`History::KeepLast`].
+    /// Depth, with [`History::KeepLast`].
     pub depth: u64,
-    /// Whether lost messages are sent again.
+    /// Reliability policy.
     pub reliability: Reliability,
-    /// Whether who comes later gets what was sent before.
+    /// Durability policy.
     pub durability: Durability,
-    /// The longest time between messages \[ns\]; none is without end.
+    /// Maximum time between messages \[ns\]; none is infinite.
     pub deadline_ns: Option<u64>,
-    /// How long a message is of use \[ns\]; none is without end.
+    /// Lifespan of a message \[ns\]; none is infinite.
     pub lifespan_ns: Option<u64>,
-    /// How a publisher shows that it is alive.
+    /// Liveliness policy.
     pub liveliness: Liveliness,
-    /// How long it counts as alive \[ns\]; none is without end.
+    /// Lease duration of the liveliness \[ns\]; none is infinite.
     pub lease_ns: Option<u64>,
 }
 
@@ -49,7 +49,7 @@ macro_rules! policy {
                 match self { $(Self::$one => $text,)* }
             }
 
-            /// From a name or a number.
+            /// Parses a name or a number.
             fn read(text: &str) -> Option<Self> {
                 $(if text == $text || text == stringify!($number) { return Some(Self::$one); })*
                 None
@@ -59,71 +59,71 @@ macro_rules! policy {
 }
 
 policy! {
-    /// Which messages are kept.
+    /// History policy.
     History {
-        /// As the middleware likes.
+        /// Default of the middleware.
         SystemDefault = 0 "system_default"
-        /// The last few.
+        /// The newest messages, up to the depth.
         KeepLast = 1 "keep_last"
-        /// All.
+        /// All messages.
         KeepAll = 2 "keep_all"
-        /// Nobody knows.
+        /// Unknown.
         Unknown = 3 "unknown"
     }
 }
 
 policy! {
-    /// Whether lost messages are sent again.
+    /// Reliability policy.
     Reliability {
-        /// As the middleware likes.
+        /// Default of the middleware.
         SystemDefault = 0 "system_default"
-        /// They are.
+        /// Lost messages are sent again.
         Reliable = 1 "reliable"
-        /// They are not.
+        /// Messages may be lost.
         BestEffort = 2 "best_effort"
-        /// Nobody knows.
+        /// Unknown.
         Unknown = 3 "unknown"
-        /// Whatever the other side has.
+        /// The value of the other endpoint.
         BestAvailable = 4 "best_available"
     }
 }
 
 policy! {
-    /// Whether who comes later gets what was sent before.
+    /// Durability policy.
     Durability {
-        /// As the middleware likes.
+        /// Default of the middleware.
         SystemDefault = 0 "system_default"
-        /// From the publisher, as long as it lives.
+        /// Late subscribers get earlier messages while the publisher exists.
         TransientLocal = 1 "transient_local"
-        /// No.
+        /// Late subscribers get no earlier messages.
         Volatile = 2 "volatile"
-        /// Nobody knows.
+        /// Unknown.
         Unknown = 3 "unknown"
-        /// Whatever the other side has.
+        /// The value of the other endpoint.
         BestAvailable = 4 "best_available"
     }
 }
 
 policy! {
-    /// How a publisher shows that it is alive.
+    /// Liveliness policy.
     Liveliness {
-        /// As the middleware likes.
+        /// Default of the middleware.
         SystemDefault = 0 "system_default"
-        /// The middleware does it.
+        /// Asserted by the middleware.
         Automatic = 1 "automatic"
-        /// The node says it.
+        /// Asserted by the node.
         ManualByNode = 2 "manual_by_node"
-        /// The publisher says it.
+        /// Asserted by the publisher.
         ManualByTopic = 3 "manual_by_topic"
-        /// Nobody knows.
+        /// Unknown.
         Unknown = 4 "unknown"
-        /// Whatever the other side has.
+        /// The value of the other endpoint.
         BestAvailable = 5 "best_available"
     }
 }
 
 impl QosProfile {
-    /// Reliable, volatile, the last `depth`.
+    /// Reliable and volatile, with a depth.
     #[must_use]
     pub fn reliable(depth: u64) -> Self {
         Self {
@@ -138,13 +138,13 @@ impl QosProfile {
         }
     }
 
-    /// The profile of sensor streams: best effort, the last five.
+    /// Sensor data profile: best effort, depth 5.
     #[must_use]
     pub fn sensor_data() -> Self {
         Self { reliability: Reliability::BestEffort, ..Self::reliable(5) }
     }
 
-    /// The profile of maps and descriptions: reliable, and sent to who comes later.
+    /// Profile of maps and descriptions: reliable and transient local.
     #[must_use]
     pub fn latched(depth: u64) -> Self {
         Self { durability: Durability::TransientLocal, ..Self::reliable(depth) }
@@ -154,7 +154,7 @@ impl QosProfile {
 /// `RMW_DURATION_INFINITE`: 2^63 - 1 ns.
 const ENDLESS_NS: u64 = i64::MAX as u64;
 
-/// The profiles as YAML, each line with `indent` spaces in front.
+/// Formats the profiles as YAML, each line with `indent` leading spaces.
 pub(crate) fn to_yaml(profiles: &[QosProfile], style: Style, indent: usize) -> String {
     let mut yaml = String::new();
     let pad = " ".repeat(indent);
@@ -187,7 +187,7 @@ pub(crate) fn to_yaml(profiles: &[QosProfile], style: Style, indent: usize) -> S
     yaml
 }
 
-/// The profiles of a list, by names or numbers. What is missing or strange is unknown.
+/// Reads the profiles of a list, by names or numbers. Missing or invalid values are unknown.
 pub(crate) fn from_yaml(list: &Node) -> Vec<QosProfile> {
     let profiles = list.list().unwrap_or_default().iter();
     profiles
@@ -213,7 +213,7 @@ pub(crate) fn from_yaml(list: &Node) -> Vec<QosProfile> {
         .collect()
 }
 
-/// The profiles of a text inside of a bag.
+/// Reads the profiles of a text inside of a bag.
 pub(crate) fn from_text(text: &str) -> Vec<QosProfile> {
     let mut sources = SourceMap::new();
     let file = sources.add("offered_qos_profiles", text);

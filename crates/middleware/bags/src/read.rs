@@ -1,8 +1,8 @@
-//! Reading a file, whatever state it is in.
+//! Reading of files, complete or damaged.
 //!
-//! A file with a good summary is opened by it. One without, or with one that is damaged, is walked
-//! from front to back: what is complete is read, of a chunk that is cut as much as can be unpacked.
-//! Chunks are unpacked when their time comes, so memory does not grow with the file.
+//! A file with a valid summary is opened by it. A file with a missing or damaged summary is scanned
+//! from front to back: all complete records are read, and of a truncated chunk all that can be
+//! decompressed. Chunks are decompressed on demand, so that memory does not grow with the file.
 
 mod block;
 mod messages;
@@ -26,29 +26,29 @@ pub use messages::{Message, Messages, OwnMessages, Selection};
 use crate::record::{Channel, MAGIC, Schema};
 use crate::{Fault, QosProfile, qos, ros1};
 
-/// How much memory a file may ask for.
+/// Limits of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// The largest chunk, unpacked \[bytes\]; a larger one is left out.
+    /// Maximum size of a chunk after decompression \[bytes\]; larger chunks are skipped.
     pub chunk: u64,
-    /// All chunks that are unpacked at one time, because their times overlap \[bytes\].
+    /// Maximum size of all chunks decompressed at one time because their times overlap \[bytes\].
     pub unpacked: u64,
 }
 
 impl Default for Limits {
-    /// 256 MiB and 384 MiB: far above what recorders write (1 to 10 MiB), and together with the
-    /// growth of one chunk below half a gigabyte.
+    /// 256 MiB and 384 MiB: far above the chunks of recorders (1 to 10 MiB), and below half a
+    /// gigabyte together with the growth of one chunk.
     fn default() -> Self {
         Self { chunk: 256 << 20, unpacked: 384 << 20 }
     }
 }
 
-/// Why a file cannot be read.
+/// Reason for which a file cannot be read.
 #[derive(Debug)]
 pub enum ReadError {
-    /// The source fails.
+    /// The source failed.
     Source(io::Error),
-    /// The file does not begin as recordings do; what it is instead, if that can be seen.
+    /// The file is not a bag; with its format, if that is recognized.
     Unknown(Option<&'static str>),
     /// The chunks of one moment need more memory than [`Limits::unpacked`].
     TooLarge(u64),
@@ -60,9 +60,9 @@ impl fmt::Display for ReadError {
             Self::Source(error) => {
                 write!(f, "the bag cannot be read: {}", periplus_diagnostics::plain_words(error))
             }
-            Self::Unknown(Some(other)) => write!(f, "this is not a recording but {other}"),
+            Self::Unknown(Some(other)) => write!(f, "this is not a bag but {other}"),
             Self::Unknown(None) => {
-                write!(f, "this is no recording: neither MCAP nor a bag of ROS 1")
+                write!(f, "this is not a bag: neither MCAP nor a ROS 1 bag")
             }
             Self::TooLarge(bytes) => write!(
                 f,
@@ -83,22 +83,22 @@ impl From<io::Error> for ReadError {
 /// A topic of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BagTopic {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// The full name of its type; empty when the file does not tell it.
+    /// Full type name; empty if the file does not contain it.
     pub type_name: String,
-    /// How its messages are encoded: `cdr`, `ros1`, `json`, ...
+    /// Message encoding: `cdr`, `ros1`, `json`, ...
     pub encoding: String,
-    /// What kind of text defines the type: `ros2msg`, `ros2idl`, `ros1msg`, `jsonschema`, ...
+    /// Schema encoding: `ros2msg`, `ros2idl`, `ros1msg`, `jsonschema`, ...
     pub schema_encoding: String,
-    /// That text.
+    /// Schema text.
     pub schema: Vec<u8>,
-    /// What else the file tells of it, such as `offered_qos_profiles`.
+    /// Other metadata of the topic, such as `offered_qos_profiles`.
     pub metadata: BTreeMap<String, String>,
 }
 
 impl BagTopic {
-    /// How each of its publishers offered it; none when the file does not tell.
+    /// QoS offered by each of its publishers; empty if the file does not contain it.
     #[must_use]
     pub fn offered_qos(&self) -> Vec<QosProfile> {
         self.metadata
@@ -108,14 +108,14 @@ impl BagTopic {
     }
 }
 
-/// A file of messages.
+/// Reader of a bag file.
 pub struct Reader<R> {
     source: Source<R>,
     limits: Limits,
     topics: Vec<BagTopic>,
-    /// Which topic a channel is.
+    /// Topic index of each channel.
     by_channel: BTreeMap<u32, usize>,
-    /// How many messages each topic has.
+    /// Number of messages of each topic.
     counts: Vec<u64>,
     blocks: Vec<Block>,
     faults: Vec<Fault>,
@@ -123,21 +123,21 @@ pub struct Reader<R> {
     messages: Option<u64>,
 }
 
-/// What opening a file finds, by its summary or by a walk.
+/// Content of a file, from its summary or from a scan.
 #[derive(Default)]
 struct Contents {
     schemas: BTreeMap<u16, Schema>,
     channels: BTreeMap<u16, Channel>,
     blocks: Vec<Block>,
     messages: Option<u64>,
-    /// By channel.
+    /// Message counts by channel.
     counts: BTreeMap<u16, u64>,
 }
 
-/// The same for every format.
+/// Content of a file in the same form for all formats.
 pub(crate) struct Found {
     pub(crate) topics: Vec<BagTopic>,
-    /// Which topic a channel is.
+    /// Topic index of each channel.
     pub(crate) by_channel: BTreeMap<u32, usize>,
     pub(crate) counts: Vec<u64>,
     pub(crate) blocks: Vec<Block>,
@@ -149,13 +149,13 @@ impl<R: Read + Seek> Reader<R> {
     /// Opens a file.
     ///
     /// # Errors
-    /// When the source fails or is neither MCAP nor a bag of ROS 1. Damage further in is no error but a
-    /// [fault](Self::faults).
+    /// When the source fails, or is neither MCAP nor a ROS 1 bag. Damage after the header
+    /// is not an error but a [fault](Self::faults).
     pub fn open(source: R) -> Result<Self, ReadError> {
         Self::open_within(source, Limits::default())
     }
 
-    /// As [`Reader::open`], with other limits.
+    /// Opens a file with other limits.
     ///
     /// # Errors
     /// As [`Reader::open`].
@@ -185,37 +185,37 @@ impl<R: Read + Seek> Reader<R> {
         })
     }
 
-    /// The topics, in the order of their channels.
+    /// Topics in the order of their channels.
     #[must_use]
     pub fn topics(&self) -> &[BagTopic] {
         &self.topics
     }
 
-    /// What is damaged, as far as anyone looked: chunks are looked at when they are read.
+    /// Damage found so far: chunks are checked when they are read.
     #[must_use]
     pub fn faults(&self) -> &[Fault] {
         &self.faults
     }
 
-    /// Whether the file was closed properly: it has a summary, and that is in order.
+    /// True if the file was closed properly: it has a valid summary.
     #[must_use]
     pub fn has_summary(&self) -> bool {
         self.has_summary
     }
 
-    /// How many messages there are, if the file tells it or was walked through.
+    /// Number of messages, if the file contains it or was scanned.
     #[must_use]
     pub fn message_count(&self) -> Option<u64> {
         self.messages
     }
 
-    /// How many messages each topic has, if the file tells it or was walked through.
+    /// Number of messages of each topic, if the file contains it or was scanned.
     #[must_use]
     pub fn counts(&self) -> Option<&[u64]> {
         (self.messages == Some(self.counts.iter().sum())).then_some(&*self.counts)
     }
 
-    /// Time of the first message and of the last \[ns\]; none without messages.
+    /// Times of the first and last message \[ns\]; none without messages.
     #[must_use]
     pub fn span_ns(&self) -> Option<(i64, i64)> {
         let start = self.blocks.iter().map(|block| block.start).min()?;
@@ -223,19 +223,20 @@ impl<R: Read + Seek> Reader<R> {
         Some((signed(start), signed(end)))
     }
 
-    /// Messages in the order of their log times; those of one time in the order of the file. Where the
-    /// index is wrong about times, which becomes a [fault](Self::faults), some may come late.
+    /// Iterates over messages in the order of log times; those of equal time in the order of the
+    /// file. If the index has wrong times, which is a [fault](Self::faults), some messages may come
+    /// late.
     pub fn messages(&mut self, selection: Selection) -> Messages<'_, R> {
         Messages::new(self, selection)
     }
 
-    /// As [`Reader::messages`], without lending the reader.
+    /// Same as [`Reader::messages`], but takes the reader by value.
     pub fn into_messages(self, selection: Selection) -> OwnMessages<R> {
         OwnMessages::new(self, selection)
     }
 
-    /// The types of the topics, ready to decode their messages. What cannot be used is left out,
-    /// and the findings say why.
+    /// Returns the types of the topics for decoding. Schemas that cannot be used are skipped with a
+    /// finding.
     #[must_use]
     pub fn types(&self, sources: &mut SourceMap, diagnostics: &mut Diagnostics) -> TypeRegistry {
         let mut registry = periplus_rosidl::Registry::new();
@@ -254,17 +255,17 @@ impl<R: Read + Seek> Reader<R> {
     }
 }
 
-/// What else a file may be, by its first bytes.
+/// Recognizes other formats by their first bytes.
 fn other_format(start: &[u8]) -> Option<&'static str> {
     let known: [(&[u8], &str); 3] = [
         (b"SQLite format 3", "a database (sqlite3), which is not read as a stream"),
-        (b"#ROSBAG V", "a bag of ROS 1 before version 2.0; `rosbag fix` makes it new"),
-        (b"rosbag2_bagfile", "the metadata.yaml of a bag; name the .mcap file"),
+        (b"#ROSBAG V", "a ROS 1 bag before version 2.0; convert it with `rosbag fix`"),
+        (b"rosbag2_bagfile", "the metadata.yaml of a bag; open the .mcap file"),
     ];
     known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
 }
 
-/// An MCAP file, by its summary or by a walk.
+/// Opens an MCAP file by its summary or by a scan.
 fn mcap<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
@@ -300,7 +301,7 @@ fn signed(time: u64) -> i64 {
     i64::try_from(time).unwrap_or(i64::MAX)
 }
 
-/// More faults than this are not kept.
+/// Maximum number of faults kept.
 const MOST_FAULTS: usize = 100;
 
 pub(crate) fn fault(faults: &mut Vec<Fault>, offset: u64, message: impl Into<String>) {

@@ -1,8 +1,8 @@
-//! The records of an MCAP file: what they hold, to bytes and back.
+//! Encoding and decoding of MCAP records.
 //!
-//! Layouts after the MCAP specification, version 1: every record is an opcode, the length of its
-//! content in eight bytes, and the content; numbers are little endian; strings, maps and lists have
-//! the number of their **bytes** in front.
+//! Layouts from the MCAP specification, version 1: every record is an opcode, the length of its
+//! content in eight bytes, and the content; numbers are little endian; strings, maps and lists are
+//! prefixed with their length in **bytes**.
 
 mod parse;
 mod put;
@@ -14,13 +14,13 @@ pub(crate) use put::{
     begin, end, put_message_index, put_metadata, put_metadata_index, put_summary_offset, put_text,
 };
 
-/// The first and the last eight bytes of a file.
+/// First and last eight bytes of a file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 
-/// Opcode and length in front of each record.
+/// Size of opcode and length before each record \[bytes\].
 pub(crate) const PREFIX: usize = 9;
 
-/// Bytes of a footer with its prefix.
+/// Size of a footer with its prefix \[bytes\].
 pub(crate) const FOOTER: usize = PREFIX + 8 + 8 + 4;
 
 pub(crate) mod op {
@@ -41,7 +41,7 @@ pub(crate) mod op {
     pub(crate) const DATA_END: u8 = 0x0f;
 }
 
-/// A type of messages.
+/// Schema record: a message type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Schema {
     pub(crate) id: u16,
@@ -50,7 +50,7 @@ pub(crate) struct Schema {
     pub(crate) data: Vec<u8>,
 }
 
-/// A topic.
+/// Channel record: a topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Channel {
     pub(crate) id: u16,
@@ -60,7 +60,7 @@ pub(crate) struct Channel {
     pub(crate) metadata: BTreeMap<String, String>,
 }
 
-/// The front of a message; its data follow.
+/// Header of a message record; the data follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MessageHead {
     pub(crate) channel: u16,
@@ -69,7 +69,7 @@ pub(crate) struct MessageHead {
     pub(crate) publish_time: u64,
 }
 
-/// The front of a chunk; its packed records follow.
+/// Header of a chunk record; the compressed records follow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ChunkHead {
     pub(crate) start: u64,
@@ -77,18 +77,18 @@ pub(crate) struct ChunkHead {
     pub(crate) length: u64,
     pub(crate) crc: u32,
     pub(crate) compression: String,
-    /// How many bytes of packed records follow.
+    /// Size of the compressed records \[bytes\].
     pub(crate) packed: u64,
 }
 
-/// Where a chunk is and what is in it.
+/// Chunk index record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ChunkIndex {
     pub(crate) start: u64,
     pub(crate) end: u64,
     pub(crate) offset: u64,
     pub(crate) stored: u64,
-    /// Where the message index of each channel is.
+    /// Offset of the message index of each channel.
     pub(crate) indexes: BTreeMap<u16, u64>,
     pub(crate) indexes_length: u64,
     pub(crate) compression: String,
@@ -96,7 +96,7 @@ pub(crate) struct ChunkIndex {
     pub(crate) length: u64,
 }
 
-/// Sums over a file.
+/// Statistics record.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Statistics {
     pub(crate) messages: u64,
@@ -110,7 +110,7 @@ pub(crate) struct Statistics {
     pub(crate) by_channel: BTreeMap<u16, u64>,
 }
 
-/// The end of a file.
+/// Footer record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Footer {
     pub(crate) summary: u64,

@@ -1,16 +1,16 @@
-//! A file in any state made whole: all messages that can be read, with a new index.
+//! Repair of damaged files: copies all readable messages into a new file with an index.
 
 use std::fmt;
 use std::io::{Read, Seek, Write};
 
 use crate::{BagInfo, ReadError, Reader, Selection, Settings, Stamp, WriteError, Writer};
 
-/// Why a file cannot be made whole.
+/// Reason for which a file cannot be repaired.
 #[derive(Debug)]
 pub enum RepairError {
-    /// It cannot be read.
+    /// The source cannot be read.
     Read(ReadError),
-    /// The new one cannot be written.
+    /// The result cannot be written.
     Write(WriteError),
 }
 
@@ -37,12 +37,12 @@ impl From<WriteError> for RepairError {
     }
 }
 
-/// Copies all that can be read to a new file, in the order of time. Types and topics stay as they
-/// are, whatever their encoding.
+/// Copies all readable messages to a new file in the order of time. Types and topics are copied
+/// unchanged, in any encoding.
 ///
 /// # Errors
-/// When the one cannot be read or the other not be written. Damage is no error: see
-/// [`Reader::faults`].
+/// When the source cannot be read or the result cannot be written. Damage is not an error:
+/// see [`Reader::faults`].
 pub fn repair<R: Read + Seek, W: Write + Send + 'static>(
     reader: &mut Reader<R>,
     sink: W,

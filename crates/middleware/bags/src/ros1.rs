@@ -1,9 +1,9 @@
-//! Bags of ROS 1, version 2.0.
+//! ROS 1 bags, version 2.0.
 //!
-//! A record is the length of its header, the header, the length of its data and the data; a header is
-//! fields `name=value`, each with its length in front. Chunks hold connections (topics, with their
-//! types) and messages; an index of each chunk follows it, and one of all chunks stands at the end.
-//! Source: wiki.ros.org/Bags/Format/2.0.
+//! A record is the length of its header, the header, the length of its data, and the data; a header
+//! is a list of fields `name=value`, each prefixed with its length. Chunks contain connections
+//! (topics with their types) and messages; an index follows each chunk, and an index of all chunks
+//! is at the end of the file. Source: wiki.ros.org/Bags/Format/2.0.
 
 mod packing;
 mod read;
@@ -17,10 +17,10 @@ pub(crate) use read::read;
 pub(crate) use record::next_message;
 pub use write::{Ros1Settings, Ros1Writer};
 
-/// The first bytes of a file.
+/// First bytes of a file.
 pub(crate) const MAGIC: &[u8; 13] = b"#ROSBAG V2.0\n";
 
-/// Kinds of records.
+/// Record opcodes.
 pub(crate) mod op {
     pub(crate) const MESSAGE: u8 = 2;
     pub(crate) const BAG: u8 = 3;

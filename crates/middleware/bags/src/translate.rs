@@ -1,4 +1,4 @@
-//! Messages of one kind of recording as those of another.
+//! Conversion of messages between ROS 1 and ROS 2.
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use periplus_rosidl::{Dialect, Kind, Registry, TypeName};
 
 use crate::{BagTopic, QosProfile, Style, qos};
 
-/// For whom messages are encoded.
+/// Target encoding of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// ROS 2: CDR, types as this program knows them, where it does.
+    /// ROS 2: CDR, with the type definitions of this program if known.
     Ros2,
     /// ROS 1 Noetic.
     Ros1,
@@ -35,7 +35,7 @@ impl Target {
         }
     }
 
-    /// The types that are known there.
+    /// Known types of the target.
     fn known(self) -> &'static TypeRegistry {
         match self {
             Self::Ros2 => TypeRegistry::builtin(),
@@ -44,7 +44,7 @@ impl Target {
     }
 }
 
-/// Makes the messages of one topic those of another kind.
+/// Converts the messages of a topic.
 #[derive(Debug)]
 pub struct Translation {
     topic: BagTopic,
@@ -54,20 +54,20 @@ pub struct Translation {
 
 #[derive(Debug)]
 enum Way {
-    /// They are already.
+    /// No conversion.
     Same,
-    /// The same values in other bytes.
+    /// The same values in another encoding.
     Recode { layout: Arc<Layout>, from: Format, to: Format },
     /// Another revision of the type.
     Adapt { layout: Arc<Layout>, from: Format, adaptation: Adaptation, to: Format },
 }
 
-/// Why a message cannot be translated.
+/// Reason for which a message cannot be converted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TranslateError {
-    /// Its bytes are no such message.
+    /// The bytes cannot be decoded as the type.
     Decode(DecodeError),
-    /// The other kind cannot hold it.
+    /// The target cannot represent the message.
     Encode(EncodeError),
 }
 
@@ -82,12 +82,12 @@ impl fmt::Display for TranslateError {
 
 impl std::error::Error for TranslateError {}
 
-/// Types that ROS 1 had under another name.
+/// Types with another name in ROS 1.
 const RENAMED: [(&str, &str); 1] = [("tf/tfMessage", "tf2_msgs/msg/TFMessage")];
 
 impl Translation {
-    /// How messages of a topic become those for a target. None, with a finding, when nobody knows
-    /// what they look like.
+    /// Creates the conversion of a topic for a target. None, with a finding, if the type is
+    /// unknown.
     #[must_use]
     pub fn new(topic: &BagTopic, target: Target, diagnostics: &mut Diagnostics) -> Option<Self> {
         let renamed = RENAMED.iter().find(|(old, _)| *old == topic.type_name);
@@ -107,8 +107,7 @@ impl Translation {
             }
         };
         let Some(name) = TypeName::read(type_name) else {
-            let wrong =
-                format!("`{type_name}`, the type of `{}`, is no name of a type", topic.name);
+            let wrong = format!("`{type_name}`, the type of `{}`, is not a type name", topic.name);
             diagnostics.push(left_out(wrong, "types are named `package/Name`"));
             return None;
         };
@@ -119,8 +118,8 @@ impl Translation {
             Format::Cdr(_) => TypeRegistry::builtin().layout(&full_name),
         });
         let Some(source) = source.cloned() else {
-            let wrong = format!("nobody knows the type `{full_name}` of `{}`", topic.name);
-            diagnostics.push(left_out(wrong, "the recording does not define it in a text"));
+            let wrong = format!("the type `{full_name}` of `{}` is unknown", topic.name);
+            diagnostics.push(left_out(wrong, "the bag contains no definition of it"));
             return None;
         };
         let own = match target {
@@ -129,11 +128,13 @@ impl Translation {
         };
         let types = if target.known().layout(&full_name).is_some() { target.known() } else { &own };
         let Some(described) = describe(topic, &name, types, target) else {
-            let wrong =
-                format!("`{full_name}`, the type of `{}`, does not exist there", topic.name);
+            let wrong = format!(
+                "`{full_name}`, the type of `{}`, does not exist in the target",
+                topic.name
+            );
             diagnostics.push(left_out(
                 wrong,
-                "ROS 1 has neither texts of wide characters nor parts of services as messages",
+                "ROS 1 has neither wide strings nor service requests as messages",
             ));
             return None;
         };
@@ -149,28 +150,28 @@ impl Translation {
         Some(Self { topic: described, way, out: Vec::new() })
     }
 
-    /// A topic whose messages stay as they are, whatever they are.
+    /// Creates a conversion that copies messages unchanged, in any encoding.
     #[must_use]
     pub fn untouched(topic: &BagTopic) -> Self {
         Self { topic: topic.clone(), way: Way::Same, out: Vec::new() }
     }
 
-    /// The topic as it is there.
+    /// The topic in the target.
     #[must_use]
     pub fn topic(&self) -> &BagTopic {
         &self.topic
     }
 
-    /// Whether messages stay as they are.
+    /// True if messages are copied unchanged.
     #[must_use]
     pub fn is_same(&self) -> bool {
         matches!(self.way, Way::Same)
     }
 
-    /// The bytes of a message there.
+    /// Converts a message.
     ///
     /// # Errors
-    /// When they are no such message.
+    /// When the message cannot be decoded or encoded.
     pub fn translate<'a>(&'a mut self, data: &'a [u8]) -> Result<&'a [u8], TranslateError> {
         self.out.clear();
         match &self.way {
@@ -189,23 +190,23 @@ impl Translation {
 }
 
 fn left_out(wrong: String, help: &str) -> Diagnostic {
-    Diagnostic::warning("untranslatable-topic", wrong)
-        .help(format!("the topic is left out: {help}"))
+    Diagnostic::warning("untranslatable-topic", wrong).help(format!("the topic is skipped: {help}"))
 }
 
 fn adapted(topic: &BagTopic, type_name: &str, adaptation: &Adaptation) -> Diagnostic {
-    let wrong = format!("`{}` holds another revision of `{type_name}`", topic.name);
+    let wrong = format!("`{}` has another revision of `{type_name}`", topic.name);
     let mut finding = Diagnostic::warning("other-revision", wrong);
     if !adaptation.lost().is_empty() {
-        finding = finding.note(format!("without a place there: {}", adaptation.lost().join(", ")));
+        finding = finding.note(format!("fields dropped: {}", adaptation.lost().join(", ")));
     }
     if !adaptation.blank().is_empty() {
-        finding = finding.note(format!("without a value there: {}", adaptation.blank().join(", ")));
+        finding =
+            finding.note(format!("fields without a value: {}", adaptation.blank().join(", ")));
     }
     finding
 }
 
-/// The types that the topic's own text defines.
+/// Types defined by the topic's own schema.
 fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
     let mut registry = Registry::new();
     let dialect = match topic.schema_encoding.as_str() {
@@ -213,7 +214,7 @@ fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
         "ros1msg" => Some(Dialect::Ros1),
         _ => None,
     };
-    // What is wrong with a text shows in the type not being known.
+    // Errors in the schema show as an unknown type.
     let mut findings = Diagnostics::new();
     if let (Some(dialect), Some(name)) = (dialect, TypeName::read(type_name)) {
         let mut sources = SourceMap::new();
@@ -224,7 +225,7 @@ fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
     TypeRegistry::new(registry, &mut findings)
 }
 
-/// The topic with its type as it is known there; none when it cannot be.
+/// The topic with its type as known in the target; none if there is none.
 fn describe(
     topic: &BagTopic,
     name: &TypeName,
@@ -273,7 +274,7 @@ fn describe(
     Some(described)
 }
 
-/// Adds the text of a type that a recording only names, when it is known here.
+/// Adds the schema of a known type if the bag only names it.
 fn complete(topic: &mut BagTopic, target: Target) {
     let Some(name) = TypeName::read(&topic.type_name) else { return };
     if target == Target::Ros1 && !topic.metadata.contains_key("md5sum") {

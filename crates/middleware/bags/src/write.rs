@@ -1,9 +1,9 @@
-//! Writing a file.
+//! Writer of MCAP bags.
 //!
-//! Messages gather in a chunk. It is closed when the next message is a second younger than its first
-//! or when it is full; then it is packed, written and flushed, so that whatever happens to the
-//! program, everything up to the last second can be read. Types and topics stand in front of the
-//! first chunk that uses them, outside of it: a damaged chunk takes only its own messages with it.
+//! Messages are collected in a chunk. It is closed when the next message is a second later than its
+//! first or when it is full; then it is compressed, written and flushed, so that after a crash
+//! everything up to the last second can be read. Schemas and channels are written before the first
+//! chunk that uses them, outside of it: a damaged chunk loses only its own messages.
 
 mod chunk;
 mod line;
@@ -23,28 +23,28 @@ pub use topics::{Topic, TopicId};
 use crate::record::MessageHead;
 use crate::{BagInfo, BagTopic, Compression, Style};
 
-/// How a file is written.
+/// Settings of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// The name of the file, for its metadata.
+    /// File name, for the metadata.
     pub file_name: String,
-    /// How chunks are packed.
+    /// Compression of chunks.
     pub compression: Compression,
-    /// For which readers the metadata is written.
+    /// Version of the metadata.
     pub style: Style,
-    /// A chunk is closed before its messages span this time \[ns\].
+    /// Maximum time span of the messages of a chunk \[ns\].
     pub chunk_span_ns: u64,
-    /// A chunk is closed when it holds this many bytes, before they are packed.
+    /// Chunk size before compression \[bytes\]; a chunk that reaches it is closed.
     pub chunk_bytes: usize,
-    /// How many threads pack chunks, beside one that writes them; with none all is done by who calls.
-    /// The bytes are the same. Each thread holds up to four chunks.
+    /// Number of compression threads, in addition to one that writes; with none the caller's thread
+    /// does all. The bytes are the same. Each thread holds up to four chunks.
     pub threads: usize,
-    /// The name of the ROS distribution whose messages these are; may be empty.
+    /// Name of the ROS distribution of the message definitions; may be empty.
     pub ros_distro: String,
 }
 
 impl Settings {
-    /// Chunks of a second or 4 MiB, packed by a thread of their own.
+    /// Chunks of a second or 4 MiB, compressed by one thread.
     #[must_use]
     pub fn new(file_name: impl Into<String>) -> Self {
         Self {
@@ -59,35 +59,35 @@ impl Settings {
     }
 }
 
-/// When a message was sent and recorded, in simulated nanoseconds, and which one it was.
+/// Times of publication and recording, and sequence number of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
-    /// When it was recorded \[ns\]; bags are played in this order.
+    /// Time of recording \[ns\]; bags are played in this order.
     pub log_ns: i64,
-    /// When it was sent \[ns\].
+    /// Time of publication \[ns\].
     pub publish_ns: i64,
-    /// Its number among the messages of its publisher; none counts them here, from 1.
+    /// Sequence number of its publisher; none to count here, from 1.
     pub sequence: Option<u32>,
 }
 
 impl Stamp {
-    /// Sent and recorded at one time \[ns\].
+    /// Published and recorded at the same time \[ns\].
     #[must_use]
     pub fn at(time_ns: i64) -> Self {
         Self { log_ns: time_ns, publish_ns: time_ns, sequence: None }
     }
 }
 
-/// Why a message cannot be recorded.
+/// Reason for which a message cannot be recorded.
 #[derive(Debug)]
 pub enum WriteError {
-    /// The sink does not take the bytes. Everything after that is lost.
+    /// The sink failed. All later messages are lost.
     Sink(io::Error),
-    /// Times of bags begin at zero \[ns\].
+    /// The time is negative; bags start at zero \[ns\].
     NegativeTime(i64),
-    /// A bag holds at most 65535 topics and as many types.
+    /// The bag has 65535 topics or types already.
     TooManyTopics,
-    /// A text or message is longer than the format can tell, 4 GiB.
+    /// A text or message exceeds the limit of the format, 4 GiB.
     TooLong(String),
     /// The topic belongs to another writer.
     UnknownTopic,
@@ -100,12 +100,12 @@ impl fmt::Display for WriteError {
                 write!(f, "the bag cannot be written: {}", periplus_diagnostics::plain_words(error))
             }
             Self::NegativeTime(time_ns) => {
-                write!(f, "the bag cannot hold the time {time_ns} ns: its times begin at 0")
+                write!(f, "the bag cannot store the time {time_ns} ns: times start at 0")
             }
             Self::TooManyTopics => {
-                write!(f, "a bag holds at most 65535 topics; record fewer, or several bags")
+                write!(f, "a bag has at most 65535 topics; record fewer topics, or several bags")
             }
-            Self::TooLong(what) => write!(f, "{what} is longer than 4 GiB: a bag cannot hold it"),
+            Self::TooLong(what) => write!(f, "{what} is longer than 4 GiB, the limit of a bag"),
             Self::UnknownTopic => write!(f, "the topic belongs to another bag"),
         }
     }
@@ -126,10 +126,10 @@ impl From<io::Error> for WriteError {
     }
 }
 
-/// Writes one file to a sink, from front to back.
+/// Writes a file to a sink, from front to back.
 ///
-/// Same messages and settings, same bytes. When a writer is dropped, the chunk that is open is lost
-/// and the file has no index, as after a crash; call [`Writer::finish`].
+/// The same messages and settings give the same bytes. If a writer is dropped, the open chunk is
+/// lost and the file has no index, as after a crash; call [`Writer::finish`].
 pub struct Writer<W: Write> {
     settings: Settings,
     topics: Topics,
@@ -138,26 +138,25 @@ pub struct Writer<W: Write> {
 }
 
 impl<W: Write + Send + 'static> Writer<W> {
-    /// Begins a file.
+    /// Starts a file.
     ///
     /// # Errors
-    /// When the sink does not take its first bytes.
+    /// When the sink fails.
     pub fn new(sink: W, settings: Settings) -> Result<Self, WriteError> {
         let sealer = Sealer::new(sink, &settings)?;
         let line = Line::new(sealer, &settings)?;
         Ok(Self { settings, topics: Topics::default(), chunk: Chunk::default(), line })
     }
 
-    /// Adds a topic. One that is there already with the same type is the same; its profiles stay
-    /// as they were.
+    /// Adds a topic. A topic of the same name and type is reused with its QoS profiles.
     ///
     /// # Errors
-    /// When there are too many of them or a text is too long.
+    /// When there are too many topics or a text is too long.
     pub fn topic(&mut self, topic: Topic) -> Result<TopicId, WriteError> {
         self.topics.add(topic, self.settings.style, &mut self.chunk.preamble)
     }
 
-    /// Adds a topic of another file as it is there, whatever its encoding.
+    /// Adds a topic of another file unchanged, in any encoding.
     ///
     /// # Errors
     /// When there are too many of them.
@@ -165,15 +164,15 @@ impl<W: Write + Send + 'static> Writer<W> {
         self.topics.copy(topic, &mut self.chunk.preamble)
     }
 
-    /// Records a message, encoded as its topic says.
+    /// Writes a message in the encoding of its topic.
     ///
     /// # Errors
-    /// When the bag cannot hold it. An error of the sink may be that of an earlier message, and
-    /// every later call returns one as well.
+    /// When the bag cannot store it. An error of the sink may belong to an earlier
+    /// message, and all later calls return an error as well.
     pub fn write(&mut self, topic: TopicId, stamp: Stamp, data: &[u8]) -> Result<(), WriteError> {
         let time = |time_ns| u64::try_from(time_ns).map_err(|_| WriteError::NegativeTime(time_ns));
         let (log_time, publish_time) = (time(stamp.log_ns)?, time(stamp.publish_ns)?);
-        // The length of a list of bytes in memory formats is four bytes; CDR ends there as well.
+        // Byte arrays in memory formats and CDR have 32-bit lengths.
         if u32::try_from(data.len()).is_err() {
             return Err(WriteError::TooLong("a message".into()));
         }
@@ -190,11 +189,11 @@ impl<W: Write + Send + 'static> Writer<W> {
         Ok(())
     }
 
-    /// Says that no message older than `time_ns` will come: when the open chunk has lasted long
-    /// enough by then, it is closed. For live runs in which nothing is recorded for a while.
+    /// Declares that no message older than `time_ns` follows, so that an open chunk of sufficient
+    /// duration is closed. For live runs with pauses in recording.
     ///
     /// # Errors
-    /// When the sink does not take the bytes.
+    /// When the sink fails.
     pub fn advance_to(&mut self, time_ns: i64) -> Result<(), WriteError> {
         let time = u64::try_from(time_ns).unwrap_or(0);
         if self.chunk.is_over(time, self.settings.chunk_span_ns) {
@@ -204,10 +203,10 @@ impl<W: Write + Send + 'static> Writer<W> {
         }
     }
 
-    /// Closes the open chunk: all that was recorded is on its way to the sink.
+    /// Closes the open chunk and hands all messages to the threads that write.
     ///
     /// # Errors
-    /// When the sink does not take the bytes.
+    /// When the sink fails.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         if self.chunk.is_empty() { Ok(()) } else { self.close_chunk() }
     }
@@ -216,10 +215,10 @@ impl<W: Write + Send + 'static> Writer<W> {
         Ok(self.line.seal(&mut self.chunk)?)
     }
 
-    /// Ends the file with its index and gives the sink back, with what is in the file.
+    /// Writes the index and returns the sink and a description of the content.
     ///
     /// # Errors
-    /// When the sink does not take the bytes, now or earlier.
+    /// When the sink fails, now or earlier.
     pub fn finish(mut self) -> Result<(W, BagInfo), WriteError> {
         self.flush()?;
         Ok(self.line.finish()?.finish(&self.topics, &self.settings)?)

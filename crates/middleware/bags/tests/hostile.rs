@@ -1,4 +1,4 @@
-//! Small files that ask for much: memory is bounded, and work grows with the input.
+//! Small files with large claims: memory is bounded, and work grows with the input only.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "these tests measure time")]
 
@@ -22,7 +22,7 @@ fn text(text: &str) -> Vec<u8> {
     bytes
 }
 
-/// An MCAP with a chunk that announces a length and is packed as Zstandard packs zeros.
+/// An MCAP file with a chunk of zeros in Zstandard that declares a length.
 fn zeros(announced: u64) -> Vec<u8> {
     let packed = zstd::bulk::compress(&vec![0; 1 << 20], 1).unwrap();
     assert!(packed.len() < 200);
@@ -43,7 +43,7 @@ fn zeros(announced: u64) -> Vec<u8> {
 fn a_chunk_that_announces_a_gigabyte_is_not_unpacked() {
     let file = zeros(1 << 30);
     let told = |faults: &[periplus_bags::Fault]| {
-        let needle = "announces 1073741824 bytes, more than the 268435456 that are read";
+        let needle = "declares 1073741824 bytes, more than the limit of 268435456";
         faults.iter().any(|fault| fault.to_string().contains(needle))
     };
     assert!(told(&check(&file)), "{:?}", check(&file));
@@ -52,7 +52,7 @@ fn a_chunk_that_announces_a_gigabyte_is_not_unpacked() {
     assert!(told(reader.faults()), "{:?}", reader.faults());
 }
 
-/// A bag of ROS 1 with some topics, one message each.
+/// A ROS 1 bag with some topics, one message each.
 fn topics(count: u32) -> Vec<u8> {
     let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), Ros1Settings::new("n.bag")).unwrap();
     for number in 0..count {
@@ -70,7 +70,7 @@ fn topics(count: u32) -> Vec<u8> {
     bag.finish().unwrap().0.into_inner()
 }
 
-/// The fastest of three turns.
+/// Shortest time of three runs.
 fn fastest(mut work: impl FnMut()) -> Duration {
     let turn = |_| {
         let start = Instant::now();

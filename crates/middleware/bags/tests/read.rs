@@ -1,4 +1,4 @@
-//! What the reader promises: all that is there, in order, from files in any state.
+//! Reading: all intact messages, in order, from complete and damaged files.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::io::Cursor;
@@ -30,7 +30,7 @@ fn read(bytes: &[u8]) -> Vec<Row> {
     rows(&mut Reader::open(Cursor::new(bytes)).unwrap(), Selection::default())
 }
 
-/// Forty numbers on two topics, a tenth of a second apart, each pair in the wrong order.
+/// Forty numbers on two topics, 0.1 s apart, each pair in the wrong order.
 fn numbers(compression: Compression) -> (Vec<u8>, Vec<Row>) {
     let settings = Settings { compression, threads: 0, ..Settings::new("n.mcap") };
     let mut bag = Writer::new(Vec::new(), settings).unwrap();
@@ -114,7 +114,7 @@ fn files_of_another_writer() {
         let mut reader = Reader::open(Cursor::new(bytes)).unwrap();
         assert_eq!(reader.faults(), [], "{file}");
         assert_eq!(rows(&mut reader, Selection::default()), expected, "{file}");
-        // As if the program that wrote it had been stopped before the end.
+        // As if the recorder had been killed.
         let end = bytes.len() - 40;
         let mut reader = Reader::open(Cursor::new(&bytes[..end])).unwrap();
         assert!(!reader.has_summary() && !reader.faults().is_empty());
@@ -129,7 +129,7 @@ fn a_file_cut_anywhere_gives_what_is_complete() {
         let mut before = 0;
         for end in 8..bytes.len() {
             let mut rows = read(&bytes[..end]);
-            // Messages are in the file in the order of their numbers.
+            // Messages are in the order of their numbers in the file.
             rows.sort();
             let mut expected = all.clone();
             expected.sort();
@@ -138,7 +138,7 @@ fn a_file_cut_anywhere_gives_what_is_complete() {
             before = rows.len();
         }
         assert_eq!(before, 40);
-        // Whatever was flushed is there: chunks are a second long.
+        // All flushed messages are present; chunks span a second.
         let cut = read(&bytes[..bytes.len() * 2 / 3]);
         assert!(cut.len() >= 10, "{}", cut.len());
     }
@@ -148,7 +148,7 @@ fn a_file_cut_anywhere_gives_what_is_complete() {
 fn a_damaged_chunk_takes_only_its_own_messages() {
     for compression in [Compression::None, Compression::Zstd] {
         let (mut bytes, all) = numbers(compression);
-        // The first chunk holds numbers 0 to 9; its last byte stands before the first index.
+        // The first chunk has numbers 0 to 9; its last byte precedes the first index.
         let at = find_record(&bytes, 0x07) - 1;
         bytes[at] ^= 0xff;
         let mut reader = Reader::open(Cursor::new(&*bytes)).unwrap();
@@ -159,7 +159,7 @@ fn a_damaged_chunk_takes_only_its_own_messages() {
     }
 }
 
-/// The first record of a kind.
+/// The first record with an opcode.
 fn find_record(bytes: &[u8], opcode: u8) -> usize {
     let mut at = 8;
     while bytes[at] != opcode {
@@ -176,7 +176,7 @@ fn other_files_are_named() {
     };
     assert!(open(b"SQLite format 3\0...").contains("sqlite3"));
     assert!(open(b"#ROSBAG V1.2\n").contains("ROS 1"));
-    assert_eq!(open(b""), "this is no recording: neither MCAP nor a bag of ROS 1");
+    assert_eq!(open(b""), "this is not a bag: neither MCAP nor a ROS 1 bag");
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn memory_is_limited() {
 #[test]
 fn a_cut_file_is_made_whole() {
     let (bytes, all) = numbers(Compression::Zstd);
-    // Behind the first chunk, in the middle of the second.
+    // After the first chunk, and in the middle of the second.
     let cut = &bytes[..find_record(&bytes, 0x07) + 250];
     let mut reader = Reader::open(Cursor::new(cut)).unwrap();
     let settings = Settings { threads: 0, ..Settings::new("repaired.mcap") };
@@ -205,7 +205,7 @@ fn a_cut_file_is_made_whole() {
     assert!(info.messages() >= 10 && info.messages() < all.len() as u64);
     assert_eq!(info.topics[0].qos, [QosProfile::latched(1)]);
     assert!(info.topics[0].type_hash.starts_with("RIHS01_"));
-    // What is whole stays as it is, but for the metadata.
+    // Complete files are copied unchanged except for the metadata.
     let mut reader = Reader::open(Cursor::new(&*bytes)).unwrap();
     let (again, _) = repair(&mut reader, Vec::new(), Settings::new("n.mcap")).unwrap();
     assert_eq!(read(&again), all);

@@ -1,4 +1,4 @@
-//! Bags of ROS 1: what is written is read, also when it was cut or damaged.
+//! ROS 1 bags: written files are read back, also if truncated or damaged.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::io::Cursor;
@@ -27,7 +27,7 @@ fn topic(name: &str) -> BagTopic {
 /// Number, time and topic.
 type Row = (u32, i64, String);
 
-/// Forty numbers on two topics, a tenth of a second apart, each pair in the wrong order.
+/// Forty numbers on two topics, 0.1 s apart, each pair in the wrong order.
 fn numbers(compression: Ros1Compression) -> (Vec<u8>, Vec<Row>) {
     let settings = Ros1Settings { compression, ..Ros1Settings::new("n.bag") };
     let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), settings).unwrap();
@@ -97,7 +97,7 @@ fn a_bag_cut_anywhere_gives_what_is_complete() {
 #[test]
 fn a_bag_that_was_not_closed_is_read_without_its_index() {
     let (mut bytes, expected) = numbers(Ros1Compression::Lz4);
-    // Where the index is stands behind `index_pos=`.
+    // The offset of the index follows `index_pos=`.
     let at = bytes.windows(10).position(|window| window == b"index_pos=").unwrap() + 10;
     bytes[at..at + 8].fill(0);
     let mut reader = open(&bytes);
@@ -110,7 +110,7 @@ fn a_bag_that_was_not_closed_is_read_without_its_index() {
 #[test]
 fn an_index_with_wrong_times_is_found_out() {
     let (mut bytes, expected) = numbers(Ros1Compression::None);
-    // The last record of the index says when the last chunk begins, which is at 3 s.
+    // The last record of the index contains the start time of the last chunk, 3 s.
     let key = b"start_time=";
     let at = bytes.windows(key.len()).rposition(|window| window == key).unwrap() + key.len();
     assert_eq!(bytes[at], 3);
@@ -119,7 +119,7 @@ fn an_index_with_wrong_times_is_found_out() {
     assert!(reader.has_summary() && reader.faults().is_empty());
     assert_eq!(rows(&mut reader, Selection::default()), expected);
     let faults: Vec<String> = reader.faults().iter().map(ToString::to_string).collect();
-    assert!(faults.len() == 1 && faults[0].contains("older than the index says"), "{faults:?}");
+    assert!(faults.len() == 1 && faults[0].contains("older than their index states"), "{faults:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the writer promises: right bytes, the same bytes, a second at most lost.
+//! Writing: correct and reproducible bytes, at most a second lost.
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
 use periplus_bags::{
@@ -102,7 +102,7 @@ fn all_types_can_be_recorded() {
     assert_eq!(check(&bytes), []);
 }
 
-/// A sink that tells what had been flushed when it was last asked.
+/// A sink that records the flushed size at the last query.
 #[derive(Clone, Default)]
 struct Disk(std::sync::Arc<std::sync::Mutex<(Vec<u8>, usize)>>);
 
@@ -133,7 +133,7 @@ fn a_second_is_on_the_disk_when_the_next_begins() {
     let written = disk.0.lock().unwrap().0.clone();
     let contains = |text: &[u8]| written[..flushed()].windows(text.len()).any(|w| w == text);
     assert!(contains(b"same second") && !contains(b"next second"));
-    // Nothing more is recorded, but time goes on.
+    // No more messages, but time advances.
     bag.advance_to(1_999_999_999).unwrap();
     assert_eq!(flushed(), written.len());
     bag.advance_to(2_000_000_000).unwrap();

@@ -1,4 +1,4 @@
-//! Actions: tasks that take time, tell how far they are, and can be stopped.
+//! Actions: long-running tasks with feedback and cancellation.
 //!
 //! An action `name` is three services and two topics: `name/_action/send_goal`, `cancel_goal`,
 //! `get_result`, and `feedback`, `status`. Source: ROS 2's design article "Actions",
@@ -21,13 +21,13 @@ pub use server::{ActionServer, ActionSettings, GoalHandle, NewGoal};
 use crate::node::Node;
 use crate::{GraphError, Qos};
 
-/// Quality of service of the topic that tells the states of goals.
+/// QoS of the status topic.
 const STATUS_QOS: Qos = Qos::latched(1);
 
-/// Quality of service of the topic of feedback.
+/// QoS of the feedback topic.
 const FEEDBACK_QOS: Qos = Qos::reliable(10);
 
-/// The full names of the ends of an action.
+/// Full names of the services and topics of an action.
 pub(crate) struct Names {
     pub(crate) action: String,
 }

@@ -1,4 +1,4 @@
-//! Nodes that react: a state, and closures for messages, timers and calls.
+//! Event-driven nodes: a state, and callbacks for messages, timers and services.
 
 mod jump;
 
@@ -7,31 +7,31 @@ use std::sync::{Arc, Mutex};
 
 use periplus_msgs::{Message, Service};
 
-use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::{Common, lock};
-use crate::inlet::Reaction;
+use crate::event_queue::{Event, EventQueue, Key, Rank};
 use crate::node::{Node, NodeCore};
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 use crate::service::{CallError, Client, Reply, Request, ServerReaction, read_answer};
+use crate::subscription_core::Reaction;
 use crate::{GraphError, Qos};
 
 pub(crate) use jump::Jumps;
 
-/// A node with a state, as long as this is there. Its closures get the state, what happened, and an
-/// [`Io`]; never two of them at once.
+/// A node with a state and callbacks. Each callback gets the state, the event, and an [`Io`]; two
+/// callbacks never run at the same time.
 #[must_use = "the node stops reacting when this is dropped"]
 pub struct Actor<S> {
     state: Arc<Mutex<S>>,
     node: Node,
-    /// Ends of topics and services, and timers.
+    /// Endpoints of topics and services, and timers.
     parts: Vec<Box<dyn Send + Sync>>,
 }
 
-/// Something that is done with a closure and the state.
+/// Runs a callback on the state.
 pub(crate) type Run<'r, F, S> = dyn FnMut(&mut F, &mut S, &mut Io<'_, S>) + 'r;
 
-/// What a closure can do beside changing the state.
+/// Interface of a callback to its node.
 pub struct Io<'a, S> {
     node: &'a Node,
     state: &'a Arc<Mutex<S>>,
@@ -50,7 +50,7 @@ impl<S: Send + 'static> Io<'_, S> {
         self.node
     }
 
-    /// Calls a service; `react` gets the answer when it comes.
+    /// Calls a service; `react` gets the response.
     pub fn call<V: Service>(
         &self,
         client: &Client<V>,
@@ -59,10 +59,10 @@ impl<S: Send + 'static> Io<'_, S> {
     ) {
         let name = client.caller.name.clone();
         let (node, state) = (Arc::downgrade(&self.node.0), self.state.clone());
-        let agenda = self.node.0.agenda();
+        let event_queue = self.node.0.event_queue();
         let ordinal = self.node.0.next_ordinal();
         let reply = Reply::new(name.clone(), move |answer| {
-            // The node may be gone by now.
+            // The node may have been dropped.
             let Some(node) = node.upgrade() else { return };
             let key = Key {
                 time_ns: node.core.common.clock.now_ns(),
@@ -78,7 +78,7 @@ impl<S: Send + 'static> Io<'_, S> {
                 let mut io = Io { node: &node, state: &state };
                 react(&mut lock(&state), answer, &mut io);
             });
-            agenda.add(key, Arc::new(event));
+            event_queue.add(key, Arc::new(event));
         });
         client.caller.call(Payload::typed(Arc::new(request)), reply);
     }
@@ -95,12 +95,12 @@ impl<S: Send + 'static> Actor<S> {
         &self.node
     }
 
-    /// Looks at the state.
+    /// Accesses the state.
     pub fn with<R>(&self, look: impl FnOnce(&mut S) -> R) -> R {
         look(&mut lock(&self.state))
     }
 
-    /// Reacts to the messages of a topic.
+    /// Subscribes to a topic with a callback.
     ///
     /// # Errors
     /// When the name is not valid or the topic has another type.
@@ -112,7 +112,7 @@ impl<S: Send + 'static> Actor<S> {
     ) -> Result<(), GraphError> {
         let act = self.act(react);
         let reaction = Reaction {
-            agenda: self.node.0.agenda(),
+            event_queue: self.node.0.event_queue(),
             ordinal: self.node.0.next_ordinal(),
             react: Box::new(move |sample| {
                 let message = sample.message::<T>()?;
@@ -120,12 +120,13 @@ impl<S: Send + 'static> Actor<S> {
                 Ok(())
             }),
         };
-        let own = self.node.0.inlet(topic, TypeOf::message::<T>(), qos, Some(reaction))?;
+        let own = self.node.0.subscription(topic, TypeOf::message::<T>(), qos, Some(reaction))?;
         self.parts.push(Box::new(own));
         Ok(())
     }
 
-    /// Acts every `period_ns` of the graph's time, first after one period.
+    /// Creates a timer with a period of `period_ns` in the graph's time; it first fires after one
+    /// period.
     ///
     /// # Errors
     /// When the period is not positive.
@@ -136,13 +137,13 @@ impl<S: Send + 'static> Actor<S> {
     ) -> Result<(), GraphError> {
         if period_ns <= 0 {
             let reason = format!(
-                "the timer of `{}` has a period of {period_ns} ns; give it at least 1",
+                "the timer of `{}` has a period of {period_ns} ns; it must be at least 1",
                 self.node.full_name()
             );
             return Err(GraphError::Value { reason });
         }
         let act = self.act(react);
-        let agenda = self.node.0.agenda();
+        let event_queue = self.node.0.event_queue();
         let key = Key {
             time_ns: self.node.now_ns().saturating_add(period_ns),
             node: self.node.0.full_name.clone(),
@@ -154,21 +155,21 @@ impl<S: Send + 'static> Actor<S> {
         let timer = Arc::new_cyclic(|this| Timer {
             this: this.clone(),
             period_ns,
-            agenda: agenda.clone(),
+            event_queue: event_queue.clone(),
             is_over: AtomicBool::new(false),
             common: self.node.0.core.common.clone(),
             is_live: self.node.0.core.live.is_some(),
             react: Box::new(move || act(&mut |react, state, io| react(state, io))),
         });
-        agenda.add(key.clone(), timer.clone());
+        event_queue.add(key.clone(), timer.clone());
         self.parts.push(Box::new(OwnTimer { timer, node: key.node, ordinal: key.ordinal }));
         Ok(())
     }
 
-    /// Answers a service.
+    /// Creates a service with a callback.
     ///
     /// # Errors
-    /// When the name is not valid, the service has another type, or another node answers it.
+    /// When the name is not valid, the service has another type, or another node serves it.
     pub fn serve<V: Service>(
         &mut self,
         name: &str,
@@ -192,18 +193,18 @@ impl<S: Send + 'static> Actor<S> {
         Ok(())
     }
 
-    /// Keeps something as long as the actor is there.
+    /// Keeps something alive with the actor.
     pub(crate) fn keep(&mut self, part: impl Send + Sync + 'static) {
         self.parts.push(Box::new(part));
     }
 
-    /// Runs something with a closure, the state and an [`Io`].
+    /// Runs a closure with the callback, the state and an [`Io`].
     pub(crate) fn act<F: Send + 'static>(
         &self,
         react: F,
     ) -> impl Fn(&mut Run<'_, F, S>) + Send + Sync + use<F, S> {
         let (state, react) = (self.state.clone(), Mutex::new(react));
-        // The node must be able to go while its closures are still known to the graph.
+        // The node can be dropped while its callbacks are still in the queue.
         let node: std::sync::Weak<NodeCore> = Arc::downgrade(&self.node.0);
         move |run| {
             let Some(node) = node.upgrade() else { return };
@@ -217,7 +218,7 @@ impl<S: Send + 'static> Actor<S> {
 struct Timer {
     this: std::sync::Weak<Self>,
     period_ns: i64,
-    agenda: Arc<Agenda>,
+    event_queue: Arc<EventQueue>,
     is_over: AtomicBool,
     common: Arc<Common>,
     is_live: bool,
@@ -240,10 +241,10 @@ impl Event for Timer {
         if let Some(now_ns) = self.live_now_ns()
             && time_ns < now_ns
         {
-            // Too slow for its period: what is missed is left out, the phase stays.
+            // Overrun: skip the missed periods and keep the phase.
             time_ns = now_ns + (time_ns - now_ns).rem_euclid(self.period_ns);
         }
-        self.agenda.add(Key { time_ns, ..key.clone() }, this);
+        self.event_queue.add(Key { time_ns, ..key.clone() }, this);
         (self.react)();
     }
 
@@ -252,7 +253,7 @@ impl Event for Timer {
     }
 }
 
-/// A timer that ends when this is dropped.
+/// A timer that stops when this is dropped.
 struct OwnTimer {
     timer: Arc<Timer>,
     node: Arc<str>,
@@ -262,11 +263,11 @@ struct OwnTimer {
 impl Drop for OwnTimer {
     fn drop(&mut self) {
         self.timer.is_over.store(true, Ordering::Release);
-        self.timer.agenda.remove_timer(&self.node, self.ordinal);
+        self.timer.event_queue.remove_timer(&self.node, self.ordinal);
     }
 }
 
-/// Something that happens once.
+/// An event that runs once.
 pub(crate) struct Once(Mutex<Option<Box<dyn FnOnce() + Send>>>);
 
 impl Once {

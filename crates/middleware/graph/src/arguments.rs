@@ -1,6 +1,6 @@
-//! What a command line says to nodes: `--ros-args`.
+//! Command-line arguments of nodes: `--ros-args`.
 //!
-//! Source of the grammar and of who wins: `rcl/arguments.c`, `rcl_yaml_param_parser` and
+//! Source of the grammar and of the precedence: `rcl/arguments.c`, `rcl_yaml_param_parser` and
 //! `rclcpp/parameter_map.cpp`.
 
 mod file;
@@ -22,22 +22,22 @@ pub use scalar::{parameter_from_yaml, parameter_to_yaml};
 
 use pattern::Pattern;
 
-/// Names, parameters and log levels for nodes, as a command line gives them.
+/// Names, parameters and log levels of nodes from a command line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arguments {
     pub(crate) rules: Vec<Rule>,
-    /// By pattern of the node, in the order in which patterns were first seen.
+    /// By node pattern, in the order in which the patterns first appeared.
     parameters: Vec<(Pattern, BTreeMap<String, ParameterValue>)>,
     level: Option<Level>,
-    /// By name of the logger.
+    /// By logger name.
     levels: BTreeMap<String, Level>,
     enclave: Option<String>,
     no_rosout: bool,
 }
 
 impl Arguments {
-    /// Parameters for a node by its full name. What comes later wins; a pattern counts from where it
-    /// was first seen, as in `rcl`.
+    /// Parameters of a node by its full name. Later ones take precedence; a pattern ranks by its
+    /// first appearance, as in `rcl`.
     #[must_use]
     pub fn parameters_of(&self, node: &str) -> BTreeMap<String, ParameterValue> {
         let fitting = self.parameters.iter().filter(|(pattern, _)| pattern.fits(node));
@@ -45,8 +45,8 @@ impl Arguments {
         all.map(|(name, value)| (name.clone(), value.clone())).collect()
     }
 
-    /// The least level that a node logs, by its full name: that of its logger, or of the nearest
-    /// one above it, or of all.
+    /// Minimum log level of a node by its full name: that of its logger, of the nearest parent
+    /// logger, or the global one.
     #[must_use]
     pub fn level_of(&self, node: &str) -> Level {
         let logger = node.trim_start_matches('/').replace('/', ".");
@@ -62,25 +62,26 @@ impl Arguments {
         }
     }
 
-    /// Whether nodes say on `/rosout` what they log.
+    /// True if nodes log to `/rosout`.
     #[must_use]
     pub fn logs_to_rosout(&self) -> bool {
         !self.no_rosout
     }
 
-    /// The enclave, in whose name a program would join a network with security. There is none yet.
+    /// Security enclave of the program. DDS security is not implemented yet.
     #[must_use]
     pub fn enclave(&self) -> Option<&str> {
         self.enclave.as_deref()
     }
 
-    /// Patterns of nodes for which there are parameters, as written, with the names of these.
+    /// Node patterns that have parameters, as written, with the parameter names.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, impl Iterator<Item = &str>)> {
         let each = self.parameters.iter();
         each.map(|(pattern, all)| (pattern.written(), all.keys().map(String::as_str)))
     }
 
-    /// What none of these nodes has use for. `has` says whether a node has a parameter.
+    /// Warnings about arguments that none of these nodes uses. `has` tests if a node has a
+    /// parameter.
     pub(crate) fn unused(&self, nodes: &[&str], has: &dyn Fn(usize, &str) -> bool) -> Diagnostics {
         let mut unused = Diagnostics::new();
         let mut warn = |message: String, near: Option<&str>| {
@@ -96,12 +97,15 @@ impl Arguments {
                 (0..nodes.len()).filter(|node| pattern.fits(nodes[*node])).collect();
             if fitting.is_empty() {
                 let near = closest(written, nodes.iter().copied());
-                warn(format!("there are parameters for `{written}`, and no such node"), near);
+                warn(format!("there are parameters for `{written}`, but no such node"), near);
                 continue;
             }
             for name in parameters.keys() {
                 if !fitting.iter().any(|node| has(*node, name)) {
-                    warn(format!("no node that fits `{written}` has a parameter `{name}`"), None);
+                    warn(
+                        format!("no node that matches `{written}` has a parameter `{name}`"),
+                        None,
+                    );
                 }
             }
         }
@@ -109,11 +113,11 @@ impl Arguments {
     }
 
     fn give(&mut self, pattern: Pattern, name: String, value: ParameterValue) {
-        let place = self.parameters.iter().position(|(known, _)| *known == pattern);
-        let place = place.unwrap_or_else(|| {
+        let index = self.parameters.iter().position(|(known, _)| *known == pattern);
+        let index = index.unwrap_or_else(|| {
             self.parameters.push((pattern, BTreeMap::new()));
             self.parameters.len() - 1
         });
-        self.parameters[place].1.insert(name, value);
+        self.parameters[index].1.insert(name, value);
     }
 }

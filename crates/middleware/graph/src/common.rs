@@ -1,4 +1,4 @@
-//! What every part of one graph needs: its clock, and a place for findings.
+//! State shared by all parts of one graph: its clock and its findings.
 
 use std::sync::atomic::{AtomicBool, AtomicI64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -16,12 +16,12 @@ pub(crate) struct Common {
     findings: Mutex<Diagnostics>,
 }
 
-/// The time of a graph. It is told to it; nobody here reads a clock.
+/// Clock of a graph. It is set from outside; nothing here reads a system clock.
 #[derive(Default)]
 pub(crate) struct Clock {
     now_ns: AtomicI64,
     is_paused: AtomicBool,
-    /// Whether it tells the time of the machine, not of a simulation.
+    /// True if it shows the system time instead of simulated time.
     is_real: AtomicBool,
 }
 
@@ -61,7 +61,7 @@ impl Common {
     }
 }
 
-/// Locks; a panic elsewhere must not spread.
+/// Locks a mutex and ignores poisoning, so that a panic does not spread.
 pub(crate) fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -17,7 +17,7 @@ use crate::registry::TypeOf;
 use crate::service::Server;
 use crate::standard::server;
 
-/// Offers the service.
+/// Creates the service.
 pub(crate) fn serve(node: &Arc<NodeCore>) -> Result<Arc<Server>, GraphError> {
     server::<GetTypeDescription>(node, "~/get_type_description", |node, request| {
         respond(node, request).unwrap_or_else(|reason| GetTypeDescriptionResponse {
@@ -43,12 +43,12 @@ fn respond(
     let Some(found) = used.into_iter().find(is_asked) else {
         return Err("Type not currently in use by this node".to_owned());
     };
-    // A type of a package that is not ours may have the name of one of ours.
+    // A type of a foreign package may share its name with one of ours.
     let description = types
         .type_description(&found.name)
         .filter(|_| types.hash(&found.name).is_some_and(|hash| hash == request.type_hash));
     let Some(type_description) = description else {
-        return Err(format!("The texts of `{}` are not known to this program", found.name));
+        return Err(format!("The definition of `{}` is not known to this program", found.name));
     };
     let mut response = GetTypeDescriptionResponse {
         successful: true,
@@ -59,7 +59,8 @@ fn respond(
         response.type_sources = types.type_sources(&found.name);
         response.extra_information.push(KeyValue {
             key: "type_sources".to_owned(),
-            value: "texts of Periplus; comments differ from those of the ROS package".to_owned(),
+            value: "definitions of Periplus; comments differ from those of the ROS package"
+                .to_owned(),
         });
     }
     Ok(response)

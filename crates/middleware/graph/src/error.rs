@@ -1,66 +1,66 @@
-//! What can be wrong with a call to the graph.
+//! Errors of the graph.
 
 use std::fmt;
 
-/// Why a graph refuses something. The text says what is wrong and what to do.
+/// Error of a call to the graph. Its text explains the cause and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GraphError {
     /// A name that ROS 2 does not allow.
     Name {
-        /// What it should name, such as `topic`.
+        /// Kind of the name, such as `topic`.
         what: &'static str,
         /// The name as written.
         name: String,
         /// The rest of the sentence "the name ...".
         reason: String,
-        /// A name that would do.
+        /// A valid name that is similar.
         help: Option<String>,
     },
-    /// A remapping that cannot be read.
+    /// An invalid remapping.
     Remap {
         /// As written.
         rule: String,
-        /// What is wrong with it.
+        /// The rest of the sentence "the remapping ...".
         reason: String,
     },
-    /// The graph has a node of this name.
+    /// The graph already has a node of this name.
     NodeExists {
         /// Its full name.
         node: String,
     },
-    /// A topic or service has another type.
+    /// The topic or service has another type.
     Type(Box<TypeClash>),
-    /// Another node answers this service.
+    /// Another node serves this service.
     ServerExists {
         /// Full name of the service.
         service: String,
-        /// Full name of the node that answers it.
+        /// Full name of the node that serves it.
         node: String,
-        /// Full name of the node that wants to.
+        /// Full name of the node that requested it.
         asked: String,
     },
-    /// A timer without a period, or the like.
+    /// An invalid value, such as a timer without a period.
     Value {
-        /// What is wrong with it and what to do.
+        /// Cause and remedy.
         reason: String,
     },
 }
 
-/// Two nodes that mean different types by one name.
+/// Two nodes that use different types for one name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TypeClash {
     /// `topic` or `service`.
     pub what: &'static str,
     /// Its full name.
     pub name: String,
-    /// The type that it has.
+    /// The existing type.
     pub has: String,
-    /// The node that brought it.
+    /// The node that defined it.
     pub has_node: String,
-    /// The type that was asked for.
+    /// The requested type.
     pub asked: String,
-    /// The node that asked for it.
+    /// The node that requested it.
     pub asked_node: String,
 }
 
@@ -68,9 +68,9 @@ impl fmt::Display for GraphError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Name { what, name, reason, help } => {
-                write!(f, "the name `{name}` of a {what} {reason}")?;
+                write!(f, "the {what} name `{name}` {reason}")?;
                 if let Some(help) = help {
-                    write!(f, "; `{help}` would do")?;
+                    write!(f, "; `{help}` is valid")?;
                 }
                 Ok(())
             }
@@ -79,17 +79,17 @@ impl fmt::Display for GraphError {
                 write!(f, "`__node:=name` or `__ns:=/namespace`")
             }
             Self::NodeExists { node } => {
-                write!(f, "there is a node `{node}` already; give one of them another name ")?;
+                write!(f, "there is already a node `{node}`; give one of them another name ")?;
                 write!(f, "(`__node:=`) or namespace (`__ns:=`)")
             }
             Self::Type(clash) => {
                 let TypeClash { what, name, has, has_node, asked, asked_node } = &**clash;
                 write!(f, "the {what} `{name}` is a {has} (`{has_node}`), ")?;
-                write!(f, "and `{asked_node}` wants it to be a {asked}; ")?;
+                write!(f, "but `{asked_node}` requests a {asked}; ")?;
                 write!(f, "rename one of the two with a remapping `{name}:=...`")
             }
             Self::ServerExists { service, node, asked } => {
-                write!(f, "`{asked}` cannot answer the service `{service}`: `{node}` does; ")?;
+                write!(f, "`{asked}` cannot serve `{service}`: `{node}` already does; ")?;
                 write!(f, "rename one of the two with a remapping `{service}:=...`")
             }
             Self::Value { reason } => f.write_str(reason),

@@ -1,4 +1,4 @@
-//! The handle of a graph.
+//! Handle of a graph.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, Weak};
@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex, Weak};
 use periplus_diagnostics::Diagnostics;
 use periplus_msgs::rcl_interfaces::ParameterValue;
 
-use crate::agenda::Agenda;
 use crate::arguments::Arguments;
 use crate::common::{Common, lock};
+use crate::event_queue::EventQueue;
 use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
@@ -17,8 +17,8 @@ use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
 use crate::{EndpointId, GraphError, Qos, executor, live};
 
-/// A graph of nodes. This is a handle: clones mean the same graph. There can be several graphs in
-/// one program, and they know nothing of each other.
+/// A graph of nodes. This is a handle: clones refer to the same graph. One program can have several
+/// independent graphs.
 #[derive(Clone, Default)]
 pub struct Graph(pub(crate) Arc<Core>);
 
@@ -26,13 +26,13 @@ pub struct Graph(pub(crate) Arc<Core>);
 pub(crate) struct Core {
     pub(crate) common: Arc<Common>,
     pub(crate) registry: Mutex<Registry>,
-    /// What is to happen, in lockstep.
-    pub(crate) agenda: Arc<Agenda>,
-    /// Held while time moves.
+    /// The event queue, in lockstep.
+    pub(crate) event_queue: Arc<EventQueue>,
+    /// Locked while time advances.
     pub(crate) turn: Mutex<executor::Turn>,
-    /// The threads, in live.
+    /// The threads, in live mode.
     pub(crate) live: Option<Live>,
-    /// What holds for all nodes to come.
+    /// Arguments for all nodes to come.
     arguments: Mutex<Arc<Arguments>>,
 }
 
@@ -45,15 +45,15 @@ impl Drop for Core {
 }
 
 impl Graph {
-    /// An empty graph in lockstep, at time 0.
+    /// Creates an empty graph in lockstep, at time 0.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An empty graph in live, at time 0: every [`crate::Actor`]'s node and every tap has a thread
-    /// of its own, and [`Graph::advance_to`] only tells the time. Who is slow loses messages by its
-    /// QoS and holds up nobody.
+    /// Creates an empty graph in live mode, at time 0: the node of every [`crate::Actor`] and every
+    /// tap has its own thread, and [`Graph::advance_to`] only sets the clock. A slow subscriber
+    /// loses messages according to its QoS and blocks no other node.
     #[must_use]
     pub fn live() -> Self {
         let mut core = Core::default();
@@ -61,7 +61,7 @@ impl Graph {
         Self(Arc::new(core))
     }
 
-    /// Whether nodes have threads of their own.
+    /// True in live mode, where nodes have their own threads.
     #[must_use]
     pub fn is_live(&self) -> bool {
         self.0.live.is_some()
@@ -73,7 +73,7 @@ impl Graph {
         self.0.common.clock.now_ns()
     }
 
-    /// Makes a node.
+    /// Creates a node.
     ///
     /// # Errors
     /// When a name or remapping is not valid, or the graph has a node of this name.
@@ -81,20 +81,20 @@ impl Graph {
         Node::new(self, settings)
     }
 
-    /// Names, parameters and log levels for all nodes to come, as `--ros-args` gives them to a
-    /// program. What [`NodeSettings`] says of a node comes first.
+    /// Sets names, parameters and log levels for all nodes to come, as from `--ros-args`.
+    /// [`NodeSettings`] of a node take precedence.
     pub fn set_arguments(&self, arguments: Arguments) {
         *lock(&self.0.arguments) = Arc::new(arguments);
     }
 
-    /// Parameters that the arguments of this program give a node of a full name.
+    /// Parameters that the arguments of this program give to a node by its full name.
     #[must_use]
     pub fn parameters_given_to(&self, full_name: &str) -> BTreeMap<String, ParameterValue> {
         self.arguments().parameters_of(full_name)
     }
 
-    /// What the arguments say that no node has use for: patterns that fit none, and parameters that
-    /// none of those declares. `use_sim_time` is every node's.
+    /// Warnings about arguments that no node uses: patterns that match no node, and parameters that
+    /// none of the matched nodes declares. Every node has `use_sim_time`.
     #[must_use]
     pub fn unused_arguments(&self) -> Diagnostics {
         let nodes: Vec<Weak<NodeCore>> = lock(&self.0.registry).nodes.values().cloned().collect();
@@ -109,8 +109,8 @@ impl Graph {
         lock(&self.0.arguments).clone()
     }
 
-    /// Adds a tap. It sees the chosen topics, those that are there and those to come, and gets what
-    /// latched topics hold.
+    /// Adds a tap. It sees the chosen topics, present and future, and first gets the retained
+    /// messages of latched topics.
     pub fn tap(&self, sink: Box<dyn Sink>) -> TapId {
         let is_live = self.is_live();
         let tap = lock(&self.0.registry).add_tap(sink, is_live, &self.0.common);
@@ -122,7 +122,7 @@ impl Graph {
         tap.id
     }
 
-    /// Ends a tap: its sink is dropped when its last message is taken.
+    /// Removes a tap: its sink is dropped after its last message.
     pub fn untap(&self, id: TapId) {
         let gone = lock(&self.0.registry).remove_tap(id, &self.0.common);
         if let Some(tap) = gone {
@@ -130,95 +130,95 @@ impl Graph {
         }
     }
 
-    /// How many messages a tap lost because its sink is too slow; always 0 in lockstep.
+    /// Number of messages that a tap lost because its sink is too slow; always 0 in lockstep.
     #[must_use]
     pub fn tap_dropped(&self, id: TapId) -> u64 {
         let registry = lock(&self.0.registry);
         registry.taps.iter().find(|tap| tap.id == id).map_or(0, |tap| tap.dropped())
     }
 
-    /// Lets time go on to `time_ns`. Everything that is due by then happens, in the order of time,
-    /// node, topic and number of the message; what that sets off happens before time moves on.
-    /// A time before now is a jump back, as [`Graph::jump_to`].
+    /// Advances time to `time_ns`. Everything that is due until then is executed in the order of
+    /// time, node, topic and sequence number; the reactions at one time are executed before time
+    /// advances. An earlier time is a jump back, as [`Graph::jump_to`].
     ///
-    /// While the graph is paused, time stands still, and what is due now happens.
+    /// While the graph is paused, time does not advance, but what is due now is executed.
     ///
-    /// In live the clock is set, and nodes for which something is due are woken.
+    /// In live mode this sets the clock and wakes the nodes with due events.
     pub fn advance_to(&self, time_ns: i64) {
         executor::advance(&self.0, time_ns);
     }
 
-    /// Time of the first event that is planned \[ns\], such as the next turn of a timer; none where there
-    /// is none. A program that lets time pass can sleep until then.
+    /// Time of the next scheduled event \[ns\], such as a timer; none if there is none. A program
+    /// that advances time can sleep until then.
     #[must_use]
     pub fn next_due_ns(&self) -> Option<i64> {
         match &self.0.live {
             Some(live) => live.first_ns(),
-            None => self.0.agenda.first_ns(),
+            None => self.0.event_queue.first_ns(),
         }
     }
 
-    /// Lets everything happen that is due now, without moving time.
+    /// Executes everything that is due now, without advancing time.
     pub fn settle(&self) {
         executor::advance(&self.0, self.now_ns());
     }
 
-    /// Sets the clock, back (a reset) or forward, without letting the time between pass. What is due
-    /// happens before; timers start anew.
+    /// Sets the clock, backward (a reset) or forward, without executing the time between. What is
+    /// due now is executed first; timers restart.
     pub fn jump_to(&self, time_ns: i64) {
         executor::jump(&self.0, time_ns);
     }
 
-    /// Stops time, or lets it go on.
+    /// Pauses or resumes time.
     pub fn set_paused(&self, is_paused: bool) {
         self.0.common.clock.set_paused(is_paused);
     }
 
-    /// Whether the time that it is told is that of a simulation (so it is at first) or that of the
-    /// machine. It is what the parameter `use_sim_time` of all nodes says.
+    /// Sets the source of time: a simulation (default) or the system clock. The parameter
+    /// `use_sim_time` of all nodes reports it.
     pub fn set_simulated_time(&self, is_simulated: bool) {
         self.0.common.clock.set_simulated(is_simulated);
     }
 
-    /// Whether time stands still.
+    /// True while time is paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.0.common.clock.is_paused()
     }
 
-    /// Another bound than [`crate::MOST_REACTIONS`] for what may happen without time moving.
+    /// Replaces the limit [`crate::MAX_REACTIONS`] of events without progress of time.
     pub fn limit_reactions(&self, most: u64) {
         lock(&self.0.turn).most = Some(most);
     }
 
-    /// What was wrong since the last call: QoS that do not fit, messages that cannot be read,
-    /// reactions without end.
+    /// Returns the findings since the last call: incompatible QoS, messages that cannot be decoded,
+    /// endless loops of reactions.
     #[must_use]
     pub fn take_findings(&self) -> Diagnostics {
         self.0.common.take_findings()
     }
 
-    /// Changes whenever a node, publisher, subscription, server or client comes or goes; a wire
-    /// looks at it to know when to look at the rest.
+    /// Counter that changes when a node, publisher, subscription, server or client is added or
+    /// removed; transports check it before they compare the rest.
     #[must_use]
     pub fn generation(&self) -> u64 {
         lock(&self.0.registry).changes
     }
 
-    /// Makes a publisher offer, or a subscription ask for, something else than it was made with: who
-    /// did not fit before may hear from now on. What its node believes of it stays. False where there
-    /// is no such end.
+    /// Changes the QoS of a publisher or subscription; endpoints that were incompatible before may
+    /// connect now. The node still sees the QoS that it requested. False if there is no such
+    /// endpoint.
     pub fn set_qos(&self, end: EndpointId, qos: Qos) -> bool {
         lock(&self.0.registry).set_qos(end, qos, &self.0.common)
     }
 
-    /// The topics that somebody publishes or subscribes to, by name.
+    /// Topics with a publisher or subscription, by name.
     #[must_use]
     pub fn topics(&self) -> Vec<TopicInfo> {
         lock(&self.0.registry).topic_infos()
     }
 
-    /// The services that somebody answers or calls, by name.
+    /// Services with a server or client, by name.
     #[must_use]
     pub fn services(&self) -> Vec<ServiceInfo> {
         lock(&self.0.registry).service_infos()
@@ -250,7 +250,7 @@ impl Graph {
         registry.nodes.keys().map(info).collect()
     }
 
-    /// What went through the topics so far, by name.
+    /// Message counts of all topics, by name.
     #[must_use]
     pub fn traffic(&self) -> Vec<Traffic> {
         lock(&self.0.registry).traffic(self.now_ns())

@@ -1,117 +1,117 @@
-//! What there is in a graph, as plain data.
+//! Introspection of a graph as plain data.
 
-use crate::inlet::InletCounts;
 use crate::sample::EndpointId;
+use crate::subscription_core::SubscriptionCounts;
 use crate::{Policy, Qos};
 
-/// A topic and its ends.
+/// A topic and its endpoints.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TopicInfo {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its type, such as `sensor_msgs/msg/LaserScan`.
+    /// Type, such as `sensor_msgs/msg/LaserScan`.
     pub type_name: String,
-    /// The hash of its type, as far as known.
+    /// Type hash, if known.
     pub type_hash: Option<String>,
-    /// Who publishes, by name of the node.
+    /// Publishers, sorted by node name.
     pub publishers: Vec<EndpointInfo>,
-    /// Who subscribes, by name of the node.
+    /// Subscriptions, sorted by node name.
     pub subscriptions: Vec<EndpointInfo>,
-    /// Who does not get what whom publishes.
-    pub mismatches: Vec<Mismatch>,
-    /// How many taps listen.
+    /// Pairs of publishers and subscriptions with incompatible QoS.
+    pub mismatches: Vec<QosMismatch>,
+    /// Number of taps.
     pub taps: usize,
 }
 
-/// One end of a topic.
+/// A publisher or subscription of a topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndpointInfo {
-    /// Which.
+    /// Id of the endpoint.
     pub id: EndpointId,
     /// Full name of its node.
     pub node: String,
-    /// What it offers or asks for.
+    /// QoS that it offers or requests.
     pub qos: Qos,
 }
 
-/// A publisher and a subscription whose QoS do not fit: nothing flows between them.
+/// A publisher and a subscription with incompatible QoS: no messages are exchanged.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mismatch {
-    /// Full name of the node that publishes.
+pub struct QosMismatch {
+    /// Full name of the publishing node.
     pub publisher: String,
-    /// Full name of the node that subscribes.
+    /// Full name of the subscribing node.
     pub subscription: String,
-    /// In which policies the offer is too weak.
+    /// Policies in which the offer is too weak.
     pub policies: Vec<Policy>,
 }
 
-/// A service and its ends.
+/// A service and its endpoints.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceInfo {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its type, such as `std_srvs/srv/Trigger`.
+    /// Type, such as `std_srvs/srv/Trigger`.
     pub type_name: String,
-    /// The hash of its type, as far as known.
+    /// Type hash, if known.
     pub type_hash: Option<String>,
-    /// Full name of the node that answers it.
+    /// Full name of the node that serves it.
     pub server: Option<String>,
-    /// Full names of the nodes that call it, sorted.
+    /// Full names of the client nodes, sorted.
     pub clients: Vec<String>,
 }
 
-/// A node and what it uses. All names are full and sorted.
+/// A node and its topics and services. All names are full and sorted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeInfo {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Topics that it publishes.
+    /// Published topics.
     pub publishes: Vec<String>,
-    /// Topics that it subscribes to.
+    /// Subscribed topics.
     pub subscribes: Vec<String>,
-    /// Services that it answers.
+    /// Services that it serves.
     pub serves: Vec<String>,
-    /// Services that it calls.
+    /// Services that it is a client of.
     pub calls: Vec<String>,
 }
 
-/// How much went through a topic. The difference of two over the time between them is the rate.
+/// Message counts of a topic. The difference of two over the time between them is the rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traffic {
     /// Full name of the topic.
     pub topic: String,
-    /// When this was counted \[ns\].
+    /// Time of the count \[ns\].
     pub time_ns: i64,
-    /// Messages of all publishers that it ever had.
+    /// Messages published by all publishers, including removed ones.
     pub published: u64,
-    /// Each publisher.
+    /// Counts of each publisher.
     pub publishers: Vec<PublisherTraffic>,
-    /// Each subscription.
+    /// Counts of each subscription.
     pub subscriptions: Vec<SubscriptionTraffic>,
 }
 
-/// How much a publisher published.
+/// Message counts of a publisher.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PublisherTraffic {
-    /// Which.
+    /// Id of the endpoint.
     pub id: EndpointId,
     /// Full name of its node.
     pub node: String,
-    /// Messages, heard or not.
+    /// Messages published, with or without subscribers.
     pub published: u64,
     /// Deadlines that passed without a message.
     pub missed_deadlines: u64,
 }
 
-/// What happened at a subscription.
+/// Message counts of a subscription.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubscriptionTraffic {
-    /// Which.
+    /// Id of the endpoint.
     pub id: EndpointId,
     /// Full name of its node.
     pub node: String,
-    /// Counted since it began.
-    pub counts: InletCounts,
+    /// Counts since it was created.
+    pub counts: SubscriptionCounts,
 }
 
 impl Traffic {

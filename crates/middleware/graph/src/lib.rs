@@ -1,9 +1,9 @@
-//! Nodes, topics and services in one program, as ROS 2 knows them.
+//! Nodes, topics, services, actions and parameters of ROS 2 in one program.
 //!
-//! A [`Graph`] has nodes; a [`Node`] has publishers, subscriptions, servers and clients. Who only
-//! looks from time to time polls: [`Mailbox`], [`Calls`]. Who reacts is an [`Actor`]: a state and
-//! closures. Recorders, wires and viewers are taps ([`Sink`]).
-//! [`Parameters`] come from a table and are set through the services that ROS 2 knows.
+//! A [`Graph`] has nodes; a [`Node`] has publishers, subscriptions, servers and clients. Polling
+//! programs use [`Mailbox`] and [`Calls`]; event-driven nodes are an [`Actor`]: a state and
+//! callbacks. Recorders, transports and viewers are taps ([`Sink`]). [`Parameters`] are declared in
+//! a table and set through the ROS 2 parameter services.
 //!
 //! ```
 //! use periplus_graph::{Graph, NodeSettings, Qos};
@@ -22,31 +22,30 @@
 //! # Ok::<(), periplus_graph::GraphError>(())
 //! ```
 //!
-//! Time is told to a graph ([`Graph::advance_to`]); it reads no clock. Everything due then happens
-//! in one order, that of time, node, topic and number of the message, so that the same program gives
-//! the same bytes every time.
+//! The caller advances the time of a graph ([`Graph::advance_to`]); the graph reads no clock. Due
+//! events are executed in one order (time, node, topic, sequence number), so that a program
+//! produces the same bytes in every run.
 
 mod action;
 mod actor;
-mod agenda;
 mod arguments;
 mod common;
 mod describe;
 mod error;
+mod event_queue;
 mod executor;
 mod graph;
 mod info;
-mod inlet;
 mod lifecycle;
 mod live;
 mod log;
 mod mailbox;
 mod name;
 mod node;
-mod outlet;
 mod parameters;
 mod payload;
 mod publisher;
+mod publisher_core;
 mod qos;
 mod qos_event;
 mod registry;
@@ -56,6 +55,7 @@ mod service;
 mod settings;
 mod standard;
 mod steady;
+mod subscription_core;
 mod tap;
 
 pub use action::{
@@ -68,29 +68,29 @@ pub use arguments::{
     split_arguments,
 };
 pub use error::{GraphError, TypeClash};
-pub use executor::MOST_REACTIONS;
+pub use executor::MAX_REACTIONS;
 pub use graph::Graph;
 pub use info::{
-    EndpointInfo, Mismatch, NodeInfo, PublisherTraffic, ServiceInfo, SubscriptionTraffic,
+    EndpointInfo, NodeInfo, PublisherTraffic, QosMismatch, ServiceInfo, SubscriptionTraffic,
     TopicInfo, Traffic,
 };
-pub use inlet::InletCounts;
 pub use lifecycle::{Bond, BondSettings, Lifecycle, LifecycleState, Step, StepOutcome, Transition};
 pub use log::Level;
 pub use mailbox::{Mailbox, RawMailbox};
 pub use name::{
-    LONGEST_NAMESPACE, LONGEST_NODE, LONGEST_TOPIC, check_namespace, check_node, check_topic,
-    valid_node_name, valid_topic_name,
+    MAX_NAMESPACE_BYTES, MAX_NODE_NAME_BYTES, MAX_TOPIC_NAME_BYTES, check_namespace, check_node,
+    check_topic, valid_node_name, valid_topic_name,
 };
 pub use node::Node;
 pub use parameters::Parameters;
 pub use publisher::{Publisher, RawPublisher};
-pub use qos::{Durability, History, Liveliness, MOST_KEPT, Policy, Qos, Reliability};
-pub use qos_event::{QosEvent, Unfit};
+pub use qos::{Durability, History, KEEP_ALL_MAX_MESSAGES, Liveliness, Policy, Qos, Reliability};
+pub use qos_event::{IncompatiblePolicy, QosEvent};
 pub use sample::{EndpointId, Sample};
 pub use service::{
     Call, CallError, Calls, Client, Pending, RawCall, RawCalls, RawClient, RawMessage,
 };
 pub use settings::{NodeNames, NodeSettings};
 pub use steady::{SteadyCallback, SteadyDriver};
+pub use subscription_core::SubscriptionCounts;
 pub use tap::{Sink, TapId};

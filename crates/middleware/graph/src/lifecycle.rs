@@ -1,6 +1,6 @@
-//! Managed nodes: those that others configure, activate, deactivate and shut down.
+//! Managed (lifecycle) nodes: other nodes configure, activate, deactivate and shut them down.
 //!
-//! Each keeps a bond to a lifecycle manager that asks for one.
+//! Each keeps a bond with a lifecycle manager that requests one.
 //!
 //! Source: ROS 2's design article "Managed nodes", `rcl_lifecycle/default_state_machine.c` and
 //! `rclcpp_lifecycle/lifecycle_node_interface_impl.cpp`.
@@ -17,42 +17,42 @@ pub use bond::{Bond, BondSettings};
 pub use machine::{LifecycleState, Step, StepOutcome, Transition};
 
 use crate::actor::{Io, Once};
-use crate::agenda::{Key, Rank};
 use crate::common::lock;
+use crate::event_queue::{Key, Rank};
 use crate::node::NodeCore;
 use crate::{Actor, GraphError, Publisher, Qos};
 
-/// The life of a managed node. This is a handle: clones mean the same life.
+/// Lifecycle of a managed node. This is a handle: clones refer to the same node.
 #[derive(Clone)]
-pub struct Lifecycle(Arc<Life>);
+pub struct Lifecycle(Arc<LifecycleCore>);
 
-struct Life {
+struct LifecycleCore {
     node: Weak<NodeCore>,
     state: Mutex<LifecycleState>,
-    /// Held while the state changes.
+    /// Locked while the state changes.
     turn: Mutex<()>,
     step: Box<dyn Fn(Step) -> StepOutcome + Send + Sync>,
     events: Publisher<TransitionEvent>,
-    /// The bond to a lifecycle manager while the node is active, and after that until the manager has
-    /// heard of its end.
+    /// The bond to a lifecycle manager while the node is active, and after that until the manager
+    /// has acknowledged its end.
     bond: Mutex<Option<bond::End>>,
 }
 
 impl Lifecycle {
-    /// The state now.
+    /// The current state.
     #[must_use]
     pub fn state(&self) -> LifecycleState {
         *lock(&self.0.state)
     }
 
-    /// Whether the node is to do its work.
+    /// True in the active state.
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.state() == LifecycleState::Active
     }
 
-    /// Changes the state from inside the program, as soon as the node is free; nothing happens when
-    /// the state then does not allow it.
+    /// Changes the state from inside the program, as soon as the node is idle; no effect if the
+    /// state then does not allow it.
     pub fn change(&self, transition: Transition) {
         let Some(node) = self.0.node.upgrade() else { return };
         let key = Key {
@@ -69,7 +69,7 @@ impl Lifecycle {
                 life.change(|state| transition.at(state));
             }
         });
-        node.agenda().add(key, Arc::new(act));
+        node.event_queue().add(key, Arc::new(act));
     }
 
     /// Configures and activates the node, as a lifecycle manager would.
@@ -80,8 +80,8 @@ impl Lifecycle {
 }
 
 impl<S: Send + 'static> Actor<S> {
-    /// Makes the node a managed one: unconfigured at first, with the five services and the topic
-    /// that belong to it. `step` does what a change asks for, and says how it went. After
+    /// Makes the node a managed one: unconfigured at first, with the five lifecycle services and
+    /// the transition topic. `step` performs each transition and returns its outcome. After
     /// [`StepOutcome::Error`] it is called with [`Step::Error`], to clean up.
     ///
     /// # Errors
@@ -92,7 +92,7 @@ impl<S: Send + 'static> Actor<S> {
     ) -> Result<Lifecycle, GraphError> {
         let act = self.act(step);
         let node = self.node().clone();
-        let life = Arc::new(Life {
+        let life = Arc::new(LifecycleCore {
             node: Arc::downgrade(&node.0),
             state: Mutex::new(LifecycleState::Unconfigured),
             turn: Mutex::new(()),
@@ -112,8 +112,8 @@ impl<S: Send + 'static> Actor<S> {
     }
 }
 
-impl Life {
-    /// Changes the state, if there is such a change; whether it went as wished.
+impl LifecycleCore {
+    /// Executes a transition; true if it succeeded.
     fn change(
         &self,
         choose: impl FnOnce(LifecycleState) -> Option<&'static machine::Edge>,
@@ -139,8 +139,8 @@ impl Life {
         }
     }
 
-    /// As Nav2's nodes: the bond begins when the node becomes active and is broken when it is no
-    /// longer.
+    /// Starts the bond when the node becomes active and breaks it when it leaves that state, as
+    /// Nav2's nodes do.
     fn keep_bond(&self, edge: &'static machine::Edge) {
         if edge.goal == LifecycleState::Active {
             let node = self.node.upgrade().map(crate::Node);

@@ -1,63 +1,68 @@
-//! Threads of nodes, in live.
+//! Threads of nodes in live mode.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, Weak};
 
 use periplus_diagnostics::Diagnostic;
 
-use crate::agenda::Agenda;
 use crate::common::{Common, lock};
+use crate::event_queue::EventQueue;
 
-/// The agendas of all nodes that have a thread.
+/// Event queues of all nodes that have a thread.
 #[derive(Default)]
 pub(crate) struct Live {
-    agendas: Mutex<Vec<Weak<Agenda>>>,
+    event_queues: Mutex<Vec<Weak<EventQueue>>>,
 }
 
 impl Live {
-    /// Starts the thread of a node. It ends when the agenda is closed.
-    pub(crate) fn start(&self, node: &Arc<str>, common: &Arc<Common>) -> Arc<Agenda> {
-        let agenda = Arc::new(Agenda::default());
-        let mut agendas = lock(&self.agendas);
-        agendas.retain(|agenda| agenda.strong_count() > 0);
-        agendas.push(Arc::downgrade(&agenda));
-        drop(agendas);
-        let (own, node, common) = (agenda.clone(), node.clone(), common.clone());
+    /// Starts the thread of a node. It ends when the queue is closed.
+    pub(crate) fn start(&self, node: &Arc<str>, common: &Arc<Common>) -> Arc<EventQueue> {
+        let event_queue = Arc::new(EventQueue::default());
+        let mut event_queues = lock(&self.event_queues);
+        event_queues.retain(|event_queue| event_queue.strong_count() > 0);
+        event_queues.push(Arc::downgrade(&event_queue));
+        drop(event_queues);
+        let (own, node, common) = (event_queue.clone(), node.clone(), common.clone());
         let name = node.to_string();
         spawn(&name, move || run(&own, &node, &common));
-        agenda
+        event_queue
     }
 
-    fn each(&self, act: impl Fn(&Agenda)) {
-        let agendas: Vec<_> = lock(&self.agendas).iter().filter_map(Weak::upgrade).collect();
-        for agenda in agendas {
-            act(&agenda);
+    fn each(&self, act: impl Fn(&EventQueue)) {
+        let event_queues: Vec<_> =
+            lock(&self.event_queues).iter().filter_map(Weak::upgrade).collect();
+        for event_queue in event_queues {
+            act(&event_queue);
         }
     }
 
-    /// Time moved.
+    /// Wakes the nodes with due events.
     pub(crate) fn advance_to(&self, now_ns: i64) {
-        self.each(|agenda| agenda.wake_if_due(now_ns));
+        self.each(|event_queue| event_queue.wake_if_due(now_ns));
     }
 
     /// Time of the first event of all nodes \[ns\].
     pub(crate) fn first_ns(&self) -> Option<i64> {
-        lock(&self.agendas).iter().filter_map(Weak::upgrade).filter_map(|it| it.first_ns()).min()
+        lock(&self.event_queues)
+            .iter()
+            .filter_map(Weak::upgrade)
+            .filter_map(|it| it.first_ns())
+            .min()
     }
 
-    /// The clock jumped.
+    /// Reschedules after a jump of the clock.
     pub(crate) fn rebase(&self, now_ns: i64) {
-        self.each(|agenda| agenda.rebase(now_ns));
+        self.each(|event_queue| event_queue.rebase(now_ns));
     }
 }
 
-/// Lets happen what is due, one after the other.
-fn run(agenda: &Agenda, node: &str, common: &Common) {
-    while let Some((key, event)) = agenda.wait_due(|| common.clock.now_ns()) {
-        // One node that panics must not silence the others, and not go unnoticed either.
+/// Executes due events one after the other.
+fn run(event_queue: &EventQueue, node: &str, common: &Common) {
+    while let Some((key, event)) = event_queue.wait_due(|| common.clock.now_ns()) {
+        // A node that panics must not stop the others, and must be reported.
         if catch_unwind(AssertUnwindSafe(|| event.happen(&key))).is_err() {
-            agenda.close();
-            let message = format!("the node `{node}` panicked and reacts no more");
+            event_queue.close();
+            let message = format!("the node `{node}` panicked; its callbacks no longer run");
             common.report(Diagnostic::error("node-panicked", message));
         }
     }
@@ -69,5 +74,5 @@ fn run(agenda: &Agenda, node: &str, common: &Common) {
 /// When the system has no more threads.
 pub(crate) fn spawn(name: &str, run: impl FnOnce() + Send + 'static) {
     let thread = std::thread::Builder::new().name(name.to_owned());
-    thread.spawn(run).expect("the system gives a thread");
+    thread.spawn(run).expect("the system starts a thread");
 }

@@ -1,4 +1,4 @@
-//! Lines of a node's log, on `/rosout`.
+//! Node logs on `/rosout`.
 
 use std::fmt;
 use std::panic::Location;
@@ -10,27 +10,27 @@ use periplus_msgs::rcl_interfaces::Log;
 
 use crate::node::Node;
 
-/// How much a line of a log matters. The order is that of weight.
+/// Severity of a log message, in ascending order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// For who looks into the node.
+    /// Details for debugging.
     Debug,
-    /// What goes as it should.
+    /// Normal operation.
     #[default]
     Info,
-    /// What may be wrong.
+    /// Possible problem.
     Warn,
-    /// What is wrong.
+    /// Error.
     Error,
-    /// After this the node does nothing more.
+    /// The node cannot continue.
     Fatal,
 }
 
 impl Level {
-    /// All of them, from the least.
+    /// All levels, in ascending order.
     pub const ALL: [Self; 5] = [Self::Debug, Self::Info, Self::Warn, Self::Error, Self::Fatal];
 
-    /// As `rcl_interfaces/msg/Log` counts.
+    /// Number of the level in `rcl_interfaces/msg/Log`.
     #[must_use]
     pub fn number(self) -> u8 {
         match self {
@@ -42,14 +42,14 @@ impl Level {
         }
     }
 
-    /// The level of a line that came from elsewhere: numbers between two levels count as the lower.
+    /// Level of a number; numbers between two levels give the lower one.
     #[must_use]
     pub fn of_number(number: u8) -> Self {
         let known = Self::ALL.into_iter().rev().find(|level| level.number() <= number);
         known.unwrap_or(Self::Debug)
     }
 
-    /// The level of a name, in any case: `warn`, `WARN`, `WARNING`.
+    /// Level of a name, in any case: `warn`, `WARN`, `WARNING`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
@@ -76,8 +76,8 @@ impl fmt::Display for Level {
 }
 
 impl Node {
-    /// Writes a line into the log of the node: on `/rosout`, under the name of the node. Lines below
-    /// its level ([`Node::set_log_level`]) are not even put together.
+    /// Logs a message to `/rosout` under the node's name. Messages below the level
+    /// ([`Node::set_log_level`]) are not formatted.
     ///
     /// ```
     /// use periplus_graph::{Graph, Level, NodeSettings};
@@ -103,7 +103,7 @@ impl Node {
         }
     }
 
-    /// Writes a finding into the log of the node, with what to do about it.
+    /// Logs a finding with its help text.
     #[track_caller]
     pub fn log_finding(&self, finding: &Diagnostic) {
         let level = match finding.severity {
@@ -115,18 +115,18 @@ impl Node {
         self.log(level, format_args!("{}{helps}", finding.message));
     }
 
-    /// Whether a line of this level is logged.
+    /// True if messages of this level are logged.
     #[must_use]
     pub fn logs(&self, level: Level) -> bool {
         self.0.standard().logs(level)
     }
 
-    /// The least level that is logged; at first [`Level::Info`].
+    /// Sets the minimum log level (default [`Level::Info`]).
     pub fn set_log_level(&self, least: Level) {
-        self.0.standard().least_level.store(least.number(), Ordering::Relaxed);
+        self.0.standard().min_level.store(least.number(), Ordering::Relaxed);
     }
 
-    /// The name under which the node logs: `/demo/scan` is `demo.scan`.
+    /// Logger name of the node: `demo.scan` for `/demo/scan`.
     #[must_use]
     pub fn logger(&self) -> String {
         self.full_name().trim_start_matches('/').replace('/', ".")

@@ -1,4 +1,4 @@
-//! Subscriptions that somebody looks into from time to time.
+//! Polled subscriptions.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -6,103 +6,103 @@ use std::sync::Arc;
 use periplus_msgs::Message;
 
 use crate::Qos;
-use crate::inlet::InletCounts;
-use crate::node::OwnInlet;
+use crate::node::OwnedSubscription;
 use crate::sample::{EndpointId, Sample};
+use crate::subscription_core::SubscriptionCounts;
 
-/// The messages of a topic, as many as the QoS lets wait. It never holds up a publisher.
+/// Polled subscription: messages wait up to the depth of the QoS. It never blocks a publisher.
 pub struct Mailbox<T> {
-    own: OwnInlet,
+    own: OwnedSubscription,
     of: PhantomData<fn() -> T>,
 }
 
 impl<T: Message> Mailbox<T> {
-    pub(crate) fn new(own: OwnInlet) -> Self {
+    pub(crate) fn new(own: OwnedSubscription) -> Self {
         Self { own, of: PhantomData }
     }
 
-    pub(crate) fn own(&self) -> &OwnInlet {
+    pub(crate) fn own(&self) -> &OwnedSubscription {
         &self.own
     }
 
-    /// The newest message since the last look; older ones are gone with it. Messages that are no
-    /// such type are counted and passed over.
+    /// Returns the newest message since the last call and discards older ones. Messages that cannot
+    /// be decoded are counted and skipped.
     #[must_use]
     pub fn latest(&self) -> Option<Arc<T>> {
-        self.own.inlet.drain().iter().rev().find_map(|sample| self.read(sample))
+        self.own.subscription.drain().iter().rev().find_map(|sample| self.read(sample))
     }
 
-    /// All messages since the last look, oldest first.
+    /// Returns all messages since the last call, oldest first.
     #[must_use]
     pub fn drain(&self) -> Vec<Arc<T>> {
-        self.own.inlet.drain().iter().filter_map(|sample| self.read(sample)).collect()
+        self.own.subscription.drain().iter().filter_map(|sample| self.read(sample)).collect()
     }
 
-    /// As [`Mailbox::drain`], with the times and numbers of the messages.
+    /// Same as [`Mailbox::drain`], with the times and sequence numbers of the messages.
     #[must_use]
     pub fn drain_samples(&self) -> Vec<(Sample, Arc<T>)> {
-        let samples = self.own.inlet.drain().into_iter();
+        let samples = self.own.subscription.drain().into_iter();
         samples.filter_map(|sample| self.read(&sample).map(|message| (sample, message))).collect()
     }
 
     fn read(&self, sample: &Sample) -> Option<Arc<T>> {
-        sample.message().map_err(|error| self.own.inlet.reject(&error)).ok()
+        sample.message().map_err(|error| self.own.subscription.reject(&error)).ok()
     }
 
     /// Full name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
-        &self.own.inlet.topic
+        &self.own.subscription.topic
     }
 
-    /// What arrived and what was lost.
+    /// Counts of received and lost messages.
     #[must_use]
-    pub fn counts(&self) -> InletCounts {
-        self.own.inlet.counts()
+    pub fn counts(&self) -> SubscriptionCounts {
+        self.own.subscription.counts()
     }
 }
 
-/// The messages of a topic whose type is known only by name, as they are.
+/// Polled subscription to a topic whose type is known only by name.
 pub struct RawMailbox {
-    own: OwnInlet,
+    own: OwnedSubscription,
 }
 
 impl RawMailbox {
-    pub(crate) fn new(own: OwnInlet) -> Self {
+    pub(crate) fn new(own: OwnedSubscription) -> Self {
         Self { own }
     }
 
-    pub(crate) fn own(&self) -> &OwnInlet {
+    pub(crate) fn own(&self) -> &OwnedSubscription {
         &self.own
     }
 
-    /// What it asks for.
+    /// The requested QoS.
     #[must_use]
     pub fn qos(&self) -> Qos {
-        self.own.inlet.qos()
+        self.own.subscription.qos()
     }
 
-    /// Which end of the topic it is.
+    /// Id of the endpoint.
     #[must_use]
     pub fn id(&self) -> EndpointId {
-        self.own.inlet.id
+        self.own.subscription.id
     }
 
-    /// All messages since the last look, oldest first.
+    /// Returns all messages since the last call, oldest first.
     #[must_use]
     pub fn drain(&self) -> Vec<Sample> {
-        self.own.inlet.drain().into()
+        self.own.subscription.drain().into()
     }
 
     /// Full name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
-        &self.own.inlet.topic
+        &self.own.subscription.topic
     }
 
-    /// What arrived and what was lost.
+    /// Counts of received and lost messages.
     #[must_use]
-    pub fn counts(&self) -> InletCounts {
-        self.own.inlet.counts()
+    pub fn counts(&self) -> SubscriptionCounts {
+        self.own.subscription.counts()
     }
 }

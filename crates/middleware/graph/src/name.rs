@@ -1,20 +1,21 @@
 //! Names of nodes, topics and services.
 //!
-//! Source of the rules: ROS 2's design article "Topic and Service name mapping to DDS", and what
-//! `rmw/validate_full_topic_name.c`, `validate_node_name.c` and `validate_namespace.c` enforce.
+//! Source of the rules: ROS 2's design article "Topic and Service name mapping to DDS", and the
+//! checks in `rmw/validate_full_topic_name.c`, `validate_node_name.c` and `validate_namespace.c`.
 
 use crate::GraphError;
 
-/// Longest full name of a topic or service \[bytes\]: what DDS allows, less the prefix of ROS.
-pub const LONGEST_TOPIC: usize = 247;
+/// Maximum length of the full name of a topic or service \[bytes\]: the limit of DDS less the
+/// prefix of ROS.
+pub const MAX_TOPIC_NAME_BYTES: usize = 247;
 
-/// Longest name of a node \[bytes\].
-pub const LONGEST_NODE: usize = 255;
+/// Maximum length of a node name \[bytes\].
+pub const MAX_NODE_NAME_BYTES: usize = 255;
 
-/// Longest namespace \[bytes\]: as a topic, less a slash and one letter.
-pub const LONGEST_NAMESPACE: usize = 245;
+/// Maximum length of a namespace \[bytes\]: that of a topic, less a slash and one letter.
+pub const MAX_NAMESPACE_BYTES: usize = 245;
 
-/// Checks the name of a node, without namespace.
+/// Checks a node name, without namespace.
 ///
 /// # Errors
 /// When ROS 2 would refuse it.
@@ -23,8 +24,11 @@ pub fn check_node(name: &str) -> Result<(), GraphError> {
     if name.is_empty() {
         return fail("is empty".into());
     }
-    if name.len() > LONGEST_NODE {
-        return fail(format!("has {} bytes, at most {LONGEST_NODE} are allowed", name.len()));
+    if name.len() > MAX_NODE_NAME_BYTES {
+        return fail(format!(
+            "has {} bytes, at most {MAX_NODE_NAME_BYTES} are allowed",
+            name.len()
+        ));
     }
     if let Some(letter) = name.chars().find(|letter| !is_letter(*letter)) {
         let reason = format!("has `{letter}`; only letters, digits and `_` are allowed");
@@ -36,20 +40,20 @@ pub fn check_node(name: &str) -> Result<(), GraphError> {
     Ok(())
 }
 
-/// Checks a namespace: `/`, or a full name.
+/// Checks a namespace: `/` or a full name.
 ///
 /// # Errors
 /// When ROS 2 would refuse it.
 pub fn check_namespace(name: &str) -> Result<(), GraphError> {
-    if name == "/" { Ok(()) } else { check_full("namespace", name, LONGEST_NAMESPACE) }
+    if name == "/" { Ok(()) } else { check_full("namespace", name, MAX_NAMESPACE_BYTES) }
 }
 
-/// Checks a full name of a topic or service (`what` says which).
+/// Checks the full name of a topic or service; `what` names the kind in the error.
 ///
 /// # Errors
 /// When ROS 2 would refuse it.
 pub fn check_topic(what: &'static str, name: &str) -> Result<(), GraphError> {
-    check_full(what, name, LONGEST_TOPIC)
+    check_full(what, name, MAX_TOPIC_NAME_BYTES)
 }
 
 fn check_full(what: &'static str, name: &str, longest: usize) -> Result<(), GraphError> {
@@ -74,7 +78,7 @@ fn check_full(what: &'static str, name: &str, longest: usize) -> Result<(), Grap
 }
 
 fn refused(what: &'static str, name: &str, reason: String, help: Option<String>) -> GraphError {
-    let longest = if what == "node" { LONGEST_NODE } else { LONGEST_TOPIC };
+    let longest = if what == "node" { MAX_NODE_NAME_BYTES } else { MAX_TOPIC_NAME_BYTES };
     let help = help.filter(|help| help.len() <= longest && help != name);
     GraphError::Name { what, name: name.to_owned(), reason, help }
 }
@@ -87,10 +91,10 @@ fn is_digit(letter: char) -> bool {
     letter.is_ascii_digit()
 }
 
-/// A topic name that ROS 2 allows, from one that Gazebo allows: every character that is not a
-/// letter, digit, `_` or `/` becomes `_`; a part that begins with a digit gets a `_` in front;
-/// slashes in a row become one, and one at the end goes. A leading `/` or `~` stays. An empty name
-/// becomes `_`. Names that are valid already are not changed.
+/// Converts a Gazebo topic name to a valid ROS 2 topic name: every character other than a letter,
+/// digit, `_` or `/` becomes `_`; a part that begins with a digit gets a leading `_`; repeated
+/// slashes are merged, and a trailing one is removed. A leading `/` or `~` is kept. An empty name
+/// becomes `_`. Valid names are not changed.
 ///
 /// `/model/robot-1/link/base::lidar` becomes `/model/robot_1/link/base__lidar`.
 #[must_use]
@@ -109,8 +113,8 @@ pub fn valid_topic_name(name: &str) -> String {
     }
 }
 
-/// A node name that ROS 2 allows, from any text; the rule is that of [`valid_topic_name`], and `/`
-/// becomes `_` as well.
+/// Converts any text to a valid node name by the rule of [`valid_topic_name`]; `/` becomes `_` as
+/// well.
 #[must_use]
 pub fn valid_node_name(name: &str) -> String {
     let mut valid: String = name.chars().map(|c| if is_letter(c) { c } else { '_' }).collect();
@@ -120,9 +124,9 @@ pub fn valid_node_name(name: &str) -> String {
     valid
 }
 
-/// The full name of a name as a node writes it, before remappings: `/x` is full already, `x`
-/// belongs to the namespace, `~/x` and `~` to the node; `{node}`, `{ns}` and `{namespace}` stand for
-/// the names of the node.
+/// Expands a name as written by a node, before remapping: `/x` is absolute, `x` is relative to the
+/// namespace, `~/x` and `~` are private to the node; `{node}`, `{ns}` and `{namespace}` are
+/// replaced by the names of the node.
 ///
 /// # Errors
 /// When ROS 2 would refuse it.
@@ -151,10 +155,13 @@ pub(crate) fn expand(
         full = full.replace("{node}", node).replace("{ns}", base).replace("{namespace}", base);
     }
     if full.contains(['{', '}']) {
-        return fail("has braces; only `{node}`, `{ns}` and `{namespace}` have a meaning", None);
+        return fail(
+            "has braces; only the substitutions `{node}`, `{ns}` and `{namespace}` exist",
+            None,
+        );
     }
     if full[1..].contains('~') {
-        return fail("has a `~` that is not its beginning", None);
+        return fail("` that is not its beginning~` that is not its beginning", None);
     }
     check_topic(what, &full).map_err(|error| match error {
         GraphError::Name { what, reason, .. } => {

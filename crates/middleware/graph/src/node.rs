@@ -1,4 +1,4 @@
-//! Nodes: what publishes, subscribes, answers and calls.
+//! Nodes.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, Weak};
@@ -6,22 +6,22 @@ use std::sync::{Arc, Mutex, OnceLock, Weak};
 use periplus_msgs::{Message, Service};
 
 use crate::actor::Actor;
-use crate::agenda::Agenda;
 use crate::common::lock;
+use crate::event_queue::EventQueue;
 use crate::graph::{Core, Graph};
-use crate::inlet::{Inlet, Reaction, Waiting};
 use crate::mailbox::{Mailbox, RawMailbox};
-use crate::outlet::Outlet;
 use crate::parameters::Store;
 use crate::publisher::{Publisher, RawPublisher};
+use crate::publisher_core::PublisherCore;
 use crate::registry::TypeOf;
 use crate::service::{Calls, Client};
 use crate::settings::{NodeNames, NodeSettings};
 use crate::standard::Standard;
+use crate::subscription_core::{Reaction, SubscriptionCore, Waiting};
 use crate::{GraphError, Qos};
 
-/// A node. This is a handle: clones mean the same node. It is there as long as a handle of it, or
-/// anything made with it, is.
+/// A node. This is a handle: clones refer to the same node. The node exists until all handles and
+/// everything created with it are dropped.
 #[derive(Clone)]
 pub struct Node(pub(crate) Arc<NodeCore>);
 
@@ -29,10 +29,10 @@ pub(crate) struct NodeCore {
     pub(crate) names: NodeNames,
     pub(crate) full_name: Arc<str>,
     pub(crate) core: Arc<Core>,
-    /// Counts what it made, to tell equal things apart.
+    /// Counter that distinguishes otherwise equal endpoints.
     ordinal: AtomicU64,
-    /// What is to happen in its thread, in live.
-    own_agenda: OnceLock<Arc<Agenda>>,
+    /// Event queue of its thread, in live mode.
+    own_event_queue: OnceLock<Arc<EventQueue>>,
     pub(crate) standard: OnceLock<Standard>,
 }
 
@@ -49,7 +49,7 @@ impl Node {
         if registry.nodes.contains_key(&full_name) {
             return Err(GraphError::NodeExists { node: full_name.to_string() });
         }
-        // Taken from now on; the node itself follows.
+        // The name is reserved now; the node itself is added below.
         registry.nodes.insert(full_name.clone(), Weak::new());
         registry.changes += 1;
         drop(registry);
@@ -60,7 +60,7 @@ impl Node {
             full_name,
             core,
             ordinal: 0.into(),
-            own_agenda: OnceLock::new(),
+            own_event_queue: OnceLock::new(),
             standard: OnceLock::new(),
         });
         Standard::join(&node, store, is_bare, &arguments)?;
@@ -75,13 +75,13 @@ impl Node {
         &self.0.full_name
     }
 
-    /// Its names, to resolve others.
+    /// Names of the node, to resolve relative names.
     #[must_use]
     pub fn names(&self) -> &NodeNames {
         &self.0.names
     }
 
-    /// The graph that it belongs to.
+    /// The graph of the node.
     #[must_use]
     pub fn graph(&self) -> Graph {
         Graph(self.0.core.clone())
@@ -93,23 +93,23 @@ impl Node {
         self.0.core.common.clock.now_ns()
     }
 
-    /// Publishes on a topic.
+    /// Creates a publisher.
     ///
     /// # Errors
     /// When the name is not valid or the topic has another type.
     pub fn publisher<T: Message>(&self, topic: &str, qos: Qos) -> Result<Publisher<T>, GraphError> {
-        Ok(Publisher::new(self.0.outlet(topic, TypeOf::message::<T>(), qos)?))
+        Ok(Publisher::new(self.0.publisher(topic, TypeOf::message::<T>(), qos)?))
     }
 
-    /// Subscribes to a topic; the messages wait until somebody looks.
+    /// Creates a polled subscription; messages wait in a queue.
     ///
     /// # Errors
     /// When the name is not valid or the topic has another type.
     pub fn mailbox<T: Message>(&self, topic: &str, qos: Qos) -> Result<Mailbox<T>, GraphError> {
-        Ok(Mailbox::new(self.0.inlet(topic, TypeOf::message::<T>(), qos, None)?))
+        Ok(Mailbox::new(self.0.subscription(topic, TypeOf::message::<T>(), qos, None)?))
     }
 
-    /// Publishes bytes on a topic whose type is known only by name and, perhaps, by its hash.
+    /// Creates a publisher for serialized messages of a type known only by name and optional hash.
     ///
     /// # Errors
     /// When the name is not valid or the topic has another type.
@@ -120,10 +120,10 @@ impl Node {
         type_hash: Option<&str>,
         qos: Qos,
     ) -> Result<RawPublisher, GraphError> {
-        Ok(RawPublisher::new(self.0.outlet(topic, TypeOf::new(type_name, type_hash), qos)?))
+        Ok(RawPublisher::new(self.0.publisher(topic, TypeOf::new(type_name, type_hash), qos)?))
     }
 
-    /// Subscribes to a topic whose type is known only by name and, perhaps, by its hash.
+    /// Creates a polled subscription to a topic whose type is known only by name and optional hash.
     ///
     /// # Errors
     /// When the name is not valid or the topic has another type.
@@ -135,18 +135,19 @@ impl Node {
         qos: Qos,
     ) -> Result<RawMailbox, GraphError> {
         let type_of = TypeOf::new(type_name, type_hash);
-        Ok(RawMailbox::new(self.0.inlet(topic, type_of, qos, None)?))
+        Ok(RawMailbox::new(self.0.subscription(topic, type_of, qos, None)?))
     }
 
-    /// Answers a service; the calls wait until somebody looks.
+    /// Creates a service that is polled; requests wait in a queue.
     ///
     /// # Errors
-    /// When the name is not valid, the service has another type, or another node answers it.
+    /// When the name is not valid, the service has another type, or another node serves
+    /// it.
     pub fn server<S: Service>(&self, name: &str) -> Result<Calls<S>, GraphError> {
         Ok(Calls::new(self.0.server(name, TypeOf::service::<S>(), None)?))
     }
 
-    /// Calls a service. Who answers it may come later.
+    /// Creates a service client. The server may appear later.
     ///
     /// # Errors
     /// When the name is not valid or the service has another type.
@@ -154,7 +155,7 @@ impl Node {
         Ok(Client::new(self.0.caller(name, TypeOf::service::<S>())?))
     }
 
-    /// Gives the node a state and lets closures act on it: for messages, timers and calls.
+    /// Gives the node a state and callbacks for messages, timers and services.
     pub fn actor<S: Send + 'static>(&self, state: S) -> Actor<S> {
         Actor::new(self.clone(), state)
     }
@@ -175,8 +176,8 @@ impl Drop for NodeCore {
         if let Some(standard) = self.standard.get() {
             standard.leave(&self.core);
         }
-        if let Some(agenda) = self.own_agenda.get() {
-            agenda.close();
+        if let Some(event_queue) = self.own_event_queue.get() {
+            event_queue.close();
         }
     }
 }
@@ -195,42 +196,42 @@ impl TypeOf {
     }
 }
 
-/// An outlet that leaves the graph when it is dropped.
-pub(crate) struct OwnOutlet {
-    pub(crate) outlet: Arc<Outlet>,
+/// A publisher that is removed from the graph when it is dropped.
+pub(crate) struct OwnedPublisher {
+    pub(crate) publisher: Arc<PublisherCore>,
     pub(crate) node: Arc<NodeCore>,
 }
 
-impl Drop for OwnOutlet {
+impl Drop for OwnedPublisher {
     fn drop(&mut self) {
         let core = &self.node.core;
-        let gone = lock(&core.registry).remove_outlet(&self.outlet, &core.common);
+        let gone = lock(&core.registry).remove_publisher(&self.publisher, &core.common);
         drop(gone);
     }
 }
 
-/// An inlet that leaves the graph when it is dropped.
-pub(crate) struct OwnInlet {
-    pub(crate) inlet: Arc<Inlet>,
+/// A subscription that is removed from the graph when it is dropped.
+pub(crate) struct OwnedSubscription {
+    pub(crate) subscription: Arc<SubscriptionCore>,
     pub(crate) node: Arc<NodeCore>,
 }
 
-impl Drop for OwnInlet {
+impl Drop for OwnedSubscription {
     fn drop(&mut self) {
         let core = &self.node.core;
-        let gone = lock(&core.registry).remove_inlet(&self.inlet, &core.common);
+        let gone = lock(&core.registry).remove_subscription(&self.subscription, &core.common);
         drop(gone);
-        self.inlet.withdraw();
+        self.subscription.withdraw();
     }
 }
 
 impl NodeCore {
-    /// Where its reactions are put: in lockstep the one agenda of the graph, in live its own, whose
-    /// thread starts with the first.
-    pub(crate) fn agenda(&self) -> Arc<Agenda> {
-        let Some(live) = &self.core.live else { return self.core.agenda.clone() };
+    /// Event queue of the node: in lockstep the queue of the graph, in live mode its own, whose
+    /// thread starts on first use.
+    pub(crate) fn event_queue(&self) -> Arc<EventQueue> {
+        let Some(live) = &self.core.live else { return self.core.event_queue.clone() };
         let start = || live.start(&self.full_name, &self.core.common);
-        self.own_agenda.get_or_init(start).clone()
+        self.own_event_queue.get_or_init(start).clone()
     }
 
     pub(crate) fn next_ordinal(&self) -> u64 {
@@ -238,58 +239,66 @@ impl NodeCore {
     }
 
     pub(crate) fn standard(&self) -> &Standard {
-        self.standard.get().expect("a node has it before anybody else has the node")
+        self.standard.get().expect("set before the node is handed out")
     }
 
-    pub(crate) fn outlet(
+    pub(crate) fn publisher(
         self: &Arc<Self>,
         topic: &str,
         type_of: TypeOf,
         qos: Qos,
-    ) -> Result<OwnOutlet, GraphError> {
-        Ok(OwnOutlet { outlet: self.bare_outlet(topic, type_of, qos)?, node: self.clone() })
+    ) -> Result<OwnedPublisher, GraphError> {
+        Ok(OwnedPublisher {
+            publisher: self.bare_publisher(topic, type_of, qos)?,
+            node: self.clone(),
+        })
     }
 
-    /// An outlet that somebody has to take out of the graph.
-    pub(crate) fn bare_outlet(
+    /// A publisher that the caller has to remove from the graph.
+    pub(crate) fn bare_publisher(
         &self,
         topic: &str,
         type_of: TypeOf,
         qos: Qos,
-    ) -> Result<Arc<Outlet>, GraphError> {
+    ) -> Result<Arc<PublisherCore>, GraphError> {
         let full = self.names.topic(topic)?;
         let (core, node) = (&self.core, self.full_name.clone());
         let common = core.common.clone();
-        lock(&core.registry).add_outlet(
+        lock(&core.registry).add_publisher(
             &self.full_name,
             &full,
             type_of,
-            |id, topic| Outlet::new(id, node, topic, qos, common),
+            |id, topic| PublisherCore::new(id, node, topic, qos, common),
             &core.common,
         )
     }
 
-    pub(crate) fn inlet(
+    pub(crate) fn subscription(
         self: &Arc<Self>,
         topic: &str,
         type_of: TypeOf,
         qos: Qos,
         reaction: Option<Reaction>,
-    ) -> Result<OwnInlet, GraphError> {
+    ) -> Result<OwnedSubscription, GraphError> {
         let full = self.names.topic(topic)?;
         let (core, node) = (&self.core, self.full_name.clone());
         let common = core.common.clone();
-        let make = |id, topic| Inlet {
+        let make = |id, topic| SubscriptionCore {
             id,
             node,
             topic,
             common,
             reaction,
             waiting: Mutex::new(Waiting::new(qos)),
-            told: Default::default(),
+            reported: Default::default(),
         };
-        let inlet =
-            lock(&core.registry).add_inlet(&self.full_name, &full, type_of, make, &core.common)?;
-        Ok(OwnInlet { inlet, node: self.clone() })
+        let subscription = lock(&core.registry).add_subscription(
+            &self.full_name,
+            &full,
+            type_of,
+            make,
+            &core.common,
+        )?;
+        Ok(OwnedSubscription { subscription, node: self.clone() })
     }
 }

@@ -1,7 +1,7 @@
-//! Parameters of a node: declared once in a table, read by the node, read and set by others through
-//! the six services that every node has.
+//! Parameters of a node: declared once in a table, read by the node, and read and set by other
+//! nodes through the six parameter services.
 //!
-//! Source: `rcl_interfaces`, and `rclcpp/parameter_service.cpp` for what the services do.
+//! Source: `rcl_interfaces`, and `rclcpp/parameter_service.cpp` for the behaviour of the services.
 
 pub(crate) mod convert;
 pub(crate) mod services;
@@ -22,32 +22,36 @@ use crate::{Actor, GraphError};
 
 pub(crate) use store::Store;
 
-/// The parameters of a node. This is a handle: clones mean the same parameters.
+/// The parameters of a node. This is a handle: clones refer to the same parameters.
 #[derive(Clone)]
 pub struct Parameters {
     node: Node,
 }
 
 impl Parameters {
-    /// All values of the table, as they are now.
+    /// Returns the current values of the table.
     ///
     /// # Panics
-    /// Never: there is a table, or this would not be there.
+    /// Never: the table is declared before this is created.
     #[must_use]
     pub fn values(&self) -> Values {
-        lock(&self.node.0.standard().store).values().expect("declared together with this").clone()
+        lock(&self.node.0.standard().store)
+            .values()
+            .expect("declared before this is created")
+            .clone()
     }
 
-    /// How often something was set; who keeps values looks whether this has changed.
+    /// Counter that changes with every change of a value; compare it to detect changes.
     #[must_use]
     pub fn generation(&self) -> u64 {
         lock(&self.node.0.standard().store).generation()
     }
 
-    /// Sets a parameter from inside the node, and tells others. The node is not asked.
+    /// Sets a parameter from inside the node and publishes the change. The node's own callback is
+    /// not called.
     ///
     /// # Errors
-    /// When there is no such parameter or the value does not fit, in words.
+    /// When there is no such parameter or the value is not valid, as text.
     pub fn set(&self, name: &str, value: Value) -> Result<(), String> {
         let named = Named { name: name.to_owned(), value: convert::to_message(value) };
         self.node.0.set_parameters(std::slice::from_ref(&named), None)
@@ -55,9 +59,9 @@ impl Parameters {
 }
 
 impl Node {
-    /// Lets others read and set these parameters; the node itself looks at
-    /// [`Parameters::generation`] and [`Parameters::values`]. Values that arguments give
-    /// ([`crate::Arguments`]) take the place of those that are given here.
+    /// Declares parameters that other nodes can read and set; the node polls
+    /// [`Parameters::generation`] and [`Parameters::values`]. Values from arguments
+    /// ([`crate::Arguments`]) override the given ones.
     ///
     /// # Errors
     /// When the node has declared parameters already.
@@ -66,7 +70,7 @@ impl Node {
         Ok(Parameters { node: self.clone() })
     }
 
-    /// A parameter by its name, whatever it is; nothing when there is none or it is not set.
+    /// Returns a parameter by name; none if it does not exist or is not set.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<ParameterValue> {
         lock(&self.0.standard().store).get(name)
@@ -74,9 +78,9 @@ impl Node {
 }
 
 impl<S: Send + 'static> Actor<S> {
-    /// Lets others read and set these parameters. When somebody sets some, and their kinds and
-    /// ranges are right, `change` gets all values as they would be. If it agrees they hold, and it
-    /// has put them to use; otherwise its reason is told to who sets.
+    /// Declares parameters that other nodes can read and set. When a request passes the checks of
+    /// type and range, `change` gets all values as they would be. If it returns `Ok`, it has
+    /// applied them and they are stored; otherwise its error is returned to the caller.
     ///
     /// # Errors
     /// When the node has declared parameters already.
@@ -89,7 +93,7 @@ impl<S: Send + 'static> Actor<S> {
         node.0.declare(values)?;
         let act = self.act(change);
         let apply: Arc<Apply> = Arc::new(move |values| {
-            let mut outcome = Err("the node is going away".to_owned());
+            let mut outcome = Err("the node is shutting down".to_owned());
             act(&mut |change, state, io| outcome = change(state, values, io));
             outcome
         });
@@ -100,7 +104,7 @@ impl<S: Send + 'static> Actor<S> {
     }
 }
 
-/// What is asked before parameters change, until this is dropped.
+/// A callback for changes of parameters, removed when this is dropped.
 struct OwnChange {
     node: Arc<NodeCore>,
     ordinal: u64,
@@ -120,7 +124,7 @@ impl NodeCore {
         let mut store = lock(&self.standard().store);
         if store.values().is_some() {
             let reason = format!(
-                "`{}` has declared parameters already; put all of them into one table",
+                "`{}` has already declared its parameters; declare all of them in one table",
                 self.full_name
             );
             return Err(GraphError::Value { reason });
@@ -132,25 +136,25 @@ impl NodeCore {
                 format!("a parameter of `{}` keeps its default: {reason}", self.full_name);
             self.core.common.report(Diagnostic::error("bad-parameter", message));
         }
-        self.tell_parameters(|store| ParameterEvent {
+        self.publish_parameter_event(|store| ParameterEvent {
             new_parameters: store.declared(),
             ..Default::default()
         });
         Ok(())
     }
 
-    /// Sets all of these or none. The store is free while the node is asked, so that it may look at
-    /// its parameters.
+    /// Sets all of these parameters or none. The store is not locked during the node's callback, so
+    /// that the callback can read parameters.
     fn set_parameters(&self, set: &[Named], change: Option<Arc<Apply>>) -> Result<(), String> {
         let values = lock(&self.standard().store).propose(set)?;
         if let (Some(values), Some(apply)) = (&values, change) {
             apply(values)?;
         }
-        self.tell_parameters(|store| store.accept(values, set));
+        self.publish_parameter_event(|store| store.accept(values, set));
         Ok(())
     }
 
-    pub(crate) fn tell_parameters(&self, event: impl FnOnce(&mut Store) -> ParameterEvent) {
+    pub(crate) fn publish_parameter_event(&self, event: impl FnOnce(&mut Store) -> ParameterEvent) {
         let standard = self.standard();
         let mut store = lock(&standard.store);
         let event = event(&mut store);

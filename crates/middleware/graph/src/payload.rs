@@ -1,4 +1,4 @@
-//! The content of a message in either form: a value of its Rust type, or bytes.
+//! Content of a message as a Rust value or as bytes.
 
 use std::any::Any;
 use std::sync::{Arc, OnceLock};
@@ -7,8 +7,7 @@ use periplus_msgs::{DecodeError, EncodeError, Message};
 
 type Erased = Arc<dyn Any + Send + Sync>;
 
-/// A message that many share. The form that it did not come in is made when somebody first asks
-/// for it, and once.
+/// Content of a message shared by all its readers. The other form is created once, on first use.
 pub(crate) enum Payload {
     /// Published as a value.
     Typed {
@@ -29,7 +28,7 @@ impl Payload {
         Self::Raw { cdr, message: OnceLock::new() }
     }
 
-    /// The value. All who read one topic ask for one type, so the first decides which it is.
+    /// The value. All readers of a topic use one Rust type, so the first use decides the type.
     pub(crate) fn message<T: Message>(&self) -> Result<Arc<T>, DecodeError> {
         let erased = match self {
             Self::Typed { message, .. } => message,
@@ -41,7 +40,7 @@ impl Payload {
         if let Ok(message) = erased.clone().downcast::<T>() {
             return Ok(message);
         }
-        // Two Rust types of one ROS type: only tests have such.
+        // Two Rust types for one ROS type occur only in tests.
         let bytes = self.cdr().map_err(|error| DecodeError {
             problem: periplus_msgs::Problem::Bound { count: error.count, limit: error.limit },
             path: error.field,
@@ -50,7 +49,7 @@ impl Payload {
         T::decode_cdr(bytes).map(Arc::new)
     }
 
-    /// The bytes, with the four in front that say how they are coded.
+    /// The bytes, with the four-byte encapsulation header.
     pub(crate) fn cdr(&self) -> Result<&[u8], EncodeError> {
         match self {
             Self::Typed { message, encode, cdr } => {
@@ -63,6 +62,6 @@ impl Payload {
 }
 
 fn encode<T: Message>(message: &(dyn Any + Send + Sync)) -> Result<Vec<u8>, EncodeError> {
-    let message = message.downcast_ref::<T>().expect("made together with the message");
+    let message = message.downcast_ref::<T>().expect("created with the message");
     message.to_cdr()
 }

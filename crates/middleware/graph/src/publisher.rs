@@ -5,94 +5,94 @@ use std::sync::Arc;
 
 use periplus_msgs::Message;
 
-use crate::node::OwnOutlet;
+use crate::node::OwnedPublisher;
 use crate::payload::Payload;
 use crate::sample::EndpointId;
 
-/// Publishes messages of one type on one topic, as long as it is there.
+/// Publisher of one topic; removed from the graph when it is dropped.
 pub struct Publisher<T> {
-    own: OwnOutlet,
+    own: OwnedPublisher,
     of: PhantomData<fn(T)>,
 }
 
 impl<T: Message> Publisher<T> {
-    pub(crate) fn new(own: OwnOutlet) -> Self {
+    pub(crate) fn new(own: OwnedPublisher) -> Self {
         Self { own, of: PhantomData }
     }
 
-    pub(crate) fn own(&self) -> &OwnOutlet {
+    pub(crate) fn own(&self) -> &OwnedPublisher {
         &self.own
     }
 
-    /// Publishes a message at the time of the graph. All who listen share it; nothing is copied.
-    /// It never waits for anybody who listens, except for the sinks of taps in lockstep.
+    /// Publishes a message at the time of the graph. All subscribers share it without a copy.
+    /// Publishing never blocks on a subscriber, except for the sinks of taps in lockstep.
     #[inline]
     pub fn publish(&self, message: T) {
-        self.own.outlet.publish(|| Payload::typed(Arc::new(message)));
+        self.own.publisher.publish(|| Payload::typed(Arc::new(message)));
     }
 
-    /// As [`Publisher::publish`], of a message that others hold too.
+    /// Same as [`Publisher::publish`], for a message that is shared already.
     #[inline]
     pub fn publish_shared(&self, message: &Arc<T>) {
-        self.own.outlet.publish(|| Payload::typed(message.clone()));
+        self.own.publisher.publish(|| Payload::typed(message.clone()));
     }
 
-    /// Whether anybody listens: a subscription whose QoS fits, or a tap. What nobody hears need not
-    /// be computed, except what is latched.
+    /// True if there is a compatible subscription or a tap. Without one, a message need not be
+    /// computed unless the topic is latched.
     #[must_use]
     #[inline]
     pub fn is_heard(&self) -> bool {
-        self.own.outlet.is_heard()
+        self.own.publisher.is_heard()
     }
 
     /// Full name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
-        &self.own.outlet.topic.name
+        &self.own.publisher.topic.name
     }
 
-    /// What [`crate::Sample::publisher`] says of its messages.
+    /// The value of [`crate::Sample::publisher`] in its messages.
     #[must_use]
     pub fn id(&self) -> EndpointId {
-        self.own.outlet.id
+        self.own.publisher.id
     }
 }
 
-/// Publishes bytes on a topic whose type is known only by name: what comes from a wire or a bag.
+/// Publisher of serialized messages whose type is known only by name, for transports and bags.
 pub struct RawPublisher {
-    own: OwnOutlet,
+    own: OwnedPublisher,
 }
 
 impl RawPublisher {
-    pub(crate) fn new(own: OwnOutlet) -> Self {
+    pub(crate) fn new(own: OwnedPublisher) -> Self {
         Self { own }
     }
 
-    pub(crate) fn own(&self) -> &OwnOutlet {
+    pub(crate) fn own(&self) -> &OwnedPublisher {
         &self.own
     }
 
-    /// Publishes a message as CDR, with the four bytes in front that say how it is coded. Who
-    /// subscribes with a type decodes it, once for all.
+    /// Publishes a message as CDR, with the four-byte encapsulation header. It is decoded once for
+    /// all typed subscriptions.
     pub fn publish(&self, cdr: Vec<u8>) {
-        self.own.outlet.publish(|| Payload::raw(cdr));
+        self.own.publisher.publish(|| Payload::raw(cdr));
     }
 
-    /// Whether anybody listens; see [`Publisher::is_heard`].
+    /// True if there is a compatible subscription or a tap; see [`Publisher::is_heard`].
     #[must_use]
     pub fn is_heard(&self) -> bool {
-        self.own.outlet.is_heard()
+        self.own.publisher.is_heard()
     }
 
     /// Full name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
-        &self.own.outlet.topic.name
+        &self.own.publisher.topic.name
     }
 
-    /// What [`crate::Sample::publisher`] says of its messages.
+    /// The value of [`crate::Sample::publisher`] in its messages.
     #[must_use]
     pub fn id(&self) -> EndpointId {
-        self.own.outlet.id
+        self.own.publisher.id
     }
 }

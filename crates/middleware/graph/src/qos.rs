@@ -1,73 +1,73 @@
-//! Quality of service: what a publisher offers, what a subscription asks for, and when they fit.
+//! Quality of service and the compatibility of offered and requested policies.
 //!
-//! Source of names, defaults and rules: ROS 2, `rmw/qos_profiles.h` and the design article "ROS QoS -
-//! Deadline, Liveliness, and Lifespan"; the table of fits is that of DDS 1.4, section 2.2.3
+//! Source of names, defaults and rules: ROS 2, `rmw/qos_profiles.h` and the design article "ROS QoS
+//! - Deadline, Liveliness, and Lifespan"; the compatibility table is that of DDS 1.4, section 2.2.3
 //! (requested versus offered).
 
 use std::fmt;
 
-/// Whether a message may get lost on the way. The order is that of strength.
+/// Reliability policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reliability {
-    /// It may.
+    /// Messages may be lost.
     BestEffort,
-    /// It may not, as far as the history reaches.
+    /// Messages are delivered, within the history.
     Reliable,
 }
 
-/// Whether who comes late gets what was sent before. The order is that of strength.
+/// Durability policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Durability {
-    /// No.
+    /// Late subscribers get no earlier messages.
     Volatile,
-    /// The last messages of every publisher that still lives, as many as its depth.
+    /// Late subscribers get the last messages of each existing publisher, up to its depth.
     TransientLocal,
 }
 
-/// How many messages wait.
+/// History policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum History {
-    /// The newest, as many as the depth; older ones are dropped and counted.
+    /// Keeps the newest messages, up to the depth; older ones are dropped and counted.
     KeepLast,
-    /// All, up to [`MOST_KEPT`].
+    /// Keeps all messages, up to [`KEEP_ALL_MAX_MESSAGES`].
     KeepAll,
 }
 
-/// Most messages that wait where all are kept, so that who never looks cannot take all memory: a
-/// hundred seconds at a hundred per second.
-pub const MOST_KEPT: usize = 10_000;
+/// Maximum number of messages in a `KEEP_ALL` history, which bounds the memory of subscriptions
+/// that are never read: 100 s at 100 messages per second.
+pub const KEEP_ALL_MAX_MESSAGES: usize = 10_000;
 
-/// Who says that a publisher lives. The order is that of strength.
+/// Liveliness policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Liveliness {
-    /// Its node, all the time.
+    /// Asserted by the node.
     Automatic,
-    /// The publisher itself, by publishing.
+    /// Asserted by the publisher, by publishing.
     ManualByTopic,
 }
 
-/// Quality of service of a publisher (what it offers) or a subscription (what it asks for).
+/// Quality of service that a publisher offers or a subscription requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Qos {
-    /// Whether messages may get lost.
+    /// Reliability.
     pub reliability: Reliability,
-    /// Whether latecomers get the last messages.
+    /// Durability.
     pub durability: Durability,
-    /// How many messages wait.
+    /// History.
     pub history: History,
-    /// How many, with [`History::KeepLast`]; 0 counts as 1.
+    /// Queue length with [`History::KeepLast`]; 0 counts as 1.
     pub depth: usize,
-    /// Most time from message to message \[ns\]; none for any.
+    /// Maximum time between two messages \[ns\]; none for no limit.
     pub deadline_ns: Option<i64>,
-    /// Age at which a message is stale and no longer delivered \[ns\]; none for never.
+    /// Age at which a message is no longer delivered \[ns\]; none for no limit.
     pub lifespan_ns: Option<i64>,
-    /// Who says that a publisher lives.
+    /// Liveliness.
     pub liveliness: Liveliness,
-    /// How long it may be silent about that \[ns\]; none for any time.
+    /// Lease duration of the liveliness \[ns\]; none for no limit.
     pub lease_ns: Option<i64>,
 }
 
-/// The defaults of ROS 2: reliable, volatile, the last ten.
+/// The defaults of ROS 2: reliable, volatile, depth 10.
 impl Default for Qos {
     fn default() -> Self {
         Self::reliable(10)
@@ -75,7 +75,7 @@ impl Default for Qos {
 }
 
 impl Qos {
-    /// Reliable and volatile, the last `depth`.
+    /// Reliable and volatile, with a depth.
     #[must_use]
     pub const fn reliable(depth: usize) -> Self {
         Self {
@@ -90,105 +90,105 @@ impl Qos {
         }
     }
 
-    /// Best effort and volatile, the last `depth`.
+    /// Best effort and volatile, with a depth.
     #[must_use]
     pub const fn best_effort(depth: usize) -> Self {
         Self { reliability: Reliability::BestEffort, ..Self::reliable(depth) }
     }
 
-    /// `SensorDataQoS`: best effort, the last five.
+    /// `SensorDataQoS`: best effort, depth 5.
     #[must_use]
     pub const fn sensor_data() -> Self {
         Self::best_effort(5)
     }
 
-    /// `ClockQoS`: best effort, the last one.
+    /// `ClockQoS`: best effort, depth 1.
     #[must_use]
     pub const fn clock() -> Self {
         Self::best_effort(1)
     }
 
-    /// Reliable and kept for latecomers, the last `depth`: maps, descriptions, static transforms.
+    /// Reliable and transient local, with a depth: maps, descriptions, static transforms.
     #[must_use]
     pub const fn latched(depth: usize) -> Self {
         Self { durability: Durability::TransientLocal, ..Self::reliable(depth) }
     }
 
-    /// `ParametersQoS` and `ParameterEventsQoS`: reliable, the last thousand.
+    /// `ParametersQoS` and `ParameterEventsQoS`: reliable, depth 1000.
     #[must_use]
     pub const fn parameters() -> Self {
         Self::reliable(1000)
     }
 
-    /// `RosoutQoS`: reliable, the last thousand kept for latecomers, for ten seconds.
+    /// `RosoutQoS`: reliable, transient local, depth 1000, lifespan 10 s.
     #[must_use]
     pub const fn rosout() -> Self {
         Self::latched(1000).with_lifespan_ns(10_000_000_000)
     }
 
-    /// With another reliability.
+    /// Replaces the reliability.
     #[must_use]
     pub const fn with_reliability(self, reliability: Reliability) -> Self {
         Self { reliability, ..self }
     }
 
-    /// With another durability.
+    /// Replaces the durability.
     #[must_use]
     pub const fn with_durability(self, durability: Durability) -> Self {
         Self { durability, ..self }
     }
 
-    /// With all messages kept until they are read.
+    /// Replaces the history with `KEEP_ALL`.
     #[must_use]
     pub const fn keep_all(self) -> Self {
         Self { history: History::KeepAll, ..self }
     }
 
-    /// With a deadline \[ns\].
+    /// Replaces the deadline \[ns\].
     #[must_use]
     pub const fn with_deadline_ns(self, deadline_ns: i64) -> Self {
         Self { deadline_ns: Some(deadline_ns), ..self }
     }
 
-    /// With a lifespan \[ns\].
+    /// Replaces the lifespan \[ns\].
     #[must_use]
     pub const fn with_lifespan_ns(self, lifespan_ns: i64) -> Self {
         Self { lifespan_ns: Some(lifespan_ns), ..self }
     }
 
-    /// Most messages that wait.
+    /// Maximum number of messages in the queue.
     pub(crate) fn capacity(&self) -> usize {
         match self.history {
             History::KeepLast => self.depth.max(1),
-            History::KeepAll => MOST_KEPT,
+            History::KeepAll => KEEP_ALL_MAX_MESSAGES,
         }
     }
 
-    /// The policies in which this offer is weaker than what is asked for; none when they fit.
+    /// Returns the policies in which this offer is weaker than the request; none if compatible.
     #[must_use]
-    pub fn lacks(&self, asked: &Self) -> Vec<Policy> {
-        let mut lacks = Vec::new();
+    pub fn incompatible_policies(&self, asked: &Self) -> Vec<Policy> {
+        let mut incompatible_policies = Vec::new();
         if self.reliability < asked.reliability {
-            lacks.push(Policy::Reliability);
+            incompatible_policies.push(Policy::Reliability);
         }
         if self.durability < asked.durability {
-            lacks.push(Policy::Durability);
+            incompatible_policies.push(Policy::Durability);
         }
         if is_longer(self.deadline_ns, asked.deadline_ns) {
-            lacks.push(Policy::Deadline);
+            incompatible_policies.push(Policy::Deadline);
         }
         if self.liveliness < asked.liveliness {
-            lacks.push(Policy::Liveliness);
+            incompatible_policies.push(Policy::Liveliness);
         }
         if is_longer(self.lease_ns, asked.lease_ns) {
-            lacks.push(Policy::Lease);
+            incompatible_policies.push(Policy::Lease);
         }
-        lacks
+        incompatible_policies
     }
 
-    /// With as much more on offer as it takes for who asks for this.
+    /// Strengthens this offer as far as the request needs.
     #[must_use]
-    pub fn offering(self, asked: &Self) -> Self {
+    pub fn strengthened_for(self, asked: &Self) -> Self {
         Self {
             reliability: self.reliability.max(asked.reliability),
             durability: self.durability.max(asked.durability),
@@ -199,9 +199,9 @@ impl Qos {
         }
     }
 
-    /// With as much less asked for as it takes to hear who offers this.
+    /// Weakens this request as far as the offer needs.
     #[must_use]
-    pub fn asking(self, offered: &Self) -> Self {
+    pub fn weakened_for(self, offered: &Self) -> Self {
         Self {
             reliability: self.reliability.min(offered.reliability),
             durability: self.durability.min(offered.durability),
@@ -212,9 +212,9 @@ impl Qos {
         }
     }
 
-    /// What is set for a policy, as ROS spells it.
+    /// The value of a policy in the spelling of ROS.
     #[must_use]
-    pub fn spelled(&self, policy: Policy) -> String {
+    pub fn policy_value(&self, policy: Policy) -> String {
         let span = |ns: Option<i64>| ns.map_or("infinite".to_owned(), |ns| format!("{ns} ns"));
         match policy {
             Policy::Reliability => self.reliability.to_string(),
@@ -226,17 +226,17 @@ impl Qos {
     }
 }
 
-/// The shorter of two times; none is infinite.
+/// The shorter of two durations; none is infinite.
 fn shorter(one: Option<i64>, other: Option<i64>) -> Option<i64> {
     one.into_iter().chain(other).min()
 }
 
-/// The longer of two times; none is infinite.
+/// The longer of two durations; none is infinite.
 fn longer(one: Option<i64>, other: Option<i64>) -> Option<i64> {
     one.zip(other).map(|(one, other)| one.max(other))
 }
 
-/// Whether an offered time is longer than the one asked for; none is infinite.
+/// True if the offered duration is longer than the requested one; none is infinite.
 fn is_longer(offered: Option<i64>, asked: Option<i64>) -> bool {
     match (offered, asked) {
         (_, None) => false,
@@ -245,7 +245,7 @@ fn is_longer(offered: Option<i64>, asked: Option<i64>) -> bool {
     }
 }
 
-/// A policy in which an offer and a request may not fit.
+/// A policy that can be incompatible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Policy {
     /// [`Qos::reliability`].
@@ -304,7 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn whoever_gives_way_both_fit() {
+    fn weakening_or_strengthening_makes_policies_compatible() {
         let manual = Qos {
             liveliness: Liveliness::ManualByTopic,
             lease_ns: Some(5),
@@ -319,11 +319,11 @@ mod tests {
         ];
         for offered in kinds {
             for asked in kinds {
-                assert_eq!(offered.offering(&asked).lacks(&asked), []);
-                assert_eq!(offered.lacks(&asked.asking(&offered)), []);
-                if offered.lacks(&asked).is_empty() {
+                assert_eq!(offered.strengthened_for(&asked).incompatible_policies(&asked), []);
+                assert_eq!(offered.incompatible_policies(&asked.weakened_for(&offered)), []);
+                if offered.incompatible_policies(&asked).is_empty() {
                     assert_eq!(
-                        (offered.offering(&asked), asked.asking(&offered)),
+                        (offered.strengthened_for(&asked), asked.weakened_for(&offered)),
                         (offered, asked)
                     );
                 }

@@ -1,7 +1,7 @@
-//! What happens to the quality of service of an end, for who asks.
+//! QoS events of an endpoint.
 //!
-//! Source: the events of `rmw/event.h`. They are worked out when somebody looks, from the clock of
-//! the graph, so that they cost nothing otherwise and come the same in every run.
+//! Source: the events of `rmw/event.h`. They are computed on request from the clock of the graph,
+//! so that they cost nothing otherwise and are the same in every run.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -10,82 +10,82 @@ use periplus_msgs::Message;
 
 use crate::common::lock;
 use crate::graph::Core;
-use crate::inlet::Inlet;
-use crate::outlet::Outlet;
+use crate::publisher_core::PublisherCore;
 use crate::sample::EndpointId;
+use crate::subscription_core::SubscriptionCore;
 use crate::{History, Liveliness, Mailbox, Policy, Publisher, Qos, RawMailbox, RawPublisher};
 
-/// Something that happened since somebody last looked.
+/// A QoS event since the last call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum QosEvent {
-    /// Times passed without a message: those that a publisher offered to keep, or that a
-    /// subscription asked for. Time counts from the first message.
+    /// Deadlines passed without a message: the deadline that a publisher offered, or that a
+    /// subscription requested. They count from the first message.
     DeadlineMissed {
-        /// How often since the last look.
+        /// Number since the last call.
         new: u64,
-        /// How often at all.
+        /// Total number.
         total: u64,
     },
-    /// A publisher that has to say that it lives did not.
+    /// A publisher did not assert its liveliness in time.
     LivelinessLost,
-    /// For a subscription: how many of its publishers live, and how many do not.
+    /// For a subscription: the numbers of live and lost publishers changed.
     LivelinessChanged {
-        /// Those that live.
+        /// Number of publishers that are alive.
         alive: usize,
-        /// Those that do not say so any more.
+        /// Number of publishers that no longer assert their liveliness.
         silent: usize,
     },
-    /// An end on the other side does not fit, and nothing goes between the two.
+    /// A publisher or subscription of the topic is incompatible; no messages are exchanged.
     Incompatible {
         /// Full name of its node.
         node: String,
-        /// In which policies the offer is too weak.
-        policies: Vec<Unfit>,
+        /// Policies in which the offer is too weak.
+        policies: Vec<IncompatiblePolicy>,
     },
-    /// For a subscription that keeps all: messages were lost, because more than
-    /// [`crate::MOST_KEPT`] waited.
+    /// For a `KEEP_ALL` subscription: messages were lost because more than [`crate::KEEP_ALL_MAX_MESSAGES`]
+    /// were queued.
     MessagesLost {
-        /// How many since the last look.
+        /// Number since the last call.
         new: u64,
-        /// How many at all.
+        /// Total number.
         total: u64,
     },
 }
 
-/// A policy in which two ends do not fit.
+/// A policy that is incompatible.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unfit {
-    /// Which.
+pub struct IncompatiblePolicy {
+    /// The policy.
     pub policy: Policy,
-    /// What the publisher offers, as ROS spells it.
+    /// The offered value, in the spelling of ROS.
     pub offered: String,
-    /// What the subscription asks for.
+    /// The requested value.
     pub asked: String,
 }
 
-impl fmt::Display for Unfit {
+impl fmt::Display for IncompatiblePolicy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "offers {} {}, asked for is {}", self.policy, self.offered, self.asked)
+        write!(f, "offers {} {}, requested is {}", self.policy, self.offered, self.asked)
     }
 }
 
-impl Unfit {
-    /// The policies in which an offer is too weak.
+impl IncompatiblePolicy {
+    /// Returns the policies in which an offer is too weak.
     #[must_use]
     pub fn between(offered: &Qos, asked: &Qos) -> Vec<Self> {
         let spelled = |policy| Self {
             policy,
-            offered: offered.spelled(policy),
-            asked: asked.spelled(policy),
+            offered: offered.policy_value(policy),
+            asked: asked.policy_value(policy),
         };
-        offered.lacks(asked).into_iter().map(spelled).collect()
+        offered.incompatible_policies(asked).into_iter().map(spelled).collect()
     }
 }
 
-/// What was told already.
+/// The events that were already reported.
 #[derive(Default)]
-pub(crate) struct Told {
+pub(crate) struct ReportedEvents {
     deadlines: u64,
     lost: u64,
     is_silent: bool,
@@ -93,8 +93,8 @@ pub(crate) struct Told {
     unfit: BTreeSet<EndpointId>,
 }
 
-impl Outlet {
-    /// Whether it says that it lives, as it has promised.
+impl PublisherCore {
+    /// True if the publisher asserts its liveliness as offered.
     fn is_alive(&self, now_ns: i64) -> bool {
         let qos = self.qos();
         match (qos.liveliness, qos.lease_ns) {
@@ -109,21 +109,21 @@ impl Outlet {
         let now_ns = core.common.clock.now_ns();
         let total = self.missed_deadlines();
         let qos = self.qos();
-        let inlets = ends(core, &self.topic.name, |entry| entry.inlets().to_vec());
-        let mut told = lock(&self.told);
+        let subscriptions = ends(core, &self.topic.name, |entry| entry.subscriptions().to_vec());
+        let mut reported = lock(&self.reported);
         let mut events = Vec::new();
-        deadlines(&mut told, total, &mut events);
+        deadlines(&mut reported, total, &mut events);
         let is_silent = !self.is_alive(now_ns);
-        if is_silent && !told.is_silent {
+        if is_silent && !reported.is_silent {
             events.push(QosEvent::LivelinessLost);
         }
-        told.is_silent = is_silent;
-        for inlet in inlets {
+        reported.is_silent = is_silent;
+        for subscription in subscriptions {
             incompatible(
-                &mut told,
-                inlet.id,
-                &inlet.node,
-                Unfit::between(&qos, &inlet.qos()),
+                &mut reported,
+                subscription.id,
+                &subscription.node,
+                IncompatiblePolicy::between(&qos, &subscription.qos()),
                 &mut events,
             );
         }
@@ -131,42 +131,42 @@ impl Outlet {
     }
 }
 
-impl Inlet {
+impl SubscriptionCore {
     fn events(&self, core: &Core) -> Vec<QosEvent> {
         let now_ns = core.common.clock.now_ns();
         let counts = self.counts();
         let qos = self.qos();
-        let outlets = ends(core, &self.topic, |entry| entry.outlets().to_vec());
-        let mut told = lock(&self.told);
+        let publishers = ends(core, &self.topic, |entry| entry.publishers().to_vec());
+        let mut reported = lock(&self.reported);
         let mut events = Vec::new();
-        deadlines(&mut told, counts.missed_deadlines, &mut events);
+        deadlines(&mut reported, counts.missed_deadlines, &mut events);
         let (mut alive, mut silent) = (0, 0);
-        for outlet in outlets {
-            let unfit = Unfit::between(&outlet.qos(), &qos);
+        for publisher in publishers {
+            let unfit = IncompatiblePolicy::between(&publisher.qos(), &qos);
             if !unfit.is_empty() {
-                incompatible(&mut told, outlet.id, &outlet.node, unfit, &mut events);
-            } else if outlet.is_alive(now_ns) {
+                incompatible(&mut reported, publisher.id, &publisher.node, unfit, &mut events);
+            } else if publisher.is_alive(now_ns) {
                 alive += 1;
             } else {
                 silent += 1;
             }
         }
-        if told.liveliness != (alive, silent) {
-            told.liveliness = (alive, silent);
+        if reported.liveliness != (alive, silent) {
+            reported.liveliness = (alive, silent);
             events.push(QosEvent::LivelinessChanged { alive, silent });
         }
-        // Who keeps only the last ones wants it so.
+        // A `KEEP_LAST` history drops messages by design.
         let keeps_all = qos.history == History::KeepAll;
-        let new = if keeps_all { counts.dropped - told.lost } else { 0 };
+        let new = if keeps_all { counts.dropped - reported.lost } else { 0 };
         if new > 0 {
-            told.lost = counts.dropped;
+            reported.lost = counts.dropped;
             events.push(QosEvent::MessagesLost { new, total: counts.dropped });
         }
         events
     }
 }
 
-/// The ends on the other side of a topic.
+/// The endpoints on the other side of a topic.
 fn ends<T>(
     core: &Core,
     topic: &str,
@@ -175,69 +175,69 @@ fn ends<T>(
     lock(&core.registry).topics.get(topic).map(ends).unwrap_or_default()
 }
 
-fn deadlines(told: &mut Told, total: u64, events: &mut Vec<QosEvent>) {
-    let new = total - told.deadlines.min(total);
+fn deadlines(reported: &mut ReportedEvents, total: u64, events: &mut Vec<QosEvent>) {
+    let new = total - reported.deadlines.min(total);
     if new > 0 {
-        told.deadlines = total;
+        reported.deadlines = total;
         events.push(QosEvent::DeadlineMissed { new, total });
     }
 }
 
 fn incompatible(
-    told: &mut Told,
+    reported: &mut ReportedEvents,
     id: EndpointId,
     node: &str,
-    policies: Vec<Unfit>,
+    policies: Vec<IncompatiblePolicy>,
     events: &mut Vec<QosEvent>,
 ) {
-    if !policies.is_empty() && told.unfit.insert(id) {
+    if !policies.is_empty() && reported.unfit.insert(id) {
         events.push(QosEvent::Incompatible { node: node.to_owned(), policies });
     }
 }
 
 impl<T: Message> Publisher<T> {
-    /// What happened to its quality of service since the last look.
+    /// Returns the QoS events since the last call.
     #[must_use]
     pub fn events(&self) -> Vec<QosEvent> {
         let own = self.own();
-        own.outlet.events(&own.node.core)
+        own.publisher.events(&own.node.core)
     }
 
-    /// Says that it lives, for a publisher with [`Liveliness::ManualByTopic`]; publishing says so,
-    /// too.
+    /// Asserts liveliness, for a publisher with [`Liveliness::ManualByTopic`]; publishing asserts
+    /// it, too.
     pub fn assert_liveliness(&self) {
-        self.own().outlet.assert_liveliness();
+        self.own().publisher.assert_liveliness();
     }
 }
 
 impl RawPublisher {
-    /// As [`Publisher::events`].
+    /// Same as [`Publisher::events`].
     #[must_use]
     pub fn events(&self) -> Vec<QosEvent> {
         let own = self.own();
-        own.outlet.events(&own.node.core)
+        own.publisher.events(&own.node.core)
     }
 
-    /// As [`Publisher::assert_liveliness`].
+    /// Same as [`Publisher::assert_liveliness`].
     pub fn assert_liveliness(&self) {
-        self.own().outlet.assert_liveliness();
+        self.own().publisher.assert_liveliness();
     }
 }
 
 impl<T: Message> Mailbox<T> {
-    /// What happened to its quality of service since the last look.
+    /// Returns the QoS events since the last call.
     #[must_use]
     pub fn events(&self) -> Vec<QosEvent> {
         let own = self.own();
-        own.inlet.events(&own.node.core)
+        own.subscription.events(&own.node.core)
     }
 }
 
 impl RawMailbox {
-    /// As [`Mailbox::events`].
+    /// Same as [`Mailbox::events`].
     #[must_use]
     pub fn events(&self) -> Vec<QosEvent> {
         let own = self.own();
-        own.inlet.events(&own.node.core)
+        own.subscription.events(&own.node.core)
     }
 }

@@ -1,4 +1,4 @@
-//! Who is there: nodes, topics with their ends, services with theirs, taps.
+//! Registry of nodes, topics and services with their endpoints, and taps.
 
 mod service;
 mod topic;
@@ -9,10 +9,10 @@ use std::sync::{Arc, Weak};
 
 use crate::common::Common;
 use crate::info::{ServiceInfo, TopicInfo, Traffic};
-use crate::inlet::Inlet;
 use crate::node::NodeCore;
-use crate::outlet::{Outlet, Topic};
+use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
+use crate::subscription_core::SubscriptionCore;
 use crate::tap::{Sink, Tap, TapId};
 use crate::{Durability, GraphError, Qos, Sample};
 
@@ -28,7 +28,7 @@ pub(crate) struct Registry {
     pub(crate) services: BTreeMap<Arc<str>, ServiceEntry>,
     pub(crate) taps: Vec<Arc<Tap>>,
     next_id: u64,
-    /// Counts what comes and goes.
+    /// Counts additions and removals.
     pub(crate) changes: u64,
 }
 
@@ -39,7 +39,7 @@ impl Registry {
         EndpointId(self.next_id)
     }
 
-    /// The entry of a topic, made or checked.
+    /// Returns the entry of a topic after creating it or checking its type.
     fn topic(
         &mut self,
         name: &str,
@@ -51,7 +51,7 @@ impl Registry {
             let entry = TopicEntry::new(name.clone(), type_of.clone(), node);
             self.topics.insert(name, entry);
         }
-        let entry = self.topics.get_mut(name).expect("it is there by now");
+        let entry = self.topics.get_mut(name).expect("inserted above");
         if entry.is_used() {
             entry.type_of.check("topic", name, &entry.type_from, &type_of, node)?;
             if entry.type_of.hash.is_none() {
@@ -64,79 +64,82 @@ impl Registry {
         Ok(entry)
     }
 
-    pub(crate) fn add_outlet(
+    pub(crate) fn add_publisher(
         &mut self,
         node: &Arc<str>,
         name: &str,
         type_of: TypeOf,
-        make: impl FnOnce(EndpointId, Arc<Topic>) -> Outlet,
+        make: impl FnOnce(EndpointId, Arc<Topic>) -> PublisherCore,
         common: &Common,
-    ) -> Result<Arc<Outlet>, GraphError> {
+    ) -> Result<Arc<PublisherCore>, GraphError> {
         let id = self.next_id();
         let taps = self.taps.clone();
         let entry = self.topic(name, type_of, node)?;
         let is_new = !entry.is_used();
-        let outlet = Arc::new(make(id, entry.topic.clone()));
-        entry.outlets.push(outlet.clone());
+        let publisher = Arc::new(make(id, entry.topic.clone()));
+        entry.publishers.push(publisher.clone());
         if is_new {
             entry.ask(&taps);
         }
         entry.connect(common);
-        Ok(outlet)
+        Ok(publisher)
     }
 
-    pub(crate) fn add_inlet(
+    pub(crate) fn add_subscription(
         &mut self,
         node: &Arc<str>,
         name: &str,
         type_of: TypeOf,
-        make: impl FnOnce(EndpointId, Arc<str>) -> Inlet,
+        make: impl FnOnce(EndpointId, Arc<str>) -> SubscriptionCore,
         common: &Common,
-    ) -> Result<Arc<Inlet>, GraphError> {
+    ) -> Result<Arc<SubscriptionCore>, GraphError> {
         let id = self.next_id();
         let taps = self.taps.clone();
         let entry = self.topic(name, type_of, node)?;
         let is_new = !entry.is_used();
-        let inlet = Arc::new(make(id, entry.topic.name.clone()));
-        entry.inlets.push(inlet.clone());
+        let subscription = Arc::new(make(id, entry.topic.name.clone()));
+        entry.subscriptions.push(subscription.clone());
         if is_new {
             entry.ask(&taps);
         }
         let kept = entry.connect(common);
-        let qos = inlet.qos();
+        let qos = subscription.qos();
         if qos.durability == Durability::TransientLocal {
-            for (outlet, sample) in kept {
-                if outlet.qos().lacks(&qos).is_empty() {
-                    inlet.push(&sample);
+            for (publisher, sample) in kept {
+                if publisher.qos().incompatible_policies(&qos).is_empty() {
+                    subscription.push(&sample);
                 }
             }
         }
-        Ok(inlet)
+        Ok(subscription)
     }
 
-    /// Gives an end another QoS; false where there is no such end. A subscription gets what those
-    /// publishers keep that did not fit before.
+    /// Changes the QoS of an endpoint; false if there is no such endpoint. A subscription gets the
+    /// retained messages of the publishers that were incompatible before.
     pub(crate) fn set_qos(&mut self, id: EndpointId, qos: Qos, common: &Common) -> bool {
         for entry in self.topics.values_mut() {
-            if let Some(outlet) = entry.outlets.iter().find(|outlet| outlet.id == id) {
-                outlet.set_qos(qos);
+            if let Some(publisher) = entry.publishers.iter().find(|publisher| publisher.id == id) {
+                publisher.set_qos(qos);
                 entry.connect(common);
                 self.changes += 1;
                 return true;
             }
-            let Some(inlet) = entry.inlets.iter().find(|inlet| inlet.id == id).cloned() else {
+            let Some(subscription) =
+                entry.subscriptions.iter().find(|subscription| subscription.id == id).cloned()
+            else {
                 continue;
             };
-            let before = inlet.qos();
-            inlet.set_qos(qos);
+            let before = subscription.qos();
+            subscription.set_qos(qos);
             let kept = entry.connect(common);
-            let is_new = |outlet: &Outlet| {
-                let offered = outlet.qos();
-                !offered.lacks(&before).is_empty() && offered.lacks(&qos).is_empty()
+            let is_new = |publisher: &PublisherCore| {
+                let offered = publisher.qos();
+                !offered.incompatible_policies(&before).is_empty()
+                    && offered.incompatible_policies(&qos).is_empty()
             };
             if qos.durability == Durability::TransientLocal {
-                let new = kept.iter().filter(|(outlet, _)| is_new(outlet));
-                new.for_each(|(_, sample)| inlet.push(sample));
+                let new = kept.iter().filter(|(publisher, _)| is_new(publisher));
+                new.for_each(|(_, sample)| subscription.push(sample));
             }
             self.changes += 1;
             return true;
@@ -144,34 +147,38 @@ impl Registry {
         false
     }
 
-    /// Takes an end out. What comes back must be dropped without the lock: it may own others.
+    /// Removes an endpoint. The returned value must be dropped without the lock: it may own others.
     #[must_use]
-    pub(crate) fn remove_outlet(
+    pub(crate) fn remove_publisher(
         &mut self,
-        outlet: &Outlet,
+        publisher: &PublisherCore,
         common: &Common,
-    ) -> Option<Arc<Outlet>> {
+    ) -> Option<Arc<PublisherCore>> {
         self.changes += 1;
-        let entry = self.topics.get_mut(&outlet.topic.name)?;
-        let place = entry.outlets.iter().position(|other| other.id == outlet.id)?;
-        let gone = entry.outlets.remove(place);
+        let entry = self.topics.get_mut(&publisher.topic.name)?;
+        let index = entry.publishers.iter().position(|other| other.id == publisher.id)?;
+        let gone = entry.publishers.remove(index);
         entry.connect(common);
         gone.connect(Vec::new(), Arc::new([]), Arc::default());
         Some(gone)
     }
 
-    /// As [`Registry::remove_outlet`].
+    /// Same as [`Registry::remove_publisher`].
     #[must_use]
-    pub(crate) fn remove_inlet(&mut self, inlet: &Inlet, common: &Common) -> Option<Arc<Inlet>> {
+    pub(crate) fn remove_subscription(
+        &mut self,
+        subscription: &SubscriptionCore,
+        common: &Common,
+    ) -> Option<Arc<SubscriptionCore>> {
         self.changes += 1;
-        let entry = self.topics.get_mut(&inlet.topic)?;
-        let place = entry.inlets.iter().position(|other| other.id == inlet.id)?;
-        let gone = entry.inlets.remove(place);
+        let entry = self.topics.get_mut(&subscription.topic)?;
+        let index = entry.subscriptions.iter().position(|other| other.id == subscription.id)?;
+        let gone = entry.subscriptions.remove(index);
         entry.connect(common);
         Some(gone)
     }
 
-    /// Adds a tap; it gets what the topics keep for latecomers.
+    /// Adds a tap; it gets the messages retained for late subscribers.
     pub(crate) fn add_tap(
         &mut self,
         sink: Box<dyn Sink>,
@@ -209,11 +216,11 @@ impl Registry {
                 entry.connect(common);
             }
         }
-        let place = self.taps.iter().position(|tap| tap.id == id);
-        place.map(|place| self.taps.remove(place))
+        let index = self.taps.iter().position(|tap| tap.id == id);
+        index.map(|index| self.taps.remove(index))
     }
 
-    /// The entry of a service, made or checked.
+    /// Returns the entry of a service after creating it or checking its type.
     pub(crate) fn service(
         &mut self,
         name: &str,
@@ -236,11 +243,11 @@ impl Registry {
         Ok(entry)
     }
 
-    /// The types of all topics, services and actions of a node.
+    /// Types of all topics, services and actions of a node.
     pub(crate) fn types_of(&self, node: &str) -> Vec<TypeOf> {
         let topics = self.topics.values().filter(|entry| {
-            let outlet = entry.outlets.iter().any(|outlet| *outlet.node == *node);
-            outlet || entry.inlets.iter().any(|inlet| *inlet.node == *node)
+            let publisher = entry.publishers.iter().any(|publisher| *publisher.node == *node);
+            publisher || entry.subscriptions.iter().any(|subscription| *subscription.node == *node)
         });
         let services = self.services.values().filter(|entry| entry.is_of(node));
         let services = services.map(|entry| entry.type_of.clone());

@@ -1,12 +1,12 @@
-//! Other names for a node and what it uses.
+//! Remapping of node, topic and service names.
 //!
 //! Source of the rules: ROS 2's design article "Remapping Names" and `rcl/remap.c`: names are
-//! expanded first, the first rule that fits wins, and what comes out is not remapped again.
+//! expanded first, the first rule that matches applies, and its result is not remapped again.
 
 use crate::GraphError;
 use crate::name;
 
-/// One rule.
+/// A remapping rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Rule {
     /// For this node only.
@@ -18,7 +18,7 @@ pub(crate) struct Rule {
 pub(crate) enum Change {
     Node(String),
     Namespace(String),
-    /// Topics, services or both.
+    /// A topic, a service or both.
     Name {
         from: String,
         to: String,
@@ -28,7 +28,7 @@ pub(crate) enum Change {
 }
 
 impl Rule {
-    /// Reads `from:=to`, `node:from:=to`, `__node:=name`, `__name:=name`, `__ns:=/namespace`;
+    /// Parses `from:=to`, `node:from:=to`, `__node:=name`, `__name:=name`, `__ns:=/namespace`;
     /// `from` may begin with `rostopic://` or `rosservice://`.
     pub(crate) fn read(written: &str) -> Result<Self, GraphError> {
         let fail = |reason: &str| GraphError::Remap { rule: written.into(), reason: reason.into() };
@@ -37,7 +37,7 @@ impl Rule {
         if to.is_empty() {
             return Err(fail("has nothing after its `:=`"));
         }
-        // The colon of `rostopic://` separates nothing.
+        // The colon of `rostopic://` is not a separator.
         let (node, from) = match left.split_once(':') {
             Some((node, from)) if !from.starts_with("//") => (Some(node), from),
             _ => (None, left),
@@ -57,14 +57,14 @@ impl Rule {
                 Change::Namespace(namespace)
             }
             _ if from.contains('*') => {
-                return Err(fail("has a wildcard, which ROS 2 does not know either"));
+                return Err(fail("has a wildcard, which ROS 2 does not support"));
             }
             _ => Self::name(from, to),
         };
         Ok(Self { node: node.map(str::to_owned), change })
     }
 
-    /// `from:=to` for topics and services, from its two halves.
+    /// Rule for topics and services from the two sides of `from:=to`.
     pub(crate) fn name(from: &str, to: &str) -> Change {
         let (from, topics, services) = match from.split_once("://") {
             Some(("rostopic", from)) => (from, true, false),
@@ -75,7 +75,7 @@ impl Rule {
     }
 }
 
-/// With a slash in front and none behind.
+/// Normalizes a namespace: a leading slash, no trailing slash.
 pub(crate) fn full_namespace(written: &str) -> String {
     let trimmed = written.trim_end_matches('/');
     if trimmed.starts_with('/') { trimmed.to_owned() } else { format!("/{trimmed}") }

@@ -1,4 +1,4 @@
-//! One message on its way.
+//! Published messages.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,20 +7,20 @@ use periplus_msgs::{DecodeError, EncodeError, Message};
 
 use crate::payload::Payload;
 
-/// A publisher, subscription, server or client of a graph; never used twice.
+/// Id of a publisher, subscription, server or client of a graph; never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EndpointId(pub(crate) u64);
 
-/// One published message. Cloning shares it: neither the value nor its bytes are ever copied.
+/// A published message. Clones share it: neither the value nor its bytes are copied.
 #[derive(Clone)]
 pub struct Sample {
-    /// When it was published, on the clock of the graph \[ns\].
+    /// Time of publication on the clock of the graph \[ns\].
     pub time_ns: i64,
-    /// Its number on its topic, from 1; messages that nobody heard count.
+    /// Sequence number on its topic, from 1; messages without subscribers count.
     pub sequence: u64,
-    /// Who published it; a wire knows its own messages by this.
+    /// The publisher; transports recognize their own messages by it.
     pub publisher: EndpointId,
-    /// When it is too old to be delivered \[ns\].
+    /// Time from which the message is no longer delivered \[ns\].
     pub(crate) stale_ns: i64,
     pub(crate) payload: Arc<Payload>,
 }
@@ -30,16 +30,17 @@ impl Sample {
         self.stale_ns < now_ns
     }
 
-    /// The message as a value. Bytes from a wire or a bag are decoded once for all who ask.
+    /// Returns the message as a value. Bytes from a transport or a bag are decoded once for all
+    /// readers.
     ///
     /// # Errors
-    /// When the bytes are no such message.
+    /// When the bytes cannot be decoded as this type.
     pub fn message<T: Message>(&self) -> Result<Arc<T>, DecodeError> {
         self.payload.message()
     }
 
-    /// The message as CDR, with the four bytes in front that say how it is coded. It is encoded
-    /// once for all who ask; keep the sample to keep the bytes.
+    /// Returns the message as CDR, with the four-byte encapsulation header. It is encoded once for
+    /// all readers; keep the sample to keep the bytes.
     ///
     /// # Errors
     /// When a string or list is longer than its type allows.

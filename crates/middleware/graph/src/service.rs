@@ -1,4 +1,4 @@
-//! Services: a call, its answer, and who answers.
+//! Services: requests, responses and servers.
 
 mod client;
 mod error;
@@ -13,8 +13,8 @@ use periplus_msgs::Service;
 
 use crate::GraphError;
 
-use crate::agenda::{Event, Key, Rank};
 use crate::common::{Common, lock};
+use crate::event_queue::{Event, Key, Rank};
 use crate::graph::Core;
 use crate::node::NodeCore;
 use crate::payload::Payload;
@@ -26,13 +26,13 @@ pub use raw::{RawCall, RawCalls, RawClient, RawMessage};
 
 pub(crate) type Answer = Result<Arc<Payload>, CallError>;
 
-/// A call on its way to who answers.
+/// A request to a server.
 pub(crate) struct Request {
     pub(crate) payload: Arc<Payload>,
     pub(crate) reply: Reply,
 }
 
-/// The way back. If it is dropped unused, the caller is told so.
+/// Return path of a response. If it is dropped unused, the caller gets an error.
 pub(crate) struct Reply {
     service: Arc<str>,
     send: Option<Box<dyn FnOnce(Answer) + Send>>,
@@ -63,18 +63,18 @@ impl Drop for Reply {
     }
 }
 
-/// The end that answers.
+/// Server end of a service.
 pub(crate) struct Server {
     pub(crate) node: Arc<str>,
     pub(crate) name: Arc<str>,
     pub(crate) reaction: Option<ServerReaction>,
-    /// Tells whoever looks that there is something, from the thread that asks.
+    /// Called from the thread of the client when a request arrives.
     wake: OnceLock<Box<dyn Fn() + Send + Sync>>,
     waiting: Mutex<Waiting>,
 }
 
 pub(crate) struct ServerReaction {
-    /// In whose agenda it happens; in live its thread starts with the first call.
+    /// The node whose queue runs it; in live mode its thread starts with the first request.
     pub(crate) node: Weak<NodeCore>,
     pub(crate) react: Box<dyn Fn(Request) + Send + Sync>,
 }
@@ -105,7 +105,7 @@ impl Server {
                 sequence: number,
                 ordinal: 0,
             };
-            node.agenda().add(key, self.clone());
+            node.event_queue().add(key, self.clone());
         }
     }
 
@@ -119,7 +119,7 @@ impl Server {
         waiting.requests.remove(place).map(|(_, request)| request)
     }
 
-    /// Takes it out of the graph; who waits is told so.
+    /// Removes the server from the graph; waiting callers get an error.
     pub(crate) fn leave(&self, core: &Core) {
         let mut registry = lock(&core.registry);
         registry.changes += 1;
@@ -149,7 +149,7 @@ impl Event for Server {
     }
 }
 
-/// A server that leaves the graph when it is dropped.
+/// A server that is removed from the graph when it is dropped.
 pub(crate) struct OwnServer {
     pub(crate) server: Arc<Server>,
     node: Arc<NodeCore>,
@@ -171,7 +171,7 @@ impl NodeCore {
         Ok(OwnServer { server: self.bare_server(name, type_of, reaction)?, node: self.clone() })
     }
 
-    /// A server that somebody has to take out of the graph.
+    /// A server that the caller has to remove from the graph.
     pub(crate) fn bare_server(
         &self,
         name: &str,
@@ -193,7 +193,7 @@ impl NodeCore {
     }
 }
 
-/// The calls of a service, until somebody looks.
+/// Polled service: requests wait in a queue.
 pub struct Calls<S> {
     own: OwnServer,
     of: PhantomData<fn() -> S>,
@@ -204,7 +204,7 @@ impl<S: Service> Calls<S> {
         Self { own, of: PhantomData }
     }
 
-    /// The oldest call that waits.
+    /// Returns the oldest request.
     #[must_use]
     pub fn take(&self) -> Option<Call<S>> {
         loop {
@@ -223,17 +223,17 @@ impl<S: Service> Calls<S> {
     }
 }
 
-/// A call that waits for its answer. If it is dropped, the caller is told that none will come.
+/// A request that waits for its response. Dropping it gives the caller an error.
 #[must_use]
 pub struct Call<S: Service> {
-    /// The question.
+    /// The request message.
     pub request: Arc<S::Request>,
     reply: Reply,
     of: PhantomData<fn() -> S>,
 }
 
 impl<S: Service> Call<S> {
-    /// Answers.
+    /// Sends the response.
     pub fn answer(self, response: S::Response) {
         self.reply.send(Ok(Arc::new(Payload::typed(Arc::new(response)))));
     }

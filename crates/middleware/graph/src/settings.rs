@@ -1,4 +1,4 @@
-//! What a node is called and what it calls its topics.
+//! Names and remappings of a node.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::arguments::Arguments;
 use crate::name;
 use crate::remap::{Change, Rule, full_namespace};
 
-/// Name, namespace and remappings of a node that is to be made.
+/// Name, namespace and remappings of a node to create.
 #[derive(Clone, Debug)]
 pub struct NodeSettings {
     name: String,
@@ -22,7 +22,7 @@ pub struct NodeSettings {
 }
 
 impl NodeSettings {
-    /// A node in the root namespace.
+    /// Starts with a node in the root namespace.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
         Self {
@@ -36,15 +36,15 @@ impl NodeSettings {
         }
     }
 
-    /// In a namespace, with or without a slash in front; `""` and `/` are the root.
+    /// Sets the namespace, with or without a leading slash; `""` and `/` are the root.
     #[must_use]
     pub fn namespace(mut self, namespace: &str) -> Self {
         self.namespace = full_namespace(namespace);
         self
     }
 
-    /// Another name for a topic or service. Both are read as the node itself would write them, so
-    /// `~/out` is its own and `scan` belongs to its namespace. Earlier rules win.
+    /// Remaps a topic or service. Both names are expanded like names written by the node: `~/out`
+    /// is private, `scan` is relative to its namespace. Earlier rules take precedence.
     #[must_use]
     pub fn remap(mut self, from: &str, to: &str) -> Self {
         self.rules.push(if from.trim().is_empty() || to.trim().is_empty() {
@@ -56,39 +56,38 @@ impl NodeSettings {
         self
     }
 
-    /// A rule as a command line has it: `from:=to`, `node:from:=to`, `__node:=name`,
-    /// `__ns:=/namespace`. What is wrong with it is said when the node is made.
+    /// Adds a rule in command-line syntax: `from:=to`, `node:from:=to`, `__node:=name`,
+    /// `__ns:=/namespace`. Errors are reported when the node is created.
     #[must_use]
     pub fn rule(mut self, written: &str) -> Self {
         self.rules.push(Rule::read(written));
         self
     }
 
-    /// The value of a parameter that the node may declare, in place of what arguments say.
+    /// Overrides a parameter that the node may declare; takes precedence over arguments.
     #[must_use]
     pub fn parameter(mut self, name: &str, value: ParameterValue) -> Self {
         self.parameters.insert(name.to_owned(), value);
         self
     }
 
-    /// The node has whatever parameters it is given, and others may set any
-    /// (`allow_undeclared_parameters` of ROS 2).
+    /// Accepts any parameter, declared or not (`allow_undeclared_parameters` of ROS 2).
     #[must_use]
     pub fn any_parameters(mut self) -> Self {
         self.takes_any_parameter = true;
         self
     }
 
-    /// Without the services for parameters and without a place on `/parameter_events` and `/rosout`:
-    /// for what is no node by itself, such as a wire or a tool that looks for a moment.
+    /// Omits the parameter services and the publishers of `/parameter_events` and `/rosout`, for
+    /// internal nodes of transports and short-lived tools.
     #[must_use]
     pub fn bare(mut self) -> Self {
         self.is_bare = true;
         self
     }
 
-    /// Arguments rename neither the node nor what it uses: it belongs to the program, and others know
-    /// it by its name.
+    /// Ignores remappings from arguments, for nodes that belong to the program and are known by
+    /// name.
     #[must_use]
     pub fn keep_names(mut self) -> Self {
         self.keeps_names = true;
@@ -103,7 +102,7 @@ impl NodeSettings {
         self.is_bare
     }
 
-    /// Names and parameters, with what arguments say.
+    /// Resolves names and parameters with the arguments.
     pub(crate) fn resolve(
         mut self,
         arguments: &Arguments,
@@ -115,13 +114,13 @@ impl NodeSettings {
         Ok((self.names()?, parameters))
     }
 
-    /// The names that the node will have.
+    /// Returns the names that the node will have.
     ///
     /// # Errors
     /// When a name or rule is not valid.
     pub fn names(self) -> Result<NodeNames, GraphError> {
         let rules = self.rules.into_iter().collect::<Result<Vec<_>, _>>()?;
-        // Rules for a node mean the name that its program gives it.
+        // Rules with a node prefix match the name that the program gives it.
         let given = self.name;
         let rules: Vec<Change> = rules
             .into_iter()
@@ -155,7 +154,7 @@ impl NodeSettings {
     }
 }
 
-/// The names of a node, ready to resolve others.
+/// Names of a node, to resolve relative names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeNames {
     name: String,
@@ -173,13 +172,13 @@ struct FullRule {
 }
 
 impl NodeNames {
-    /// The name without namespace.
+    /// Name without namespace.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The namespace, with a slash in front; `/` is the root.
+    /// Namespace with a leading slash; `/` is the root.
     #[must_use]
     pub fn namespace(&self) -> &str {
         &self.namespace
@@ -191,7 +190,7 @@ impl NodeNames {
         format!("{}/{}", self.namespace.trim_end_matches('/'), self.name)
     }
 
-    /// The full name of a topic as the node writes it, remappings applied.
+    /// Full name of a topic as written by the node, with remappings applied.
     ///
     /// # Errors
     /// When ROS 2 would refuse it.
@@ -201,7 +200,7 @@ impl NodeNames {
         Ok(rule.map_or(full, |rule| rule.to.clone()))
     }
 
-    /// The full name of a service as the node writes it, remappings applied.
+    /// Full name of a service as written by the node, with remappings applied.
     ///
     /// # Errors
     /// When ROS 2 would refuse it.

@@ -1,7 +1,7 @@
-//! What every node of ROS 2 has: six services for its parameters, one for the definitions of its
-//! types, a publisher on `/parameter_events`, and one on `/rosout`.
+//! Standard interfaces of every ROS 2 node: six parameter services, `~/get_type_description`, and
+//! publishers of `/parameter_events` and `/rosout`.
 //!
-//! Source: `rclcpp/node.cpp` (the interfaces that a node makes for itself) and `rcl/logging_rosout.h`.
+//! Source: `rclcpp/node.cpp` (the interfaces that a node creates) and `rcl/logging_rosout.h`.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex};
@@ -15,26 +15,26 @@ use crate::describe;
 use crate::graph::Core;
 use crate::log::Level;
 use crate::node::NodeCore;
-use crate::outlet::Outlet;
 use crate::parameters::{Store, services};
 use crate::payload::Payload;
+use crate::publisher_core::PublisherCore;
 use crate::registry::TypeOf;
 use crate::service::{Server, ServerReaction};
 use crate::{GraphError, Qos};
 
-/// The ends that a node has from its first to its last moment. They do not keep it alive.
+/// Standard endpoints of a node. They do not keep it alive.
 pub(crate) struct Standard {
     pub(crate) store: Mutex<Store>,
-    /// Asked before parameters change.
+    /// Called before parameters change.
     pub(crate) change: Mutex<Option<Change>>,
-    /// The least [`Level`] that is logged.
-    pub(crate) least_level: AtomicU8,
-    events: Option<Arc<Outlet>>,
-    rosout: Option<Arc<Outlet>>,
+    /// Minimum [`Level`] that is logged.
+    pub(crate) min_level: AtomicU8,
+    events: Option<Arc<PublisherCore>>,
+    rosout: Option<Arc<PublisherCore>>,
     servers: Vec<Arc<Server>>,
 }
 
-/// Puts new parameters to use, or says why not. The number tells one from those before it.
+/// Callback that applies or rejects new parameters. The number distinguishes it from earlier ones.
 pub(crate) struct Change {
     pub(crate) ordinal: u64,
     pub(crate) apply: Arc<Apply>,
@@ -43,7 +43,7 @@ pub(crate) struct Change {
 pub(crate) type Apply = dyn Fn(&periplus_params::Values) -> Result<(), String> + Send + Sync;
 
 impl Standard {
-    /// Makes the ends of a node; none for one that is bare.
+    /// Creates the endpoints of a node; none for a bare one.
     pub(crate) fn join(
         node: &Arc<NodeCore>,
         store: Store,
@@ -54,7 +54,7 @@ impl Standard {
         let mut standard = Self {
             store: Mutex::new(store),
             change: Mutex::new(None),
-            least_level: AtomicU8::new(level.number()),
+            min_level: AtomicU8::new(level.number()),
             events: None,
             rosout: None,
             servers: Vec::new(),
@@ -63,9 +63,9 @@ impl Standard {
             standard.leave(&node.core);
             return Err(error);
         }
-        // Nobody else has the node yet.
+        // The node has not been handed out yet.
         let _ = node.standard.set(standard);
-        node.tell_parameters(|store| ParameterEvent {
+        node.publish_parameter_event(|store| ParameterEvent {
             new_parameters: store.all(),
             ..Default::default()
         });
@@ -73,19 +73,20 @@ impl Standard {
     }
 
     fn make(&mut self, node: &Arc<NodeCore>, arguments: &Arguments) -> Result<(), GraphError> {
-        self.events = Some(outlet::<ParameterEvent>(node, "/parameter_events", Qos::parameters())?);
+        self.events =
+            Some(publisher::<ParameterEvent>(node, "/parameter_events", Qos::parameters())?);
         if arguments.logs_to_rosout() {
-            self.rosout = Some(outlet::<Log>(node, "/rosout", Qos::rosout())?);
+            self.rosout = Some(publisher::<Log>(node, "/rosout", Qos::rosout())?);
         }
         services::serve(node, &mut self.servers)?;
         self.servers.push(describe::serve(node)?);
         Ok(())
     }
 
-    /// Takes the ends out of the graph.
+    /// Removes the endpoints from the graph.
     pub(crate) fn leave(&self, core: &Core) {
-        for outlet in [&self.events, &self.rosout].into_iter().flatten() {
-            let gone = lock(&core.registry).remove_outlet(outlet, &core.common);
+        for publisher in [&self.events, &self.rosout].into_iter().flatten() {
+            let gone = lock(&core.registry).remove_publisher(publisher, &core.common);
             drop(gone);
         }
         for server in &self.servers {
@@ -100,7 +101,7 @@ impl Standard {
     }
 
     pub(crate) fn logs(&self, level: Level) -> bool {
-        self.rosout.is_some() && self.least_level.load(Ordering::Relaxed) <= level.number()
+        self.rosout.is_some() && self.min_level.load(Ordering::Relaxed) <= level.number()
     }
 
     pub(crate) fn publish_event(&self, event: ParameterEvent) {
@@ -110,15 +111,15 @@ impl Standard {
     }
 }
 
-fn outlet<T: Message>(
+fn publisher<T: Message>(
     node: &Arc<NodeCore>,
     topic: &str,
     qos: Qos,
-) -> Result<Arc<Outlet>, GraphError> {
-    node.bare_outlet(topic, TypeOf::message::<T>(), qos)
+) -> Result<Arc<PublisherCore>, GraphError> {
+    node.bare_publisher(topic, TypeOf::message::<T>(), qos)
 }
 
-/// A server that does not keep its node alive.
+/// Creates a server that does not keep its node alive.
 pub(crate) fn server<S: Service>(
     node: &Arc<NodeCore>,
     name: &str,
@@ -127,7 +128,7 @@ pub(crate) fn server<S: Service>(
     node.bare_server(name, TypeOf::service::<S>(), Some(reaction::<S>(node, answer)))
 }
 
-/// Answers at once, without the state of an actor.
+/// Creates a server that responds at once, without the state of an actor.
 pub(crate) fn reaction<S: Service>(
     node: &Arc<NodeCore>,
     answer: impl Fn(&Arc<NodeCore>, &S::Request) -> S::Response + Send + Sync + 'static,

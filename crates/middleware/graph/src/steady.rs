@@ -1,8 +1,8 @@
-//! Steady time: it goes on while simulated time is paused, reset, slower or faster than the host's
-//! clock. Protocols between programs need it, such as the heartbeats of bonds.
+//! Steady time: it advances while simulated time is paused, reset, slower or faster than the host's
+//! clock. Protocols between programs, such as the heartbeats of bonds, need it.
 //!
-//! A graph reads no clock. An edge that connects it to other programs drives its steady time from the
-//! host's steady clock; without such an edge, steady time is the graph's own.
+//! A graph reads no clock. A transport drives the steady time of its graph from the host's steady
+//! clock; without a transport, steady time is the graph's own.
 
 use std::sync::{Arc, Mutex, Weak};
 use std::time::Duration;
@@ -13,7 +13,7 @@ use crate::{Graph, Node};
 
 type React = dyn Fn(i64) + Send + Sync;
 
-/// The steady time of one graph.
+/// Steady time of one graph.
 #[derive(Default)]
 pub(crate) struct Steady {
     time: Mutex<Time>,
@@ -22,7 +22,7 @@ pub(crate) struct Steady {
 
 #[derive(Default)]
 struct Time {
-    /// Steady time minus the time of the graph, while nothing drives steady time \[ns\].
+    /// Steady time minus graph time while no driver exists \[ns\].
     ahead_ns: i64,
     driven: Option<Driven>,
 }
@@ -46,8 +46,8 @@ impl Steady {
     }
 }
 
-/// Drives the steady time of a graph until it is dropped. An edge calls
-/// [`SteadyDriver::advance_to`] from time to time with its clock.
+/// Drives the steady time of a graph until it is dropped. A transport calls
+/// [`SteadyDriver::advance_to`] periodically with its clock.
 #[derive(Debug)]
 pub struct SteadyDriver {
     graph: Graph,
@@ -58,8 +58,8 @@ impl SteadyDriver {
         &self.graph.0
     }
 
-    /// Sets the steady time by the time since this driver was made, and runs the callbacks. It must
-    /// not go back.
+    /// Sets the steady time to the time since this driver was created and runs the callbacks. The
+    /// time must not decrease.
     pub fn advance_to(&self, elapsed: Duration) {
         let steady = &self.core().common.steady;
         let elapsed_ns = i64::try_from(elapsed.as_nanos()).unwrap_or(i64::MAX);
@@ -74,7 +74,7 @@ impl SteadyDriver {
             callbacks.retain(|callback| callback.strong_count() > 0);
             callbacks.iter().filter_map(Weak::upgrade).collect()
         };
-        // Without the lock: a callback may make or drop others.
+        // Without the lock: a callback may create or drop others.
         for callback in callbacks {
             callback(now_ns);
         }
@@ -86,13 +86,13 @@ impl Drop for SteadyDriver {
         let graph_ns = self.graph.now_ns();
         let mut time = lock(&self.core().common.steady.time);
         if let Some(driven) = time.driven.take() {
-            // Goes on from here, with the graph.
+            // Steady time continues with the graph from here.
             time.ahead_ns = driven.now_ns.saturating_sub(graph_ns);
         }
     }
 }
 
-/// A callback of [`Node::on_steady_time`]; it ends when this is dropped.
+/// A callback of [`Node::on_steady_time`]; it is removed when this is dropped.
 #[must_use = "the callback ends when this is dropped"]
 pub struct SteadyCallback {
     // The graph holds it weakly.
@@ -100,7 +100,7 @@ pub struct SteadyCallback {
 }
 
 impl Graph {
-    /// Drives the steady time of this graph. None while another edge does.
+    /// Creates the driver of steady time; none while another exists.
     #[must_use]
     pub fn steady_driver(&self) -> Option<SteadyDriver> {
         let now_ns = self.steady_now_ns();
@@ -112,14 +112,14 @@ impl Graph {
         Some(SteadyDriver { graph: self.clone() })
     }
 
-    /// The steady time \[ns\]. It goes on while the graph is paused, if an edge drives it; otherwise
-    /// it advances with the time of the graph.
+    /// Steady time \[ns\]. With a driver it advances while the graph is paused; otherwise it
+    /// advances with the time of the graph.
     #[must_use]
     pub fn steady_now_ns(&self) -> i64 {
         self.0.common.steady.now_ns(self.now_ns())
     }
 
-    /// True while an edge drives steady time.
+    /// True while a driver exists.
     #[must_use]
     pub fn has_steady_driver(&self) -> bool {
         self.0.common.steady.is_driven()
@@ -127,9 +127,8 @@ impl Graph {
 }
 
 impl Node {
-    /// Calls back with the steady time \[ns\] whenever an edge advances it, on that edge's thread.
-    /// Where nothing drives steady time, nothing is called back: a timer of the graph does the same
-    /// there.
+    /// Calls back with the steady time \[ns\] whenever a driver advances it, on the driver's
+    /// thread. Without a driver there are no callbacks; use a timer of the graph.
     pub fn on_steady_time(&self, react: impl Fn(i64) + Send + Sync + 'static) -> SteadyCallback {
         let react: Arc<React> = Arc::new(react);
         lock(&self.0.core.common.steady.callbacks).push(Arc::downgrade(&react));
@@ -163,7 +162,7 @@ mod tests {
         driver.advance_to(Duration::from_secs(2));
         assert_eq!((graph.now_ns(), graph.steady_now_ns()), (5 * SECOND, 7 * SECOND));
         assert_eq!(seen.load(Ordering::SeqCst), 7 * SECOND);
-        // Neither back with the driver's clock, nor with the graph's.
+        // Decreases neither with the driver's clock nor with the graph's.
         driver.advance_to(Duration::from_secs(1));
         graph.set_paused(false);
         graph.jump_to(0);

@@ -1,4 +1,4 @@
-//! Taps: recorders, wires and viewers, which see the topics that they choose.
+//! Taps: recorders, transports and viewers that receive the messages of selected topics.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, PoisonError, TryLockError};
@@ -9,30 +9,30 @@ use crate::common::{Common, lock};
 use crate::info::TopicInfo;
 use crate::sample::Sample;
 
-/// Takes the messages of chosen topics, in the order of their publication.
+/// Receives the messages of selected topics in the order of publication.
 pub trait Sink: Send + Sync {
-    /// Whether it takes this topic. It then counts as a listener. Asked once for each topic, when
-    /// the topic or the tap is new; it must not call the graph.
+    /// Returns true to receive this topic. The tap then counts as a subscriber. Called once for
+    /// each topic, when the topic or the tap is new; it must not call the graph.
     fn wants(&self, topic: &TopicInfo) -> bool;
 
-    /// How many messages may wait for it in live, where it has a thread of its own; when more come,
-    /// the oldest are dropped and a finding says so.
+    /// Maximum queue length in live mode, where the sink has its own thread; when it is exceeded,
+    /// the oldest messages are dropped with a warning.
     fn depth(&self) -> usize {
         10_000
     }
 
-    /// Whether it never waits for anything: it only hands messages on. In live the publisher itself
-    /// then calls it, which saves a thread, its waking for every message, and the wait for it.
+    /// True if the sink never blocks. In live mode the publisher then calls it directly, which
+    /// saves a thread and its wake-ups.
     fn is_quick(&self) -> bool {
         false
     }
 
-    /// A message. In lockstep, and to a quick sink, it is given before the publisher goes on, so that
-    /// nothing is ever lost; never by two threads at once.
+    /// Receives a message. In lockstep, and for a quick sink, the publisher waits for this call, so
+    /// that nothing is lost; calls are never concurrent.
     fn take(&self, topic: &TopicInfo, sample: &Sample);
 }
 
-/// Names a tap, to end it.
+/// Id of a tap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TapId(pub(crate) u64);
 
@@ -40,9 +40,9 @@ pub(crate) struct Tap {
     pub(crate) id: TapId,
     pub(crate) sink: Box<dyn Sink>,
     queue: Mutex<Queue>,
-    /// Wakes the thread that feeds the sink, where it has one: in live, unless it is quick.
+    /// Wakes the thread that feeds the sink, in live mode, unless the sink is quick.
     filled: Option<Condvar>,
-    /// Held by whoever feeds the sink.
+    /// Locked by the thread that feeds the sink.
     feeding: Mutex<()>,
 }
 
@@ -68,12 +68,12 @@ impl Tap {
         queue.samples.push_back((topic.clone(), sample.clone()));
     }
 
-    /// How many messages it lost.
+    /// Number of messages lost.
     pub(crate) fn dropped(&self) -> u64 {
         lock(&self.queue).dropped
     }
 
-    /// No more will come; what waits is still taken.
+    /// Closes the queue; queued messages are still delivered.
     pub(crate) fn close(&self) {
         lock(&self.queue).is_closed = true;
         if let Some(filled) = &self.filled {
@@ -81,15 +81,15 @@ impl Tap {
         }
     }
 
-    /// Whether somebody has to call [`Tap::feed`].
+    /// True if [`Tap::feed`] needs a thread.
     pub(crate) fn has_thread(&self) -> bool {
         self.filled.is_some()
     }
 
-    /// Feeds the sink in a thread of its own until the tap is closed.
+    /// Feeds the sink in its own thread until the tap is closed.
     pub(crate) fn feed(&self, common: &Common) {
         let Some(filled) = &self.filled else { return };
-        let mut told = false;
+        let mut is_reported = false;
         loop {
             let mut queue = lock(&self.queue);
             let (topic, sample) = loop {
@@ -101,9 +101,9 @@ impl Tap {
             };
             let is_slow = queue.dropped > 0;
             drop(queue);
-            if is_slow && !told {
-                told = true;
-                let message = "a recorder or wire is too slow and loses messages".to_owned();
+            if is_slow && !is_reported {
+                is_reported = true;
+                let message = "a recorder or transport is too slow and loses messages".to_owned();
                 common.report(Diagnostic::warning("slow-tap", message).help(
                     "choose fewer topics for it, lower the rates, or run in lockstep, where it \
                      is waited for",
@@ -113,7 +113,7 @@ impl Tap {
         }
     }
 
-    /// Feeds the sink, unless somebody does already: then that one goes on until all is taken.
+    /// Feeds the sink, unless another thread already does; that one then delivers everything.
     pub(crate) fn flush(&self) {
         if let Some(filled) = &self.filled {
             filled.notify_one();

@@ -1,5 +1,5 @@
-//! Goals, from who sends them to who works on them.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Goals from clients to servers.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use periplus_graph::{
     ActionClient, ActionServer, ActionSettings, DynamicProgress, GoalEvent, GoalHandle, GoalId,
@@ -43,7 +43,7 @@ impl Pair {
     }
 
     fn look(&self, sent: &SentGoal<Fibonacci>) -> GoalProgress<FibonacciResult> {
-        // The first look asks for the result, the second has it.
+        // The first call requests the result, the second returns it.
         let _ = sent.look();
         self.graph.settle();
         sent.look()
@@ -229,8 +229,8 @@ fn act() -> impl Strategy<Value = Act> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Whatever happens, goals go only where the machine of states lets them, what is told of them
-    /// is how they are, and each result is told once it is there.
+    /// For any sequence of events, goals change only along the state machine, the published states
+    /// match, and each result is sent once it exists.
     #[test]
     fn goals_keep_to_their_states(acts in prop::collection::vec(act(), 1..40)) {
         let pair = Pair::new();

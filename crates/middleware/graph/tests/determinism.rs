@@ -1,5 +1,5 @@
-//! The same program gives the same order of everything, in whatever order its nodes were made.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Events are executed in the same order, in whatever order the nodes were created.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -8,8 +8,8 @@ use periplus_graph::{Actor, Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs::Int32;
 use proptest::prelude::*;
 
-/// A node that passes on what it hears, until nothing is left of the number, and publishes from a
-/// timer.
+/// A node that forwards the messages it receives with a smaller number, down to zero, and publishes
+/// from a timer.
 #[derive(Clone, Debug)]
 struct Plan {
     hears: Vec<usize>,
@@ -47,7 +47,7 @@ fn make(graph: &Graph, index: usize, plan: &Plan, log: &Log) -> Actor<Log> {
                 move |log, message: Arc<Int32>, io| {
                     let line = format!("{} node{index} {topic} {}", io.now_ns(), message.data);
                     log.lock().unwrap().push(line);
-                    // Two copies from each would grow without bound; a third of the number is left.
+                    // Two copies from each would grow without bound; a third of the number remains.
                     for out in outs.iter().filter(|_| message.data > 0) {
                         out.publish(Int32 { data: message.data / 3 });
                     }
@@ -66,7 +66,7 @@ fn make(graph: &Graph, index: usize, plan: &Plan, log: &Log) -> Actor<Log> {
     actor
 }
 
-/// Everything that happened in 60 ns, and how much was dropped where.
+/// Everything that happened in 60 ns, and the numbers of dropped messages.
 fn run(plans: &[Plan], order: &[usize], storm: &[(i64, usize, i32)]) -> (Vec<String>, Vec<String>) {
     let graph = Graph::new();
     let log = Log::default();

@@ -1,5 +1,5 @@
-//! Managed nodes, as others see them.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Managed nodes, seen from other nodes.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use periplus_graph::{
 use periplus_msgs::Service;
 use periplus_msgs::lifecycle_msgs::*;
 
-/// What a node did, and how it goes the next time.
+/// Callbacks that ran, and the outcomes of the next ones.
 #[derive(Default)]
 struct Doings {
     steps: Vec<Step>,
@@ -52,12 +52,12 @@ impl Stage {
         self.ask::<ChangeState>("change_state", ChangeStateRequest { transition }).success
     }
 
-    /// Lets the next steps go like this.
+    /// Sets the outcomes of the next callbacks.
     fn next(&self, outcomes: &[StepOutcome]) {
         self.actor.with(|doings| doings.next = outcomes.iter().rev().copied().collect());
     }
 
-    fn told(&self) -> Vec<String> {
+    fn summary(&self) -> Vec<String> {
         let events = self.events.drain();
         let line = |event: &Arc<TransitionEvent>| {
             format!("{} {}", event.transition.id, event.goal_state.label)
@@ -76,7 +76,7 @@ fn a_node_is_led_through_its_life() {
     assert!(stage.life.is_active());
     let state = stage.ask::<GetState>("get_state", GetStateRequest::default());
     assert_eq!((state.current_state.id, state.current_state.label.as_str()), (3, "active"));
-    assert_eq!(stage.told(), ["1 configuring", "10 inactive", "3 activating", "30 active"]);
+    assert_eq!(stage.summary(), ["1 configuring", "10 inactive", "3 activating", "30 active"]);
     assert!(stage.change(4, "") && stage.change(2, "") && stage.change(0, "shutdown"));
     assert_eq!(stage.life.state(), LifecycleState::Finalized);
     assert!(!stage.change(1, ""));
@@ -97,7 +97,7 @@ fn errors_are_cleaned_up_or_the_end() {
     let _ = stage.events.drain();
     stage.next(&[StepOutcome::Error, StepOutcome::Failure]);
     assert!(!stage.change(1, ""));
-    assert_eq!(stage.told(), ["1 configuring", "12 errorprocessing", "61 finalized"]);
+    assert_eq!(stage.summary(), ["1 configuring", "12 errorprocessing", "61 finalized"]);
     assert_eq!(stage.actor.with(|doings| doings.steps.last().copied()), Some(Step::Error));
 }
 

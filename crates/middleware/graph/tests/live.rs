@@ -1,5 +1,5 @@
-//! Nodes with threads of their own.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Live mode: nodes with their own threads.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
@@ -9,7 +9,7 @@ use periplus_graph::{Graph, NodeSettings, Qos, Sample, Sink, TopicInfo};
 use periplus_msgs::std_msgs::Int32;
 use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
-/// Long enough for any machine; nobody waits for it unless a test fails.
+/// A generous timeout; it passes only when a test fails.
 const LONG: Duration = Duration::from_secs(30);
 
 fn number(data: i32) -> Int32 {
@@ -39,7 +39,7 @@ fn who_is_slow_loses_messages_and_holds_up_nobody() {
     x.publish(number(1));
     assert_eq!(hears.recv_timeout(LONG).unwrap(), 1);
     assert_eq!(fast_hears.recv_timeout(LONG).unwrap(), 1);
-    // `slow` is busy with the first; two wait, and the others push each other out.
+    // `slow` is busy with the first; two are queued, and the others displace each other.
     for data in 2..=6 {
         x.publish(number(data));
         assert_eq!(fast_hears.recv_timeout(LONG).unwrap(), data);
@@ -185,7 +185,7 @@ fn a_node_that_panics_is_reported_and_the_others_go_on() {
     assert_eq!(hears.recv_timeout(LONG).unwrap(), 2);
     falls.recv_timeout(LONG).unwrap();
     drop(bad);
-    // The closure is gone when its node is.
+    // The closure is dropped with its node.
     assert!(falls.recv_timeout(LONG).is_err());
     let code = loop {
         if let Some(finding) = graph.take_findings().iter().next() {

@@ -1,5 +1,5 @@
-//! Time, and the order in which things happen.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Time and the order of events.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::sync::{Arc, Mutex};
 
@@ -13,7 +13,7 @@ fn number(data: i32) -> Int32 {
     Int32 { data }
 }
 
-/// A node that notes what it hears and when its timer of `period_ns` goes off.
+/// A node that records the messages it receives and the ticks of its timer of `period_ns`.
 fn noter(graph: &Graph, name: &'static str, period_ns: i64, notes: &Notes) -> Actor<Notes> {
     let mut actor = graph.node(NodeSettings::new(name)).unwrap().actor(notes.clone());
     actor
@@ -101,10 +101,10 @@ fn a_circle_is_broken_and_named() {
     let finding = findings.iter().next().unwrap();
     assert_eq!(
         finding.message,
-        "at 0 s nodes react to each other without end, so what they said was dropped: \
+        "at 0 s nodes react to each other in an endless loop; their messages were dropped: \
          `/ping` reacts to `/x`, `/pong` reacts to `/y`"
     );
-    // Afterwards all goes on.
+    // The graph runs on afterwards.
     graph.advance_to(2_000_000_000);
     assert_eq!(ping.with(|count| *count), count);
 }
@@ -146,7 +146,7 @@ fn calls_are_polled() {
     let client = a.client::<SetBool>("light").unwrap();
     let lost = client.call(SetBoolRequest { data: true });
     let error = lost.take().unwrap().unwrap_err();
-    assert_eq!(error.to_string(), "nobody answers the service `/light`");
+    assert_eq!(error.to_string(), "no server for the service `/light`");
     let _other = b.server::<SetBool>("lihgt").unwrap();
     let error = client.call(SetBoolRequest { data: true }).take().unwrap().unwrap_err();
     assert!(error.to_string().ends_with("did you mean `/lihgt`?"));
@@ -220,7 +220,7 @@ fn wires_pass_calls_on_as_bytes() {
     graph.settle();
     let answers = std::mem::take(&mut *answers.lock().unwrap());
     assert_eq!(answers[0], Ok(vec![0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]));
-    assert!(answers[1].as_ref().unwrap_err().contains("`/light` cannot be read"));
+    assert!(answers[1].as_ref().unwrap_err().contains("`/light` cannot be decoded"));
 
     let outward = wire.raw_server("far", "std_srvs/srv/SetBool", None).unwrap();
     let pending = node.client::<SetBool>("far").unwrap().call(SetBoolRequest { data: true });
@@ -246,5 +246,5 @@ fn a_timer_needs_a_period() {
     let graph = Graph::new();
     let mut actor = graph.node(NodeSettings::new("a")).unwrap().actor(());
     let error = actor.timer(0, |(), _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "the timer of `/a` has a period of 0 ns; give it at least 1");
+    assert_eq!(error.to_string(), "the timer of `/a` has a period of 0 ns; it must be at least 1");
 }

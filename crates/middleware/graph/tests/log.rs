@@ -1,5 +1,5 @@
-//! What nodes write into their logs.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Logs of nodes.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, NodeSettings, Qos};
@@ -35,7 +35,7 @@ fn what_is_not_logged_is_not_put_together() {
     struct Never;
     impl std::fmt::Display for Never {
         fn fmt(&self, _: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-            panic!("nobody wanted this");
+            panic!("this is below the log level");
         }
     }
     let read = |line: &str| {

@@ -1,5 +1,5 @@
-//! Names, as nodes write them and as they end up.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Names as written by nodes, and expanded.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use expect_test::{Expect, expect};
 use periplus_graph::{NodeSettings, check_topic, valid_node_name, valid_topic_name};
 use proptest::prelude::*;
 
-/// One line for each name: as written, and the full name or what is wrong.
+/// One line for each name: as written, and the full name or the error.
 fn check(settings: NodeSettings, written: &[&str], expected: Expect) {
     let mut text = String::new();
     let names = match settings.names() {
@@ -39,7 +39,7 @@ fn names_are_relative_absolute_or_private() {
         a/b          /demo/front/a/b
         {node}/x     /demo/front/lidar/x
         {ns}/x       /demo/front/x
-        /a/{ns}      ! the name `/a/{ns}` of a topic has two `/` in a row; `/a/_ns_` would do
+        /a/{ns}      ! the topic name `/a/{ns}` has two `/` in a row; `/a/_ns_` is valid
     "#]],
     );
     check(
@@ -54,7 +54,7 @@ fn names_are_relative_absolute_or_private() {
         a/b          /a/b
         {node}/x     /lidar/x
         {ns}/x       /x
-        /a/{ns}      ! the name `/a/{ns}` of a topic ends with `/`; `/a/_ns_` would do
+        /a/{ns}      ! the topic name `/a/{ns}` ends with `/`; `/a/_ns_` is valid
     "#]],
     );
 }
@@ -79,20 +79,20 @@ fn names_that_ros_refuses_are_explained() {
         NodeSettings::new("n"),
         &written,
         expect![[r#"
-        /n:
-                     ! the name `` of a topic is empty
-        a b          ! the name `a b` of a topic has ` `; only letters, digits, `_` and `/` are allowed; `a_b` would do
-        robot-1/scan ! the name `robot-1/scan` of a topic has `-`; only letters, digits, `_` and `/` are allowed; `robot_1/scan` would do
-        /scan/       ! the name `/scan/` of a topic ends with `/`; `/scan` would do
-        //scan       ! the name `//scan` of a topic has two `/` in a row; `/scan` would do
-        1scan        ! the name `1scan` of a topic has a part that begins with a digit, `1scan`; `_1scan` would do
-        a/2d         ! the name `a/2d` of a topic has a part that begins with a digit, `2d`; `a/_2d` would do
-        ~out         ! the name `~out` of a topic has no `/` after its `~`; `~/out` would do
-        a/~/b        ! the name `a/~/b` of a topic has a `~` that is not its beginning
-        {who}        ! the name `{who}` of a topic has braces; only `{node}`, `{ns}` and `{namespace}` have a meaning
-        /            ! the name `/` of a topic ends with `/`; `/_` would do
-        é            ! the name `é` of a topic has `é`; only letters, digits, `_` and `/` are allowed; `_` would do
-    "#]],
+            /n:
+                         ! the topic name `` is empty
+            a b          ! the topic name `a b` has ` `; only letters, digits, `_` and `/` are allowed; `a_b` is valid
+            robot-1/scan ! the topic name `robot-1/scan` has `-`; only letters, digits, `_` and `/` are allowed; `robot_1/scan` is valid
+            /scan/       ! the topic name `/scan/` ends with `/`; `/scan` is valid
+            //scan       ! the topic name `//scan` has two `/` in a row; `/scan` is valid
+            1scan        ! the topic name `1scan` has a part that begins with a digit, `1scan`; `_1scan` is valid
+            a/2d         ! the topic name `a/2d` has a part that begins with a digit, `2d`; `a/_2d` is valid
+            ~out         ! the topic name `~out` has no `/` after its `~`; `~/out` is valid
+            a/~/b        ! the topic name `a/~/b` ` that is not its beginning~` that is not its beginning
+            {who}        ! the topic name `{who}` has braces; only the substitutions `{node}`, `{ns}` and `{namespace}` exist
+            /            ! the topic name `/` ends with `/`; `/_` is valid
+            é            ! the topic name `é` has `é`; only letters, digits, `_` and `/` are allowed; `_` is valid
+        "#]],
     );
     let long = "a".repeat(250);
     let error = check_topic("topic", &format!("/{long}")).unwrap_err().to_string();
@@ -101,19 +101,19 @@ fn names_that_ros_refuses_are_explained() {
         NodeSettings::new("my node"),
         &[],
         expect![
-            "the name `my node` of a node has ` `; only letters, digits and `_` are allowed; `my_node` would do"
+            "the node name `my node` has ` `; only letters, digits and `_` are allowed; `my_node` is valid"
         ],
     );
     check(
         NodeSettings::new("2d"),
         &[],
-        expect!["the name `2d` of a node begins with a digit; `_2d` would do"],
+        expect!["the node name `2d` begins with a digit; `_2d` is valid"],
     );
     check(
         NodeSettings::new("n").namespace("/a-b"),
         &[],
         expect![
-            "the name `/a-b` of a namespace has `-`; only letters, digits, `_` and `/` are allowed; `/a_b` would do"
+            "the namespace name `/a-b` has `-`; only letters, digits, `_` and `/` are allowed; `/a_b` is valid"
         ],
     );
 }
@@ -185,25 +185,25 @@ fn remappings_that_mean_nothing_are_explained() {
         (
             "/a/*:=b",
             expect![
-                "the remapping `/a/*:=b` has a wildcard, which ROS 2 does not know either; write `from:=to`, `node:from:=to`, `__node:=name` or `__ns:=/namespace`"
+                "the remapping `/a/*:=b` has a wildcard, which ROS 2 does not support; write `from:=to`, `node:from:=to`, `__node:=name` or `__ns:=/namespace`"
             ],
         ),
         (
             "a:=b-c",
             expect![
-                "the name `b-c` of a topic has `-`; only letters, digits, `_` and `/` are allowed; `b_c` would do"
+                "the topic name `b-c` has `-`; only letters, digits, `_` and `/` are allowed; `b_c` is valid"
             ],
         ),
         (
             "my node:a:=b",
             expect![
-                "the name `my node` of a node has ` `; only letters, digits and `_` are allowed; `my_node` would do"
+                "the node name `my node` has ` `; only letters, digits and `_` are allowed; `my_node` is valid"
             ],
         ),
         (
             "__ns:=a b",
             expect![
-                "the name `/a b` of a namespace has ` `; only letters, digits, `_` and `/` are allowed; `/a_b` would do"
+                "the namespace name `/a b` has ` `; only letters, digits, `_` and `/` are allowed; `/a_b` is valid"
             ],
         ),
     ] {
@@ -236,7 +236,7 @@ proptest! {
         let names = NodeSettings::new(valid_node_name(&text)).namespace("/ns").names();
         let full = names.unwrap().topic(&valid_topic_name(&text)).unwrap();
         prop_assert!(check_topic("topic", &full).is_ok());
-        // What is valid stays as it is.
+        // Valid names are not changed.
         prop_assert_eq!(valid_topic_name(&full), full);
     }
 

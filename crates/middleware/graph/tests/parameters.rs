@@ -1,5 +1,5 @@
-//! Parameters, as others see them.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Parameters, seen from other nodes.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ static LAMP: Table = Table {
     parameters: &[
         number("blink.period", "s", "Time from flash to flash.").or("2").above(0.0),
         choice("colour", &["red", "green"], "What it looks like.").or("red"),
-        number("height", "m", "Where it hangs."),
+        number("height", "m", "Mounting height."),
     ],
 };
 
@@ -87,7 +87,7 @@ fn others_set_them_and_the_node_may_refuse() {
         .parameters(values(), |period, values, _| {
             let wanted = values.number("blink.period").unwrap();
             if wanted > 10.0 {
-                return Err("nobody waits so long".into());
+                return Err("the period is too long".into());
             }
             *period = wanted;
             Ok(())
@@ -113,7 +113,7 @@ fn others_set_them_and_the_node_may_refuse() {
         [
             "",
             "`blink.period`: the value is out of range: 0 s must be above 0",
-            "nobody waits so long",
+            "the period is too long",
             "/lamp has no parameter `blink.perod`, did you mean `blink.period`?",
             "`blink.period`: the value is of another kind: fast where number belongs",
             "",
@@ -248,11 +248,11 @@ fn arguments_come_before_what_a_node_declares() {
     assert_eq!(
         messages(graph.unused_arguments()),
         [
-            "no node that fits `/**` has a parameter `hight`",
-            "there are parameters for `/**/lmap`, and no such node"
+            "no node that matches `/**` has a parameter `hight`",
+            "there are parameters for `/**/lmap`, but no such node"
         ]
     );
-    // What the program says of one node comes before what holds for all.
+    // Arguments for one node take precedence over those for all.
     let own = NodeSettings::new("own").parameter("blink.period", parameter_from_yaml("1").unwrap());
     let own = graph.node(own).unwrap().parameters(values()).unwrap();
     assert_eq!(own.values().number("blink.period"), Some(1.0));

@@ -1,8 +1,9 @@
-//! What is told of the quality of service.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! QoS events.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use periplus_graph::{
-    Graph, Liveliness, MOST_KEPT, Mailbox, NodeSettings, Policy, Publisher, Qos, QosEvent,
+    Graph, KEEP_ALL_MAX_MESSAGES, Liveliness, Mailbox, NodeSettings, Policy, Publisher, Qos,
+    QosEvent,
 };
 use periplus_msgs::std_msgs::Int32;
 
@@ -66,7 +67,7 @@ fn ends_that_do_not_fit_are_told_with_both_policies() {
         panic!("they do not fit")
     };
     assert_eq!((node.as_str(), policies[0].policy), ("/b", Policy::Reliability));
-    assert_eq!(policies[1].to_string(), "offers durability volatile, asked for is transient_local");
+    assert_eq!(policies[1].to_string(), "offers durability volatile, requested is transient_local");
     assert!(matches!(&mailbox.events()[..], [QosEvent::Incompatible { node, .. }] if node == "/a"));
     assert!(publisher.events().is_empty() && mailbox.events().is_empty(), "once");
 }
@@ -74,7 +75,7 @@ fn ends_that_do_not_fit_are_told_with_both_policies() {
 #[test]
 fn what_is_lost_is_told_and_keeping_all_has_an_end() {
     let (graph, publisher, mailbox) = pair(Qos::reliable(1), Qos::reliable(1).keep_all());
-    for data in 0..i32::try_from(MOST_KEPT).unwrap() + 2 {
+    for data in 0..i32::try_from(KEEP_ALL_MAX_MESSAGES).unwrap() + 2 {
         publisher.publish(Int32 { data });
     }
     let lost = QosEvent::MessagesLost { new: 2, total: 2 };

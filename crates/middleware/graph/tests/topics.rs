@@ -1,5 +1,5 @@
-//! Publishing and listening.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Publishers and subscriptions.
+#![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use std::sync::{Arc, Mutex};
 
@@ -63,13 +63,13 @@ fn latecomers_get_what_is_latched() {
     }
     let late = a.mailbox::<Int32>("map", Qos::latched(10)).unwrap();
     assert_eq!(numbers(&late.drain()), [2, 3]);
-    // Who does not ask for it gets only what is new.
+    // A volatile subscription gets only new messages.
     let volatile = a.mailbox::<Int32>("map", Qos::reliable(10)).unwrap();
     assert!(volatile.drain().is_empty());
     latched.publish(number(4));
     assert_eq!(numbers(&volatile.drain()), [4]);
     assert_eq!(numbers(&late.drain()), [4]);
-    // What a publisher kept goes with it.
+    // Retained messages are removed with their publisher.
     drop(latched);
     let _again = a.publisher::<Int32>("map", Qos::latched(2)).unwrap();
     assert!(a.mailbox::<Int32>("map", Qos::latched(10)).unwrap().drain().is_empty());
@@ -126,7 +126,7 @@ fn a_topic_has_one_type() {
     let error = b.mailbox::<Twist>("x", Qos::default()).err().unwrap();
     assert_eq!(
         error.to_string(),
-        "the topic `/x` is a std_msgs/msg/Int32 (`/a`), and `/b` wants it to be a \
+        "the topic `/x` is a std_msgs/msg/Int32 (`/a`), but `/b` requests a \
          geometry_msgs/msg/Twist; rename one of the two with a remapping `/x:=...`"
     );
     let hash = Some("RIHS01_00");
@@ -148,8 +148,8 @@ fn ends_that_do_not_fit_are_not_heard_and_recorded() {
     let finding = findings.iter().next().unwrap();
     assert_eq!(
         finding.message,
-        "`/b` gets nothing from `/a` on the topic `/x`: the publisher offers reliability \
-         best_effort, asked for is reliable; offers durability volatile, asked for is \
+        "`/b` receives nothing from `/a` on the topic `/x`: the publisher offers reliability \
+         best_effort, requested is reliable; offers durability volatile, requested is \
          transient_local"
     );
 }
@@ -267,7 +267,12 @@ fn fits_are_those_of_dds() {
         [(weak, weak, true), (weak, strong, false), (strong, weak, true), (strong, strong, true)]
     {
         let qos = Qos::default();
-        assert_eq!(qos.with_reliability(offer).lacks(&qos.with_reliability(ask)).is_empty(), fits);
+        assert_eq!(
+            qos.with_reliability(offer)
+                .incompatible_policies(&qos.with_reliability(ask))
+                .is_empty(),
+            fits
+        );
     }
     for (offer, ask, fits) in [
         (volatile, volatile, true),
@@ -276,7 +281,10 @@ fn fits_are_those_of_dds() {
         (latched, latched, true),
     ] {
         let qos = Qos::default();
-        assert_eq!(qos.with_durability(offer).lacks(&qos.with_durability(ask)).is_empty(), fits);
+        assert_eq!(
+            qos.with_durability(offer).incompatible_policies(&qos.with_durability(ask)).is_empty(),
+            fits
+        );
     }
     for (offer, ask, fits) in [
         (None, None, true),
@@ -287,9 +295,9 @@ fn fits_are_those_of_dds() {
         (Some(4), Some(5), true),
     ] {
         let with = |deadline_ns| Qos { deadline_ns, ..Qos::default() };
-        assert_eq!(with(offer).lacks(&with(ask)).is_empty(), fits);
+        assert_eq!(with(offer).incompatible_policies(&with(ask)).is_empty(), fits);
         let with = |lease_ns| Qos { lease_ns, ..Qos::default() };
-        assert_eq!(with(offer).lacks(&with(ask)).is_empty(), fits);
+        assert_eq!(with(offer).incompatible_policies(&with(ask)).is_empty(), fits);
     }
 }
 
@@ -329,12 +337,12 @@ fn an_end_that_is_made_to_fit_is_heard_from_then_on() {
     let ends = &graph.topics()[0];
     let (offer, asked) = (&ends.publishers[0], &ends.subscriptions[0]);
     let generation = graph.generation();
-    assert!(graph.set_qos(offer.id, offer.qos.offering(&asked.qos)));
+    assert!(graph.set_qos(offer.id, offer.qos.strengthened_for(&asked.qos)));
     assert_ne!(graph.generation(), generation, "wires see it");
     assert!(publisher.is_heard() && graph.topics()[0].mismatches.is_empty());
     publisher.publish(number(2));
     assert_eq!(mailbox.latest().map(|heard| heard.data), Some(2));
-    // And latecomers get it.
+    // Late subscribers get it, too.
     let late = graph.node(NodeSettings::new("late")).unwrap();
     let late = late.mailbox::<Int32>("x", Qos::latched(1)).unwrap();
     assert_eq!(late.latest().map(|heard| heard.data), Some(2));
@@ -346,7 +354,7 @@ fn a_subscription_that_asks_for_less_gets_what_is_kept_once() {
     let (graph, publisher, mailbox) = pair(Qos::latched(1), asked);
     publisher.publish(number(1));
     let id = graph.topics()[0].subscriptions[0].id;
-    assert!(graph.set_qos(id, asked.asking(&Qos::latched(1))));
+    assert!(graph.set_qos(id, asked.weakened_for(&Qos::latched(1))));
     assert_eq!(mailbox.drain().len(), 1);
     assert!(graph.set_qos(id, Qos::latched(1)), "once more, with nothing new");
     assert!(mailbox.drain().is_empty());

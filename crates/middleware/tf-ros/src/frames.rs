@@ -1,48 +1,49 @@
-//! Where frames are, as heard on `/tf` and `/tf_static`, and which edge is missing between two.
+//! TF listener: transforms from `/tf` and `/tf_static`, with diagnosis of missing ones.
 
 use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
 use periplus_msgs::{geometry_msgs, tf2_msgs};
 use periplus_tf::{Buffer, Kind, LookupError, Stamped};
 
-/// Trees of frames are no deeper.
-const DEEPEST: usize = 1000;
+/// Maximum depth of a frame tree.
+const MAX_DEPTH: usize = 1000;
 
-/// Frames, and how they hang on each other.
+/// Buffer of transforms between frames.
 #[derive(Default)]
 pub struct Frames {
     buffer: Buffer,
 }
 
 impl Frames {
-    /// Frames that are remembered for so long behind their newest \[ns\]; by default for ten seconds.
+    /// Creates a buffer with a cache time \[ns\] (default 10 s).
     #[must_use]
     pub fn kept_for(span_ns: i64) -> Self {
         Self { buffer: Buffer::new(span_ns) }
     }
 
-    /// Takes in what was broadcast.
+    /// Inserts the transforms of a message.
     pub fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
         for transform in &message.transforms {
-            // What is malformed is dropped, as tf2 drops it.
+            // Malformed transforms are dropped, as in tf2.
             let _refused = self.buffer.set(&stamped(transform), "tf", kind);
         }
     }
 
-    /// Time has jumped.
+    /// Clears the buffer after a jump of time.
     pub fn forget(&mut self) {
         self.buffer.clear();
     }
 
-    /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
+    /// Looks up `target_from_source` at a time \[ns\], or the latest with 0; returns it with its
+    /// time \[ns\].
     ///
     /// # Errors
-    /// When nobody knows.
+    /// When the transform is not available.
     pub fn at(&self, target: &str, source: &str, time_ns: i64) -> Result<(Pose, i64), LookupError> {
         let found = self.buffer.lookup(plain(target), plain(source), time_ns)?;
         Ok((found.target_from_source, found.time_ns))
     }
 
-    /// How the robot moved from one time to its newest place, by odometry: `then_from_now`.
+    /// Motion of the robot between a time and now by odometry: `then_from_now`.
     #[must_use]
     pub fn moved_since(&self, odom: &str, base: &str, time_ns: i64) -> Option<Pose2> {
         let (odom_from_now, newest_ns) = self.at(odom, base, 0).ok()?;
@@ -53,50 +54,50 @@ impl Frames {
         Some(Pose2::from(odom_from_then.inverse() * odom_from_now))
     }
 
-    /// Whether anybody has spoken of a frame.
+    /// True if a transform of the frame was received.
     #[must_use]
     pub fn has(&self, frame: &str) -> bool {
         self.buffer.has_frame(frame)
     }
 
-    /// What is missing between two frames, and who would say it.
+    /// Describes the missing transform between two frames and its likely publisher.
     #[must_use]
     pub fn missing(&self, target: &str, source: &str) -> String {
         let (target, source) = (plain(target), plain(source));
-        let unheard = |frame: &str| format!("nobody has published the frame `{frame}` on /tf");
+        let unpublished = |frame: &str| format!("the frame `{frame}` is not published on /tf");
         match (self.buffer.has_frame(target), self.buffer.has_frame(source)) {
             (false, false) => {
-                return format!("nobody has published the frames `{target}` and `{source}` on /tf");
+                return format!("the frames `{target}` and `{source}` are not published on /tf");
             }
-            (false, true) => return unheard(target),
-            (true, false) => return unheard(source),
+            (false, true) => return unpublished(target),
+            (true, false) => return unpublished(source),
             (true, true) => {}
         }
-        let (top_of_target, top_of_source) = (self.top(target), self.top(source));
-        if top_of_target == top_of_source {
-            return "both are there, but not at the same time: check that all nodes use the same \
+        let (root_of_target, root_of_source) = (self.root(target), self.root(source));
+        if root_of_target == root_of_source {
+            return "both exist, but not at the same time: check that all nodes use the same \
                     clock (`use_sim_time`)"
                 .to_owned();
         }
-        let hangs = |frame: &str, top: &str| {
-            if frame == top {
-                format!("`{frame}` hangs on nothing")
+        let describe = |frame: &str, root: &str| {
+            if frame == root {
+                format!("`{frame}` has no parent")
             } else {
-                format!("`{frame}` hangs on `{top}`")
+                format!("the root of `{frame}` is `{root}`")
             }
         };
         format!(
             "{}, {}: a transform between these two trees is missing",
-            hangs(target, &top_of_target),
-            hangs(source, &top_of_source)
+            describe(target, &root_of_target),
+            describe(source, &root_of_source)
         )
     }
 
-    /// The frame on which another hangs in the end.
-    fn top(&self, frame: &str) -> String {
+    /// The root of the tree of a frame.
+    fn root(&self, frame: &str) -> String {
         let mut top = frame;
-        // A circle has no top.
-        for _ in 0..DEEPEST {
+        // A cycle has no root.
+        for _ in 0..MAX_DEPTH {
             match self.buffer.parent_of(top) {
                 Some(parent) => top = parent,
                 None => break,
@@ -106,7 +107,7 @@ impl Frames {
     }
 }
 
-/// Without the slash that ROS 1 once wanted.
+/// Removes the leading slash of ROS 1 frame names.
 #[must_use]
 pub fn plain(frame: &str) -> &str {
     frame.trim_start_matches('/')

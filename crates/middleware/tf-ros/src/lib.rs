@@ -1,7 +1,8 @@
-//! What nodes hear and tell of where a robot is.
+//! TF listener and message conversions shared by the ROS nodes.
 //!
-//! [`Frames`] are what was heard on `/tf`, and know which edge is missing; [`places`] are where a scan
-//! was taken; [`transform`] and [`pose`] are what is told; [`Told`] says nothing twice.
+//! [`Frames`] is the buffer of `/tf` with a diagnosis of missing transforms; [`places`] looks up
+//! the transforms of a scan; [`transform`] and [`pose`] convert to messages; [`Told`] throttles log
+//! messages.
 
 mod frames;
 mod poses;

@@ -1,11 +1,11 @@
-//! Poses as messages carry them.
+//! Conversion of poses to messages.
 
 use periplus_geometry::{DQuat, Pose};
 use periplus_msgs::geometry_msgs::{self, Quaternion};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs;
 
-/// A pose, on the ground or off it.
+/// Converts a 2D or 3D pose.
 #[must_use]
 pub fn pose(pose: impl Into<Pose>) -> geometry_msgs::Pose {
     let Pose { translation, rotation } = pose.into();
@@ -19,7 +19,7 @@ fn quaternion(rotation: DQuat) -> Quaternion {
     Quaternion { x: rotation.x, y: rotation.y, z: rotation.z, w: rotation.w }
 }
 
-/// Where a frame is in another.
+/// Creates a stamped transform.
 #[must_use]
 pub fn transform(
     parent: &str,

@@ -1,4 +1,4 @@
-//! Where scans were taken.
+//! Transforms of scans.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose, Pose2};
@@ -9,49 +9,49 @@ use crate::Frames;
 /// Frames of a robot, and the parameters that name them.
 #[derive(Clone, Copy, Debug)]
 pub struct Robot<'a> {
-    /// The frame of odometry.
+    /// Odometry frame.
     pub odom: &'a str,
-    /// The frame of the robot.
+    /// Base frame of the robot.
     pub base: &'a str,
-    /// The parameter with the frame of odometry.
+    /// Parameter with the odometry frame.
     pub odom_parameter: &'static str,
-    /// The parameter with the frame of the robot.
+    /// Parameter with the base frame.
     pub base_parameter: &'static str,
 }
 
-/// Where everything was at the time of a scan.
+/// Transforms at the time of a scan.
 #[derive(Clone, Copy, Debug)]
 pub struct Places {
     /// The time \[ns\].
     pub time_ns: i64,
-    /// Where the scanner is on the robot.
+    /// Mounting pose of the scanner.
     pub base_from_laser: Pose,
-    /// Where the robot was by odometry.
+    /// Odometry pose of the robot.
     pub odom_from_base: Pose2,
 }
 
-/// What a scan lacks.
+/// Transform that a scan lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lack {
-    /// Its own frame.
+    /// The `frame_id` of the scan is empty.
     Frame,
-    /// Where its scanner is on the robot.
+    /// The mounting pose of the scanner.
     Laser,
-    /// Where the robot was by odometry.
+    /// The odometry pose of the robot.
     Odometry,
 }
 
-/// Where everything was at the time of a scan.
+/// Looks up the transforms of a scan.
 ///
 /// # Errors
-/// What nobody knows.
+/// The first transform that is not available.
 pub fn places(message: &LaserScan, frames: &Frames, robot: &Robot<'_>) -> Result<Places, Lack> {
     let time_ns = message.header.stamp.ns();
     let (laser, base) = (message.header.frame_id.as_str(), robot.base);
     if laser.is_empty() {
         return Err(Lack::Frame);
     }
-    // The scanner seldom moves on the robot; what is known of it may be older or newer.
+    // The mounting pose rarely changes; the latest one is used if none is available at that time.
     let base_from_laser = frames.at(base, laser, time_ns).or_else(|_| frames.at(base, laser, 0));
     let (base_from_laser, _) = base_from_laser.map_err(|_| Lack::Laser)?;
     let found = frames.at(robot.odom, base, time_ns);
@@ -60,13 +60,13 @@ pub fn places(message: &LaserScan, frames: &Frames, robot: &Robot<'_>) -> Result
 }
 
 impl Lack {
-    /// Says which transform is missing.
+    /// Describes the missing transform.
     #[must_use]
     pub fn told(self, laser: &str, frames: &Frames, robot: &Robot<'_>) -> Diagnostic {
         let Robot { odom, base, odom_parameter, base_parameter } = robot;
         match self {
             Self::Frame => Diagnostic::error("scan-without-frame", "scans have no `frame_id`")
-                .help("have the driver say in which frame it measures"),
+                .help("set the frame in which the driver measures"),
             Self::Laser => {
                 let why = frames.missing(base, laser);
                 Diagnostic::error(
@@ -87,7 +87,7 @@ impl Lack {
                     ),
                 )
                 .help(format!(
-                    "start what publishes odometry, or set `{odom_parameter}` and `{base_parameter}`"
+                    "start a publisher of odometry, or set `{odom_parameter}` and `{base_parameter}`"
                 ))
             }
         }

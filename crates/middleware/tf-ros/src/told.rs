@@ -1,22 +1,22 @@
-//! What was said a moment ago is not said again.
+//! Throttled logging.
 
 use periplus_diagnostics::{Diagnostic, Severity};
 use periplus_graph::Node;
 
-/// The same kind of thing is not said again for so long \[ns\].
+/// Minimum interval between two log messages of the same kind \[ns\].
 const QUIET_NS: i64 = 5_000_000_000;
 
-/// What was said, and when; and what is wrong now.
+/// Logger that throttles repeated messages and tracks the current error.
 #[derive(Debug, Default)]
 pub struct Told {
     said: Vec<(&'static str, i64)>,
-    /// What keeps the node from its work.
+    /// The error that currently keeps the node from working.
     pub trouble: Option<String>,
 }
 
 impl Told {
-    /// Says something, unless it has been said a moment ago. What is an error is the trouble until
-    /// [`Told::fine`].
+    /// Logs a finding, unless one of the same kind was logged recently. An error is the current
+    /// trouble until [`Told::fine`].
     pub fn tell(&mut self, finding: &Diagnostic, node: &Node) {
         if finding.severity == Severity::Error {
             let helps: String = finding.help.iter().map(|help| format!("; {help}")).collect();
@@ -29,13 +29,13 @@ impl Told {
         }
     }
 
-    /// Whether something was said a moment ago.
+    /// True if a message of this kind was logged recently.
     pub fn has_said(&mut self, code: &str, now_ns: i64) -> bool {
         self.said.retain(|(_, said_ns)| (0..QUIET_NS).contains(&(now_ns - said_ns)));
         self.said.iter().any(|(said, _)| *said == code)
     }
 
-    /// All is well again.
+    /// Clears the current error.
     pub fn fine(&mut self) {
         self.trouble = None;
     }

@@ -1,37 +1,37 @@
-//! How Cyclone is set up.
+//! Configuration of Cyclone DDS.
 
 use std::fmt::Write as _;
 
-/// Which network.
+/// Network interfaces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Network {
     /// This machine only.
     Loopback,
-    /// The interface that Cyclone chooses, and this machine: programs on this machine may reach no
+    /// The interface that Cyclone chooses, and loopback: programs on this machine may reach no
     /// other address than 127.0.0.1.
     Any,
-    /// The interface of this name or address.
+    /// The interface with this name or address.
     Interface(String),
 }
 
-/// How to take part. The defaults are those that large samples need: fragments as large as UDP
-/// carries them, for the standard 1344 bytes lose most of a point cloud on the way, and receive
-/// buffers as large as the system gives.
+/// Settings of a participant. The defaults support large samples: fragments of the maximum UDP
+/// size, since the standard 1344 bytes lose most of a point cloud in transit, and the largest
+/// receive buffers that the system allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Config {
-    /// Number of the domain; ports follow from it.
+    /// Domain id, which determines the ports.
     pub domain_id: u32,
-    /// Which network.
+    /// Network interfaces.
     pub network: Network,
-    /// Whether others are found by multicast. Data never goes that way.
+    /// Use multicast for discovery. Data never uses multicast.
     pub multicast: bool,
-    /// Machines to look at, by name or address: at the ports of the first participants of each,
-    /// every second as long as it runs.
+    /// Machines to discover, by name or address: at the ports of the first participants of each,
+    /// every second.
     pub peers: Vec<String>,
-    /// Participants with another tag are ignored, as are those without one unless this is empty.
+    /// Domain tag: participants with another tag are ignored.
     pub tag: String,
-    /// More of Cyclone's XML, or URIs of files with it, as `CYCLONEDDS_URI` has them; what stands
-    /// here wins.
+    /// Additional Cyclone XML, or URIs of files with it, as in `CYCLONEDDS_URI`; it overrides the
+    /// other settings.
     pub more: String,
 }
 
@@ -48,17 +48,17 @@ impl Default for Config {
     }
 }
 
-/// So many participants are looked for on each peer; it is how many of one machine can be found
-/// without multicast.
+/// Number of participants that are looked for on each peer, and that can be discovered on one
+/// machine without multicast.
 const PARTICIPANTS: u32 = 60;
 
 impl Config {
-    /// As Cyclone reads it. `has_network`: the machine has an interface besides loopback; Cyclone
+    /// Configuration as XML. `has_network`: the machine has an interface besides loopback; Cyclone
     /// refuses to use one interface twice.
     #[must_use]
     pub(crate) fn xml(&self, has_network: bool) -> String {
         let mut xml = String::from("<General><Interfaces>");
-        // The loopback interface of most systems can multicast but does not say so.
+        // The loopback interface of most systems supports multicast without declaring it.
         let loopback = format!("address=\"127.0.0.1\" multicast=\"{}\"", self.multicast);
         let interfaces = match &self.network {
             Network::Loopback => vec![loopback],
@@ -77,18 +77,18 @@ impl Config {
         let _ = write!(xml, "<AllowMulticast>{multicast}</AllowMulticast>");
         xml.push_str("<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>");
         xml.push_str("</General><Internal>");
-        // What the system does not give it does without.
+        // A smaller buffer is accepted if the system does not allow more.
         xml.push_str("<SocketReceiveBufferSize min=\"default\" max=\"16MB\"/>");
         xml.push_str("</Internal><Discovery>");
         let _ = write!(xml, "<ExternalDomainId>{}</ExternalDomainId>", self.domain_id);
         if !self.tag.is_empty() {
             let _ = write!(xml, "<Tag>{}</Tag>", escape(&self.tag));
         }
-        // Ports that others can guess.
+        // Predictable ports, for discovery without multicast.
         xml.push_str("<ParticipantIndex>auto</ParticipantIndex>");
         let _ = write!(xml, "<MaxAutoParticipantIndex>{PARTICIPANTS}</MaxAutoParticipantIndex>");
         if !self.peers.is_empty() {
-            // Who starts later is to be found too, and soon.
+            // Programs that start later are discovered within a second.
             xml.push_str("<SPDPInterval>1s</SPDPInterval>");
             xml.push_str("<InitialLocatorPruneDelay>inf</InitialLocatorPruneDelay><Peers>");
             for peer in &self.peers {

@@ -1,4 +1,4 @@
-//! Who else is there.
+//! Discovery of participants and endpoints.
 
 use std::ffi::{CStr, c_char};
 
@@ -6,7 +6,7 @@ use crate::error::check;
 use crate::participant::{Entity, Participant};
 use crate::{Error, Guid, Qos, Vendor, ffi};
 
-/// What is looked for.
+/// Kind of entities to discover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Participants.
@@ -17,28 +17,28 @@ pub enum Kind {
     Readers,
 }
 
-/// One that came, changed or went. Own ones are told too.
+/// A discovery sample: an entity appeared, changed or disappeared. Own entities are included.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
-    /// Its name in the network.
+    /// GUID of the entity.
     pub guid: Guid,
-    /// Whose it is.
+    /// GUID of its participant.
     pub participant: Guid,
-    /// Whether it is there; of one that went only the names are known.
+    /// False if it disappeared; then only the GUIDs are known.
     pub is_alive: bool,
-    /// Who made its DDS.
+    /// DDS vendor.
     pub vendor: Vendor,
-    /// The topic; empty for participants.
+    /// Topic name; empty for participants.
     pub topic: String,
-    /// Its type; empty for participants.
+    /// Type name; empty for participants.
     pub type_name: String,
-    /// What it offers or asks for.
+    /// QoS offered or requested.
     pub qos: Qos,
-    /// What it says of itself.
+    /// Its `USER_DATA`.
     pub user_data: Vec<u8>,
 }
 
-/// Tells who else is there.
+/// Reader of the discovery topics of DDS.
 pub struct Discovery {
     reader: Entity,
     kind: Kind,
@@ -47,30 +47,30 @@ pub struct Discovery {
 
 impl Discovery {
     pub(crate) fn new(participant: Participant, kind: Kind) -> Result<Self, Error> {
-        // SAFETY: numbers.
+        // SAFETY: the arguments are numbers.
         let code = unsafe { ffi::pp_discovery(participant.0.entity, kind as i32) };
-        let reader = Entity(check(code, || "to look for others".to_owned())?);
+        let reader = Entity(check(code, || "create a discovery reader".to_owned())?);
         Ok(Self { reader, kind, _participant: participant })
     }
 
-    /// The next that came, changed or went.
+    /// Returns the next discovery sample.
     ///
     /// # Errors
-    /// When memory is short.
+    /// When memory is exhausted.
     pub fn take(&self) -> Result<Option<Found>, Error> {
         let mut found = std::mem::MaybeUninit::<ffi::Found>::zeroed();
         let reader = self.reader.0;
-        // SAFETY: it writes one such structure.
+        // SAFETY: the function writes one such structure.
         let code = unsafe { ffi::pp_discovery_take(reader, self.kind as i32, found.as_mut_ptr()) };
-        if check(code, || "to look for others".to_owned())? == 0 {
+        if check(code, || "take a discovery sample".to_owned())? == 0 {
             return Ok(None);
         }
-        // SAFETY: all zeros is a value of it, and so is what was written.
+        // SAFETY: all zeros is a valid value, and so is what the function wrote.
         let mut found = unsafe { found.assume_init() };
         let user_data = if found.user_data.is_null() {
             Vec::new()
         } else {
-            // SAFETY: so many bytes stand there until they are given back.
+            // SAFETY: the bytes are valid until the sample is returned.
             unsafe { std::slice::from_raw_parts(found.user_data, found.user_data_size) }.to_vec()
         };
         let told = Found {
@@ -78,14 +78,14 @@ impl Discovery {
             participant: Guid(found.participant),
             is_alive: found.is_alive != 0,
             vendor: Vendor(found.vendor),
-            // SAFETY: strings until they are given back.
+            // SAFETY: the string is valid until the sample is returned.
             topic: unsafe { text(found.topic) },
             // SAFETY: as above.
             type_name: unsafe { text(found.type_name) },
             qos: Qos::from_ffi(&found.qos),
             user_data,
         };
-        // SAFETY: what was taken, once.
+        // SAFETY: returns the taken sample, once.
         unsafe { ffi::pp_discovery_return(reader, &raw mut found) };
         Ok(Some(told))
     }
@@ -101,6 +101,6 @@ unsafe fn text(text: *const c_char) -> String {
     if text.is_null() {
         return String::new();
     }
-    // SAFETY: as the caller says.
+    // SAFETY: guaranteed by the caller.
     unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }

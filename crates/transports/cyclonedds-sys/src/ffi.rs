@@ -1,5 +1,5 @@
-//! What crosses between Rust and C: the same as `c/shim.h`.
-#![allow(clippy::missing_safety_doc, reason = "said once for all below")]
+//! FFI declarations, equal to those of `c/shim.h`.
+#![allow(clippy::missing_safety_doc, reason = "stated once for all below")]
 
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::Once;
@@ -65,8 +65,8 @@ struct Hooks {
     log: unsafe extern "C" fn(u32, *const c_char),
 }
 
-// All take entities by number, which Cyclone checks; pointers are to live data of the size beside
-// them, or to one structure, and are not kept. The exception is `pp_write`, see there.
+// All functions take entities by number, which Cyclone checks; pointers refer to live data of the
+// adjacent size, or to one structure, and are not stored. The exception is `pp_write`, see there.
 unsafe extern "C" {
     fn pp_size_of(which: i32) -> usize;
     fn pp_init(hooks: *const Hooks);
@@ -91,7 +91,7 @@ unsafe extern "C" {
     ) -> i32;
     pub(crate) fn pp_delete(entity: i32) -> i32;
     pub(crate) fn pp_guid(entity: i32, guid: *mut u8) -> i32;
-    /// Reads the bytes until it gives `owner` to `owner_free`, from any thread.
+    /// Reads the bytes until it passes `owner` to `owner_free`, from any thread.
     pub(crate) fn pp_write(
         writer: i32,
         bytes: *const u8,
@@ -126,58 +126,58 @@ unsafe extern "C" {
     pub(crate) fn pp_guard_set(guard: i32, on: i32) -> i32;
 }
 
-/// Room for what arrives: a vector of so many bytes, so that taking it costs nothing. Null where
-/// there is no memory; then the sample is lost and the program lives.
+/// Allocates a buffer for received data as the memory of a vector, so that receiving copies
+/// nothing. Null if memory is exhausted; then the sample is lost.
 extern "C" fn buffer_new(size: usize) -> *mut u8 {
     let mut bytes: Vec<u8> = Vec::new();
-    // An empty vector has no room that C could be given.
+    // An empty vector has no memory to pass to C.
     if bytes.try_reserve_exact(size.max(1)).is_err() {
         return std::ptr::null_mut();
     }
     std::mem::ManuallyDrop::new(bytes).as_mut_ptr()
 }
 
-/// Makes a vector again of what [`buffer_new`] made.
+/// Converts a buffer of [`buffer_new`] back to a vector.
 ///
 /// # Safety
-/// `bytes` is from `buffer_new(size)`, all of it was written, and nobody else has it.
+/// `bytes` is from `buffer_new(size)`, completely written, and not used elsewhere.
 pub(crate) unsafe fn buffer(bytes: *mut u8, size: usize) -> Vec<u8> {
-    // SAFETY: `try_reserve_exact` of an empty vector of bytes reserves exactly so many.
+    // SAFETY: `try_reserve_exact` of an empty vector of bytes reserves exactly that size.
     unsafe { Vec::from_raw_parts(bytes, size, size.max(1)) }
 }
 
 unsafe extern "C" fn buffer_free(bytes: *mut u8, size: usize) {
-    // SAFETY: C gives back what it got. Its bytes may not be written; none is looked at.
+    // SAFETY: C returns the buffer that it got. The bytes may be uninitialized; none is read.
     drop(unsafe { Vec::from_raw_parts(bytes, 0, size.max(1)) });
 }
 
-/// An owner of bytes on its way through C.
+/// Owner of bytes that C holds.
 pub(crate) type Owner = Box<dyn crate::Bytes>;
 
 unsafe extern "C" fn owner_free(owner: *mut c_void) {
-    // SAFETY: C gives back, once, what `Writer::write` made of a box.
+    // SAFETY: C returns, once, the box that `Writer::write` created.
     drop(unsafe { Box::from_raw(owner.cast::<Owner>()) });
 }
 
 unsafe extern "C" fn on_log(category: u32, text: *const c_char) {
-    // SAFETY: Cyclone gives a string that ends with a zero.
+    // SAFETY: Cyclone passes a string that ends with a zero.
     let text = unsafe { CStr::from_ptr(text) };
     log::note(category, &text.to_string_lossy());
 }
 
-/// Before anything else.
+/// Initializes the shim; called before anything else.
 pub(crate) fn init() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         let sizes =
             [size_of::<Identity>(), size_of::<Qos>(), size_of::<Sample>(), size_of::<Found>()];
         for (which, size) in (0..).zip(sizes) {
-            // SAFETY: it only counts.
+            // SAFETY: the function only returns a size.
             let there = unsafe { pp_size_of(which) };
-            assert_eq!(size, there, "structure {which} of shim.h is another than that of ffi.rs");
+            assert_eq!(size, there, "structure {which} of shim.h differs from that of ffi.rs");
         }
         let hooks = Hooks { buffer_new, buffer_free, owner_free, log: on_log };
-        // SAFETY: it copies what is given.
+        // SAFETY: the function copies its argument.
         unsafe { pp_init(&raw const hooks) };
     });
 }

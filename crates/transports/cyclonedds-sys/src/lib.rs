@@ -1,7 +1,7 @@
-//! DDS, the protocol under ROS 2, by Eclipse Cyclone DDS in C, built in.
+//! DDS, the protocol of ROS 2, by Eclipse Cyclone DDS (C, built in).
 //!
-//! Samples are bytes that nobody here looks into. A [`Participant`] makes a [`Writer`] for what it
-//! sends and a [`Reader`] for what it takes; [`Discovery`] tells who else is there; a [`Waitset`]
+//! Samples are opaque bytes. A [`Participant`] creates a [`Writer`] for outgoing and a [`Reader`]
+//! for incoming samples; [`Discovery`] reports remote participants and endpoints; a [`Waitset`]
 //! lets a thread sleep until something happens.
 //!
 //! ```no_run
@@ -14,11 +14,11 @@
 //! # Ok::<(), periplus_cyclonedds_sys::Error>(())
 //! ```
 //!
-//! C keeps what depends on Cyclone's own
-//! structures (`c/shim.c`, `c/blob.c`); what crosses over is in `ffi.rs`. Cyclone's entities are
-//! numbers that it checks, so that a stale one is an error and nothing worse.
+//! C contains the code that depends on Cyclone's structures (`c/shim.c`, `c/blob.c`); the interface
+//! is in `ffi.rs`. Cyclone's entities are numbers that it checks, so that a stale one is an error
+//! and nothing worse.
 
-#![allow(unsafe_code, reason = "calls of C; each says why it is sound")]
+#![allow(unsafe_code, reason = "calls of C; each states why it is sound")]
 
 mod config;
 mod discovery;
@@ -41,12 +41,12 @@ pub use reader::{Reader, Sample};
 pub use waitset::{Token, Waitset, Waker};
 pub use writer::{Bytes, Writer};
 
-/// Names a participant, writer or reader in the whole network, in the order of bytes on the wire.
+/// GUID of a participant, writer or reader, unique in the network, in the byte order of the wire.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Guid(pub [u8; 16]);
 
 impl std::fmt::Display for Guid {
-    /// Pairs of digits with dots between, as `ros2 topic info -v` prints them.
+    /// Formats the GUID as `ros2 topic info -v` does: pairs of digits separated by dots.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         for (place, byte) in self.0.iter().enumerate() {
             let dot = if place == 0 { "" } else { "." };
@@ -57,7 +57,7 @@ impl std::fmt::Display for Guid {
 }
 
 impl Guid {
-    /// The participant that it belongs to.
+    /// GUID of its participant.
     #[must_use]
     pub fn participant(self) -> Self {
         let mut guid = self.0;
@@ -66,16 +66,16 @@ impl Guid {
     }
 }
 
-/// Names one sample: who wrote it, and its number there.
+/// Identity of a sample: writer and sequence number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Identity {
     /// The writer.
     pub writer: Guid,
-    /// The number.
+    /// The sequence number.
     pub sequence: i64,
 }
 
-/// Who made the DDS of a participant, as its packets say.
+/// DDS vendor id of a participant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Vendor(pub [u8; 2]);
 

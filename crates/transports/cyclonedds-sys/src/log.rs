@@ -1,10 +1,10 @@
-//! What Cyclone says beside its answers.
+//! Log of Cyclone DDS.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
-/// As many lines wait; a program that never looks must not grow.
+/// Maximum number of stored lines, which bounds the memory of programs that never read them.
 const MOST: usize = 200;
 
 /// Categories of Cyclone, `dds/ddsrt/log.h`: fatal and error.
@@ -12,12 +12,12 @@ const SERIOUS: u32 = 0b11;
 /// Fatal, error and warning.
 const WORTH_TELLING: u32 = 0b111;
 
-/// A line.
+/// A log line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogLine {
-    /// Whether it is an error and not only a warning.
+    /// True for errors, false for warnings.
     pub is_error: bool,
-    /// What it says.
+    /// Text of the line.
     pub text: String,
 }
 
@@ -40,12 +40,12 @@ pub(crate) fn note(category: u32, text: &str) {
     lines.push_back(LogLine { is_error: category & SERIOUS != 0, text });
 }
 
-/// What it said in this thread since the last error.
+/// The last line of this thread since the last error.
 pub(crate) fn last_of_this_thread() -> Option<String> {
     LAST.try_with(|last| last.borrow_mut().take()).ok().flatten()
 }
 
-/// What it said since the last call, in all threads: at most the newest two hundred lines.
+/// Returns the lines of all threads since the last call: at most the newest two hundred.
 #[must_use]
 pub fn take_log() -> Vec<LogLine> {
     let mut lines = LINES.lock().unwrap_or_else(PoisonError::into_inner);

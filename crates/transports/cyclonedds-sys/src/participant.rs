@@ -1,4 +1,4 @@
-//! Who takes part.
+//! Participants.
 
 use std::ffi::CString;
 use std::sync::Arc;
@@ -16,37 +16,37 @@ pub(crate) struct Entity(pub(crate) i32);
 
 impl Drop for Entity {
     fn drop(&mut self) {
-        // SAFETY: a number; one that is gone already is refused.
+        // SAFETY: a number; a stale one is rejected.
         let _ = unsafe { ffi::pp_delete(self.0) };
     }
 }
 
-/// One taking part in a domain, with sockets and threads of its own: two in one program meet over
-/// the network as those of two programs do. A handle: clones mean the same one, and everything made
-/// by it keeps it.
+/// A participant of a domain with its own sockets and threads: two participants of one program
+/// communicate over the network, as those of two programs do. This is a handle: clones refer to the
+/// same participant, and everything created from it keeps it alive.
 #[derive(Clone)]
 pub struct Participant(pub(crate) Arc<Core>);
 
 pub(crate) struct Core {
     pub(crate) entity: i32,
     guid: Guid,
-    /// The participant goes with it.
+    /// Deleted with the participant.
     _domain: Entity,
 }
 
 impl Participant {
-    /// Joins a domain. `user_data` is what others see of it.
+    /// Joins a domain. `user_data` is visible to other participants.
     ///
     /// # Errors
-    /// When there is no such network, no free port, or the configuration is wrong.
+    /// When there is no such network, no free port, or the configuration is invalid.
     pub fn open(config: &Config, user_data: &[u8]) -> Result<Self, Error> {
-        // Cyclone knows one domain of a number in a program; its number on the wire is in the
+        // Domain ids are unique within a process in Cyclone; the id on the wire is part of the
         // configuration.
         static NEXT: AtomicU32 = AtomicU32::new(1);
         ffi::init();
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let what = || format!("to join domain {}", config.domain_id);
-        // SAFETY: it only looks.
+        let what = || format!("join domain {}", config.domain_id);
+        // SAFETY: the function only reads.
         let has_network = unsafe { ffi::pp_has_network() } != 0;
         let xml = text(&config.xml(has_network), what)?;
         // SAFETY: a live string.
@@ -57,16 +57,16 @@ impl Participant {
         Ok(Self(Arc::new(Core { entity, guid: guid(entity)?, _domain: domain })))
     }
 
-    /// Its name in the network.
+    /// GUID of the participant.
     #[must_use]
     pub fn guid(&self) -> Guid {
         self.0.guid
     }
 
-    /// Writes samples of a topic.
+    /// Creates a writer.
     ///
     /// # Errors
-    /// When a name is not valid or the QoS contradicts itself.
+    /// When a name is not valid or the QoS is inconsistent.
     pub fn writer(
         &self,
         topic: &str,
@@ -78,7 +78,7 @@ impl Participant {
         Ok(Writer::new(made, self.clone()))
     }
 
-    /// Takes samples of a topic.
+    /// Creates a reader.
     ///
     /// # Errors
     /// As [`Participant::writer`].
@@ -101,7 +101,7 @@ impl Participant {
         user_data: &[u8],
         make: unsafe extern "C" fn(i32, i32, *const ffi::Qos, *const u8, usize) -> i32,
     ) -> Result<Endpoint, Error> {
-        let what = || format!("the topic `{topic}` of type `{type_name}`");
+        let what = || format!("create an endpoint of the topic `{topic}` of type `{type_name}`");
         let (name, type_name) = (text(topic, what)?, text(type_name, what)?);
         // SAFETY: live strings.
         let code = unsafe { ffi::pp_topic(self.0.entity, name.as_ptr(), type_name.as_ptr()) };
@@ -114,18 +114,18 @@ impl Participant {
         Ok(Endpoint { guid: guid(entity.0)?, entity, _topic: topic })
     }
 
-    /// Tells who else is there.
+    /// Creates a reader of discovery.
     ///
     /// # Errors
-    /// When memory is short.
+    /// When memory is exhausted.
     pub fn discovery(&self, kind: Kind) -> Result<Discovery, Error> {
         Discovery::new(self.clone(), kind)
     }
 
-    /// Waits for things to happen.
+    /// Creates a waitset.
     ///
     /// # Errors
-    /// When memory is short.
+    /// When memory is exhausted.
     pub fn waitset(&self) -> Result<Waitset, Error> {
         Waitset::new(self.clone())
     }
@@ -140,12 +140,12 @@ pub(crate) struct Endpoint {
 
 fn guid(entity: i32) -> Result<Guid, Error> {
     let mut guid = Guid::default();
-    // SAFETY: it writes sixteen bytes.
+    // SAFETY: the function writes sixteen bytes.
     let code = unsafe { ffi::pp_guid(entity, guid.0.as_mut_ptr()) };
-    check(code, || "to tell the name of an entity".to_owned())?;
+    check(code, || "get the GUID of an entity".to_owned())?;
     Ok(guid)
 }
 
 fn text(text: &str, what: impl FnOnce() -> String) -> Result<CString, Error> {
-    CString::new(text).map_err(|_| Error::new(what(), "it has a zero byte"))
+    CString::new(text).map_err(|_| Error::new(what(), "a text has a zero byte"))
 }

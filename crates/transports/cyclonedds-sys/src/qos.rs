@@ -1,53 +1,53 @@
-//! Quality of service, as DDS has it.
+//! Quality of service of DDS.
 
 use crate::ffi;
 
-/// Whether a latecomer gets what was written before. The order is that of strength.
+/// Durability policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Durability {
-    /// No.
+    /// Late readers get no earlier samples.
     Volatile,
-    /// As long as the writer lives.
+    /// Late readers get earlier samples while the writer exists.
     TransientLocal,
-    /// As long as a service outside keeps it.
+    /// Earlier samples are kept by an external service.
     Transient,
-    /// For ever.
+    /// Earlier samples are kept permanently.
     Persistent,
 }
 
-/// Who says that a writer lives. The order is that of strength.
+/// Liveliness policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Liveliness {
-    /// Its program, all the time.
+    /// Asserted by the participant automatically.
     Automatic,
-    /// Any writer of its participant.
+    /// Asserted by any writer of the participant.
     ManualByParticipant,
-    /// It itself.
+    /// Asserted by the writer itself.
     ManualByTopic,
 }
 
-/// What a writer offers or a reader asks for. Times are in ns, none is infinite.
+/// QoS that a writer offers or a reader requests. Times are in ns, none is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Qos {
-    /// Whether what is lost is sent again.
+    /// Reliability: lost samples are sent again.
     pub is_reliable: bool,
-    /// Whether latecomers get the last samples.
+    /// Durability.
     pub durability: Durability,
-    /// How many samples are kept: none for all. Of others it is known only if they tell; 0 if not.
+    /// History depth; none for `KEEP_ALL`, 0 if a remote endpoint does not announce it.
     pub depth: Option<usize>,
-    /// Most time from sample to sample.
+    /// Maximum time between samples.
     pub deadline_ns: Option<i64>,
-    /// Age at which a sample is too old.
+    /// Lifespan of a sample.
     pub lifespan_ns: Option<i64>,
-    /// Who says that a writer lives.
+    /// Liveliness.
     pub liveliness: Liveliness,
-    /// How long it may be silent about that.
+    /// Lease duration of the liveliness.
     pub lease_ns: Option<i64>,
-    /// How long a reliable writer waits for room before it gives up.
+    /// Maximum time that a reliable writer blocks for buffer space.
     pub blocking_ns: Option<i64>,
 }
 
-/// Reliable and volatile, the last ten; a writer waits 100 ms.
+/// Reliable and volatile, depth 10; a writer blocks for at most 100 ms.
 impl Default for Qos {
     fn default() -> Self {
         Self {

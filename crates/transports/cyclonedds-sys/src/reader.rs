@@ -1,25 +1,25 @@
-//! Taking.
+//! Readers.
 
 use crate::error::check;
 use crate::participant::{Endpoint, Participant};
 use crate::{Error, Guid, Identity, Vendor, ffi};
 
-/// What arrived.
+/// A received sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sample {
-    /// CDR with the four bytes in front, and up to three behind that mean nothing.
+    /// CDR with the four-byte encapsulation header, and up to three bytes of padding.
     pub bytes: Vec<u8>,
-    /// When it was written, as the writer says, since 1970 \[ns\].
+    /// Source time stamp since 1970 \[ns\].
     pub time_ns: i64,
-    /// Who wrote it, and its number there; none if it did not come in a packet.
+    /// Identity of the sample; none if it was not received in a packet.
     pub source: Option<Identity>,
-    /// Who made the DDS that sent it.
+    /// DDS vendor of the sender.
     pub vendor: Vendor,
-    /// The sample that it answers, as Fast DDS says.
+    /// Identity of the related request (Fast DDS).
     pub related: Option<Identity>,
 }
 
-/// Takes samples of one topic.
+/// Reader of a topic.
 pub struct Reader {
     endpoint: Endpoint,
     participant: Participant,
@@ -30,34 +30,34 @@ impl Reader {
         Self { endpoint, participant }
     }
 
-    /// Its name in the network.
+    /// GUID of the reader.
     #[must_use]
     pub fn guid(&self) -> Guid {
         self.endpoint.guid
     }
 
-    /// The oldest sample that waits.
+    /// Takes the oldest sample.
     ///
     /// # Errors
-    /// When memory is short.
+    /// When memory is exhausted.
     pub fn take(&self) -> Result<Option<Sample>, Error> {
         loop {
             let mut taken = std::mem::MaybeUninit::<ffi::Sample>::zeroed();
-            // SAFETY: it writes one such structure.
+            // SAFETY: the function writes one such structure.
             let code = unsafe { ffi::pp_take(self.endpoint.entity.0, taken.as_mut_ptr()) };
-            if check(code, || "to take a sample".to_owned())? == 0 {
+            if check(code, || "take a sample".to_owned())? == 0 {
                 return Ok(None);
             }
-            // SAFETY: all zeros is a value of it, and so is what was written.
+            // SAFETY: all zeros is a valid value, and so is what the function wrote.
             let taken = unsafe { taken.assume_init() };
-            // What is no data tells that a writer went.
+            // A sample without data reports that a writer left.
             if taken.is_data == 0 {
                 continue;
             }
             let identity =
                 |one: ffi::Identity| Identity { writer: Guid(one.guid), sequence: one.sequence };
             return Ok(Some(Sample {
-                // SAFETY: made for it, filled, and given away.
+                // SAFETY: allocated for this sample, completely written, and owned by it.
                 bytes: unsafe { ffi::buffer(taken.bytes, taken.size) },
                 time_ns: taken.time_ns,
                 source: (taken.has_writer != 0).then(|| identity(taken.writer)),
@@ -67,7 +67,7 @@ impl Reader {
         }
     }
 
-    /// How many writers are matched now.
+    /// Number of matched writers.
     #[must_use]
     pub fn writers(&self) -> usize {
         // SAFETY: a number.
@@ -75,7 +75,7 @@ impl Reader {
         usize::try_from(count).unwrap_or(0)
     }
 
-    /// Whose it is.
+    /// Participant of the reader.
     #[must_use]
     pub fn participant(&self) -> &Participant {
         &self.participant

@@ -1,4 +1,4 @@
-//! Sleeping until something happens.
+//! Waitsets.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ const GUARD: i32 = 0;
 const DATA: i32 = 1;
 const MATCHED: i32 = 2;
 
-/// As many things are told at once; more are told at the next look.
+/// Maximum number of events per call; further events are reported by the next call.
 const ROOM: usize = 256;
 
 /// Identifies a watched entity in the result of [`Waitset::wait`].
@@ -22,15 +22,15 @@ const ROOM: usize = 256;
 pub struct Token(i32);
 
 /// Lets a thread sleep until one of the watched entities has an event. Each event is reported once,
-/// whether it is handled or not, so that an event that nobody handles never keeps the thread awake.
-/// Take all samples of a reader when its token is reported.
+/// handled or not, so that an unhandled event never keeps the thread awake. Take all samples of a
+/// reader when its token is reported.
 pub struct Waitset {
     waitset: Entity,
     guard: Arc<Entity>,
     participant: Participant,
 }
 
-/// Ends the sleep of a [`Waitset`] from another thread.
+/// Wakes the thread of a [`Waitset`] from another thread.
 #[derive(Clone)]
 pub struct Waker {
     guard: Arc<Entity>,
@@ -38,7 +38,7 @@ pub struct Waker {
 }
 
 impl Waker {
-    /// Ends it.
+    /// Wakes the thread.
     pub fn wake(&self) {
         // SAFETY: a number.
         let _ = unsafe { ffi::pp_guard_set(self.guard.0, 1) };
@@ -47,7 +47,7 @@ impl Waker {
 
 impl Waitset {
     pub(crate) fn new(participant: Participant) -> Result<Self, Error> {
-        let what = || "to wait".to_owned();
+        let what = || "create a waitset".to_owned();
         let of = participant.0.entity;
         // SAFETY: numbers.
         let waitset = Entity(check(unsafe { ffi::pp_waitset(of) }, what)?);
@@ -58,7 +58,7 @@ impl Waitset {
         Ok(Self { waitset, guard, participant })
     }
 
-    /// What wakes it.
+    /// Creates a handle that wakes this waitset.
     #[must_use]
     pub fn waker(&self) -> Waker {
         Waker { guard: self.guard.clone(), _participant: self.participant.clone() }
@@ -67,10 +67,10 @@ impl Waitset {
     fn watch(&self, entity: i32, event: i32) -> Result<Token, Error> {
         // SAFETY: numbers.
         let code = unsafe { ffi::pp_watch(self.waitset.0, entity, event) };
-        check(code, || "to wait for an entity".to_owned()).map(|_| Token(entity))
+        check(code, || "watch an entity".to_owned()).map(|_| Token(entity))
     }
 
-    /// Watches for samples. Drop a reader and it is watched no more.
+    /// Watches a reader for samples, until the reader is dropped.
     ///
     /// # Errors
     /// When it is watched already.
@@ -78,7 +78,8 @@ impl Waitset {
         self.watch(reader.entity(), DATA)
     }
 
-    /// Watches for readers that come and go; [`Writer::readers`] tells how many there are then.
+    /// Watches a writer for matched and unmatched readers; [`Writer::readers`] returns their
+    /// number.
     ///
     /// # Errors
     /// When it is watched already.
@@ -86,7 +87,7 @@ impl Waitset {
         self.watch(writer.entity(), MATCHED)
     }
 
-    /// Watches for others.
+    /// Watches a discovery reader for samples.
     ///
     /// # Errors
     /// When it is watched already.
@@ -94,17 +95,17 @@ impl Waitset {
         self.watch(discovery.entity(), DATA)
     }
 
-    /// Sleeps, at most so long, and gives the tokens of what has something new; none when it was
-    /// woken or time was up.
+    /// Waits at most for the timeout and returns the tokens of entities with events; none when it
+    /// was woken or timed out.
     ///
     /// # Errors
-    /// When memory is short.
+    /// When memory is exhausted.
     pub fn wait(&self, timeout_ns: i64) -> Result<Vec<Token>, Error> {
         let mut entities = [0_isize; ROOM];
-        // SAFETY: room for so many.
+        // SAFETY: the buffer has this size.
         let code =
             unsafe { ffi::pp_wait(self.waitset.0, entities.as_mut_ptr(), ROOM, timeout_ns.max(0)) };
-        let count = check(code, || "to wait".to_owned())?;
+        let count = check(code, || "wait".to_owned())?;
         let count = usize::try_from(count).unwrap_or(0).min(ROOM);
         let entities = entities[..count].iter().filter_map(|one| i32::try_from(*one).ok());
         let mut tokens = Vec::with_capacity(count);

@@ -1,4 +1,4 @@
-//! Writing.
+//! Writers.
 
 use std::ffi::c_void;
 use std::sync::{Mutex, PoisonError};
@@ -7,10 +7,9 @@ use crate::error::check;
 use crate::participant::{Endpoint, Participant};
 use crate::{Error, Guid, Identity, ffi};
 
-/// What owns the bytes of a sample. They are sent from where they are, now and when somebody asks
-/// for them again.
+/// Owner of the bytes of a sample. They are sent without a copy, now and for retransmission.
 pub trait Bytes: Send + Sync + 'static {
-    /// The bytes: CDR with the four in front that say how it is coded.
+    /// The bytes: CDR with the four-byte encapsulation header.
     fn bytes(&self) -> &[u8];
 }
 
@@ -20,7 +19,7 @@ impl Bytes for Vec<u8> {
     }
 }
 
-/// Writes samples of one topic.
+/// Writer of a topic.
 pub struct Writer {
     endpoint: Endpoint,
     writing: Mutex<()>,
@@ -32,31 +31,32 @@ impl Writer {
         Self { endpoint, writing: Mutex::default(), participant }
     }
 
-    /// Its name in the network.
+    /// GUID of the writer.
     #[must_use]
     pub fn guid(&self) -> Guid {
         self.endpoint.guid
     }
 
-    /// Writes a sample and gives its number. `related` is the sample that it answers; only Fast DDS
-    /// looks at it. A reliable writer whose readers are slow waits as long as its QoS says.
+    /// Writes a sample and returns its sequence number. `related` is the identity of the request
+    /// that it answers, used by Fast DDS only. A reliable writer blocks on slow readers according
+    /// to its QoS.
     ///
     /// # Errors
-    /// When it has waited too long, or the bytes are no sample.
+    /// When the blocking time has passed, or the bytes are not a sample.
     pub fn write(&self, bytes: impl Bytes, related: Option<Identity>) -> Result<i64, Error> {
         self.put(bytes, related, true)
     }
 
-    /// Writes a sample as [`Writer::write`], but never waits for slow readers.
+    /// Writes a sample as [`Writer::write`], without blocking on slow readers.
     ///
     /// # Errors
-    /// When there is no room for it, which is a timeout; as [`Writer::write`].
+    /// When there is no buffer space, which is a timeout; otherwise as [`Writer::write`].
     pub fn write_at_once(&self, bytes: impl Bytes) -> Result<i64, Error> {
         self.put(bytes, None, false)
     }
 
-    /// Writes a sample for the readers of one participant and gives its number; none when that
-    /// participant has no matched reader. Other readers do not get it.
+    /// Writes a sample for the readers of one participant and returns its sequence number; none if
+    /// that participant has no matched reader. Other readers do not get it.
     ///
     /// # Errors
     /// As [`Writer::write`].
@@ -68,7 +68,7 @@ impl Writer {
     ) -> Result<Option<i64>, Error> {
         let prefix = participant.0;
         self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
-            // SAFETY: the bytes live as long as their owner, which is C's from here on; the GUID is
+            // SAFETY: the bytes live as long as their owner, which C owns from here on; the GUID is
             // longer than the prefix that is read.
             unsafe {
                 ffi::pp_send_to(
@@ -85,7 +85,7 @@ impl Writer {
         .map(|(is_sent, sequence)| (is_sent != 0).then_some(sequence))
     }
 
-    /// True when a reader of that participant is matched.
+    /// True if a reader of that participant is matched.
     #[must_use]
     pub fn reaches(&self, participant: Guid) -> bool {
         // SAFETY: a number, and a GUID that is longer than the prefix that is read.
@@ -94,7 +94,7 @@ impl Writer {
 
     fn put(&self, bytes: impl Bytes, related: Option<Identity>, waits: bool) -> Result<i64, Error> {
         self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
-            // SAFETY: the bytes live as long as their owner, which is C's from here on.
+            // SAFETY: the bytes live as long as their owner, which C owns from here on.
             unsafe {
                 ffi::pp_write(
                     self.endpoint.entity.0,
@@ -110,8 +110,8 @@ impl Writer {
         .map(|(_, sequence)| sequence)
     }
 
-    /// Gives the bytes and their owner to a function of C that writes them; its result and the number
-    /// of the sample.
+    /// Passes the bytes and their owner to a C function that writes them; returns its result and
+    /// the sequence number.
     fn hand_over(
         &self,
         bytes: impl Bytes,
@@ -119,10 +119,10 @@ impl Writer {
         write: impl FnOnce(*const u8, usize, *mut c_void, *const ffi::Identity, *mut i64) -> i32,
     ) -> Result<(i32, i64), Error> {
         let owner: ffi::Owner = Box::new(bytes);
-        let what = || "to write a sample".to_owned();
+        let what = || "write a sample".to_owned();
         let size = owner.bytes().len();
         if size < 4 || u32::try_from(size).is_err() {
-            let why = format!("{size} bytes are no sample, which has 4 to 4294967295");
+            let why = format!("a sample has 4 to 4294967295 bytes, not {size}");
             return Err(Error::new(what(), why));
         }
         let related =
@@ -131,14 +131,14 @@ impl Writer {
         let mut sequence = 0;
         let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         let owner = Box::into_raw(Box::new(owner));
-        // SAFETY: just made, and read only; the box does not move until C gives it back.
+        // SAFETY: just created and only read; the box does not move until C returns it.
         let bytes = unsafe { (*owner).bytes() };
         let size = size.min(bytes.len());
         let code = write(bytes.as_ptr(), size, owner.cast(), related, &raw mut sequence);
         Ok((check(code, what)?, sequence))
     }
 
-    /// How many readers are matched now.
+    /// Number of matched readers.
     #[must_use]
     pub fn readers(&self) -> usize {
         // SAFETY: a number.
@@ -146,20 +146,21 @@ impl Writer {
         usize::try_from(count).unwrap_or(0)
     }
 
-    /// Waits, at most so long, until all readers have all samples; whether they do.
+    /// Waits until all matched readers have acknowledged all samples, at most for the timeout; true
+    /// if they have.
     #[must_use]
     pub fn wait_acknowledged(&self, timeout_ns: i64) -> bool {
         // SAFETY: a number.
         unsafe { ffi::pp_wait_acknowledged(self.endpoint.entity.0, timeout_ns.max(0)) >= 0 }
     }
 
-    /// Says that it lives, without a sample.
+    /// Asserts liveliness without a sample.
     pub fn assert_liveliness(&self) {
         // SAFETY: a number.
         let _ = unsafe { ffi::pp_assert_liveliness(self.endpoint.entity.0) };
     }
 
-    /// Whose it is.
+    /// Participant of the writer.
     #[must_use]
     pub fn participant(&self) -> &Participant {
         &self.participant

@@ -1,4 +1,4 @@
-//! Two participants of one program, which meet over the loopback interface.
+//! Two participants of one program, connected over the loopback interface.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test with a network waits")]
 
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use periplus_cyclonedds_sys::{
 
 const TYPE: &str = "std_msgs::msg::dds_::UInt8MultiArray_";
 
-/// A domain of its own for each test, and topics of its own for each run.
+/// A separate domain for each test, and separate topics for each run.
 struct Net {
     domain_id: u32,
 }
@@ -26,14 +26,14 @@ fn topic() -> String {
     format!("rt/p{}", std::process::id())
 }
 
-/// Polls until there is something; a test that waits longer has failed.
+/// Polls until there is a value; a timeout fails the test.
 fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {
         if let Some(found) = poll() {
             return found;
         }
-        assert!(start.elapsed() < Duration::from_secs(20), "waited in vain for {what}");
+        assert!(start.elapsed() < Duration::from_secs(20), "timeout while waiting for {what}");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -62,7 +62,8 @@ fn bytes_arrive_with_their_source() {
         let sequence = writer.write(cdr(size), None).unwrap();
         let sample = receive(&reader);
         assert_eq!(sample.bytes[..size], cdr(size));
-        // A packet's content is a multiple of four long; that of fragments is told.
+        // The content of a packet is padded to a multiple of four; that of fragments has an exact
+        // size.
         assert!(sample.bytes.len() <= size.next_multiple_of(4));
         assert!(sample.bytes[size..].iter().all(|byte| *byte == 0));
         assert_eq!(sample.source, Some(Identity { writer: writer.guid(), sequence }));
@@ -75,7 +76,7 @@ fn answers_name_their_request() {
     let (writer, reader) = pair(&Net { domain_id: 61 }, &Qos::default());
     let guid = Guid([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]);
     let request = Identity { writer: guid, sequence: 0x1_2345_6789 };
-    // In one packet, and in several.
+    // In one packet and in several.
     for size in [20, 200_000] {
         writer.write(cdr(size), Some(request)).unwrap();
         assert_eq!(receive(&reader).related, Some(request));
@@ -150,7 +151,7 @@ fn bytes_are_given_back_when_nobody_needs_them() {
         writer.write(Counted(cdr(999), send.clone()), None).unwrap();
         receive(&reader);
     }
-    // What is no sample goes back at once.
+    // An invalid sample is returned at once.
     assert!(writer.write(Counted(vec![0; 3], send.clone()), None).is_err());
     drop((writer, reader, send));
     let count = std::iter::from_fn(|| gone.recv_timeout(Duration::from_secs(20)).ok()).count();
@@ -166,7 +167,7 @@ fn a_waker_ends_the_sleep() {
     let start = Instant::now();
     assert_eq!(waitset.wait(10_000_000_000).unwrap(), Vec::new());
     assert!(start.elapsed() < Duration::from_secs(9));
-    // And only once.
+    // Exactly once.
     let start = Instant::now();
     assert_eq!(waitset.wait(50_000_000).unwrap(), Vec::new());
     assert!(start.elapsed() >= Duration::from_millis(45));
@@ -177,17 +178,17 @@ fn what_is_wrong_is_said() {
     let config =
         Config { domain_id: 66, more: "<CycloneDDS><Nonsense/>".into(), ..Config::default() };
     let error = Participant::open(&config, b"").map(drop).unwrap_err().to_string();
-    assert!(error.contains("to join domain 66"), "{error}");
+    assert!(error.contains("join domain 66"), "{error}");
     let config = Config { domain_id: 100_000, ..Config::default() };
     let error = Participant::open(&config, b"").map(drop).unwrap_err().to_string();
-    assert!(error.contains("to join domain 100000"), "{error}");
+    assert!(error.contains("join domain 100000"), "{error}");
     let participant = Net { domain_id: 66 }.participant();
     let error = participant.writer("a\0b", TYPE, &Qos::default(), b"").map(drop).unwrap_err();
     assert!(error.to_string().contains("zero byte"), "{error}");
 }
 
-/// An event that nobody handles must not keep the thread awake: after the first call of a service the
-/// status of its writer was never read, and the thread of the wire used a core for good.
+/// Regression test: the status of a writer was never read after the first call of a service, so
+/// that the event kept the thread awake and used a full core.
 #[test]
 fn an_event_is_reported_once() {
     let net = Net { domain_id: 67 };
@@ -207,13 +208,13 @@ fn an_event_is_reported_once() {
         seen.extend(waitset.wait(1_000_000).unwrap());
         watched.iter().all(|token| seen.contains(token)).then_some(())
     });
-    // Nothing was taken, no status was read.
+    // No sample was taken and no status was read.
     for _ in 0..3 {
         let start = Instant::now();
         assert_eq!(waitset.wait(100_000_000).unwrap(), Vec::new());
         assert!(start.elapsed() >= Duration::from_millis(90), "it does not sleep");
     }
-    // What comes next is an event again.
+    // The next sample is an event again.
     drop(other);
     wait("the reader to go", || {
         waitset.wait(1_000_000).unwrap().contains(&watched[0]).then_some(())
@@ -240,7 +241,7 @@ fn a_sample_for_one_participant_comes_to_it_alone() {
     });
     assert!(there.iter().all(|one| writer.reaches(one.guid())));
     let related = Identity { writer: readers[0].guid(), sequence: 5 };
-    // In one packet and in several, and sooner than anybody can acknowledge.
+    // In one packet and in several, faster than acknowledgements.
     let mut expected = [const { Vec::new() }; 3];
     for round in 0..60_usize {
         let (to, size) = (round * 7 % 3, if round % 10 == 0 { 200_000 } else { 100 + round });
@@ -248,7 +249,8 @@ fn a_sample_for_one_participant_comes_to_it_alone() {
         let sequence = writer.write_to(participant, cdr(size), Some(related)).unwrap().unwrap();
         expected[to].push((sequence, size));
     }
-    // One for all, after the others: whoever waits for a sample that is not for it never gets this.
+    // One for all readers after the others: a reader that waits for a sample of another reader
+    // would never get this.
     let sequence = writer.write(cdr(50), None).unwrap();
     for (reader, of) in readers.iter().chain([&second]).zip([0, 1, 2, 0]) {
         for (sequence, size) in &expected[of] {

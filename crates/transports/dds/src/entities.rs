@@ -1,19 +1,19 @@
-//! `ros_discovery_info`: which nodes a participant has, and which endpoints are whose.
+//! `ros_discovery_info`: the nodes of a participant and their endpoints.
 //!
-//! Source: `rmw_dds_common/msg/ParticipantEntitiesInfo.msg`. A name of an endpoint takes 16 bytes
-//! since Iron and took 24 until Humble, in a message of the same name. Both are read; what is
-//! written is what the others write.
+//! Source: `rmw_dds_common/msg/ParticipantEntitiesInfo.msg`. A GID has 16 bytes since Iron and had
+//! 24 until Humble, in a message of the same name. Both forms are read; the form of the other
+//! participants is written.
 
-/// Its DDS topic.
+/// DDS topic.
 pub const TOPIC: &str = "ros_discovery_info";
 
-/// Its DDS type.
+/// DDS type.
 pub const TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
 
-/// Its type hash, since Iron.
+/// Type hash, since Iron.
 pub const HASH: &str = "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e";
 
-/// How long the name of an endpoint is in the message.
+/// Length of a GID in the message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
     /// 16 bytes: Iron and later.
@@ -32,10 +32,10 @@ impl Form {
     }
 }
 
-/// What a participant says.
+/// Content of `ros_discovery_info`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Entities {
-    /// Which participant.
+    /// GUID of the participant.
     pub participant: [u8; 16],
     /// Its nodes.
     pub nodes: Vec<NodeEntities>,
@@ -46,13 +46,13 @@ pub struct Entities {
 pub struct NodeEntities {
     /// Namespace and name.
     pub name: String,
-    /// What it reads with.
+    /// GUIDs of its readers.
     pub readers: Vec<[u8; 16]>,
-    /// What it writes with.
+    /// GUIDs of its writers.
     pub writers: Vec<[u8; 16]>,
 }
 
-/// Writes the message as CDR.
+/// Encodes the message as CDR.
 #[must_use]
 pub fn encode(entities: &Entities, form: Form) -> Vec<u8> {
     let mut out = vec![0, 1, 0, 0];
@@ -86,7 +86,7 @@ fn put_gid(out: &mut Vec<u8>, gid: &[u8; 16], form: Form) {
     out.resize(out.len() + form.gid() - 16, 0);
 }
 
-/// Reads a message in either form; none if it is neither.
+/// Decodes a message in either form; none if it is neither.
 #[must_use]
 pub fn decode(bytes: &[u8]) -> Option<(Entities, Form)> {
     [Form::Iron, Form::Humble].into_iter().find_map(|form| Some((read(bytes, form)?, form)))
@@ -101,7 +101,7 @@ fn read(bytes: &[u8], form: Form) -> Option<Entities> {
     };
     let mut reader = Reader { bytes: rest, at: 0, is_little, form };
     let participant = reader.gid()?;
-    // The least that a node takes: two texts and two lists, all empty.
+    // Minimum size of a node: two texts and two lists, all empty.
     let count = reader.length(16)?;
     let mut nodes = Vec::with_capacity(count);
     for _ in 0..count {
@@ -109,7 +109,7 @@ fn read(bytes: &[u8], form: Form) -> Option<Entities> {
         let name = format!("{}/{name}", namespace.trim_end_matches('/'));
         nodes.push(NodeEntities { name, readers: reader.gids()?, writers: reader.gids()? });
     }
-    // Who sends it may pad it.
+    // The sender may add padding.
     (rest.len() - reader.at < 4).then_some(Entities { participant, nodes })
 }
 
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
         usize::try_from(number).ok()
     }
 
-    /// How many elements follow, of which each takes at least so many bytes.
+    /// Number of the elements that follow, each of at least `min_bytes`.
     fn length(&mut self, least_bytes: usize) -> Option<usize> {
         let length = self.number()?;
         (length <= (self.bytes.len() - self.at) / least_bytes).then_some(length)
@@ -149,7 +149,7 @@ impl<'a> Reader<'a> {
 
     fn gid(&mut self) -> Option<[u8; 16]> {
         let (gid, rest) = self.take(self.form.gid())?.split_at(16);
-        // What is behind the name of Humble is zero; that of others is not so long.
+        // The bytes after a GID of Humble are zero; GIDs of others are shorter.
         rest.iter().all(|byte| *byte == 0).then(|| gid.try_into().ok())?
     }
 
@@ -181,7 +181,7 @@ mod tests {
         for form in [Form::Iron, Form::Humble] {
             let bytes = encode(&sample(), form);
             assert_eq!(decode(&bytes), Some((sample(), form)));
-            // As a packet carries it.
+            // Padding as in a packet.
             let mut padded = bytes.clone();
             padded.resize(bytes.len().next_multiple_of(4), 0);
             assert_eq!(decode(&padded), Some((sample(), form)));

@@ -1,23 +1,23 @@
-//! Why a wire cannot be.
+//! Errors of the DDS transport.
 
 use std::fmt;
 
 use periplus_graph::GraphError;
 
-/// Why a wire cannot be.
+/// Error of the DDS transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum WireError {
     /// The network cannot be joined.
     Network {
-        /// Number of the domain.
+        /// Domain id.
         domain_id: u32,
-        /// What DDS says.
+        /// Message of DDS.
         why: String,
     },
-    /// It has a graph already.
+    /// A graph is attached already.
     Attached,
-    /// The graph does not want it.
+    /// The graph refused the transport's node.
     Graph(GraphError),
 }
 
@@ -26,11 +26,13 @@ impl fmt::Display for WireError {
         match self {
             Self::Network { domain_id, why } => write!(
                 f,
-                "cannot join the ROS 2 network, domain {domain_id}: {why}; see which interfaces \
+                "cannot join the ROS 2 network, domain {domain_id}: {why}; check which interfaces \
                  there are, whether ROS_DOMAIN_ID and CYCLONEDDS_URI are as meant, and whether \
                  more than 60 programs of this domain run on this machine"
             ),
-            Self::Attached => write!(f, "the wire has a graph already; open another wire"),
+            Self::Attached => {
+                write!(f, "the transport already has a graph; open another transport")
+            }
             Self::Graph(error) => error.fmt(f),
         }
     }

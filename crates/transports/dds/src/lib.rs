@@ -1,9 +1,9 @@
-//! A graph on the wire, as ROS 2 speaks it: other programs see our nodes, topics and services as
-//! they see any others, and we see theirs. Over DDS; no ROS is needed.
+//! DDS transport for ROS 2: connects a graph to ROS 2 programs on the network, without a ROS
+//! installation.
 //!
-//! A [`Wire`] joins the network and tells who else is there ([`Wire::remote`]). What is attached to
-//! it takes part: a publisher is heard as soon as a subscription elsewhere matches it, messages from
-//! elsewhere come to subscriptions, and services work both ways.
+//! A [`Wire`] joins the network and lists the nodes, topics and services of other programs
+//! ([`Wire::remote`]). An attached graph takes part: its publishers and subscriptions are matched
+//! with those of other programs, and services work in both directions.
 //!
 //! ```no_run
 //! use std::time::Duration;
@@ -11,16 +11,16 @@
 //! use periplus_graph::{Graph, NodeSettings, Qos};
 //! use periplus_dds::{Settings, Wire};
 //!
-//! // What the environment says is read with `Settings::from_environment(&host)`.
+//! Read the environment with `Settings::from_environment(&host)`.
 //! let wire = Wire::open(&Settings::default())?;
 //!
-//! // What others have, after they have had a moment to say so.
+//! Endpoints of other programs, once discovery has run.
 //! wire.wait_for(Duration::from_secs(2), |remote| remote.topic("/scan").is_some());
 //! for topic in &wire.remote().topics {
 //!     println!("{} {:?}", topic.name, topic.type_names);
 //! }
 //!
-//! // Taking part: `ros2 topic echo`, in short.
+//! Taking part: a short `ros2 topic echo`.
 //! let graph = Graph::live();
 //! wire.attach(&graph)?;
 //! let node = graph.node(NodeSettings::new("listener"))?;
@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program that publishes once and ends calls [`Wire::flush`] before.
+//! A program that publishes once and exits must call [`Wire::flush`] first.
 
 pub mod entities;
 mod error;

@@ -1,5 +1,5 @@
-//! The thread of a wire: hears who comes and goes, takes what arrives, and keeps the endpoints on
-//! the network as the graph has them.
+//! Thread of the transport: handles discovery, receives data, and keeps the DDS endpoints in sync
+//! with the graph.
 
 mod net;
 mod report;
@@ -25,7 +25,7 @@ use report::Told;
 use services::Services;
 use topics::Topics;
 
-/// How often it looks what has changed in the graph, if nothing else wakes it \[ns\].
+/// Period at which changes of the graph are checked \[ns\], unless something else wakes the thread.
 const LOOK_NS: i64 = 25_000_000;
 
 const KINDS: [Kind; 3] = [Kind::Participants, Kind::Writers, Kind::Readers];
@@ -38,18 +38,18 @@ pub(crate) struct Link {
     info_reader: Reader,
     info_writer: Writer,
     info_written: Vec<u8>,
-    /// Changes of the peers that were looked at.
+    /// Change counter of the peers at the last check.
     seen: u64,
     attached: Option<Attached>,
 }
 
-/// A graph that takes part.
+/// The attached graph.
 struct Attached {
     graph: Graph,
-    /// The node that stands for all others.
+    /// The node that represents all remote participants.
     node: Node,
     generation: Option<u64>,
-    /// Full names of its own.
+    /// Full names of its own nodes.
     nodes: Vec<String>,
     topics: Topics,
     services: Services,
@@ -71,7 +71,7 @@ impl Link {
         let said = user_data::type_hash(entities::HASH);
         let (topic, type_name) = (entities::TOPIC, entities::TYPE);
         let info_writer = participant.writer(topic, type_name, &qos, &said)?;
-        // All participants write to one instance, and nothing of any may be lost.
+        // All participants write to one instance, and no sample may be lost.
         let all = Qos { depth: None, ..qos };
         let info_reader = participant.reader(topic, type_name, &all, &said)?;
         discovery_tokens.push(net.waitset.watch_reader(&info_reader)?);
@@ -112,7 +112,7 @@ impl Link {
         }
     }
 
-    /// Hears who came and went.
+    /// Processes discovery samples.
     fn discover(&mut self) {
         let mut peers = lock(&self.net.shared.peers);
         let before = peers.changes();
@@ -136,14 +136,14 @@ impl Link {
             self.net.complain(
                 "strange-discovery",
                 format!(
-                    "a program ({writer}) tells of its nodes in a way that no ROS 2 does; its \
-                     nodes have no names here"
+                    "a program ({writer}) announces its nodes in a format that no ROS 2 uses; its \
+                     nodes are listed without names"
                 ),
             );
         }
     }
 
-    /// Keeps the network as the graph is, and takes what arrived.
+    /// Synchronizes the endpoints with the graph and receives data.
     fn follow(&mut self, tokens: &[Token]) {
         let Some(attached) = &mut self.attached else { return };
         let changes = lock(&self.net.shared.peers).changes();
@@ -174,7 +174,7 @@ impl Link {
         }
     }
 
-    /// Tells the others which nodes there are, if that has changed.
+    /// Publishes the list of nodes if it has changed.
     fn tell_nodes(&mut self) {
         let participant = self.net.participant.guid().0;
         let nodes = self.attached.as_ref().map_or(Vec::new(), Attached::entities);
@@ -204,7 +204,7 @@ impl Attached {
         }
     }
 
-    /// Makes and drops endpoints as the graph has them.
+    /// Creates and removes endpoints to match the graph.
     fn sync(&mut self, net: &Net) {
         let own = Own::of(&self.graph);
         self.topics.sync(net, &self.graph, &own.topics);
@@ -212,7 +212,7 @@ impl Attached {
         self.nodes = own.nodes;
     }
 
-    /// The nodes and which endpoints are whose.
+    /// Nodes with their endpoints.
     fn entities(&self) -> Vec<NodeEntities> {
         let mut nodes: BTreeMap<&String, NodeEntities> = self
             .nodes

@@ -1,33 +1,34 @@
-//! Names of topics, services and types, as ROS 2 gives them to DDS.
+//! DDS names of topics, services and types.
 //!
-//! Source: ROS 2's design article "Topic and Service name mapping to DDS", and what `rmw` does.
+//! Source: ROS 2's design article "Topic and Service name mapping to DDS", and the implementation
+//! of `rmw`.
 
 pub use periplus_transport::names::{message, type_of};
 
-/// What a DDS topic is for.
+/// Purpose of a DDS topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// A topic of ROS.
     Topic,
-    /// Questions to a service.
+    /// Requests of a service.
     Request,
-    /// Its answers.
+    /// Responses of a service.
     Reply,
 }
 
-/// The DDS topic of a ROS topic.
+/// DDS topic of a ROS topic.
 #[must_use]
 pub fn topic(name: &str) -> String {
     format!("rt{name}")
 }
 
-/// The DDS topics of a service: questions and answers.
+/// DDS topics of a service: request and response.
 #[must_use]
 pub fn service(name: &str) -> (String, String) {
     (format!("rq{name}Request"), format!("rr{name}Reply"))
 }
 
-/// What a DDS topic is for, and its name in ROS; none for topics that are not of ROS.
+/// Purpose and ROS name of a DDS topic; none for topics outside ROS.
 #[must_use]
 pub fn of_ros(topic: &str) -> Option<(Use, &str)> {
     let (prefix, name) = topic.split_at_checked(2)?;
@@ -40,13 +41,13 @@ pub fn of_ros(topic: &str) -> Option<(Use, &str)> {
     (name.len() > 1 && name.starts_with('/')).then_some((kind, name))
 }
 
-/// The DDS types of a service: question and answer.
+/// DDS types of a service: request and response.
 #[must_use]
 pub fn service_types(name: &str) -> (String, String) {
     (type_of(&format!("{name}_Request")), type_of(&format!("{name}_Response")))
 }
 
-/// The service of the DDS type of its question or answer.
+/// Service type of the DDS type of its request or response.
 #[must_use]
 pub fn service_of(type_name: &str) -> Option<String> {
     let name = message(type_name)?;

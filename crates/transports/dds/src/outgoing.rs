@@ -1,5 +1,6 @@
-//! What waits to be sent. A small sample is sent by whoever publishes it, if it can go at once; others
-//! are only put here, and threads of the wire send them, so that a slow or dead peer holds up nobody.
+//! Send queues of writers. A small sample is sent by the publishing thread if that is possible
+//! without blocking; the threads of the transport send the others, so that a slow or dead peer
+//! blocks no publisher.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,48 +12,50 @@ use periplus_cyclonedds_sys::{Bytes, Guid, Identity, Writer};
 use periplus_graph::Sample;
 use periplus_transport::{Way, lock};
 
-/// Samples above this go a way of their own, so that small ones need not wait for them \[bytes\].
+/// Samples above this size use a separate thread, so that small ones do not wait for them
+/// \[bytes\].
 const LARGE: usize = 64 << 10;
 
-/// Samples up to this are sent at once: to wake a thread for one costs more than to send it \[bytes\].
+/// Maximum size of samples sent by the publishing thread \[bytes\]: waking a thread costs more than
+/// sending them.
 const SMALL: usize = 8 << 10;
 
-/// How long a writer without room is let alone.
+/// Pause for a writer without buffer space.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// What is sent.
+/// Data to send.
 pub(crate) enum Parcel {
-    /// A message of a graph, encoded when it is sent.
+    /// A message of the graph, encoded when it is sent.
     Sample(Sample),
-    /// The response of a service, for one participant alone.
+    /// A service response for one participant.
     Response(Response),
 }
 
-/// The response of a service.
+/// A service response.
 pub(crate) struct Response {
     pub(crate) bytes: Vec<u8>,
-    /// The request that it answers, in the form of Fast DDS.
+    /// Identity of the request, for Fast DDS.
     pub(crate) related: Option<Identity>,
     /// Participant of the client.
     pub(crate) client: Guid,
 }
 
-/// Keeps the message as long as DDS sends from it.
+/// Keeps the message alive while DDS sends from it.
 struct Held(Sample);
 
 impl Bytes for Held {
     fn bytes(&self) -> &[u8] {
-        // It was encoded before.
+        // Encoded before.
         self.0.cdr().unwrap_or_default()
     }
 }
 
-/// A writer, and what waits for it.
+/// A writer with its queue.
 pub(crate) struct Outgoing {
     pub(crate) writer: Writer,
-    /// As many wait; then the oldest goes.
+    /// Queue depth; the oldest sample is dropped when it is exceeded.
     depth: usize,
-    /// Whether samples matter although no reader is matched.
+    /// True if samples matter without matched readers (transient local).
     keeps: bool,
     readers: AtomicUsize,
     largest: AtomicUsize,
@@ -63,7 +66,7 @@ pub(crate) struct Outgoing {
 #[derive(Default)]
 struct Queue {
     parcels: VecDeque<Parcel>,
-    /// Whether a lane will come to it.
+    /// True if a send thread is scheduled for it.
     is_scheduled: bool,
     dropped: u64,
     refused: u64,
@@ -82,7 +85,7 @@ impl Outgoing {
         })
     }
 
-    /// How many readers there are now.
+    /// Current number of readers.
     pub(crate) fn count_readers(&self) -> usize {
         let readers = self.writer.readers();
         self.readers.store(readers, Ordering::Relaxed);
@@ -94,9 +97,9 @@ impl Outgoing {
         self.largest.load(Ordering::Relaxed)
     }
 
-    /// Sends a sample, or puts it to be sent. When too many wait, the oldest goes.
+    /// Sends a sample or queues it. The oldest is dropped when the queue is full.
     pub(crate) fn put(self: &Arc<Self>, parcel: Parcel) {
-        // Its size is known only when it is encoded; that of those before it has to do.
+        // The size is known only after encoding; the size of earlier samples is used.
         let is_small = (1..=SMALL).contains(&self.largest());
         let pace = match &parcel {
             Parcel::Sample(_) if is_small => Pace::AtOnce,
@@ -111,7 +114,7 @@ impl Outgoing {
             self.lanes.waiting.fetch_add(1, Ordering::Relaxed);
         }
         queue.parcels.push_back(parcel);
-        // Who comes while one is sent waits behind it: they stay in order.
+        // Samples that arrive during a send are queued to keep the order.
         if std::mem::replace(&mut queue.is_scheduled, true) {
             return;
         }
@@ -127,7 +130,7 @@ impl Outgoing {
         }
     }
 
-    /// Sends the oldest sample that waits, and says how it went on.
+    /// Sends the oldest sample; returns the next step for this writer.
     fn send(self: &Arc<Self>, pace: Pace) -> Next {
         let Some(parcel) = lock(&self.queue).parcels.pop_front() else { return Next::Done };
         let sample = match parcel {
@@ -140,7 +143,7 @@ impl Outgoing {
         };
         let size = match sample.cdr() {
             Ok(bytes) => bytes.len(),
-            // Its publisher made what its type does not allow.
+            // The message violates the limits of its type.
             Err(_) => return self.sent(0, None, None),
         };
         let most = match pace {
@@ -170,7 +173,7 @@ impl Outgoing {
         self.largest.fetch_max(size, Ordering::Relaxed);
         let mut queue = lock(&self.queue);
         match (error, sample) {
-            // It is tried again unless newer ones have come to fill its place.
+            // Retry unless newer samples have filled the queue.
             (Some(error), Some(sample))
                 if error.is_timeout() && queue.parcels.len() < self.depth =>
             {
@@ -189,8 +192,7 @@ impl Outgoing {
         if self.largest() > LARGE { Next::Bulk } else { Next::Again }
     }
 
-    /// How many samples were dropped because they came faster than they went, and how many DDS
-    /// refused.
+    /// Numbers of samples dropped because the queue was full, and refused by DDS.
     pub(crate) fn losses(&self) -> (u64, u64) {
         let queue = lock(&self.queue);
         (queue.dropped, queue.refused)
@@ -214,33 +216,33 @@ impl Drop for Outgoing {
     }
 }
 
-/// How a sample is sent.
+/// Send mode of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pace {
-    /// By whoever publishes it, without waiting for anything.
+    /// By the publishing thread, without blocking.
     AtOnce,
-    /// By the thread for small ones.
+    /// By the thread for small samples.
     Normal,
-    /// By the thread for large ones.
+    /// By the thread for large samples.
     Bulk,
 }
 
-/// What is to happen with a writer next.
+/// Next step for a writer.
 enum Next {
-    /// Nothing until a sample comes.
+    /// Wait for samples.
     Done,
-    /// Its next sample, after those of others.
+    /// Send the next sample after those of other writers.
     Again,
-    /// Its next sample, on the way of the large.
+    /// Send the next sample on the thread for large samples.
     Bulk,
-    /// A pause: it had no room.
+    /// Retry after a pause: no buffer space.
     Later,
 }
 
-/// The two ways out, each a thread: one for small samples and one for large.
+/// The two send threads, for small and for large samples.
 pub(crate) struct Lanes {
     lanes: [Lane; 2],
-    /// How many samples wait, for all writers.
+    /// Number of queued samples of all writers.
     waiting: AtomicUsize,
     is_closed: AtomicBool,
 }
@@ -262,7 +264,7 @@ impl Lanes {
         let threads = [("wire-send", false), ("wire-send-bulk", true)].map(|(name, is_bulk)| {
             let lanes = lanes.clone();
             let thread = std::thread::Builder::new().name(name.to_owned());
-            thread.spawn(move || lanes.run(is_bulk)).expect("the system gives a thread")
+            thread.spawn(move || lanes.run(is_bulk)).expect("the system starts a thread")
         });
         (lanes, threads.into())
     }
@@ -273,7 +275,7 @@ impl Lanes {
         lane.filled.notify_one();
     }
 
-    /// How many samples wait.
+    /// Number of queued samples.
     pub(crate) fn waiting(&self) -> usize {
         self.waiting.load(Ordering::Relaxed)
     }
@@ -282,7 +284,7 @@ impl Lanes {
     pub(crate) fn close(&self) {
         self.is_closed.store(true, Ordering::Release);
         for lane in &self.lanes {
-            // The lock, so that a thread that is about to wait does not miss it.
+            // Locked so that a thread that is about to wait does not miss the notification.
             let mut ready = lock(&lane.ready);
             ready.clear();
             lane.filled.notify_all();
@@ -291,7 +293,7 @@ impl Lanes {
 
     fn run(&self, is_bulk: bool) {
         let lane = &self.lanes[usize::from(is_bulk)];
-        // Those without room, until others have had their turn.
+        // Writers without buffer space, retried after the others.
         let mut pausing: Vec<Arc<Outgoing>> = Vec::new();
         loop {
             let mut ready = lock(&lane.ready);

@@ -1,4 +1,4 @@
-//! What is known of the others, as discovery tells it.
+//! Remote participants and endpoints, from discovery.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,17 +11,16 @@ use crate::qos;
 use crate::remote::{Progress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
 use crate::user_data;
 
-/// More endpoints than this are not remembered: a network that is out of its mind must not take our
-/// memory.
+/// Maximum number of endpoints stored, which bounds the memory on a faulty network.
 const MOST: usize = 50_000;
 
-/// A writer or reader elsewhere.
+/// A remote writer or reader.
 #[derive(Clone, Debug)]
 pub(crate) struct Endpoint {
     pub(crate) is_writer: bool,
-    /// As DDS has it.
+    /// DDS topic name.
     pub(crate) topic: String,
-    /// As DDS has it.
+    /// DDS type name.
     pub(crate) type_name: String,
     pub(crate) type_hash: Option<String>,
     pub(crate) qos: Qos,
@@ -33,12 +32,12 @@ pub(crate) struct Endpoint {
 struct Participant {
     vendor: Vendor,
     enclave: String,
-    /// Its `USER_DATA` has an enclave, which every participant of ROS 2 has and no other.
+    /// True if `USER_DATA` has an enclave, which exactly the participants of ROS 2 have.
     is_ros: bool,
     nodes: Option<Vec<NodeEntities>>,
 }
 
-/// All others.
+/// All remote participants.
 #[derive(Debug, Default)]
 pub(crate) struct Peers {
     own: Guid,
@@ -46,14 +45,14 @@ pub(crate) struct Peers {
     endpoints: BTreeMap<Guid, Endpoint>,
     /// Node of each endpoint.
     nodes: BTreeMap<Guid, String>,
-    /// How others write their nodes, and how many of them.
+    /// Form of `ros_discovery_info` of each participant.
     forms: BTreeMap<Guid, Form>,
-    /// Counts what came, changed or went.
+    /// Counts changes.
     changes: u64,
 }
 
-/// The QoS that an endpoint announces. Fast DDS keeps history and depth to itself, and Cyclone DDS, which
-/// reads them, fills in the default of DDS: these are unknown, as `ros2 topic info` prints them.
+/// QoS announced by an endpoint. Fast DDS does not announce history and depth, and Cyclone DDS,
+/// which reads them, fills in the DDS default; these are unknown, as `ros2 topic info` prints them.
 fn announced(qos: &periplus_cyclonedds_sys::Qos, vendor: Vendor) -> Qos {
     let announced = qos::from_dds(qos);
     if vendor == Vendor::FAST {
@@ -71,7 +70,7 @@ impl Peers {
         self.changes
     }
 
-    /// One came, changed or went.
+    /// Processes a discovery sample.
     pub(crate) fn note(&mut self, kind: Kind, found: Found) {
         if found.participant == self.own || found.guid.participant() == self.own {
             return;
@@ -116,7 +115,7 @@ impl Peers {
         one.is_ros |= user_data::value(&found.user_data, "enclave").is_some();
     }
 
-    /// What a participant says of its nodes; false when it is no such message.
+    /// Processes a `ros_discovery_info` message; false if it is malformed.
     pub(crate) fn hear(&mut self, bytes: &[u8], vendor: Vendor) -> bool {
         let Some((said, form)) = entities::decode(bytes) else { return false };
         let guid = Guid(said.participant);
@@ -143,7 +142,8 @@ impl Peers {
         true
     }
 
-    /// How to write our own nodes: as the others do, and as new ones do when they do not agree.
+    /// Form in which to publish our own nodes: that of the other participants, or the newer one if
+    /// they differ.
     pub(crate) fn form(&self) -> Form {
         let is_old = !self.forms.is_empty() && self.forms.values().all(|one| *one == Form::Humble);
         if is_old { Form::Humble } else { Form::Iron }
@@ -153,7 +153,7 @@ impl Peers {
         self.nodes.get(&endpoint).map(String::as_str)
     }
 
-    /// The ends of a DDS topic.
+    /// Endpoints of a DDS topic.
     pub(crate) fn ends<'a>(
         &'a self,
         topic: &'a str,
@@ -163,7 +163,7 @@ impl Peers {
         all.filter(move |(_, end)| end.is_writer == is_writer && end.topic == topic)
     }
 
-    /// Who answers a service: participants that read questions and write answers.
+    /// Servers of a service: participants that read requests and write responses.
     pub(crate) fn servers(&self, name: &str) -> Vec<(Guid, Vendor)> {
         let (request, reply) = names::service(name);
         let answering: BTreeSet<Guid> =
@@ -173,9 +173,9 @@ impl Peers {
         both.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    /// How far discovery has come.
+    /// Progress of discovery.
     pub(crate) fn progress(&self) -> Progress {
-        // Participants with an endpoint that none of their nodes has.
+        // Participants with an endpoint that belongs to none of their nodes.
         let nodeless: BTreeSet<Guid> = self
             .endpoints
             .iter()
@@ -200,7 +200,7 @@ impl Peers {
         }
     }
 
-    /// All as plain data.
+    /// Returns everything as plain data.
     pub(crate) fn view(&self) -> Remote {
         let mut remote = Remote::default();
         for (guid, one) in &self.participants {
@@ -256,7 +256,7 @@ impl Peers {
     }
 }
 
-/// What a program without nodes is called.
+/// Name shown for a program without nodes.
 pub(crate) const NAMELESS: &str = "(a program without nodes)";
 
 fn insert(sorted: &mut Vec<String>, name: &str) {
@@ -332,7 +332,7 @@ mod tests {
         .assert_eq(&told(&peers.view()));
         assert_eq!(peers.servers("/go"), [(Guid(OTHER), Vendor::FAST)]);
 
-        // It goes.
+        // The participant leaves.
         peers.note(Kind::Writers, Found { is_alive: false, ..found(1, "", "") });
         let gone = Found { guid: Guid(OTHER), is_alive: false, ..found(0, "", "") };
         peers.note(Kind::Participants, gone);

@@ -1,20 +1,20 @@
-//! Participants of a domain on this machine, as its UDP ports tell.
+//! Number of participants of a domain on this machine, from its UDP ports.
 //!
-//! A participant of DDS receives discovery on a port that follows from the domain and the number of
+//! A DDS participant receives discovery on a port that follows from the domain and the number of
 //! the participant on its machine (RTPS 2.5, 9.6.2.3). Linux lists all bound ports, so that the
 //! number of participants is known before any of them has answered.
 
-/// Ports of a domain begin here, for domain 0.
+/// Port base (PB) of RTPS.
 const BASE: u32 = 7400;
 
-/// From domain to domain.
+/// Domain gain (DG) of RTPS.
 const DOMAIN_GAIN: u32 = 250;
 
-/// The port for discovery of participant 0, counted from the first of its domain; that of the next
-/// participant is 2 higher.
+/// Discovery port of participant 0, relative to the first port of its domain; participants are 2
+/// ports apart.
 const DISCOVERY_OFFSET: u32 = 10;
 
-/// The number of participants in a domain, from the text of Linux's `/proc/net/udp`.
+/// Counts the participants of a domain, from the text of Linux's `/proc/net/udp`.
 #[must_use]
 pub fn participants(proc_net_udp: &str, domain_id: u32) -> usize {
     let first = BASE + DOMAIN_GAIN * domain_id + DISCOVERY_OFFSET;

@@ -1,13 +1,13 @@
-//! Quality of service, from graphs to DDS and back.
+//! QoS conversion between graph and DDS.
 
 use periplus_cyclonedds_sys as dds;
 use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
 
-/// How long a writer may wait for room at once \[ns\]: others wait for their turn meanwhile, and it
-/// tries again.
+/// Maximum blocking time of a writer without buffer space \[ns\]; the send is retried after the
+/// other writers.
 const BLOCKING_NS: i64 = 3_000_000;
 
-/// What is kept of a history without end: DDS would keep all until memory is gone.
+/// Depth used for a `KEEP_ALL` history; DDS would keep samples until memory is exhausted.
 pub(crate) const MOST_KEPT: usize = 10_000;
 
 pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
@@ -33,7 +33,7 @@ pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
     }
 }
 
-/// What is weaker or stronger in DDS than ROS has a word for counts as what ROS has next below.
+/// Converts QoS from DDS. Policies that ROS does not have map to the next weaker one.
 pub(crate) fn from_dds(qos: &dds::Qos) -> Qos {
     let reliability = if qos.is_reliable { Reliability::Reliable } else { Reliability::BestEffort };
     let (history, depth) = match qos.depth {
@@ -74,7 +74,7 @@ mod tests {
         for qos in [full, Qos::sensor_data(), Qos::default(), Qos::latched(1), Qos::clock()] {
             assert_eq!(from_dds(&to_dds(&qos)), qos);
         }
-        // A history without end gets one.
+        // A `KEEP_ALL` history gets a limit.
         assert_eq!(to_dds(&Qos::default().keep_all()).depth, Some(MOST_KEPT));
     }
 }

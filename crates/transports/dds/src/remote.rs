@@ -1,101 +1,101 @@
-//! Who else is there, as plain data.
+//! Remote nodes, topics and services as plain data.
 
 use periplus_cyclonedds_sys::{Guid, Vendor};
 use periplus_graph::Qos;
 
-/// The nodes, topics and services of all others on the wire. Everything is sorted by name.
+/// Nodes, topics and services of all remote participants, sorted by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remote {
     /// Nodes.
     pub nodes: Vec<RemoteNode>,
-    /// Topics that somebody publishes or subscribes to.
+    /// Topics with a publisher or subscription.
     pub topics: Vec<RemoteTopic>,
-    /// Services that somebody answers or calls.
+    /// Services with a server or client.
     pub services: Vec<RemoteService>,
 }
 
-/// How far discovery has come.
+/// Progress of discovery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
-    /// Number of participants, endpoints and nodes that came, changed or went so far.
+    /// Number of changes of participants, endpoints and nodes so far.
     pub changes: u64,
     /// Number of participants found.
     pub participants: usize,
-    /// Number of participants of ROS 2 that are known in part: their nodes, some endpoints, or the
-    /// nodes of some endpoints are still missing.
+    /// Number of ROS 2 participants that are known in part: their nodes, some endpoints, or the
+    /// nodes of some endpoints are missing.
     pub incomplete: usize,
 }
 
-/// A node elsewhere.
+/// A remote node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemoteNode {
-    /// Namespace and name. Two nodes can have one name; ROS only warns of it.
+    /// Namespace and name. Names are not unique; ROS only warns about duplicates.
     pub name: String,
-    /// Its security enclave.
+    /// Security enclave.
     pub enclave: String,
-    /// Who made its DDS.
+    /// DDS vendor.
     pub vendor: Vendor,
-    /// Its participant.
+    /// GUID of its participant.
     pub participant: Guid,
 }
 
-/// A topic that others use.
+/// A topic used by remote nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RemoteTopic {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its types, such as `sensor_msgs/msg/LaserScan`; two or more when the ends do not agree.
+    /// Types, such as `sensor_msgs/msg/LaserScan`; more than one if the endpoints disagree.
     pub type_names: Vec<String>,
-    /// Who publishes.
+    /// Publishers.
     pub publishers: Vec<RemoteEndpoint>,
-    /// Who subscribes.
+    /// Subscriptions.
     pub subscriptions: Vec<RemoteEndpoint>,
 }
 
-/// One end of a topic.
+/// A remote publisher or subscription.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RemoteEndpoint {
-    /// Its name in DDS.
+    /// GUID of the endpoint.
     pub guid: Guid,
-    /// Full name of its node; none for programs without ROS, and for a moment after it came.
+    /// Full name of its node; none for programs without ROS, and until discovery reports it.
     pub node: Option<String>,
-    /// Its type.
+    /// Type.
     pub type_name: String,
-    /// The hash of its type, as far as told; ROS 2 Humble does not tell.
+    /// Type hash, if announced; ROS 2 Humble does not announce it.
     pub type_hash: Option<String>,
-    /// What it offers or asks for. A depth of 0 is one that nobody told.
+    /// QoS offered or requested. A depth of 0 is unknown.
     pub qos: Qos,
-    /// Who made its DDS.
+    /// DDS vendor.
     pub vendor: Vendor,
 }
 
-/// A service that others use.
+/// A service used by remote nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RemoteService {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its types, such as `std_srvs/srv/Trigger`.
+    /// Types, such as `std_srvs/srv/Trigger`.
     pub type_names: Vec<String>,
-    /// Full names of the nodes that answer it.
+    /// Full names of the server nodes.
     pub servers: Vec<String>,
-    /// Full names of the nodes that call it.
+    /// Full names of the client nodes.
     pub clients: Vec<String>,
 }
 
 impl Remote {
-    /// The topic of this full name.
+    /// Returns the topic of this full name.
     #[must_use]
     pub fn topic(&self, name: &str) -> Option<&RemoteTopic> {
         self.topics.iter().find(|topic| topic.name == name)
     }
 
-    /// The service of this full name.
+    /// Returns the service of this full name.
     #[must_use]
     pub fn service(&self, name: &str) -> Option<&RemoteService> {
         self.services.iter().find(|service| service.name == name)
     }
 
-    /// Whether there is a node of this full name.
+    /// True if there is a node of this full name.
     #[must_use]
     pub fn has_node(&self, name: &str) -> bool {
         self.nodes.iter().any(|node| node.name == name)

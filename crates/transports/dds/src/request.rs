@@ -1,48 +1,49 @@
-//! How a question and its answer find each other. The implementations of ROS 2 do not agree on it.
+//! Matching of service requests and responses, which differs between the implementations of ROS 2.
 //!
-//! Fast DDS (`rmw_fastrtps`): the body alone; beside it, in the inline QoS, the question carries the
-//! name of the reader that waits for the answer, and the answer carries that name and the number of
-//! the question. Cyclone DDS (`rmw_cyclonedds`): 16 bytes in front of the body, the caller's name
-//! and its number of the question, which the answer repeats. Source: `rmw_request.cpp` and
-//! `rmw_response.cpp` of `rmw_fastrtps_shared_cpp`; `serdata.cpp` of `rmw_cyclonedds_cpp`.
+//! Fast DDS (`rmw_fastrtps`): the payload is the body alone; the inline QoS of the request carries
+//! the GUID of the reader that waits for the response, and that of the response carries this GUID
+//! and the sequence number of the request. Cyclone DDS (`rmw_cyclonedds`): 16 bytes in front of the
+//! body, with the client's id and its sequence number, which the response repeats. Source:
+//! `rmw_request.cpp` and `rmw_response.cpp` of `rmw_fastrtps_shared_cpp`; `serdata.cpp` of
+//! `rmw_cyclonedds_cpp`.
 
 use periplus_cyclonedds_sys::{Guid, Identity, Sample, Vendor};
 
-/// Which of the two ways.
+/// Location of the request identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mapping {
-    /// In the inline QoS.
+    /// In the inline QoS (Fast DDS).
     Fast,
-    /// In front of the body.
+    /// In front of the body (Cyclone DDS).
     Cyclone,
 }
 
 impl Mapping {
-    /// That of the ROS that runs on this DDS. All but Cyclone's are like Fast DDS's.
+    /// Mapping used by the ROS 2 implementation of a vendor. All but Cyclone DDS follow Fast DDS.
     #[must_use]
     pub fn of(vendor: Vendor) -> Self {
         if vendor == Vendor::CYCLONE { Self::Cyclone } else { Self::Fast }
     }
 }
 
-/// Bytes in front of the body, in Cyclone's way.
+/// Size of Cyclone's header in front of the body \[bytes\].
 const HEADER: usize = 16;
 
-/// What an answer must repeat.
+/// Identity that a response must repeat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ticket {
-    /// In the inline QoS.
+    /// For the inline QoS.
     Fast(Identity),
-    /// In front of the body, as it came.
+    /// For the front of the body, as received.
     Cyclone([u8; HEADER]),
 }
 
-/// Splits a question that arrived: what the answer must repeat, and the body. None when it is too
-/// short to be one.
+/// Splits a received request into the identity that the response must repeat, and the body. None if
+/// it is too short.
 #[must_use]
 pub fn read_question(sample: Sample) -> Option<(Ticket, Vec<u8>)> {
     match (sample.related, Mapping::of(sample.vendor)) {
-        // Who says in the inline QoS where the answer goes wants it so, whoever it is.
+        // A sender that sets the inline QoS expects the response there, whatever its vendor.
         (None, Mapping::Cyclone) => {
             let (header, body) = split(sample.bytes)?;
             Some((Ticket::Cyclone(header), body))
@@ -55,7 +56,7 @@ pub fn read_question(sample: Sample) -> Option<(Ticket, Vec<u8>)> {
     }
 }
 
-/// An answer as it is sent: its bytes, and what goes in the inline QoS.
+/// Encodes a response: its bytes, and the identity for the inline QoS.
 #[must_use]
 pub fn write_answer(ticket: Ticket, body: &[u8]) -> (Vec<u8>, Option<Identity>) {
     match ticket {
@@ -64,7 +65,7 @@ pub fn write_answer(ticket: Ticket, body: &[u8]) -> (Vec<u8>, Option<Identity>) 
     }
 }
 
-/// A question as it is sent. `number` is ours and only Cyclone's way has it.
+/// Encodes a request. `number` is our own sequence number, used by Cyclone's mapping only.
 #[must_use]
 pub fn write_question(
     mapping: Mapping,
@@ -74,13 +75,13 @@ pub fn write_question(
     body: &[u8],
 ) -> (Vec<u8>, Option<Identity>) {
     match mapping {
-        // "Unknown", as Fast DDS has it.
+        // "Unknown", as in Fast DDS.
         Mapping::Fast => {
             let sequence = -1 << 32;
             (body.to_vec(), Some(Identity { writer: answers_to, sequence }))
         }
         Mapping::Cyclone => {
-            // Bytes are in the order that the body says it has.
+            // Byte order as declared by the body's encapsulation header.
             let is_little = body.get(1).is_none_or(|low| low & 1 == 1);
             let (name, number) = if is_little {
                 (short_name(caller).to_le_bytes(), number.to_le_bytes())
@@ -95,8 +96,8 @@ pub fn write_question(
     }
 }
 
-/// Which of our questions an answer is for: by the number that DDS gave it, or by ours. None when it
-/// is for somebody else.
+/// Returns the sequence number of the request that a response answers: that of DDS, or ours. None
+/// if it is for another client.
 #[must_use]
 pub fn read_answer(
     sample: Sample,
@@ -119,8 +120,8 @@ pub fn read_answer(
     (name == short_name(caller)).then_some((Mapping::Cyclone, number, body))
 }
 
-/// Eight bytes that name a caller: the random part of its participant's name, and which of its
-/// entities it is.
+/// Eight bytes that identify a client: the random part of its participant's GUID, and its entity
+/// id.
 fn short_name(guid: Guid) -> u64 {
     let half = |from: usize| {
         guid.0[from..from + 4].iter().fold(0, |all, byte| all << 8 | u64::from(*byte))
@@ -128,8 +129,8 @@ fn short_name(guid: Guid) -> u64 {
     (half(4) ^ half(0)) << 32 | (half(8) ^ half(12))
 }
 
-/// Takes the header out from between the encapsulation and the body. The header is 16 bytes, so what
-/// stands behind it stays aligned.
+/// Removes the header between the encapsulation and the body. The header is 16 bytes, so that the
+/// alignment of the body does not change.
 fn split(mut bytes: Vec<u8>) -> Option<([u8; HEADER], Vec<u8>)> {
     let header = bytes.get(4..4 + HEADER)?.try_into().ok()?;
     bytes.drain(4..4 + HEADER);
@@ -164,7 +165,7 @@ mod tests {
             assert_eq!(body, BODY);
             let (bytes, related) = write_answer(ticket, &BODY);
             let answer = sample(bytes, related, vendor);
-            // Fast DDS counts by the number of the sample, Cyclone by the caller's own.
+            // Fast DDS counts by the sequence number of the sample, Cyclone by the client's own.
             let number = if mapping == Mapping::Fast { 17 } else { 5 };
             assert_eq!(
                 read_answer(answer.clone(), CALLER, ANSWERS),

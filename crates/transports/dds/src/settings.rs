@@ -1,24 +1,24 @@
-//! Which network a wire is on, and what the environment says about that.
+//! Network settings and the environment variables for them.
 
 use periplus_cyclonedds_sys as dds;
 use periplus_diagnostics::{Diagnostics, closest};
 use periplus_resources::Host;
 use periplus_transport::environment::{self, not_used};
 
-/// Tag of participants that nobody shall find.
+/// Domain tag that isolates a participant.
 const OFF_TAG: &str = "periplus_discovery_off";
 
-/// How far discovery reaches.
+/// Discovery range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Range {
-    /// Nobody is found, and nobody finds us, static peers included: as `rmw_fastrtps` has it.
+    /// No discovery in either direction, static peers included, as in `rmw_fastrtps`.
     Off,
-    /// This machine.
+    /// This machine only.
     #[default]
     Localhost,
-    /// Machines that multicast reaches.
+    /// The subnet reached by multicast.
     Subnet,
-    /// As DDS does by itself.
+    /// The default of the DDS implementation.
     SystemDefault,
 }
 
@@ -31,20 +31,21 @@ impl Range {
     ];
 }
 
-/// Which network a wire is on. The default is domain 0 on this machine only.
+/// Network settings. The default is domain 0 on this machine only.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// `ROS_DOMAIN_ID`: who has another is not heard.
+    /// `ROS_DOMAIN_ID`: programs in another domain are invisible.
     pub domain_id: u32,
     /// `ROS_AUTOMATIC_DISCOVERY_RANGE`, or `ROS_LOCALHOST_ONLY`.
     pub range: Range,
-    /// `ROS_STATIC_PEERS`: machines to look at, wherever they are.
+    /// `ROS_STATIC_PEERS`: additional machines to discover.
     pub peers: Vec<String>,
-    /// Whether others may be found by multicast.
+    /// Use multicast for discovery.
     pub multicast: bool,
-    /// The security enclave that others are told.
+    /// Security enclave announced to other participants.
     pub enclave: String,
-    /// `CYCLONEDDS_URI`: settings of Cyclone DDS, as XML or URI of a file, which win over ours.
+    /// `CYCLONEDDS_URI`: settings of Cyclone DDS as XML or the URI of a file; they override the
+    /// others.
     pub cyclone: String,
 }
 
@@ -62,7 +63,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What the environment says; what it does not say is as in [`Settings::default`].
+    /// Reads the environment; missing variables are as in [`Settings::default`].
     #[must_use]
     pub fn from_environment(host: &dyn Host) -> (Self, Diagnostics) {
         let mut settings = Self::default();
@@ -78,7 +79,7 @@ impl Settings {
                     let near = closest(&asked, names);
                     let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
                     findings.push(not_used("ROS_AUTOMATIC_DISCOVERY_RANGE", &value).help(format!(
-                        "{near}it has to be one of {}; LOCALHOST is used",
+                        "{near}it must be one of {}; LOCALHOST is used",
                         names.join(", ")
                     )));
                 }
@@ -88,8 +89,9 @@ impl Settings {
             match value.trim() {
                 "1" => settings.range = Range::Localhost,
                 "0" => {}
-                _ => findings
-                    .push(not_used("ROS_LOCALHOST_ONLY", &value).help("it has to be 0 or 1")),
+                _ => {
+                    findings.push(not_used("ROS_LOCALHOST_ONLY", &value).help("it must be 0 or 1"))
+                }
             }
         }
         if let Some(value) = variable("ROS_STATIC_PEERS") {
@@ -104,16 +106,16 @@ impl Settings {
         let here = "127.0.0.1".to_owned();
         let (network, multicast, mut peers) = match self.range {
             Range::Off => (dds::Network::Loopback, false, Vec::new()),
-            // Others that were named must be reached too.
+            // Static peers must be reachable, too.
             Range::Localhost if !self.peers.is_empty() => (dds::Network::Any, false, vec![here]),
             Range::Localhost => (dds::Network::Loopback, self.multicast, vec![here]),
-            // Nodes of ROS 2 in the range LOCALHOST hear no multicast.
+            // ROS 2 nodes with range LOCALHOST do not listen to multicast.
             Range::Subnet | Range::SystemDefault => (dds::Network::Any, self.multicast, vec![here]),
         };
         if self.range != Range::Off {
             peers.extend(self.peers.iter().cloned());
         }
-        // No announcement is sent; the tag ignores those of others that come all the same.
+        // No announcement is sent; the tag makes this participant ignore those of others.
         let tag = if self.range == Range::Off { OFF_TAG.to_owned() } else { String::new() };
         let more = self.cyclone.clone();
         dds::Config { domain_id: self.domain_id, network, multicast, peers, tag, more }
@@ -167,9 +169,9 @@ mod tests {
             ],
             Settings::default(),
             expect![[r#"
-                the environment variable ROS_DOMAIN_ID is `233` and is not used: it has to be a number from 0 to 232; domain 0 is used
-                the environment variable ROS_AUTOMATIC_DISCOVERY_RANGE is `SUBNETT` and is not used: did you mean SUBNET? it has to be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT; LOCALHOST is used
-                the environment variable ROS_LOCALHOST_ONLY is `yes` and is not used: it has to be 0 or 1
+                the environment variable ROS_DOMAIN_ID is `233` and is not used: it must be a number from 0 to 232; domain 0 is used
+                the environment variable ROS_AUTOMATIC_DISCOVERY_RANGE is `SUBNETT` and is not used: did you mean SUBNET? it must be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT; LOCALHOST is used
+                the environment variable ROS_LOCALHOST_ONLY is `yes` and is not used: it must be 0 or 1
             "#]],
         );
     }

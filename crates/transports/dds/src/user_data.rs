@@ -1,20 +1,20 @@
-//! What participants and endpoints say of themselves in DDS's `USER_DATA`: `key=value;` pairs.
+//! `USER_DATA` of participants and endpoints: `key=value;` pairs.
 //!
-//! Source: `rmw_dds_common`'s and `rmw_cyclonedds`'s handling of `typehash=` and `enclave=`.
+//! Source: handling of `typehash=` and `enclave=` in `rmw_dds_common` and `rmw_cyclonedds`.
 
-/// What an endpoint says of its type.
+/// Encodes the type hash of an endpoint.
 #[must_use]
 pub fn type_hash(hash: &str) -> Vec<u8> {
     format!("typehash={hash};").into_bytes()
 }
 
-/// What a participant says of its security enclave.
+/// Encodes the security enclave of a participant.
 #[must_use]
 pub fn enclave(enclave: &str) -> Vec<u8> {
     format!("enclave={enclave};").into_bytes()
 }
 
-/// The value of a key.
+/// Returns the value of a key.
 #[must_use]
 pub fn value<'a>(user_data: &'a [u8], key: &str) -> Option<&'a str> {
     let text = std::str::from_utf8(user_data).ok()?;
@@ -22,7 +22,7 @@ pub fn value<'a>(user_data: &'a [u8], key: &str) -> Option<&'a str> {
     pairs.find_map(|pair| pair.strip_prefix(key)?.strip_prefix('='))
 }
 
-/// The type hash, if it is one.
+/// Returns the type hash, if it is valid.
 #[must_use]
 pub fn hash_of(user_data: &[u8]) -> Option<String> {
     let hash = value(user_data, "typehash")?;

@@ -1,4 +1,4 @@
-//! The handle of a wire.
+//! Handle of the DDS transport.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -16,13 +16,13 @@ use crate::peers::Peers;
 use crate::remote::{Progress, Remote};
 use crate::{Guid, Settings, WireError, user_data};
 
-/// How often a flush looks again.
+/// Polling period of [`Wire::flush`].
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
-/// What is left when a wire is dropped gets so long to go.
+/// Time for sending the remaining samples when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
 
-/// A place in the network. It is left when this is dropped.
+/// A DDS participant for one graph. It leaves the network when this is dropped.
 pub struct Wire {
     shared: Arc<Shared>,
     waker: Waker,
@@ -30,16 +30,16 @@ pub struct Wire {
     threads: Vec<JoinHandle<()>>,
 }
 
-/// What the threads of a wire and its handle have in common.
+/// State shared by the handle and the threads.
 pub(crate) struct Shared {
     pub(crate) peers: Mutex<Peers>,
-    /// Rung when the peers have changed.
+    /// Notified when the peers have changed.
     pub(crate) changed: Condvar,
     pub(crate) findings: Mutex<Diagnostics>,
-    /// A graph to take part, with the node that stands in it for all others.
+    /// A graph to attach, with the node that represents all remote participants.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
     pub(crate) lanes: Arc<Lanes>,
-    /// All that are there, to be waited for.
+    /// All writers, for [`Wire::flush`].
     pub(crate) writers: Mutex<Vec<Arc<Outgoing>>>,
     pub(crate) is_closing: AtomicBool,
     is_attached: AtomicBool,
@@ -77,16 +77,16 @@ impl Wire {
         let link = Link::new(&participant, shared.clone()).map_err(network)?;
         let waker = link.waker();
         let thread = std::thread::Builder::new().name("wire".to_owned());
-        threads.push(thread.spawn(move || link.run()).expect("the system gives a thread"));
+        threads.push(thread.spawn(move || link.run()).expect("the system starts a thread"));
         Ok(Self { shared, waker, participant, threads })
     }
 
-    /// Lets a graph take part, as long as the wire is there: its nodes are seen elsewhere, and what
-    /// is elsewhere comes to it. In the graph one node whose name begins with `_wire` stands for
-    /// all others.
+    /// Attaches a graph for the lifetime of this handle: its endpoints become visible on the
+    /// network, and remote endpoints are connected to it. A node whose name begins with `_wire`
+    /// represents all remote participants in the graph.
     ///
     /// # Errors
-    /// When the wire has a graph already.
+    /// When a graph is attached already.
     pub fn attach(&self, graph: &Graph) -> Result<(), WireError> {
         if self.shared.is_attached.swap(true, Ordering::AcqRel) {
             return Err(WireError::Attached);
@@ -97,24 +97,25 @@ impl Wire {
         Ok(())
     }
 
-    /// Who else is there now. Others need a moment to be found: see [`Wire::wait_for`].
+    /// Remote nodes, topics and services. Discovery takes a moment: see [`Wire::wait_for`].
     #[must_use]
     pub fn remote(&self) -> Remote {
         lock(&self.shared.peers).view()
     }
 
-    /// How far discovery has come. Costs less than [`Wire::remote`].
+    /// Progress of discovery. Cheaper than [`Wire::remote`].
     #[must_use]
     pub fn progress(&self) -> Progress {
         lock(&self.shared.peers).progress()
     }
 
-    /// Waits until the others are as wanted, at most so long; whether they are.
+    /// Waits until the remote side satisfies the condition, at most for the timeout; true if it
+    /// does.
     pub fn wait_for(&self, timeout: Duration, mut wanted: impl FnMut(&Remote) -> bool) -> bool {
         let peers = lock(&self.shared.peers);
         let mut seen = None;
         let waited = self.shared.changed.wait_timeout_while(peers, timeout, |peers| {
-            // Not looked at twice as long as nothing has changed.
+            // Skip the check while nothing has changed.
             if seen.replace(peers.changes()) == Some(peers.changes()) {
                 return true;
             }
@@ -123,8 +124,8 @@ impl Wire {
         !waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
     }
 
-    /// Waits until everything published so far has arrived at all who are known to listen, at most
-    /// so long; whether it has. Best effort is not waited for.
+    /// Waits until all matched readers have acknowledged everything published so far, at most for
+    /// the timeout; true if they have. Best effort is not waited for.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
         let start = Since::now();
@@ -141,8 +142,8 @@ impl Wire {
         }
     }
 
-    /// What was wrong since the last call: types and QoS that do not fit, samples that are none,
-    /// what DDS complains of.
+    /// Returns the findings since the last call: incompatible types and QoS, malformed samples,
+    /// errors of DDS.
     #[must_use]
     pub fn take_findings(&self) -> Diagnostics {
         let mut findings = std::mem::take(&mut *lock(&self.shared.findings));
@@ -157,7 +158,7 @@ impl Wire {
         findings
     }
 
-    /// Its participant's name in DDS.
+    /// GUID of its participant.
     #[must_use]
     pub fn guid(&self) -> Guid {
         self.participant.guid()

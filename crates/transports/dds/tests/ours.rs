@@ -1,4 +1,4 @@
-//! Two wires of ours in one program, which meet over the loopback interface as two programs do.
+//! Two transports in one program, connected over the loopback interface as two programs are.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a test with a network waits")]
 
 use std::sync::Arc;
@@ -12,19 +12,19 @@ use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
 
 const LONG: Duration = Duration::from_secs(20);
 
-/// Polls until there is something; a test that waits longer has failed.
+/// Polls until there is a value; a timeout fails the test.
 fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
     loop {
         if let Some(found) = poll() {
             return found;
         }
-        assert!(start.elapsed() < LONG, "waited in vain for {what}");
+        assert!(start.elapsed() < LONG, "timeout while waiting for {what}");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
 
-/// A wire with a graph in live.
+/// A transport with a graph in live mode.
 fn join(domain_id: u32) -> (Wire, Graph) {
     let wire = Wire::open(&Settings { domain_id, ..Settings::default() }).unwrap();
     let graph = Graph::live();
@@ -57,7 +57,7 @@ fn messages_go_both_ways_and_none_comes_back() {
     assert_eq!(wait("the message there", || heard.latest()).data, "there");
     back.publish(text("here"));
     wait("the message here", || (own.counts().received == 2).then_some(()));
-    // The listener hears its own side too; nothing goes in circles.
+    // The listener also receives from its own side; messages do not circulate.
     std::thread::sleep(Duration::from_millis(200));
     assert_eq!((own.counts().received, heard.counts().received), (2, 2));
 
@@ -85,9 +85,9 @@ fn what_nobody_hears_is_not_heard() {
     let (there, graph_there) = join(71);
     let other = graph_there.node(NodeSettings::new("slam")).unwrap();
     let scans = other.mailbox::<LaserScan>("/scan", Qos::sensor_data()).unwrap();
-    wait("somebody to listen", || out.is_heard().then_some(()));
+    wait("a subscriber", || out.is_heard().then_some(()));
     drop((scans, other));
-    wait("nobody to listen", || (!out.is_heard()).then_some(()));
+    wait("no subscriber", || (!out.is_heard()).then_some(()));
     drop(there);
 }
 
@@ -103,7 +103,7 @@ fn a_latecomer_gets_what_is_latched() {
     let other = graph_there.node(NodeSettings::new("rviz")).unwrap();
     let maps = other.mailbox::<Text>("/map", Qos::latched(1)).unwrap();
     assert_eq!(wait("the map", || maps.latest()).data, "map");
-    // One more on the same side gets it from there.
+    // A second subscriber on the same side gets it from there.
     let more = other.mailbox::<Text>("/map", Qos::latched(1)).unwrap();
     assert_eq!(wait("the map again", || more.latest()).data, "map");
     assert_eq!(maps.counts().received, 1);
@@ -132,7 +132,7 @@ fn services_work_over_the_wire() {
         service.servers == ["/motor"]
     }));
 
-    // Who answers goes away while somebody waits.
+    // The server leaves while a call is pending.
     let pending = client.call(SetBoolRequest { data: true });
     let call = wait("the call", || calls.take());
     drop((_here, call, calls, node, graph_here));
@@ -162,16 +162,16 @@ fn what_does_not_fit_is_named_with_both_policies() {
     let mut found = Vec::new();
     wait("the findings", || {
         let findings = there.take_findings();
-        // What DDS says is of the whole program, of other tests too.
+        // DDS logs for the whole process, other tests included.
         let ours = findings.iter().filter(|one| one.code != "dds");
         found.extend(ours.map(|one| one.message.clone()));
         (found.len() == 3).then_some(())
     });
     found.sort();
     expect_test::expect![[r#"
-        `/slam` gets nothing from `/lidar` on the topic `/scan`: the publisher offers reliability best_effort, asked for is reliable; it offers durability volatile, asked for is transient_local
+        `/slam` receives nothing from `/lidar` on the topic `/scan`: the publisher offers reliability best_effort, requested is reliable; it offers durability volatile, requested is transient_local
         on the topic `/cloud` `/slam` has the type sensor_msgs/msg/PointCloud2, and `/lidar` std_msgs/msg/String
-        on the topic `/more` `/slam` and `/lidar` both say std_msgs/msg/String, and mean two definitions: RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18 and RIHS01_0000000000000000000000000000000000000000000000000000000000000000"#]]
+        on the topic `/more` `/slam` and `/lidar` both use std_msgs/msg/String, but with two definitions: RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18 and RIHS01_0000000000000000000000000000000000000000000000000000000000000000"#]]
     .assert_eq(&found.join("\n"));
 }
 
@@ -184,7 +184,7 @@ fn bad_samples_are_survived() {
         node.raw_publisher("/scan", "sensor_msgs/msg/LaserScan", None, Qos::default()).unwrap();
     let other = graph_there.node(NodeSettings::new("slam")).unwrap();
     let scans = other.mailbox::<LaserScan>("/scan", Qos::default()).unwrap();
-    wait("somebody to listen", || out.is_heard().then_some(()));
+    wait("a subscriber", || out.is_heard().then_some(()));
     out.publish(vec![0, 1, 0, 0, 255, 255, 255, 255]);
     out.publish(Vec::new());
     out.publish(vec![9; 40_000]);
@@ -222,7 +222,7 @@ fn a_large_message_waits_for_no_small_one() {
 fn one_wire_takes_one_graph() {
     let (wire, _graph) = join(77);
     let error = wire.attach(&Graph::new()).unwrap_err();
-    assert_eq!(error.to_string(), "the wire has a graph already; open another wire");
+    assert_eq!(error.to_string(), "the transport already has a graph; open another transport");
     let wrong = Settings { cyclone: "<CycloneDDS><Nonsense/>".into(), ..Settings::default() };
     let error = Wire::open(&wrong).unwrap_err().to_string();
     assert!(error.contains("cannot join the ROS 2 network, domain 0"), "{error}");

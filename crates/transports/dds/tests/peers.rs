@@ -1,8 +1,7 @@
-//! The wire against programs that know nothing of Periplus: PyPI's `cyclonedds`, whose CDR is its
-//! own, Debian's Fast DDS with Fast CDR, and real ROS 2 from PyPI. What is not installed is skipped,
-//! loudly.
+//! Interoperability with other implementations: PyPI's `cyclonedds` with its own CDR, Debian's Fast
+//! DDS with Fast CDR, and real ROS 2 from PyPI. Missing peers are skipped with a message.
 //!
-//! Each test has domains of its own, so that all run side by side.
+//! Each test has its own domains, so that all can run in parallel.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -25,7 +24,7 @@ use periplus_msgs::{Message, builtin_interfaces::Time};
 
 const LONG: Duration = Duration::from_secs(40);
 
-/// Another DDS.
+/// Another DDS implementation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Peer {
     Cyclone,
@@ -34,14 +33,14 @@ enum Peer {
     Ros,
 }
 
-/// Those that are installed, with a number for their domains.
+/// Installed peers, with a number for their domains.
 fn peers() -> Vec<(u32, Peer)> {
     let all = [(0, Peer::Cyclone), (1, Peer::Fast), (2, Peer::Ros)];
     all.into_iter().filter(|(_, peer)| peer.program().is_some()).collect()
 }
 
 impl Peer {
-    /// How it is started.
+    /// Command that starts the peer.
     fn program(self) -> Option<&'static Vec<PathBuf>> {
         static CYCLONE: OnceLock<Option<Vec<PathBuf>>> = OnceLock::new();
         static FAST: OnceLock<Option<Vec<PathBuf>>> = OnceLock::new();
@@ -67,7 +66,7 @@ impl Peer {
 
     fn start(self, domain_id: u32, multicast: bool, words: &[&str]) -> Running {
         let program = self.program().unwrap();
-        // As rmw_cyclonedds sets it up for this machine only.
+        // As configured by rmw_cyclonedds for this machine only.
         let peer = if multicast { "" } else { "<Peers><Peer Address=\"127.0.0.1\"/></Peers>" };
         let uri = format!(
             "<General><Interfaces><NetworkInterface address=\"127.0.0.1\" \
@@ -92,7 +91,7 @@ impl Peer {
     }
 }
 
-/// A peer that runs; it is killed when this is dropped.
+/// A running peer; it is killed when this is dropped.
 struct Running {
     child: Child,
     lines: Receiver<String>,
@@ -103,7 +102,7 @@ impl Running {
     #[track_caller]
     fn line(&self) -> String {
         let line = self.lines.recv_timeout(LONG);
-        line.unwrap_or_else(|_| panic!("{} said nothing more", self.what))
+        line.unwrap_or_else(|_| panic!("{} has no more output", self.what))
     }
 
     #[track_caller]
@@ -163,7 +162,7 @@ fn compiled() -> Option<Vec<PathBuf>> {
     Some(vec![program])
 }
 
-/// Polls until there is something; a test that waits longer has failed.
+/// Polls until there is a value; a timeout fails the test.
 #[track_caller]
 fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
@@ -171,7 +170,7 @@ fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
         if let Some(found) = poll() {
             return found;
         }
-        assert!(start.elapsed() < LONG, "waited in vain for {what}");
+        assert!(start.elapsed() < LONG, "timeout while waiting for {what}");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -189,7 +188,7 @@ fn join(domain_id: u32, multicast: bool) -> Ours {
     Ours { wire, node: graph.node(NodeSettings::new("periplus")).unwrap() }
 }
 
-/// The messages that both sides make of a number: see `make` in the peers.
+/// Messages that both sides generate from a number: see `make` in the peers.
 trait Kind: Message {
     const NAME: &'static str;
     fn make(number: i32, side: u32) -> Self;
@@ -305,7 +304,7 @@ impl Kind for TFMessage {
 
 const SIDE: u32 = 100;
 
-/// Three messages there and three back.
+/// Three messages in each direction.
 fn both_ways<T: Kind>(ours: &Ours, peer: Peer, domain_id: u32, multicast: bool) {
     let name = T::NAME;
     let (there, back) = (format!("/{name}_there"), format!("/{name}_back"));
@@ -342,7 +341,7 @@ fn every_kind_of_message_goes_both_ways() {
                 scope.spawn(move || both_ways::<TFMessage>(ours, peer, domain_id, true));
             }
         });
-        // A reliable sample that took too long would be one that nobody needed.
+        // The lifespan drops a reliable sample that takes too long.
         let findings = ours.wire.take_findings();
         let bad: Vec<_> = findings.iter().filter(|one| one.code != "dds").collect();
         assert!(bad.is_empty(), "{bad:?}");
@@ -369,7 +368,7 @@ fn a_latecomer_gets_a_large_map_at_once() {
         let listener = peer.start(domain_id, true, &["sub", "grid", "rt/map", "1", "latched"]);
         let line = listener.line();
         assert!(line.starts_with(&expected), "{line}");
-        // PyPI's cyclonedds takes longer to make a list of it and does not tell the time.
+        // PyPI's cyclonedds takes longer to decode it as a list, and reports no time.
         if peer != Peer::Cyclone {
             let took_ms: u64 = line.rsplit(' ').next().unwrap().parse().unwrap();
             assert!(took_ms < 2000, "the map took {took_ms} ms to {peer:?}");
@@ -387,14 +386,14 @@ fn their_latched_map_comes_to_us_too() {
         let maps: Mailbox<OccupancyGrid> = ours.node.mailbox("/map", Qos::latched(1)).unwrap();
         let start = Instant::now();
         let map = wait("the map", || maps.latest());
-        // Fast DDS speaks of what it keeps every 3 s, or when it is asked in its own way.
+        // Fast DDS announces retained samples every 3 s, or on request in its own form.
         assert!(start.elapsed() < Duration::from_millis(2500), "it took {:?}", start.elapsed());
         assert_eq!(map.line(), OccupancyGrid::make(0, 4000).line());
     }
 }
 
-/// Fast DDS finds us before we find it: what it writes then must not be lost. So `ros2 topic pub
-/// --once` does, and a client that calls as soon as its service is there.
+/// Fast DDS discovers us before we discover it: what it writes then must not be lost. Examples are
+/// `ros2 topic pub --once`, and a client that calls as soon as its service is available.
 #[test]
 fn what_is_published_the_moment_we_are_found_arrives() {
     for (at, peer) in peers().into_iter().filter(|(_, peer)| *peer != Peer::Cyclone) {
@@ -481,7 +480,7 @@ fn what_two_vendors_serve_is_asked_of_one_in_its_own_way() {
         .map(|(peer, says)| (peer.start(90, true, &["serve", "/theirs", "1000"]), says))
         .collect();
     let client = ours.node.client::<Trigger>("/theirs").unwrap();
-    // Time for both to be there before anybody is asked.
+    // Time for both servers to be discovered before the call.
     wait("a server", || client.is_ready().then_some(()));
     std::thread::sleep(Duration::from_secs(2));
     let ask = || {
@@ -493,7 +492,7 @@ fn what_two_vendors_serve_is_asked_of_one_in_its_own_way() {
     for _ in 0..5 {
         assert_eq!(ask().unwrap().message, first);
     }
-    // The one that answers is killed; when that is known, the other takes over.
+    // The active server is killed; then the other one takes over.
     servers.retain(|(_, says)| *says != first);
     assert_eq!(servers.len(), 1);
     let second = loop {

@@ -1,5 +1,5 @@
-//! Subscribers that are stopped while they owe acknowledgements: they must cost the publisher neither
-//! time nor processor. Alone in its program, since it measures the program.
+//! Subscribers that are stopped with pending acknowledgements must cost the publisher neither time
+//! nor CPU. A separate test program, since it measures its own CPU time.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -18,7 +18,7 @@ const CLOUD_BYTES: usize = 640 * 480 * 32;
 const ROUNDS: u32 = 15;
 const PERIOD: Duration = Duration::from_millis(100);
 
-/// Killed when this is dropped.
+/// A process that is killed when this is dropped.
 struct Stopped(Child);
 
 impl Drop for Stopped {
@@ -32,7 +32,7 @@ fn signal(child: &Child, name: &str) {
     assert!(Command::new("kill").args([name, &child.id().to_string()]).status().unwrap().success());
 }
 
-/// Time on the processor so far \[s\].
+/// CPU time so far \[s\].
 fn cpu_s() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap();
     let (_, fields) = stat.rsplit_once(") ").unwrap();
@@ -40,8 +40,8 @@ fn cpu_s() -> f64 {
         / 100.0
 }
 
-/// Publishes clouds and scans; the calls that took longer than half a period, and the time on the
-/// processor \[s\].
+/// Publishes clouds and scans; returns the calls that took longer than half a period, and the CPU
+/// time \[s\].
 fn publish(clouds: &Publisher<PointCloud2>, scans: &Publisher<LaserScan>) -> (u32, f64) {
     let cpu = cpu_s();
     let mut slow = 0;
@@ -75,7 +75,8 @@ fn stopped_subscribers_cost_nothing() {
     let node = graph.node(NodeSettings::new("periplus")).unwrap();
     let clouds: Publisher<PointCloud2> = node.publisher("/cloud", Qos::reliable(5)).unwrap();
     let scans: Publisher<LaserScan> = node.publisher("/scan", Qos::reliable(5)).unwrap();
-    // The first works all the time, for the same work without and with the others.
+    // The first subscriber works all the time, so that the work is the same with and without the
+    // others.
     let topics = [
         ["cloud", "rt/cloud"],
         ["cloud", "rt/cloud"],

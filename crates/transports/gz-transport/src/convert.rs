@@ -1,4 +1,4 @@
-//! Messages on their way from one world to the other.
+//! Message conversion between ROS and Gazebo.
 
 use std::any::TypeId;
 use std::marker::PhantomData;
@@ -7,18 +7,18 @@ use periplus_graph::{EndpointId, GraphError, Node, Publisher, Qos, Sample};
 use periplus_gz_msgs::{AsRos, Dialect, ImuFortress, Message, Pairs, bare_name, each_pair};
 use periplus_msgs::Message as RosMessage;
 
-/// A type of ROS and one of Gazebo that mean the same.
+/// Conversion between a ROS type and the equivalent Gazebo type.
 pub(crate) trait Convert: Send + Sync {
-    /// The bytes for Gazebo; none for what Gazebo has no word for.
+    /// Encodes a ROS message for Gazebo; none if Gazebo has no equivalent value.
     fn to_gazebo(&self, sample: &Sample) -> Option<Vec<u8>>;
 
-    /// Publishes in a graph what comes from Gazebo.
+    /// Creates a publisher in the graph for messages of Gazebo.
     fn feed(&self, node: &Node, topic: &str, qos: Qos) -> Result<Box<dyn Feed>, GraphError>;
 }
 
-/// Publishes in a graph what comes from Gazebo.
+/// Publishes messages of Gazebo in a graph.
 pub(crate) trait Feed: Send + Sync {
-    /// Takes a message; whether it was one that ROS has words for.
+    /// Publishes a message; false if it has no equivalent in ROS.
     fn take(&self, bytes: &[u8]) -> bool;
     fn is_heard(&self) -> bool;
     fn id(&self) -> EndpointId;
@@ -62,12 +62,12 @@ impl<R: RosMessage, G: AsRos<R>> Feed for Feeds<R, G> {
     }
 }
 
-/// A type of ROS in its two spellings: ROS 1 has no `msg` in the middle.
+/// True if the name is that of the type, with or without `msg` in the middle (ROS 1).
 fn is_ros(name: &str, wanted: &str) -> bool {
     name == wanted || name.replace("/msg/", "/") == wanted
 }
 
-/// Whether a type of Gazebo is the one that a full name means.
+/// True if the full name is that of the Gazebo type.
 fn is_gazebo<G: Message>(wanted: &str) -> bool {
     let is_fortress = Dialect::of(wanted) == Some(Dialect::Ignition);
     let is_layout = match TypeId::of::<G>() {
@@ -77,8 +77,8 @@ fn is_gazebo<G: Message>(wanted: &str) -> bool {
     bare_name(wanted) == Some(G::NAME) && is_layout
 }
 
-/// The way between a type of ROS and one of Gazebo, by their full names; and the name of the former as
-/// ROS 2 has it.
+/// Returns the conversion between a ROS type and a Gazebo type by their full names, with the ROS 2
+/// spelling of the former.
 pub(crate) fn between(ros: &str, gazebo: &str) -> Option<(&'static str, Box<dyn Convert>)> {
     struct Find<'a> {
         ros: &'a str,
@@ -97,7 +97,7 @@ pub(crate) fn between(ros: &str, gazebo: &str) -> Option<(&'static str, Box<dyn 
     find.found
 }
 
-/// All types of Gazebo that a type of ROS can be, without what releases put in front; the usual first.
+/// Gazebo types that a ROS type can be converted to, without release prefixes; the default first.
 #[must_use]
 pub fn gazebo_types(ros: &str) -> Vec<&'static str> {
     struct Collect<'a>(&'a str, Vec<&'static str>);
@@ -113,7 +113,7 @@ pub fn gazebo_types(ros: &str) -> Vec<&'static str> {
     collect.1
 }
 
-/// All types of ROS that a type of Gazebo can be, by its full name.
+/// ROS types that a Gazebo type, given by its full name, can be converted to.
 #[must_use]
 pub fn ros_types(gazebo: &str) -> Vec<&'static str> {
     struct Collect<'a>(&'a str, Vec<&'static str>);

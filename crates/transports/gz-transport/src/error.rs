@@ -1,29 +1,29 @@
-//! What can go wrong.
+//! Errors of the Gazebo transport.
 
 use std::fmt;
 use std::net::Ipv4Addr;
 
 use periplus_graph::GraphError;
 
-/// Why a wire cannot be.
+/// Error of the Gazebo transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum WireError {
     /// The network cannot be joined.
     Network {
-        /// By which address.
+        /// Address of the interface.
         address: Ipv4Addr,
-        /// What the system says.
+        /// Message of the system.
         why: String,
     },
     /// A name that Gazebo does not allow.
     Name {
-        /// Which.
+        /// The name.
         name: String,
-        /// Why not.
+        /// Cause.
         why: &'static str,
     },
-    /// The graph does not want it.
+    /// The graph refused an endpoint.
     Graph(GraphError),
 }
 
@@ -32,11 +32,11 @@ impl fmt::Display for WireError {
         match self {
             Self::Network { address, why } => write!(
                 f,
-                "cannot join the network of Gazebo at {address}: {why}; see whether GZ_IP or IGN_IP \
-                 is an address of this machine, and who else uses the ports 10317 and 10318"
+                "cannot join the network of Gazebo at {address}: {why}; check that GZ_IP or IGN_IP \
+                 is an address of this machine, and which programs use the ports 10317 and 10318"
             ),
             Self::Name { name, why } => {
-                write!(f, "`{name}` cannot be a name in Gazebo Transport: {why}")
+                write!(f, "`{name}` is not a valid name in Gazebo Transport: {why}")
             }
             Self::Graph(error) => error.fmt(f),
         }
@@ -51,23 +51,23 @@ impl From<GraphError> for WireError {
     }
 }
 
-/// Why a call has no answer.
+/// Reason for which a call has no response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallError {
-    /// Nobody answers a service of this name and these types.
+    /// There is no service of this name and these types.
     Nobody,
-    /// Who answers it did not in time.
+    /// The server did not respond in time.
     Late,
-    /// It was refused.
+    /// The server returned failure.
     Refused,
 }
 
 impl fmt::Display for CallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Nobody => "nobody answers a service of this name and these types",
-            Self::Late => "there was no answer in time",
-            Self::Refused => "the call was refused",
+            Self::Nobody => "there is no service of this name and these types",
+            Self::Late => "there was no response in time",
+            Self::Refused => "the service returned failure",
         })
     }
 }

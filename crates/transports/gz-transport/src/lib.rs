@@ -1,9 +1,8 @@
-//! Gazebo Transport: what `gz topic`, `gz service` and Gazebo's own programs speak, without any of
-//! them.
+//! Gazebo Transport: the protocol of `gz topic`, `gz service` and Gazebo's programs, without their
+//! libraries.
 //!
-//! A [`Transport`] is a place in that network. It finds others by multicast, and they find it; topics
-//! and services go over TCP as ZeroMQ frames them.
-//! A [`Link`] keeps topics of a graph there.
+//! A [`Transport`] joins the network. Discovery uses multicast; topics and services use TCP with
+//! ZeroMQ framing. A [`Link`] bridges topics of a graph.
 //!
 //! ```no_run
 //! use periplus_gz_msgs::{Boolean, Message};

@@ -1,4 +1,4 @@
-//! A graph and Gazebo: topics of one appear in the other.
+//! Bridge between a graph and Gazebo Transport.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,17 +15,17 @@ use crate::convert::{Feed, between, gazebo_types, ros_types};
 use crate::outgoing::{Ear, Lane, Outgoing, Who};
 use crate::{Subscription, Transport, WireError};
 
-/// How often it is looked what has changed.
+/// Period at which changes are checked.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// By which messages something is driven.
+/// Message types of drive commands.
 const COMMANDS: [&str; 3] =
     ["geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped", "std_msgs/msg/Float64"];
 
-/// Which way messages go.
+/// Direction of a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// Both ways.
+    /// In both directions.
     #[default]
     Both,
     /// From Gazebo to ROS.
@@ -34,33 +34,33 @@ pub enum Direction {
     ToGazebo,
 }
 
-/// A topic here and a topic there.
+/// A bridged pair of topics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
-    /// The topic in ROS, as a node writes it.
+    /// ROS topic, as written by a node.
     pub ros_topic: String,
-    /// The topic in Gazebo.
+    /// Gazebo topic.
     pub gz_topic: String,
-    /// Such as `sensor_msgs/msg/LaserScan`.
+    /// ROS type, such as `sensor_msgs/msg/LaserScan`.
     pub ros_type: String,
-    /// Such as `gz.msgs.LaserScan`.
+    /// Gazebo type, such as `gz.msgs.LaserScan`.
     pub gz_type: String,
-    /// Which way messages go.
+    /// Direction.
     pub direction: Direction,
-    /// Whether what nobody hears in ROS is not heard in Gazebo either.
+    /// Subscribe in Gazebo only while there are subscribers in ROS.
     pub is_lazy: bool,
-    /// So many messages wait for who hears in ROS.
+    /// Queue depth of the ROS publisher.
     pub publisher_queue: usize,
-    /// So many messages of ROS wait to be sent.
+    /// Queue depth of the ROS subscription.
     pub subscriber_queue: usize,
 }
 
-/// Why a topic cannot be in both worlds.
+/// Reason for which a pair of topics cannot be bridged.
 #[derive(Clone, Debug)]
 pub enum PairError {
-    /// No message is both; what to name instead.
+    /// There is no conversion between the types; the text names alternatives.
     Types(String),
-    /// A name or the graph refuses.
+    /// A name is invalid, or the graph refused an endpoint.
     Wire(WireError),
 }
 
@@ -81,7 +81,7 @@ impl<E: Into<WireError>> From<E> for PairError {
     }
 }
 
-/// Keeps topics in both worlds, as long as it is there.
+/// Bridges between a graph and Gazebo Transport, which exist until this is dropped.
 pub struct Link {
     graph: Graph,
     transport: Arc<Transport>,
@@ -94,13 +94,13 @@ pub struct Link {
 #[derive(Default)]
 struct Inner {
     bridges: Vec<Bridge>,
-    /// Topics that are offered by themselves, by their names in the graph.
+    /// Topics bridged automatically, by their names in the graph.
     own: Option<Automatic>,
     findings: Diagnostics,
     said: BTreeSet<String>,
 }
 
-/// One topic in both worlds.
+/// A bridge for one topic.
 struct Bridge {
     out: Option<Out>,
     into: Option<Inward>,
@@ -110,7 +110,7 @@ struct Out {
     outgoing: Arc<Outgoing>,
     tap: Option<TapId>,
     topic: String,
-    /// So that other wires bring the topic here.
+    /// Makes other transports of the graph subscribe to the topic.
     _heard: Option<RawMailbox>,
 }
 
@@ -123,10 +123,10 @@ struct Inward {
     unsaid: Arc<AtomicBool>,
 }
 
-/// What a topic of the graph is called in Gazebo.
+/// Gazebo name of a topic of the graph; none to leave it out.
 type Rename = Box<dyn Fn(&str) -> Option<String> + Send>;
 
-/// What is offered without being asked.
+/// Automatic bridging.
 struct Automatic {
     node: Node,
     rename: Rename,
@@ -135,7 +135,7 @@ struct Automatic {
 }
 
 impl Link {
-    /// Between a graph and a place in Gazebo's network.
+    /// Creates a link between a graph and a Gazebo transport.
     #[must_use]
     pub fn new(graph: &Graph, transport: &Arc<Transport>) -> Self {
         let inner: Arc<Mutex<Inner>> = Arc::default();
@@ -155,15 +155,15 @@ impl Link {
                 std::thread::sleep(LOOK);
             }
         });
-        let threads = vec![linking.expect("the system gives a thread"), converting];
+        let threads = vec![linking.expect("the system starts a thread"), converting];
         let (graph, transport) = (graph.clone(), transport.clone());
         Self { graph, transport, inner, lane, is_closing, threads }
     }
 
-    /// Keeps a topic in both worlds; `node` publishes and subscribes in the graph.
+    /// Bridges a topic; `node` publishes and subscribes in the graph.
     ///
     /// # Errors
-    /// When no message is both, or a name is none.
+    /// When there is no conversion between the types, or a name is invalid.
     pub fn bridge(&self, node: &Node, pair: &Pair) -> Result<(), PairError> {
         let (ros_type, convert) = between(&pair.ros_type, &pair.gz_type)
             .ok_or_else(|| PairError::Types(no_such_pair(&pair.ros_type, &pair.gz_type)))?;
@@ -195,12 +195,12 @@ impl Link {
         Ok(())
     }
 
-    /// Offers to Gazebo what nodes of the graph publish, and lets them hear what Gazebo publishes on
-    /// topics that they subscribe to, as far as messages are in both worlds. `rename` says what a topic
-    /// is called in Gazebo; none is not offered.
+    /// Bridges all convertible topics: publishers of the graph are advertised in Gazebo, and
+    /// subscriptions of the graph receive from Gazebo. `rename` returns the Gazebo name of a topic;
+    /// none leaves it out.
     ///
     /// # Errors
-    /// When it is done twice.
+    /// When it is called twice.
     pub fn offer_all(
         &self,
         rename: impl Fn(&str) -> Option<String> + Send + 'static,
@@ -212,7 +212,7 @@ impl Link {
         Ok(())
     }
 
-    /// What was wrong since the last call.
+    /// Returns the findings since the last call.
     #[must_use]
     pub fn take_findings(&self) -> Diagnostics {
         std::mem::take(&mut lock(&self.inner).findings)
@@ -260,7 +260,7 @@ impl Worker {
 }
 
 impl Bridge {
-    /// Listens here to what is heard there, and the other way round.
+    /// Starts and stops subscriptions on each side according to the subscribers on the other.
     fn follow(&mut self, worker: &Worker, findings: &mut Diagnostics, said: &mut BTreeSet<String>) {
         if let Some(out) = &mut self.out {
             match (out.outgoing.is_heard(), out.tap) {
@@ -308,15 +308,15 @@ fn untap(graph: &Graph, tap: &mut Option<TapId>) {
     }
 }
 
-/// Says once of a topic that the other world has no word for its messages.
+/// Warns once per topic that messages cannot be converted.
 fn say(findings: &mut Diagnostics, said: &mut BTreeSet<String>, topic: &str, a: &str, b: &str) {
     let message = format!(
-        "messages on the topic `{topic}` of {a} are of another type than was said, are none, or \
-         have no word in {b}"
+        "messages on the topic `{topic}` of {a} have another type than declared, are malformed, or \
+         have no equivalent in {b}"
     );
     if said.insert(message.clone()) {
         findings.push(Diagnostic::warning("gz-unsaid", message).help(
-            "compare the types with `gz topic -i -t` and `ros2 topic info`; of pictures compare the \
+            "compare the types with `gz topic -i -t` and `ros2 topic info`; for images compare the \
              kinds of pixels",
         ));
     }
@@ -336,7 +336,7 @@ impl Inward {
 }
 
 impl Automatic {
-    /// Offers what came, and drops what went.
+    /// Adds bridges for new topics and removes those of old ones.
     fn sync(&mut self, worker: &Worker, findings: &mut Diagnostics) {
         let mut gone: BTreeSet<(String, bool)> = self.bridges.keys().cloned().collect();
         for topic in worker.graph.topics() {
@@ -346,7 +346,7 @@ impl Automatic {
             let (publishers, subscriptions) = (own(&topic.publishers), own(&topic.subscriptions));
             for is_out in [true, false] {
                 let is_there = if is_out { &publishers } else { &subscriptions };
-                // What is said and heard among nodes of the graph is theirs, but who may drive is not.
+                // Traffic among nodes of the graph is not bridged, except drive commands.
                 let is_command = COMMANDS.contains(&topic.type_name.as_str());
                 let is_inner = !is_out && !publishers.is_empty() && !is_command;
                 if is_there.is_empty() || is_inner {
@@ -399,19 +399,19 @@ impl Automatic {
     }
 }
 
-/// That no message is both, and what would be.
+/// Error text for two types without conversion, with alternatives.
 fn no_such_pair(ros: &str, gazebo: &str) -> String {
     let (there, here) = (gazebo_types(ros), ros_types(gazebo));
     let words = match (there.as_slice(), here.as_slice()) {
-        ([], []) => "neither is bridged".to_owned(),
+        ([], []) => "neither type is bridged".to_owned(),
         ([], here) => format!("{gazebo} is {}", here.join(" or ")),
         (there, _) => {
             let near = closest(bare_name(gazebo).unwrap_or(gazebo), there.iter().copied());
             let near = near.unwrap_or(there[0]);
-            format!("{ros} is gz.msgs.{near}")
+            format!("{ros} is bridged to gz.msgs.{near}")
         }
     };
-    format!("there is no way between {ros} and {gazebo}: {words}")
+    format!("there is no conversion between {ros} and {gazebo}: {words}")
 }
 
 #[cfg(test)]
@@ -422,10 +422,10 @@ mod tests {
     fn who_names_the_wrong_type_is_told_the_right_one() {
         assert_eq!(
             no_such_pair("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScam"),
-            "there is no way between sensor_msgs/msg/LaserScan and gz.msgs.LaserScam: \
-             sensor_msgs/msg/LaserScan is gz.msgs.LaserScan"
+            "there is no conversion between sensor_msgs/msg/LaserScan and gz.msgs.LaserScam: \
+             sensor_msgs/msg/LaserScan is bridged to gz.msgs.LaserScan"
         );
         let words = no_such_pair("sensor_msgs/msg/Range", "gz.msgs.IMU");
-        assert!(words.ends_with("gz.msgs.IMU is sensor_msgs/msg/Imu"), "{words}");
+        assert!(words.ends_with("gz.msgs.IMU is bridged to sensor_msgs/msg/Imu"), "{words}");
     }
 }

@@ -1,23 +1,23 @@
-//! Names of topics and services, and the partitions that they are in.
+//! Names of topics and services, and their partitions.
 
 use crate::WireError;
 
-/// Longer names are none.
+/// Maximum length of a name \[bytes\].
 pub const MOST_NAME: usize = 65_535;
 
-/// A name in its partition. On the network it is `@/partition@/topic`.
+/// A name with its partition. On the network it is `@/partition@/topic`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Name {
     full: String,
-    /// Where the topic begins.
+    /// Start of the topic.
     topic: usize,
 }
 
 impl Name {
-    /// A name as a person writes it: the first slash may be left out.
+    /// Creates a name from user input; the leading slash is optional.
     ///
     /// # Errors
-    /// When it cannot be one.
+    /// When it is not a valid name.
     pub fn new(partition: &str, topic: &str) -> Result<Self, WireError> {
         let wrong = |why| Err(WireError::Name { name: topic.to_owned(), why });
         let bare = topic.trim_end_matches('/');
@@ -37,7 +37,7 @@ impl Name {
         Ok(Self { topic: full.len() - bare.len() - first.len(), full })
     }
 
-    /// From the network; none if it is no name.
+    /// Parses a name from the network; none if it is invalid.
     #[must_use]
     pub fn read(full: &str) -> Option<Self> {
         let rest = full.strip_prefix('@')?;
@@ -47,19 +47,19 @@ impl Name {
             .then(|| Self { full: full.to_owned(), topic: partition.len() + 2 })
     }
 
-    /// As it is on the network.
+    /// Full name as on the network.
     #[must_use]
     pub fn full(&self) -> &str {
         &self.full
     }
 
-    /// Without its partition.
+    /// Name without partition.
     #[must_use]
     pub fn topic(&self) -> &str {
         &self.full[self.topic..]
     }
 
-    /// Whether both are in one partition.
+    /// True if both are in one partition.
     #[must_use]
     pub fn is_beside(&self, other: &Self) -> bool {
         self.full[..self.topic] == other.full[..other.topic]

@@ -1,5 +1,5 @@
-//! What a graph publishes, on its way to Gazebo. One thread converts all, so that nobody who publishes
-//! waits.
+//! Conversion and sending of messages of the graph. One thread does it for all topics, so that
+//! publishers do not wait.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -12,25 +12,25 @@ use periplus_transport::lock;
 use crate::Publisher;
 use crate::convert::Convert;
 
-/// The way of one topic.
+/// Send queue of one topic.
 pub(crate) struct Outgoing {
     topic: String,
     publisher: Publisher,
     convert: Box<dyn Convert>,
-    /// As many wait; then the oldest goes.
+    /// Queue depth; the oldest message is dropped when it is exceeded.
     depth: usize,
-    /// Whose messages go, or none of whose do.
+    /// Filter of publishers.
     who: Mutex<Who>,
     queue: Mutex<Queue>,
     lane: Lane,
 }
 
-/// Whose messages go out.
+/// Publishers whose messages are sent.
 #[derive(Clone, Debug)]
 pub(crate) enum Who {
-    /// Those of all but these.
+    /// All but these.
     AllBut(BTreeSet<EndpointId>),
-    /// Those of these.
+    /// Only these.
     Only(BTreeSet<EndpointId>),
 }
 
@@ -38,7 +38,7 @@ pub(crate) enum Who {
 struct Queue {
     samples: VecDeque<Sample>,
     is_scheduled: bool,
-    /// How many had no word in Gazebo.
+    /// Number of messages without an equivalent in Gazebo.
     unsaid: u64,
 }
 
@@ -70,7 +70,7 @@ impl Outgoing {
         *lock(&self.who) = who;
     }
 
-    /// How many messages had no word in Gazebo.
+    /// Number of messages without an equivalent in Gazebo.
     pub(crate) fn unsaid(&self) -> u64 {
         lock(&self.queue).unsaid
     }
@@ -82,7 +82,7 @@ impl Outgoing {
         }
     }
 
-    /// Converts and sends the oldest that waits.
+    /// Converts and sends the oldest message.
     fn send(self: Arc<Self>) {
         let sample = lock(&self.queue).samples.pop_front();
         let Some(sample) = sample else { return };
@@ -101,7 +101,7 @@ impl Outgoing {
     }
 }
 
-/// Hears a topic of the graph as long as the tap is there.
+/// Sink of a tap on a topic of the graph.
 pub(crate) struct Ear(pub(crate) Arc<Outgoing>);
 
 impl Sink for Ear {
@@ -129,7 +129,7 @@ impl Sink for Ear {
     }
 }
 
-/// The way out, a thread. It ends when nobody can schedule anything any more.
+/// The send thread. It ends when all handles are dropped.
 #[derive(Clone)]
 pub(crate) struct Lane(Sender<Option<Arc<Outgoing>>>);
 
@@ -137,12 +137,12 @@ impl Lane {
     pub(crate) fn start() -> (Self, JoinHandle<()>) {
         let (jobs, work) = channel();
         let thread = std::thread::Builder::new().name("gz-convert".to_owned());
-        let thread = thread.spawn(move || run(&work)).expect("the system gives a thread");
+        let thread = thread.spawn(move || run(&work)).expect("the system starts a thread");
         (Self(jobs), thread)
     }
 
     fn schedule(&self, outgoing: Arc<Outgoing>) {
-        // Without the thread the wire is closed.
+        // Fails only after the transport is closed.
         let _ = self.0.send(Some(outgoing));
     }
 

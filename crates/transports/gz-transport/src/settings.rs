@@ -1,4 +1,4 @@
-//! Which network a wire is on, and what the environment says about that.
+//! Network settings and the environment variables for them.
 
 use std::net::Ipv4Addr;
 use std::path::Path;
@@ -8,33 +8,33 @@ use periplus_gz_msgs::Dialect;
 use periplus_resources::Host;
 use periplus_transport::environment::variable;
 
-/// Who can see a wire.
+/// Reach of discovery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reach {
     /// Programs on this machine.
     #[default]
     Machine,
-    /// Programs wherever multicast reaches.
+    /// All programs within reach of multicast.
     Network,
 }
 
-/// Which network a wire is on.
+/// Network settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Who has another is not heard.
+    /// Partition; programs in another partition are invisible.
     pub partition: String,
-    /// Who can see the wire.
+    /// Reach of discovery.
     pub reach: Reach,
-    /// The address by which this machine is on the network; without one that of the loopback, or where
-    /// the network is meant, that of its first way out.
+    /// Address of the interface; by default that of the loopback interface, or with
+    /// [`Reach::Network`] that of the default route.
     pub address: Option<Ipv4Addr>,
-    /// Where programs tell of themselves.
+    /// Multicast group of discovery.
     pub group: Ipv4Addr,
-    /// The port for topics.
+    /// Discovery port for topics.
     pub topic_port: u16,
-    /// The port for services.
+    /// Discovery port for services.
     pub service_port: u16,
-    /// Which names types have that are offered; both are understood.
+    /// Type names used in advertisements; both dialects are accepted.
     pub dialect: Dialect,
 }
 
@@ -53,9 +53,8 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What the environment says, in the variables that `gz-transport` reads, under the names of all its
-    /// releases: `GZ_PARTITION` or `IGN_PARTITION`, and so on. Without a partition it is, as there,
-    /// `hostname:username`.
+    /// Reads the environment variables of `gz-transport` in all its releases: `GZ_PARTITION` or
+    /// `IGN_PARTITION`, and so on. The default partition is `hostname:username`.
     #[must_use]
     pub fn from_environment(host: &dyn Host) -> (Self, Diagnostics) {
         let mut settings = Self::default();
@@ -94,8 +93,8 @@ impl Settings {
             if let Some((name, _)) = either(host, what) {
                 let message = format!("the environment variable {name} is not used");
                 findings.push(Diagnostic::warning("gz-environment", message).help(
-                    "relays, passwords and statistics of Gazebo Transport are not there: programs \
-                     that insist on them do not see this one",
+                    "relays, authentication and statistics of Gazebo Transport are not supported: programs \
+                     that require them do not see this one",
                 ));
             }
         }
@@ -103,7 +102,7 @@ impl Settings {
     }
 }
 
-/// A variable under the name of the newer releases, or that of the older.
+/// Reads a variable by its current (`GZ_`) or old (`IGN_`) name.
 fn either(host: &dyn Host, what: &str) -> Option<(String, String)> {
     ["GZ", "IGN"].iter().find_map(|front| {
         let name = format!("{front}_{what}");
@@ -114,10 +113,10 @@ fn either(host: &dyn Host, what: &str) -> Option<(String, String)> {
 
 fn not_used(name: &str, value: &str, wanted: &str) -> Diagnostic {
     let message = format!("the environment variable {name} is `{value}` and is not used");
-    Diagnostic::warning("gz-environment", message).help(format!("it has to be {wanted}"))
+    Diagnostic::warning("gz-environment", message).help(format!("it must be {wanted}"))
 }
 
-/// Whose machine it is.
+/// Default partition: host and user name.
 fn usual_partition(host: &dyn Host) -> String {
     let text = |path: &str| {
         let bytes = host.read(Path::new(path)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! A place in the network of Gazebo: who else is there, topics, services.
+//! Handle of the Gazebo transport: discovery, topics and services.
 
 mod calls;
 mod discovery;
@@ -28,7 +28,7 @@ pub use zmtp::fuzz as fuzz_frames;
 use crate::{CallError, Name, Settings, WireError};
 use shared::{Kind, Shared};
 
-/// A place in the network. It is left when this is dropped.
+/// A participant of the Gazebo network. It leaves the network when this is dropped.
 pub struct Transport {
     shared: Arc<Shared>,
     threads: Vec<JoinHandle<()>>,
@@ -38,13 +38,13 @@ impl Transport {
     /// Joins the network.
     ///
     /// # Errors
-    /// When an address is none of this machine, or a port cannot be had.
+    /// When the address is not one of this machine, or a port cannot be bound.
     pub fn open(settings: &Settings) -> Result<Self, WireError> {
         let (shared, threads) = shared::open(settings)?;
         Ok(Self { shared, threads })
     }
 
-    /// Publishes a topic. It is seen as long as the publisher is there.
+    /// Advertises a topic until the publisher is dropped.
     ///
     /// # Errors
     /// When Gazebo does not allow the name.
@@ -53,8 +53,8 @@ impl Transport {
         Ok(publish::advertise(&self.shared, name, type_name))
     }
 
-    /// Hears a topic, whoever publishes it. `take` is called by threads of the wire, one for each who
-    /// publishes; it should not take long.
+    /// Subscribes to a topic of all publishers. `take` is called by threads of the transport, one
+    /// for each publisher; it must return quickly.
     ///
     /// # Errors
     /// When Gazebo does not allow the name.
@@ -68,7 +68,8 @@ impl Transport {
         Ok(subscribe::subscribe(&self.shared, name, type_name, Box::new(take)))
     }
 
-    /// Answers a service. `take` is called by threads of the wire; the answer may come later.
+    /// Advertises a service. `take` is called by threads of the transport; the response may be sent
+    /// later.
     ///
     /// # Errors
     /// When Gazebo does not allow the name.
@@ -83,10 +84,11 @@ impl Transport {
         Ok(calls::serve(&self.shared, name, request_type, response_type, Box::new(take)))
     }
 
-    /// Calls a service and waits for the answer, at most so long, also for who answers it to be found.
+    /// Calls a service and waits for the response, including discovery of the server, at most for
+    /// the timeout.
     ///
     /// # Errors
-    /// When there is none.
+    /// When there is no response.
     pub fn call(
         &self,
         service: &str,
@@ -99,25 +101,25 @@ impl Transport {
         calls::call(&self.shared, &name, [request_type, response_type], request, timeout)
     }
 
-    /// Topics of others, and who publishes them, sorted by name.
+    /// Topics of other programs with their publishers, sorted by name.
     #[must_use]
     pub fn topics(&self) -> Vec<Offered> {
         self.shared.remote(Kind::Topics).offered()
     }
 
-    /// Services of others, sorted by name.
+    /// Services of other programs, sorted by name.
     #[must_use]
     pub fn services(&self) -> Vec<Offered> {
         self.shared.remote(Kind::Services).offered()
     }
 
-    /// Changes when somebody begins or ends to hear one of our topics.
+    /// Counter that changes when a remote subscriber of a local topic is added or removed.
     #[must_use]
     pub fn hearings(&self) -> u64 {
         self.shared.hearings.load(Ordering::Acquire)
     }
 
-    /// In which network this is.
+    /// Network settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.shared.settings

@@ -1,4 +1,4 @@
-//! Two transports of ours with each other.
+//! Two transports of this crate with each other.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests of a network wait for it")]
 
@@ -44,7 +44,7 @@ fn a_topic_is_found_heard_and_gone() {
     drop(publisher);
     until("it is gone", || b.topics().is_empty());
     drop(ear);
-    // What nobody hears is sent to nobody.
+    // Messages without subscribers are not sent.
     let again = a.advertise("/lamp", "gz.msgs.Boolean").unwrap();
     until("it is there again", || b.topics().len() == 1);
     assert!(!again.is_heard());

@@ -1,7 +1,7 @@
-//! The wire against Gazebo's own: Debian's `ignition-transport` 11, by its command line and by a
-//! program compiled against it. What is not installed is skipped, loudly.
+//! Interoperability with Debian's `ignition-transport` 11, by its command line and by a program
+//! compiled against it. A missing peer is skipped with a message.
 //!
-//! Each test has a partition of its own, so that all run side by side.
+//! Each test has its own partition, so that all can run in parallel.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -28,7 +28,7 @@ fn open(gazebo: &Gazebo) -> Transport {
     .unwrap()
 }
 
-/// Does something again and again until this is dropped.
+/// Repeats an action until this is dropped.
 struct Again(Arc<AtomicBool>, Option<std::thread::JoinHandle<()>>);
 
 impl Again {
@@ -76,7 +76,7 @@ fn a_scan_is_listed_described_and_echoed_with_its_infinities() {
     assert_eq!(echo.line_with("frame"), "frame: \"lidar\"");
     let ranges = [(); 3].map(|()| echo.line_with("ranges"));
     assert_eq!(ranges, ["ranges: 1.5", "ranges: inf", "ranges: -inf"]);
-    // As our own text has it.
+    // In the form of our own text format.
     assert!(scan().text().contains(&ranges.join("\n")));
     let heard = gazebo.peer(&["hear-scan", "/lidar"]);
     assert_eq!(heard.line(), "ready");
@@ -100,13 +100,13 @@ fn what_gazebo_publishes_is_heard() {
     assert_eq!(came.recv_timeout(LONG), Ok(0.25));
     drop(saying);
     while came.recv_timeout(Duration::from_millis(500)).is_ok() {}
-    // One shot of the command line.
+    // One invocation of the command line.
     let words = ["-t", "/cmd_vel", "-m", "ignition.msgs.Twist", "-p", "linear: {x: 0.75}"];
     let shots = (0..10).map(|_| {
         let _ = gazebo.tool("topic", &words);
         came.recv_timeout(Duration::from_secs(2)).ok()
     });
-    // It waits for who hears only so long; on a busy machine a shot may miss.
+    // The command waits for subscribers only briefly; on a busy machine an invocation may miss.
     assert_eq!(shots.flatten().next(), Some(0.75));
 }
 

@@ -1,26 +1,26 @@
-//! What goes beside every message, question and answer: its number, when it was sent, and by whom.
+//! Attachments of messages, requests and responses: sequence number, time and sender.
 //!
 //! Source: `rmw_zenoh`'s design document, "Publishers" and "Service Clients".
 
-/// The name of an end on the network, made from its token.
+/// Id of an endpoint on the network, a hash of its liveliness token.
 pub type Gid = [u8; 16];
 
-/// Bytes of an attachment: two numbers, the length of the name, the name.
+/// Size of an attachment \[bytes\]: two numbers, the length of the id, the id.
 const SIZE: usize = 8 + 8 + 1 + 16;
 
-/// What goes beside the bytes of a message.
+/// Attachment of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attachment {
-    /// Number of the message; an answer repeats that of its question.
+    /// Sequence number of the message; a response repeats that of its request.
     pub number: i64,
-    /// When it was sent, since 1970 \[ns\].
+    /// Time of sending, since 1970 \[ns\].
     pub time_ns: i64,
-    /// Who sent it; an answer repeats who asked.
+    /// Id of the sender; a response repeats that of the client.
     pub gid: Gid,
 }
 
 impl Attachment {
-    /// As it is sent.
+    /// Encodes the attachment.
     #[must_use]
     pub fn write(&self) -> Vec<u8> {
         let mut out = Vec::with_capacity(SIZE);
@@ -31,7 +31,7 @@ impl Attachment {
         out
     }
 
-    /// Reads one; none if it is none.
+    /// Decodes an attachment; none if it is malformed.
     #[must_use]
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let (number, rest) = bytes.split_first_chunk()?;

@@ -1,44 +1,46 @@
-//! Why a wire cannot be.
+//! Errors of the Zenoh transport.
 
 use std::fmt;
 
 use periplus_graph::GraphError;
 
-/// Why a wire cannot be.
+/// Error of the Zenoh transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum WireError {
-    /// A setting is none.
+    /// An invalid setting.
     Setting {
-        /// Which.
+        /// Name of the setting.
         what: String,
-        /// What is wrong with it.
+        /// Cause.
         why: String,
     },
     /// The network cannot be joined.
     Network {
-        /// By which way it was tried.
+        /// Router or configuration that was tried.
         way: String,
-        /// What Zenoh says.
+        /// Message of Zenoh.
         why: String,
     },
-    /// It has a graph already.
+    /// A graph is attached already.
     Attached,
-    /// The graph does not want it.
+    /// The graph refused the transport's node.
     Graph(GraphError),
 }
 
 impl fmt::Display for WireError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Setting { what, why } => write!(f, "{what} cannot be used for Zenoh: {why}"),
+            Self::Setting { what, why } => write!(f, "{what} is not valid for Zenoh: {why}"),
             Self::Network { way, why } => write!(
                 f,
-                "cannot join Zenoh by way of {way}: {why}; see whether a router runs (`ros2 run \
+                "cannot join Zenoh through {way}: {why}; check that a router runs (`ros2 run \
                  rmw_zenoh_cpp rmw_zenohd`) and whether ZENOH_SESSION_CONFIG_URI and \
                  ZENOH_CONFIG_OVERRIDE are as meant"
             ),
-            Self::Attached => write!(f, "the wire has a graph already; open another wire"),
+            Self::Attached => {
+                write!(f, "the transport already has a graph; open another transport")
+            }
             Self::Graph(error) => error.fmt(f),
         }
     }

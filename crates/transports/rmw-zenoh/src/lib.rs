@@ -1,8 +1,8 @@
-//! A graph on Zenoh, as ROS 2 speaks it with `rmw_zenoh`: other programs see our nodes, topics and
-//! services as they see any others, and we see theirs. No ROS is needed, but a router is, as for them.
+//! Zenoh transport compatible with `rmw_zenoh`: connects a graph to ROS 2 programs on a Zenoh
+//! network. It needs no ROS, but a Zenoh router, as `rmw_zenoh` does.
 //!
-//! Zenoh itself is some 200 crates, so it is built in only with the feature `zenoh`; what this crate
-//! has without it are the names: keys, tokens, attachments.
+//! Zenoh itself is some 200 crates, so it is built only with the feature `zenoh`; without it this
+//! crate has the names: keys, liveliness tokens, attachments.
 //!
 #![cfg_attr(feature = "zenoh", doc = "```no_run")]
 #![cfg_attr(not(feature = "zenoh"), doc = "```ignore")]

@@ -1,5 +1,4 @@
-//! The thread of a wire: keeps the ends on the network as the graph has them, and lets what others
-//! have stand in the graph.
+//! Thread of the transport: keeps the endpoints on the network and in the graph in sync.
 
 mod inbox;
 mod net;
@@ -25,20 +24,20 @@ use report::Told;
 use services::Services;
 use topics::Topics;
 
-/// How often it looks what has changed in the graph, if nothing else wakes it.
+/// Period at which changes of the graph are checked, unless something else wakes the thread.
 const LOOK: Duration = Duration::from_millis(25);
 
 pub(crate) struct Link {
     net: Net,
-    /// Changes of the others that were looked at.
+    /// Change counter of the remote tokens at the last check.
     seen: u64,
     attached: Option<Attached>,
 }
 
-/// A graph that takes part.
+/// The attached graph.
 struct Attached {
     graph: Graph,
-    /// The node that stands for all others.
+    /// The node that represents all remote programs.
     node: Node,
     generation: Option<u64>,
     nodes: BTreeMap<String, LivelinessToken>,
@@ -77,7 +76,7 @@ impl Link {
         }
     }
 
-    /// Keeps the network as the graph is, and the graph as the network is.
+    /// Synchronizes the network with the graph, and the graph with the network.
     fn follow(&mut self) {
         let Some(attached) = &mut self.attached else { return };
         let changes = self.net.shared.others(|_, changes| changes);
@@ -101,7 +100,7 @@ impl Link {
 }
 
 impl Attached {
-    /// Makes and drops ends as the graph has them.
+    /// Creates and removes endpoints to match the graph.
     fn sync(&mut self, net: &Net) {
         let own = Own::of(&self.graph);
         self.nodes.retain(|name, _| own.nodes.contains(name));

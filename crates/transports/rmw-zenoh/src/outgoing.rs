@@ -1,5 +1,5 @@
-//! What waits to be sent. One thread of the wire sends everything, so that a slow peer holds up nobody
-//! who publishes.
+//! Send queues of publishers. One thread of the transport sends everything, so that a slow peer
+//! does not block publishers.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,15 +14,15 @@ use zenoh_ext::AdvancedPublisher;
 
 use crate::attachment::{Attachment, Gid};
 
-/// A publisher, and what waits for it.
+/// A publisher with its queue.
 pub(crate) struct Outgoing {
     publisher: AdvancedPublisher<'static>,
     gid: Gid,
-    /// As many wait; then the oldest goes.
+    /// Queue depth; the oldest message is dropped when it is exceeded.
     depth: usize,
-    /// Whether messages matter although nobody listens.
+    /// True if messages matter without subscribers (transient local).
     keeps: bool,
-    /// Whether somebody listens.
+    /// True if there is a remote subscriber.
     is_heard: Arc<AtomicBool>,
     queue: Mutex<Queue>,
     lane: Lane,
@@ -31,9 +31,9 @@ pub(crate) struct Outgoing {
 #[derive(Default)]
 struct Queue {
     samples: VecDeque<Sample>,
-    /// Whether the lane will come to it.
+    /// True if the send thread is scheduled for it.
     is_scheduled: bool,
-    /// Number of the last message.
+    /// Sequence number of the last message.
     number: i64,
     dropped: u64,
 }
@@ -51,12 +51,12 @@ impl Outgoing {
         Arc::new(Self { publisher, gid, depth, keeps, is_heard, queue, lane })
     }
 
-    /// How many messages were dropped because they came faster than they went.
+    /// Number of messages dropped because the queue was full.
     pub(crate) fn dropped(&self) -> u64 {
         lock(&self.queue).dropped
     }
 
-    /// Sends the oldest message that waits.
+    /// Sends the oldest message.
     fn send(self: Arc<Self>) {
         let mut queue = lock(&self.queue);
         let Some(sample) = queue.samples.pop_front() else { return };
@@ -64,8 +64,7 @@ impl Outgoing {
         let (number, time_ns, gid) = (queue.number, unix_ns(), self.gid);
         drop(queue);
         let beside = Attachment { number, time_ns, gid }.write();
-        // What its type does not allow its publisher should not have made; a session that is closed
-        // takes nothing any more.
+        // Messages that violate their type, and messages on a closed session, are dropped.
         if let Ok(bytes) = sample.cdr() {
             let _ = self.publisher.put(bytes).attachment(beside).wait();
         }
@@ -97,17 +96,17 @@ impl Way for Outgoing {
     }
 }
 
-/// What the lane does.
+/// A job of the send thread.
 pub(crate) enum Job {
     /// The next message of a publisher, after those of others.
     Message(Arc<Outgoing>),
-    /// A question or an answer.
+    /// A request or a response.
     Once(Box<dyn FnOnce() + Send>),
-    /// It is over.
+    /// Ends the thread.
     End,
 }
 
-/// The way out, a thread.
+/// The send thread.
 #[derive(Clone)]
 pub(crate) struct Lane {
     jobs: Sender<Job>,
@@ -121,17 +120,18 @@ impl Lane {
         let lane = Self { jobs, waiting: Arc::default() };
         let waiting = lane.waiting.clone();
         let thread = std::thread::Builder::new().name("zenoh-send".to_owned());
-        let thread = thread.spawn(move || run(&work, &waiting)).expect("the system gives a thread");
+        let thread =
+            thread.spawn(move || run(&work, &waiting)).expect("the system starts a thread");
         (lane, thread)
     }
 
     pub(crate) fn schedule(&self, job: Job) {
         self.waiting.fetch_add(1, Ordering::AcqRel);
-        // Without the thread the wire is closed.
+        // Fails only after the transport is closed.
         let _ = self.jobs.send(job);
     }
 
-    /// Whether all was sent.
+    /// True if everything was sent.
     pub(crate) fn is_idle(&self) -> bool {
         self.waiting.load(Ordering::Acquire) == 0
     }

@@ -1,19 +1,20 @@
-//! Quality of service as a token spells it: what differs from the default, between colons.
+//! QoS in the key expression of a liveliness token: the values that differ from the default,
+//! separated by colons.
 //!
-//! `reliability:durability:history,depth:deadline:lifespan:liveliness,lease`, each time as seconds
-//! and nanoseconds with a comma between, each kind as the number that `rmw` gives it. Source:
-//! `qos_to_keyexpr` of `rmw_zenoh_cpp` and the kinds of `rmw/types.h`.
+//! `reliability:durability:history,depth:deadline:lifespan:liveliness,lease`; durations are seconds
+//! and nanoseconds separated by a comma, policies are the numbers of `rmw`. Source:
+//! `qos_to_keyexpr` of `rmw_zenoh_cpp` and the enumerations of `rmw/types.h`.
 
 use std::fmt::Write as _;
 
 use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
 
-/// The depth that `rmw_zenoh` takes when none is asked for.
+/// Default depth of `rmw_zenoh`.
 const DEFAULT_DEPTH: usize = 42;
 
 const SECOND_NS: i64 = 1_000_000_000;
 
-/// As a token has it.
+/// Encodes the QoS for a token.
 #[must_use]
 pub fn write(qos: &Qos) -> String {
     let mut out = String::new();
@@ -45,7 +46,7 @@ pub fn write(qos: &Qos) -> String {
     out
 }
 
-/// Without end is the default.
+/// An infinite duration is the default.
 fn write_time(out: &mut String, time_ns: Option<i64>) {
     match time_ns {
         Some(ns) => {
@@ -55,7 +56,8 @@ fn write_time(out: &mut String, time_ns: Option<i64>) {
     }
 }
 
-/// Reads it; none if it is none. What `rmw` has and we have no word for counts as what is next to it.
+/// Decodes the QoS; none if it is malformed. Policies of `rmw` without an equivalent map to the
+/// closest one.
 #[must_use]
 pub fn read(text: &str) -> Option<Qos> {
     let mut parts = text.split(':');
@@ -99,7 +101,7 @@ pub fn read(text: &str) -> Option<Qos> {
     })
 }
 
-/// The outer is none when it is no time, the inner when it has no end.
+/// The outer option is none if it is malformed, the inner one if it is infinite.
 fn read_time(text: &str) -> Option<Option<i64>> {
     let (seconds, rest) = text.split_once(',')?;
     if seconds.is_empty() && rest.is_empty() {
@@ -112,7 +114,7 @@ fn read_time(text: &str) -> Option<Option<i64>> {
     let seconds = number(seconds, i64::MAX / SECOND_NS)?;
     let rest = number(rest, i64::MAX % SECOND_NS)?;
     let ns = seconds.checked_mul(SECOND_NS).and_then(|ns| ns.checked_add(rest));
-    // Longer than can be counted is without end.
+    // Durations that overflow are infinite.
     Some(ns.filter(|ns| *ns != i64::MAX))
 }
 
@@ -123,7 +125,7 @@ mod tests {
 
     #[test]
     fn it_is_spelled_as_rmw_zenoh_spells_it() {
-        // From the examples of its design document.
+        // Examples of the design document.
         assert_eq!(write(&Qos::reliable(10)), "::,10:,:,:,,");
         assert_eq!(write(&Qos::reliable(7)), "::,7:,:,:,,");
         assert_eq!(write(&Qos::sensor_data()), "2::,5:,:,:,,");

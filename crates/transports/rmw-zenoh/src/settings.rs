@@ -1,24 +1,24 @@
-//! Which network a wire is on, and what the environment says about that.
+//! Network settings and the environment variables for them.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_resources::Host;
 use periplus_transport::environment;
 
-/// Which network a wire is on. The default is domain 0 by way of a router on this machine.
+/// Network settings. The default is domain 0 through a router on this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// `ROS_DOMAIN_ID`: who has another is not heard.
+    /// `ROS_DOMAIN_ID`: programs in another domain are invisible.
     pub domain_id: u32,
-    /// Where to connect to: the router by which others are found.
+    /// Endpoints of the router to connect to.
     pub connect: Vec<String>,
-    /// Where others may connect to us, once the router has told them.
+    /// Endpoints at which peers can connect, announced through the router.
     pub listen: Vec<String>,
-    /// `ZENOH_SESSION_CONFIG_URI`: a file that takes the place of the two above and of all other
-    /// defaults.
+    /// `ZENOH_SESSION_CONFIG_URI`: a file that replaces the two above and all other defaults.
     pub file: Option<String>,
-    /// `ZENOH_CONFIG_OVERRIDE`: single settings that win over all, `path=value;path=value`.
+    /// `ZENOH_CONFIG_OVERRIDE`: single settings that override everything else,
+    /// `path=value;path=value`.
     pub more: String,
-    /// The security enclave that others are told.
+    /// Security enclave announced to other programs.
     pub enclave: String,
 }
 
@@ -36,8 +36,8 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What the environment says, in the variables that `rmw_zenoh` reads; what it does not say is as
-    /// in [`Settings::default`].
+    /// Reads the environment variables of `rmw_zenoh`; missing variables are as in
+    /// [`Settings::default`].
     #[must_use]
     pub fn from_environment(host: &dyn Host) -> (Self, Diagnostics) {
         let mut findings = Diagnostics::default();
@@ -51,7 +51,7 @@ impl Settings {
         (settings, findings)
     }
 
-    /// The single settings that win over all: path and value. The text of what is none is an error.
+    /// Parses `ZENOH_CONFIG_OVERRIDE` into paths and values.
     ///
     /// # Errors
     /// The part that has no `=`.
@@ -65,20 +65,20 @@ impl Settings {
             .collect()
     }
 
-    /// By which way others are found, in words.
+    /// Describes the router or configuration for messages.
     #[must_use]
     pub fn way(&self) -> String {
         let overrides = self.overrides().unwrap_or_default();
         let given = overrides.iter().rfind(|(path, _)| *path == "connect/endpoints");
         match (given, &self.file) {
             (Some((_, ends)), _) => format!("the router at {ends}"),
-            (None, Some(file)) => format!("what {file} says"),
+            (None, Some(file)) => format!("the configuration {file}"),
             (None, None) => format!("the router at {}", self.connect.join(", ")),
         }
     }
 
-    /// The defaults that `rmw_zenoh` gives to a session, as Zenoh reads them: found by gossip of the
-    /// router and not by multicast; messages have times, or nothing is kept for latecomers.
+    /// Default session configuration of `rmw_zenoh`: gossip scouting through the router, no
+    /// multicast; messages are time-stamped, which retained messages need.
     #[must_use]
     pub fn config(&self) -> String {
         let list = |ends: &[String]| {
@@ -123,7 +123,7 @@ mod tests {
         assert_eq!((settings.domain_id, settings.file.as_deref()), (7, Some("/etc/session.json5")));
         let expected = vec![("mode", "\"client\""), ("scouting/delay", "1")];
         assert_eq!(settings.overrides(), Ok(expected));
-        assert_eq!(settings.way(), "what /etc/session.json5 says");
+        assert_eq!(settings.way(), "the configuration /etc/session.json5");
         assert_eq!(Settings::default().way(), "the router at tcp/localhost:7447");
         let more = "connect/endpoints=[\"tcp/robot:7447\"]".to_owned();
         let given = Settings { more, ..settings.clone() };

@@ -1,5 +1,5 @@
-//! Who is there, as tokens say it: each node and each end of a topic or service keeps one alive, and
-//! its key says everything about it.
+//! Liveliness tokens: each node and each endpoint declares one, and its key expression describes
+//! it.
 //!
 //! Source: `rmw_zenoh`'s design document, "Graph Cache", and "Topic and Service name mapping".
 
@@ -10,24 +10,24 @@ use xxhash_rust::xxh3::xxh3_128;
 use crate::attachment::Gid;
 use crate::qos;
 
-/// In front of every token. Keys with wildcards do not match it.
+/// Prefix of every token. Keys with wildcards do not match it.
 const SPACE: &str = "@ros2_lv";
 
-/// The hash of a type that has none, as `rosidl` says it.
+/// Hash of a type without hash, as in `rosidl`.
 const NO_HASH: &str = "TypeHashNotSupported";
 
-/// What has a token.
+/// Kind of the entity that a token describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A node.
     Node,
-    /// It publishes.
+    /// A publisher.
     Publisher,
-    /// It subscribes.
+    /// A subscription.
     Subscription,
-    /// It answers a service.
+    /// A service server.
     Server,
-    /// It calls a service.
+    /// A service client.
     Client,
 }
 
@@ -41,54 +41,54 @@ impl Kind {
     ];
 }
 
-/// What a token says.
+/// Content of a token.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Token {
-    /// Number of the domain.
+    /// Domain id.
     pub domain_id: u32,
-    /// The session that keeps it alive.
+    /// The session that declares it.
     pub session: String,
-    /// Number of its node in that session.
+    /// Id of its node in that session.
     pub node_id: u64,
-    /// Its number in that session; a node repeats its own.
+    /// Id of the entity in that session; that of a node equals `node_id`.
     pub id: u64,
-    /// What has it.
+    /// Kind of the entity.
     pub kind: Kind,
     /// Security enclave of its node.
     pub enclave: String,
     /// Full name of its node.
     pub node: String,
-    /// All but nodes are ends of something.
+    /// The topic or service; none for nodes.
     pub end: Option<End>,
 }
 
-/// One end of a topic or service.
+/// An endpoint of a topic or service.
 #[derive(Clone, Debug, PartialEq)]
 pub struct End {
     /// Full name of the topic or service.
     pub name: String,
-    /// Its type, such as `sensor_msgs/msg/LaserScan`.
+    /// Type, such as `sensor_msgs/msg/LaserScan`.
     pub type_name: String,
-    /// The hash of its type; none where the other does not know it.
+    /// Type hash; none if the remote program does not know it.
     pub type_hash: Option<String>,
-    /// What it offers or asks for.
+    /// QoS offered or requested.
     pub qos: Qos,
 }
 
 impl End {
-    /// The key on which its messages go, or the questions to it.
+    /// Key expression of its messages or requests.
     #[must_use]
     pub fn key(&self, domain_id: u32) -> String {
         key(domain_id, &self.name, &self.type_name, self.type_hash.as_deref().unwrap_or(NO_HASH))
     }
 
-    /// The keys of those that it hears or asks: without a hash of its own, whatever theirs is.
+    /// Key expression of the endpoints that it matches: any type hash if it has none.
     #[must_use]
     pub fn keys(&self, domain_id: u32) -> String {
         key(domain_id, &self.name, &self.type_name, self.type_hash.as_deref().unwrap_or("*"))
     }
 
-    /// Whether it hears or asks that one.
+    /// True if this endpoint matches the other one.
     #[must_use]
     pub fn hears(&self, other: &Self) -> bool {
         (&self.name, &self.type_name) == (&other.name, &other.type_name)
@@ -96,31 +96,31 @@ impl End {
     }
 }
 
-/// The key on which the messages of a topic, or the questions to a service, go.
+/// Key expression of the messages of a topic, or the requests of a service.
 fn key(domain_id: u32, name: &str, type_name: &str, hash: &str) -> String {
     let (name, type_name) = (name.trim_matches('/'), names::type_of(type_name));
     format!("{domain_id}/{name}/{type_name}/{hash}")
 }
 
-/// All tokens of a domain.
+/// Key expression of all tokens of a domain.
 #[must_use]
 pub fn all(domain_id: u32) -> String {
     format!("{SPACE}/{domain_id}/**")
 }
 
-/// The name of what has this token.
+/// Id of the entity of this token.
 #[must_use]
 pub fn gid(token: &str) -> Gid {
     xxh3_128(token.as_bytes()).to_le_bytes()
 }
 
-/// A slash would begin another part.
+/// Replaces slashes, which would start another part of the key.
 fn mangled(name: &str) -> String {
     name.replace('/', "%")
 }
 
 impl Token {
-    /// As the network has it.
+    /// Encodes the key expression.
     #[must_use]
     pub fn write(&self) -> String {
         let Self { domain_id, session, node_id, id, .. } = self;
@@ -140,7 +140,7 @@ impl Token {
         out
     }
 
-    /// Reads one; none if it is none.
+    /// Decodes a key expression; none if it is malformed.
     #[must_use]
     pub fn read(key: &str) -> Option<Self> {
         let parts: Vec<&str> = key.split('/').collect();
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn tokens_are_those_of_rmw_zenoh() {
-        // The examples of its design document.
+        // Examples of the design document.
         let session = "8b20917502ee955ac4476e0266340d5c";
         let end = format!("%chatter/std_msgs::msg::dds_::String_/{HASH}/::,7:,:,:,,");
         check(&talker(), &format!("@ros2_lv/2/{session}/0/10/MP/%/%/talker/{end}"));
@@ -244,10 +244,10 @@ mod tests {
     fn names_are_sums_with_the_low_half_first() {
         let high = [0xb5, 0xe9, 0xc1, 0xad, 0x07, 0x1b, 0x3e, 0x7f];
         let low = [0xc7, 0x79, 0xcf, 0xaa, 0x5e, 0x52, 0x38, 0x18];
-        // Of nothing it is 99aa06d3014798d86001c324468d497f.
+        // The hash of the empty text is 99aa06d3014798d86001c324468d497f.
         assert_eq!(gid("")[..8], 0x6001_c324_468d_497f_u64.to_le_bytes());
         assert_eq!(gid("")[8..], 0x99aa_06d3_0147_98d8_u64.to_le_bytes());
-        // Of "hello": b5e9c1ad071b3e7fc779cfaa5e523818.
+        // The hash of "hello" is b5e9c1ad071b3e7fc779cfaa5e523818.
         let reversed = |mut half: [u8; 8]| {
             half.reverse();
             half

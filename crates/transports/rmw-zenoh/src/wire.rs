@@ -1,4 +1,4 @@
-//! The handle of a wire.
+//! Handle of the Zenoh transport.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,13 +15,13 @@ use crate::link::Link;
 use crate::outgoing::{Job, Lane};
 use crate::{Settings, Token, WireError, token};
 
-/// How often a flush looks again.
+/// Polling period of [`Wire::flush`].
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
-/// What is left when a wire is dropped gets so long to go.
+/// Time for sending the remaining messages when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
 
-/// A place in the network. It is left when this is dropped.
+/// A Zenoh session for one graph. It leaves the network when this is dropped.
 pub struct Wire {
     shared: Arc<Shared>,
     session: Session,
@@ -29,18 +29,18 @@ pub struct Wire {
     threads: Vec<JoinHandle<()>>,
 }
 
-/// What the threads of a wire, Zenoh's own and its handle have in common.
+/// State shared by the handle, the threads and Zenoh's threads.
 #[derive(Default)]
 pub(crate) struct Shared {
-    /// Those of others, by key, and how often they changed.
+    /// Remote tokens by key, and their change counter.
     others: Mutex<(BTreeMap<String, Token>, u64)>,
-    /// Rung when the tokens have changed.
+    /// Notified when the tokens have changed.
     changed: Condvar,
-    /// Set when the link has something to look at, and rung.
+    /// Set and notified when the link thread has work.
     due: Mutex<bool>,
     rung: Condvar,
     findings: Mutex<Diagnostics>,
-    /// A graph to take part, with the node that stands in it for all others.
+    /// A graph to attach, with the node that represents all remote programs.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
     is_closing: AtomicBool,
     is_attached: AtomicBool,
@@ -51,13 +51,14 @@ impl Shared {
         lock(&self.findings).push(finding);
     }
 
-    /// Lets the link look again.
+    /// Wakes the link thread.
     pub(crate) fn wake(&self) {
         *lock(&self.due) = true;
         self.rung.notify_one();
     }
 
-    /// Sleeps until there is something to look at, at most so long; false when all is over.
+    /// Sleeps until the link thread has work, at most for the timeout; false when the transport is
+    /// closed.
     pub(crate) fn sleep(&self, timeout: Duration) -> bool {
         let due = lock(&self.due);
         let waited = self.rung.wait_timeout_while(due, timeout, |due| !*due);
@@ -65,13 +66,13 @@ impl Shared {
         !self.is_closing.load(Ordering::Acquire)
     }
 
-    /// Those of others, and how often they changed.
+    /// Accesses the remote tokens and their change counter.
     pub(crate) fn others<T>(&self, look: impl FnOnce(&BTreeMap<String, Token>, u64) -> T) -> T {
         let others = lock(&self.others);
         look(&others.0, others.1)
     }
 
-    /// One came or went.
+    /// Adds or removes a token.
     fn note(&self, key: &str, is_alive: bool) {
         let Some(token) = Token::read(key) else { return };
         let mut others = lock(&self.others);
@@ -87,7 +88,7 @@ impl Shared {
     }
 }
 
-/// As Zenoh wants it: a file as it is, or the defaults, and single settings on top.
+/// Builds Zenoh's configuration: a file as it is, or the defaults, with the overrides on top.
 fn configuration(settings: &Settings) -> Result<Config, WireError> {
     let wrong = |what: &str, why: &dyn std::fmt::Display| WireError::Setting {
         what: what.to_owned(),
@@ -97,7 +98,7 @@ fn configuration(settings: &Settings) -> Result<Config, WireError> {
         Some(file) => Config::from_file(file)
             .map_err(|why| wrong(&format!("ZENOH_SESSION_CONFIG_URI `{file}`"), &why))?,
         None => Config::from_json5(&settings.config())
-            .map_err(|why| wrong("where to connect to and to listen", &why))?,
+            .map_err(|why| wrong("the endpoints to connect to and to listen at", &why))?,
     };
     let overrides = settings
         .overrides()
@@ -114,7 +115,7 @@ impl Wire {
     /// Joins the network.
     ///
     /// # Errors
-    /// When a setting is none, or Zenoh cannot listen where it should.
+    /// When a setting is invalid, or Zenoh cannot listen at an endpoint.
     pub fn open(settings: &Settings) -> Result<Self, WireError> {
         let network = |error: zenoh::Error| WireError::Network {
             way: settings.way(),
@@ -123,10 +124,10 @@ impl Wire {
         let session = zenoh::open(configuration(settings)?).wait().map_err(network)?;
         let shared = Arc::new(Shared::default());
         if session.info().routers_zid().wait().next().is_none() {
-            let message = format!("no router of Zenoh answers, looked for by {}", settings.way());
+            let message = format!("no Zenoh router answers at {}", settings.way());
             shared.report(Diagnostic::warning("zenoh-router", message).help(
-                "programs find each other by way of it: `ros2 run rmw_zenoh_cpp rmw_zenohd`; it is \
-                 looked for again and again",
+                "programs discover each other through it: `ros2 run rmw_zenoh_cpp rmw_zenohd`; the \
+                 connection is retried",
             ));
         }
         let own = session.zid().to_string();
@@ -147,16 +148,16 @@ impl Wire {
         let (lane, sending) = Lane::start();
         let link = Link::new(session.clone(), shared.clone(), lane.clone(), settings);
         let thread = std::thread::Builder::new().name("zenoh".to_owned());
-        let linking = thread.spawn(move || link.run()).expect("the system gives a thread");
+        let linking = thread.spawn(move || link.run()).expect("the system starts a thread");
         Ok(Self { shared, session, lane, threads: vec![linking, sending] })
     }
 
-    /// Lets a graph take part, as long as the wire is there: its nodes are seen elsewhere, and what
-    /// is elsewhere comes to it. In the graph one node whose name begins with `_wire` stands for
-    /// all others.
+    /// Attaches a graph for the lifetime of this handle: its endpoints become visible on the
+    /// network, and remote endpoints are connected to it. A node whose name begins with `_wire`
+    /// represents all remote programs in the graph.
     ///
     /// # Errors
-    /// When the wire has a graph already.
+    /// When a graph is attached already.
     pub fn attach(&self, graph: &Graph) -> Result<(), WireError> {
         if self.shared.is_attached.swap(true, Ordering::AcqRel) {
             return Err(WireError::Attached);
@@ -167,20 +168,20 @@ impl Wire {
         Ok(())
     }
 
-    /// Who else is there now, sorted by their keys. Others need a moment to be found: see
-    /// [`Wire::wait_for`].
+    /// Remote tokens, sorted by key. Discovery takes a moment: see [`Wire::wait_for`].
     #[must_use]
     pub fn remote(&self) -> Vec<Token> {
         self.shared.others(|others, _| others.values().cloned().collect())
     }
 
-    /// Waits until the others are as wanted, at most so long; whether they are.
+    /// Waits until the remote side satisfies the condition, at most for the timeout; true if it
+    /// does.
     pub fn wait_for(&self, timeout: Duration, mut wanted: impl FnMut(&[Token]) -> bool) -> bool {
         let others = lock(&self.shared.others);
         let mut seen = None;
         let waited =
             self.shared.changed.wait_timeout_while(others, timeout, |(others, changes)| {
-                // Not looked at twice as long as nothing has changed.
+                // Skip the check while nothing has changed.
                 if seen.replace(*changes) == Some(*changes) {
                     return true;
                 }
@@ -190,8 +191,8 @@ impl Wire {
         !waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
     }
 
-    /// Waits until everything published so far was handed to the network, at most so long; whether it
-    /// was.
+    /// Waits until everything published so far was handed to the network, at most for the timeout;
+    /// true if it was.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
         let start = Since::now();
@@ -206,7 +207,7 @@ impl Wire {
         }
     }
 
-    /// What was wrong since the last call.
+    /// Returns the findings since the last call.
     #[must_use]
     pub fn take_findings(&self) -> Diagnostics {
         std::mem::take(&mut *lock(&self.shared.findings))

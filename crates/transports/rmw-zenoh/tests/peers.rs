@@ -1,6 +1,6 @@
-//! The wire against a program that knows nothing of Periplus: PyPI's `eclipse-zenoh`, which speaks the
-//! keys, tokens and attachments of `rmw_zenoh`. Another such program is the router. What is not
-//! installed is skipped, loudly. `cargo xtask zenoh` installs it and runs this.
+//! Interoperability with PyPI's `eclipse-zenoh`, which speaks the keys, tokens and attachments of
+//! `rmw_zenoh`. A second such program is the router. A missing peer is skipped with a message.
+//! `cargo xtask zenoh` installs it and runs this.
 #![cfg(feature = "zenoh")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
@@ -21,7 +21,7 @@ use periplus_rmw_zenoh::{Kind, Settings, Wire};
 
 const LONG: Duration = Duration::from_secs(40);
 
-/// Python with what the peer needs.
+/// Python with the packages of the peer.
 fn python() -> Option<&'static PathBuf> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     let found = PYTHON.get_or_init(|| {
@@ -39,7 +39,7 @@ fn python() -> Option<&'static PathBuf> {
     found.as_ref()
 }
 
-/// A peer that runs; it is killed when this is dropped.
+/// A running peer; it is killed when this is dropped.
 struct Running {
     child: Child,
     lines: Receiver<String>,
@@ -69,7 +69,7 @@ impl Running {
     fn lines(&self, count: usize) -> Vec<String> {
         let line = || self.lines.recv_timeout(LONG);
         (0..count)
-            .map(|_| line().unwrap_or_else(|_| panic!("{} says nothing", self.what)))
+            .map(|_| line().unwrap_or_else(|_| panic!("{} has no output", self.what)))
             .collect()
     }
 }
@@ -81,7 +81,7 @@ impl Drop for Running {
     }
 }
 
-/// Polls until there is something; a test that waits longer has failed.
+/// Polls until there is a value; a timeout fails the test.
 #[track_caller]
 fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     let start = Instant::now();
@@ -89,12 +89,12 @@ fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
         if let Some(found) = poll() {
             return found;
         }
-        assert!(start.elapsed() < LONG, "waited in vain for {what}");
+        assert!(start.elapsed() < LONG, "timeout while waiting for {what}");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
 
-/// A router, and what speaks by way of it.
+/// A router, and the programs connected through it.
 struct Place {
     python: &'static Path,
     port: u16,
@@ -107,7 +107,7 @@ struct Ours {
 }
 
 impl Place {
-    /// Each test has a port of its own; none without the peer.
+    /// Each test has its own port; none without the peer.
     fn at(port: u16) -> Option<Self> {
         let python = python()?;
         let router = Running::start(python, port, &["router"]);
@@ -143,7 +143,7 @@ fn messages_go_both_ways() {
     let listener = place.peer(&["sub", "/demo/there", "3"]);
     let talker = place.peer(&["pub", "/demo/back", "3"]);
     wait("a listener", || out.is_heard().then_some(()));
-    // It hears before it knows who speaks, and prints when it does.
+    // It receives before it knows the publisher, and prints then.
     (1..=3).for_each(|number| out.publish(text(number)));
     let expected =
         (1..=3).map(|number| format!("from periplus {number} number {number}, its name"));
@@ -155,9 +155,9 @@ fn messages_go_both_ways() {
     });
     assert_eq!(came, ["from zenoh 1", "from zenoh 2", "from zenoh 3"]);
     assert_eq!(talker.lines(1), ["done"]);
-    // Nobody listens any more: what nobody hears is not computed.
+    // No subscribers left: the message is not computed.
     drop(listener);
-    wait("it to be noticed that nobody listens", || (!out.is_heard()).then_some(()));
+    wait("the loss of the last subscriber", || (!out.is_heard()).then_some(()));
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn others_see_who_we_are_and_we_see_them() {
             format!("0 SS % % lidar %reset {trigger} ::,10:,:,:,,"),
         ]
     );
-    // And they are seen, and missed when they are killed.
+    // They are discovered, and removed when they are killed.
     let serving = place.peer(&["serve", "/theirs", "1"]);
     let has_server = |others: &[periplus_rmw_zenoh::Token]| {
         others.iter().any(|one| {
@@ -210,9 +210,9 @@ fn a_latecomer_gets_what_is_latched() {
     let talker = place.peer(&["pub", "/back", "2", "latched"]);
     assert_eq!(talker.lines(1), ["done"]);
     assert!(ours.wire.flush(LONG));
-    // Late, both.
+    // Both start late.
     let listener = place.peer(&["sub", "/there", "1", "latched"]);
-    // What was written first may have been let fall for the second before it was sent.
+    // The first message may have been dropped before the second was sent.
     let line = listener.lines(1).remove(0);
     assert!(line.starts_with("from periplus 2 number ") && line.ends_with(", its name"), "{line}");
     let late: Mailbox<Text> = ours.node.mailbox("/back", Qos::latched(1)).unwrap();

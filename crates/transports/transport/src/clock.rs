@@ -1,27 +1,27 @@
-//! Time on the wire is that of the machine: how long something has been known, how long to wait.
-#![allow(clippy::disallowed_methods, reason = "a network has no other time than the wall's")]
+//! System time for network code: ages and timeouts.
+#![allow(clippy::disallowed_methods, reason = "network timeouts use the system clock")]
 
 use std::time::{Duration, Instant, SystemTime};
 
-/// A moment.
+/// A point in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Since(Instant);
 
 impl Since {
-    /// This one.
+    /// The current time.
     #[must_use]
     pub fn now() -> Self {
         Self(Instant::now())
     }
 
-    /// How long ago it was.
+    /// Time since this point.
     #[must_use]
     pub fn elapsed(self) -> Duration {
         self.0.elapsed()
     }
 }
 
-/// The time of the machine, since 1970 \[ns\].
+/// System time since 1970 \[ns\].
 #[must_use]
 pub fn unix_ns() -> i64 {
     let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();

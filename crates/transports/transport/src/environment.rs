@@ -1,32 +1,34 @@
-//! What the environment says to every wire.
+//! Environment variables common to all transports.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_resources::Host;
 
-/// The highest domain whose ports exist: 7400 + 250 for each, below 65536.
+/// Highest domain id with valid ports: 7400 + 250 per domain, below 65536.
 const HIGHEST_DOMAIN: u32 = 232;
 
-/// The value of a variable, if it has one.
+/// Returns the value of a variable that is set and not empty.
 #[must_use]
 pub fn variable(host: &dyn Host, name: &str) -> Option<String> {
     host.variable(name).filter(|value| !value.trim().is_empty())
 }
 
-/// `ROS_DOMAIN_ID`: who has another is not heard. Without a number of use it is 0.
+/// Reads `ROS_DOMAIN_ID`; programs in another domain are invisible. Invalid values give 0.
 pub fn domain_id(host: &dyn Host, findings: &mut Diagnostics) -> u32 {
     let Some(value) = variable(host, "ROS_DOMAIN_ID") else { return 0 };
     match value.trim().parse() {
         Ok(id) if id <= HIGHEST_DOMAIN => id,
         _ => {
-            findings.push(not_used("ROS_DOMAIN_ID", &value).help(format!(
-                "it has to be a number from 0 to {HIGHEST_DOMAIN}; domain 0 is used"
-            )));
+            findings.push(
+                not_used("ROS_DOMAIN_ID", &value).help(format!(
+                    "it must be a number from 0 to {HIGHEST_DOMAIN}; domain 0 is used"
+                )),
+            );
             0
         }
     }
 }
 
-/// That a variable has a value that means nothing.
+/// Warning that the value of a variable is invalid.
 #[must_use]
 pub fn not_used(name: &str, value: &str) -> Diagnostic {
     let message = format!("the environment variable {name} is `{value}` and is not used");

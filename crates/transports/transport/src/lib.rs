@@ -1,6 +1,6 @@
-//! What every wire needs, whatever its network: a node in the graph that stands for all others, what
-//! the graph has of its own, messages on their way out, names of types as ROS 2 gives them to
-//! networks, what the environment says to all of them, and what does not fit.
+//! Code shared by all transports: the node that represents remote programs in the graph, the
+//! graph's own endpoints, send queues, type names on networks, environment variables, and reports
+//! of incompatible endpoints.
 
 mod clock;
 pub mod environment;
@@ -17,7 +17,7 @@ pub use own::{Own, is_stand_in, stand_in};
 pub use steady::SteadyClock;
 pub use taps::{Foreign, Taps, Way};
 
-/// Locks; a panic elsewhere must not spread.
+/// Locks a mutex and ignores poisoning, so that a panic does not spread.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

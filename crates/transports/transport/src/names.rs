@@ -1,8 +1,8 @@
-//! Names of types, as ROS 2 gives them to networks: those that DDS has.
+//! Type names of ROS 2 on networks, which are those of DDS.
 //!
-//! Source: what `rosidl_typesupport_fastrtps` and `rmw_cyclonedds` call types.
+//! Source: the type names of `rosidl_typesupport_fastrtps` and `rmw_cyclonedds`.
 
-/// The name on networks of a message: `pkg::msg::dds_::T_` for `pkg/msg/T`.
+/// Network name of a message type: `pkg::msg::dds_::T_` for `pkg/msg/T`.
 #[must_use]
 pub fn type_of(name: &str) -> String {
     let (path, last) = name.rsplit_once('/').unwrap_or(("", name));
@@ -10,7 +10,7 @@ pub fn type_of(name: &str) -> String {
     if path.is_empty() { format!("dds_::{last}_") } else { format!("{path}::dds_::{last}_") }
 }
 
-/// The message of such a name; none for types that are not of ROS.
+/// Message type of a network name; none for types outside ROS.
 #[must_use]
 pub fn message(type_name: &str) -> Option<String> {
     let (path, last) = type_name.rsplit_once("::")?;
@@ -20,7 +20,7 @@ pub fn message(type_name: &str) -> Option<String> {
         .then(|| format!("{}/{last}", path.replace("::", "/")))
 }
 
-/// What a part of a type's name may be: letters, digits and underscores, as IDL and ROS have it.
+/// True for a valid part of a type name: letters, digits and underscores, as in IDL and ROS.
 fn is_word(part: &str) -> bool {
     !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }

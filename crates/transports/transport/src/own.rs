@@ -1,39 +1,40 @@
-//! What a graph has of its own, without what stands in it for others.
+//! Endpoints of a graph without those that represent remote programs.
 
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, ServiceInfo, TopicInfo};
 
-/// What the name of each node begins with that stands in a graph for others.
+/// Prefix of the names of nodes that represent remote programs.
 const FRONT: &str = "/_wire_";
 
-/// Whether a node stands in a graph for others: of any wire. What one wire brings does not go out by
-/// another, or a message would go round between two programs for ever.
+/// True if a node represents remote programs, of any transport. Messages from one transport are not
+/// forwarded to another one; otherwise they would circulate between two programs.
 #[must_use]
 pub fn is_stand_in(node: &str) -> bool {
     node.starts_with(FRONT)
 }
 
-/// The node that stands in a graph for all others on a wire. `id` tells wires apart.
+/// Creates the node that represents all remote programs of a transport. `id` distinguishes
+/// transports.
 ///
 /// # Errors
-/// When the graph has one of this name.
+/// When the graph already has a node of this name.
 pub fn stand_in(graph: &Graph, id: &[u8]) -> Result<Node, GraphError> {
     let name: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
     graph.node(NodeSettings::new(format!("{}{name}", &FRONT[1..])).bare().keep_names())
 }
 
-/// What belongs to a graph itself.
+/// Endpoints of a graph itself.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
     /// Full names of its nodes.
     pub nodes: Vec<String>,
-    /// Its topics, with its own ends only; some have none.
+    /// Topics with local endpoints only; some have none.
     pub topics: Vec<TopicInfo>,
-    /// Its services, with its own ends only.
+    /// Services with local endpoints only.
     pub services: Vec<ServiceInfo>,
 }
 
 impl Own {
-    /// What the graph has now, without what stands in it for others.
+    /// Returns the current endpoints of a graph, without those that represent remote programs.
     #[must_use]
     pub fn of(graph: &Graph) -> Self {
         let names = graph.nodes().into_iter().map(|node| node.name);

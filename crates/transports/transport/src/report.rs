@@ -1,19 +1,19 @@
-//! What does not fit between one of ours and one elsewhere, in words.
+//! Reports of incompatible local and remote endpoints.
 
 use periplus_diagnostics::Diagnostic;
 
-/// One of the two.
+/// One of the two endpoints.
 #[derive(Clone, Copy, Debug)]
 pub struct Party<'a> {
     /// Full name of the node.
     pub node: &'a str,
-    /// The type that it means.
+    /// Type.
     pub type_name: &'a str,
-    /// The hash of its type, as far as known.
+    /// Type hash, if known.
     pub type_hash: Option<&'a str>,
 }
 
-/// They mean two types on one topic.
+/// Two endpoints of a topic with different types.
 #[must_use]
 pub fn other_type(topic: &str, ours: Party<'_>, theirs: Party<'_>) -> Diagnostic {
     let (Party { node, type_name, .. }, other) = (ours, theirs.node);
@@ -22,19 +22,19 @@ pub fn other_type(topic: &str, ours: Party<'_>, theirs: Party<'_>) -> Diagnostic
         theirs.type_name
     );
     Diagnostic::warning("type-mismatch", message)
-        .help("nothing flows between them; rename the topic of one, or give both one type")
+        .help("no messages are exchanged; rename the topic of one, or use the same type for both")
 }
 
-/// They mean two definitions of one type.
+/// Two endpoints of a topic with different definitions of a type.
 #[must_use]
 pub fn other_hash(topic: &str, ours: Party<'_>, theirs: Party<'_>) -> Diagnostic {
     let (Party { node, type_name, type_hash }, other) = (ours, theirs.node);
     let message = format!(
-        "on the topic `{topic}` `{node}` and `{other}` both say {type_name}, and mean two \
+        "on the topic `{topic}` `{node}` and `{other}` both use {type_name}, but with two \
          definitions: {} and {}",
         type_hash.unwrap_or("?"),
         theirs.type_hash.unwrap_or("?")
     );
     Diagnostic::warning("type-hash-mismatch", message)
-        .help("compare both with `ros2 interface show`; see that both come from the same release")
+        .help("compare both with `ros2 interface show`; check that both come from the same release")
 }

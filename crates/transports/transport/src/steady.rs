@@ -1,4 +1,4 @@
-//! The host's steady clock, for a graph that is on a network: heartbeats to other programs go on while
+//! The host's steady clock for a graph on a network: heartbeats to other programs continue while
 //! simulated time is paused.
 
 use std::time::Duration;
@@ -10,7 +10,7 @@ use crate::clock::Since;
 /// Period at which steady time advances; half of the shortest period of a bond's messages.
 const PERIOD: Duration = Duration::from_millis(25);
 
-/// Drives the steady time of a graph, unless another wire does.
+/// Drives the steady time of a graph, unless another transport does.
 pub struct SteadyClock {
     graph: Graph,
     driver: Option<(SteadyDriver, Since)>,
@@ -18,7 +18,7 @@ pub struct SteadyClock {
 }
 
 impl SteadyClock {
-    /// The clock of a graph that joins a network.
+    /// Creates the clock of a graph that joins a network.
     #[must_use]
     pub fn new(graph: &Graph) -> Self {
         let mut clock = Self { graph: graph.clone(), driver: None, advanced: Duration::ZERO };
@@ -31,7 +31,7 @@ impl SteadyClock {
         self.advanced = Duration::ZERO;
     }
 
-    /// Advances steady time once a period has passed; called whenever the thread of a wire runs.
+    /// Advances steady time once per period; called whenever the thread of a transport runs.
     pub fn advance(&mut self) {
         let Some((driver, since)) = &self.driver else { return self.take_over() };
         let elapsed = since.elapsed();

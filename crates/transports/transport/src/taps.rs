@@ -1,5 +1,5 @@
-//! What a graph publishes, on its way out. Only topics that somebody elsewhere wants are listened to:
-//! what nobody hears is not computed.
+//! Taps for outgoing messages. Only topics with remote subscribers are tapped: messages without
+//! subscribers are not computed.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -8,22 +8,22 @@ use periplus_graph::{EndpointId, Graph, Sample, Sink, TapId, TopicInfo};
 
 use crate::lock;
 
-/// Messages of publishers whose way out is not made yet; so many wait.
+/// Maximum number of queued messages of publishers without a send path yet.
 const MOST_EARLY: usize = 64;
 
-/// Publishers of a graph that stand for others: what they publish does not go out again.
+/// Publishers of a graph that represent remote ones: their messages are not sent again.
 pub type Foreign = Arc<Mutex<BTreeSet<EndpointId>>>;
 
-/// The way of one publisher's messages to the network.
+/// Send path of a publisher.
 pub trait Way: Send + Sync + 'static {
-    /// Whether a message would matter to anyone.
+    /// True if there is a remote subscriber, or messages have to be retained.
     fn is_wanted(&self) -> bool;
 
-    /// Sends a message or puts it to be sent; it never waits for who is slow.
+    /// Sends or queues a message; it never blocks on a slow subscriber.
     fn push(self: &Arc<Self>, sample: Sample);
 }
 
-/// The topics of a graph that are listened to for others.
+/// Taps on the topics of a graph.
 pub struct Taps<W> {
     taps: BTreeMap<String, (TapId, Arc<TopicSink<W>>)>,
     foreign: Foreign,
@@ -35,7 +35,7 @@ impl<W> Default for Taps<W> {
     }
 }
 
-/// Takes what is published on one topic.
+/// Sink of one topic.
 struct TopicSink<W> {
     topic: String,
     ways: Mutex<Ways<W>>,
@@ -54,7 +54,7 @@ impl<W: Way> Sink for SinkHandle<W> {
         topic.name == self.0.topic
     }
 
-    /// What cannot be sent at once waits in a queue of the wire.
+    /// Messages that cannot be sent at once are queued by the transport.
     fn is_quick(&self) -> bool {
         true
     }
@@ -90,14 +90,13 @@ impl<W: Way> TopicSink<W> {
 }
 
 impl<W: Way> Taps<W> {
-    /// Where publishers that stand for others are to be noted.
+    /// Set of the publishers that represent remote ones.
     #[must_use]
     pub fn foreign(&self) -> &Foreign {
         &self.foreign
     }
 
-    /// Listens to the topics of the graph that somebody elsewhere wants, of those that have ways: the
-    /// topic of each publisher, and its way.
+    /// Taps the topics of these publishers, each given with its topic and send path.
     pub fn listen<'a>(
         &mut self,
         graph: &Graph,

@@ -1,11 +1,12 @@
-//! A graph as Foxglove's WebSocket protocol has it, version 1: topics are channels of CDR with
-//! `ros2msg` schemas, services are services, parameters are parameters.
+//! Foxglove WebSocket protocol, version 1, for a graph: topics are channels of CDR with `ros2msg`
+//! schemas; services and parameters map to those of the protocol.
 //!
-//! A [`Hub`] stands between one graph and any number of clients. Each client is a [`Session`]: what it
-//! sends goes in ([`Session::text`], [`Session::binary`]), what it is to get waits in its [`Outbox`].
-//! Nothing here knows sockets; the bytes of messages are shared with all others who hear them.
+//! A [`Hub`] connects one graph with any number of clients. Each client is a [`Session`]: messages
+//! from the client go into [`Session::text`] and [`Session::binary`], messages to it wait in its
+//! [`Outbox`]. There are no sockets here; message bytes are shared with all other subscribers.
 //!
-//! Who is slow loses what is old and not what is latched, and holds up nobody: see [`Outbox`].
+//! A slow client loses old messages, but no latched ones, and blocks no other client: see
+//! [`Outbox`].
 //!
 //! Source: `docs/ws-protocol/spec.md` of `foxglove/ws-protocol`.
 

@@ -1,8 +1,9 @@
-//! One port with the page and the socket behind it.
+//! HTTP and WebSocket server for the viewer page.
 //!
-//! A [`Server`] listens on one address. Who asks by HTTP gets the files of the page, which are part of
-//! the program; who asks for a WebSocket becomes a client of a [`Hub`](crate::foxglove::Hub). Without a token only this
-//! machine is heard, and of its browsers only pages that came from it: see [`Door`].
+//! A [`Server`] listens on one address. HTTP requests get the files of the page, which are part of
+//! the program; WebSocket connections become clients of a [`Hub`](crate::foxglove::Hub). Without a
+//! token only this machine is admitted, and of its browsers only pages that came from it: see
+//! [`Door`].
 
 mod admit;
 mod authority;

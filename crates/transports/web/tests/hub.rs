@@ -16,10 +16,10 @@ use periplus_web::foxglove::{
 };
 use serde_json::{Value, json};
 
-/// Long enough for anything that comes, and not waited for where all goes well.
+/// Generous timeout for messages that must arrive.
 const SOON: Duration = Duration::from_secs(10);
 
-/// What comes at once or not at all.
+/// Timeout for messages that must not arrive.
 const NOW: Duration = Duration::ZERO;
 
 fn open(graph: &Graph) -> Hub {
@@ -30,7 +30,7 @@ fn node(graph: &Graph, name: &str) -> Node {
     graph.node(NodeSettings::new(name)).expect("a name")
 }
 
-/// A client that reads what it gets.
+/// A client that reads its messages.
 struct Client(Session);
 
 impl Client {
@@ -49,7 +49,7 @@ impl Client {
         }
     }
 
-    /// The next message in JSON of a kind, whatever comes before it.
+    /// The next JSON message with this opcode; others are skipped.
     #[track_caller]
     fn hears(&self, op: &str) -> Value {
         loop {
@@ -63,7 +63,7 @@ impl Client {
         }
     }
 
-    /// The next message in bytes that begins so.
+    /// The next binary message with this prefix.
     #[track_caller]
     fn gets(&self, op: u8) -> Vec<u8> {
         loop {
@@ -83,7 +83,7 @@ impl Client {
         (id, T::decode_cdr(&bytes[13..]).expect("a message"))
     }
 
-    /// Everything that is there by now.
+    /// All messages that have arrived.
     fn drain(&self) -> Vec<Frame> {
         std::iter::from_fn(|| self.next(NOW)).collect()
     }
@@ -115,7 +115,7 @@ fn who_comes_while_time_stands_still_gets_the_newest_transforms() {
         wheels.publish(transform("base_link", second));
     }
     arm.publish(transform("hand", 2));
-    // Nobody was there, and nothing more is published.
+    // No subscriber was present, and nothing more is published.
     let mut client = Client::join(&hub);
     let told = client.hears("advertise");
     client.subscribe(5, &told, "/tf");
@@ -219,7 +219,7 @@ fn topics_that_come_and_go_are_told() {
     let talker = node(&graph, "talker");
     let words: Publisher<std_msgs::String> =
         talker.publisher("/words", Qos::reliable(1)).expect("a topic");
-    // The node itself has topics too, and which come together is a matter of time.
+    // The node has topics, too; which of them arrive together depends on timing.
     let id = loop {
         let told = client.hears("advertise");
         let channels = told["channels"].as_array().expect("channels");
@@ -321,7 +321,7 @@ fn of_a_map_only_what_is_new_comes_to_who_hears_its_updates() {
     let (id, part) = client.message::<OccupancyGridUpdate>();
     assert_eq!((id, part.x, part.y, part.width, part.height), (2, 1, 1, 1, 1));
     assert_eq!(part.data, [100]);
-    // What was let fall on the way is in the next update all the same.
+    // The next update includes the changes of dropped ones.
     map.data[0] = 0;
     maps.publish(map.clone());
     map.data[4] = 0;
@@ -411,7 +411,7 @@ fn too_many_clients_and_too_much_that_waits_are_refused() {
         .collect();
     client.say(&json!({"op": "advertise", "channels": channels}));
     assert!(client.hears("status")["message"].as_str().expect("words").contains("too many"));
-    // Somebody who asks and never reads.
+    // A client that sends requests and never reads.
     for _ in 0..10_000 {
         client.0.text("{");
     }
@@ -482,11 +482,11 @@ fn ends_that_do_not_fit_are_told_and_made_to() {
     );
     scans.publish(scan(4.0));
     assert_eq!(heard.latest().map(|heard| heard.range_max), Some(4.0));
-    // Once more there is nothing to do.
+    // A second repair finds nothing to do.
     client.say(&wish);
     let done = client.hears("repairQosResult");
     assert_eq!(done["isRepaired"], false);
-    assert!(done["message"].as_str().expect("words").contains("fit on `/scan`"), "{done}");
+    assert!(done["message"].as_str().expect("words").contains("are compatible on `/scan`"), "{done}");
 }
 
 #[test]
@@ -507,12 +507,12 @@ fn who_asks_for_times_gives_way() {
     let done = client.hears("repairQosResult");
     assert_eq!(
         done["message"],
-        "`/planner` now asks for reliability best_effort and durability volatile and deadline infinite"
+        "`/planner` now requests reliability best_effort and durability volatile and deadline infinite"
     );
     assert!(graph.topics().iter().all(|topic| topic.mismatches.is_empty()));
 }
 
-/// A topic of others, with one end on each side.
+/// A remote topic with one endpoint on each side.
 fn far(name: &str, publisher: Option<Qos>, subscription: Option<Qos>) -> Far {
     let end = |node: &str, qos| FarEnd { node: node.to_owned(), qos };
     let topic = FarTopic {
@@ -535,7 +535,7 @@ fn of_others_it_is_said_what_to_change_there() {
     let told = client.hears("connectionGraphUpdate");
     let one = &told["mismatches"][0];
     assert_eq!((&one["repair"], &one["publisher"]["isOurs"]), (&json!(null), &json!(false)));
-    let advice = "in `/listener`, ask for reliability best_effort; or in `/talker`, offer reliability \
+    let advice = "in `/listener`, request reliability best_effort; or in `/talker`, offer reliability \
                   reliable";
     assert_eq!(one["advice"], advice);
     client.say(&json!({
@@ -570,7 +570,7 @@ fn what_a_client_publishes_is_made_to_fit_who_listens_elsewhere() {
                    kept";
     assert_eq!((&done["id"], &done["message"]), (&json!(9), &json!(message)));
     let offered = graph.topics()[0].publishers[0].qos;
-    assert!(offered.lacks(&Qos::latched(1)).is_empty());
+    assert!(offered.incompatible_policies(&Qos::latched(1)).is_empty());
 }
 
 #[test]
@@ -584,5 +584,5 @@ fn what_a_client_hears_of_others_follows_what_they_offer() {
     let asked = || graph.topics()[0].subscriptions[0].qos;
     assert_eq!(asked().durability, Durability::TransientLocal);
     hub.set_far(far("/scan", Some(Qos::sensor_data()), None));
-    assert!(Qos::sensor_data().lacks(&asked()).is_empty());
+    assert!(Qos::sensor_data().incompatible_policies(&asked()).is_empty());
 }

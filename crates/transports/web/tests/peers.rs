@@ -1,5 +1,5 @@
-//! Our server before npm's client of the protocol, and beside the server of PyPI's `foxglove-sdk`. What
-//! is not installed is skipped, loudly.
+//! Interoperability with npm's client of the protocol, and comparison with the server of PyPI's
+//! `foxglove-sdk`. Missing peers are skipped with a message.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -28,7 +28,7 @@ fn here() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers")
 }
 
-/// Node's packages with the client in them.
+/// Node packages with the client.
 fn node_modules() -> Option<PathBuf> {
     let given = std::env::var_os("PERIPLUS_NODE_MODULES").map(PathBuf::from);
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
@@ -64,7 +64,7 @@ fn python() -> Option<PathBuf> {
     found
 }
 
-/// A program that runs until this is dropped, and what it says.
+/// A program that runs until this is dropped, with its output.
 struct Peer {
     child: Child,
     lines: Lines<BufReader<ChildStdout>>,
@@ -196,7 +196,7 @@ fn connect(port: u16) -> WebSocket<TcpStream> {
     tungstenite::client(request, stream).unwrap().0
 }
 
-/// What a server says of `/words` and `/lamp`: the first words, the channel, the service, a message.
+/// Output of a server for `/words` and `/lamp`: server info, channel, service, message.
 fn hear(port: u16) -> [Value; 4] {
     let mut socket = connect(port);
     let mut heard = [Value::Null, Value::Null, Value::Null, Value::Null];
@@ -230,7 +230,7 @@ fn hear(port: u16) -> [Value; 4] {
     heard
 }
 
-/// The names in an object and the kinds of their values, as far down as they go.
+/// Names in an object and the types of their values, recursively.
 fn shape(value: &Value) -> Value {
     match value {
         Value::Object(object) => {
@@ -261,7 +261,7 @@ fn the_sdk_says_the_same_of_the_same() {
             panic!("objects")
         };
         for (name, kind) in &other {
-            // What is in there is each one's own.
+            // The content is specific to each server.
             if name != "metadata" && !kind.is_null() {
                 assert_eq!(one.get(name), Some(kind), "{name}");
             }
@@ -269,6 +269,6 @@ fn the_sdk_says_the_same_of_the_same() {
     }
     assert_eq!(own[1]["schemaName"], theirs[1]["schemaName"]);
     assert_eq!(own[1]["schemaEncoding"], theirs[1]["schemaEncoding"]);
-    // Kind, subscription, time and the message itself, byte for byte.
+    // Opcode, subscription, time and the message itself, byte for byte.
     assert_eq!(own[3], theirs[3]);
 }

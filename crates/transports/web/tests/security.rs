@@ -1,4 +1,4 @@
-//! Who may not come in, and what nobody may do.
+//! Admission and protection against malicious clients.
 #![allow(clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests of sockets wait by the wall's clock")]
 
@@ -47,7 +47,7 @@ impl Place {
         self.server.address()
     }
 
-    /// Sends bytes and reads until the other end closes.
+    /// Sends bytes and reads until the peer closes the connection.
     fn send(&self, bytes: &[u8]) -> String {
         let mut stream = TcpStream::connect(self.address()).unwrap();
         stream.set_read_timeout(Some(LONG)).unwrap();
@@ -57,7 +57,7 @@ impl Place {
         String::from_utf8_lossy(&answer).into_owned()
     }
 
-    /// Asks for a WebSocket; the number of the answer.
+    /// Requests a WebSocket; returns the status code.
     fn ask(&self, path: &str, origin: Option<&str>) -> u16 {
         match self.connect(path, origin) {
             Ok(_) => 101,
@@ -87,7 +87,7 @@ impl Place {
         made.map(|(socket, _)| socket)
     }
 
-    /// It still serves others.
+    /// Checks that other clients are still served.
     fn is_well(&self) {
         let mut socket = self.connect("/", None).unwrap();
         let hello = socket.read().unwrap();
@@ -95,7 +95,7 @@ impl Place {
     }
 }
 
-/// The channel of a topic, once it is announced.
+/// Channel of a topic, once it is announced.
 fn channel_of(socket: &mut WebSocket<MaybeTlsStream<TcpStream>>, topic: &str) -> serde_json::Value {
     loop {
         let message = socket.read().unwrap();
@@ -108,7 +108,7 @@ fn channel_of(socket: &mut WebSocket<MaybeTlsStream<TcpStream>>, topic: &str) ->
     }
 }
 
-/// Waits until something holds.
+/// Waits until a condition holds.
 #[track_caller]
 fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
     let start = Instant::now();
@@ -146,7 +146,7 @@ fn hosts_are_read_strictly() {
         );
         place.send(text.as_bytes())[9..12].to_owned()
     };
-    // Who is let in is told that there is no such subprotocol.
+    // An admitted client gets an error for an unknown subprotocol.
     assert_eq!(ask("Host: localhost:8765\r\n"), "400");
     assert_eq!(ask("Host: [::1].evil.example\r\n"), "403");
     assert_eq!(ask("Host: [::1]evil\r\n"), "403");
@@ -160,7 +160,7 @@ fn tokens_cannot_be_tried_out() {
     let answers: Vec<u16> = wrong.collect();
     assert_eq!(answers[..10], [403; 10]);
     assert_eq!(answers[10..], [429; 20]);
-    // Programs on this machine need no token and still come in.
+    // Local programs are admitted without a token.
     place.is_well();
 }
 
@@ -202,7 +202,7 @@ fn a_client_that_never_reads_is_disconnected_in_time() {
         {"id": 1, "channelId": channel},
     ]});
     socket.send(Message::text(wanted.to_string())).unwrap();
-    eventually("it is heard", || pictures.is_heard());
+    eventually("there is a subscriber", || pictures.is_heard());
     let start = Instant::now();
     while place.hub.clients() > 0 {
         let data = vec![0; 1 << 20];
@@ -271,7 +271,7 @@ fn a_frame_of_a_gigabyte_is_refused_before_it_comes() {
     let place = Place::usual();
     let mut socket = place.connect("/", None).unwrap();
     let MaybeTlsStream::Plain(stream) = socket.get_mut() else { panic!("no TLS here") };
-    // Bytes, masked, 2^30 of them: the head alone.
+    // The header of a masked binary frame of 2^30 bytes.
     let head = [0x82, 0xff, 0, 0, 0, 0, 0x40, 0, 0, 0, 1, 2, 3, 4];
     stream.write_all(&head).unwrap();
     let code = loop {
@@ -292,13 +292,13 @@ fn broken_frames_end_only_who_sends_them() {
     let broken: [&[u8]; 5] = [
         // Not masked.
         &[0x82, 0x01, 0x00],
-        // A kind that nobody knows.
+        // Unknown opcode.
         &[0x83, 0x80, 0, 0, 0, 0],
-        // A ping in parts.
+        // A fragmented ping.
         &[0x09, 0x80, 0, 0, 0, 0],
-        // The middle of nothing.
+        // A continuation frame without a start.
         &[0x80, 0x80, 0, 0, 0, 0],
-        // Text that is none.
+        // Invalid UTF-8.
         &[0x81, 0x82, 0, 0, 0, 0, 0xff, 0xfe],
     ];
     for bytes in broken {
@@ -369,8 +369,8 @@ fn nobody_waits_for_who_does_not_read() {
     let mut awake = place.connect("/", None).unwrap();
     subscribe(&mut asleep);
     subscribe(&mut awake);
-    eventually("both are heard", || pictures.is_heard() && maps.is_heard());
-    // Far more than any buffer of the system holds; who sleeps gets none of it.
+    eventually("both have subscribers", || pictures.is_heard() && maps.is_heard());
+    // More than any buffer of the system; the sleeping client reads none of it.
     let start = Instant::now();
     for number in 0..200_u32 {
         let data = vec![0; 1 << 20];
@@ -378,7 +378,7 @@ fn nobody_waits_for_who_does_not_read() {
         maps.publish(Words { data: number.to_string() });
     }
     assert!(start.elapsed() < LONG, "the publisher was held up");
-    // Who wakes up gets the last map all the same, and few of the pictures.
+    // A client that wakes up gets the last map, and few of the images.
     for socket in [&mut awake, &mut asleep] {
         let mut seen = 0;
         loop {

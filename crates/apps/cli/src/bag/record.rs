@@ -135,8 +135,9 @@ impl Heard {
             // Noted before the subscription, because its first message needs it.
             self.offers.note(topic);
             let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
-            let is_heard =
-                |asked: Qos| topic.publishers.iter().all(|one| one.qos.lacks(&asked).is_empty());
+            let is_heard = |asked: Qos| {
+                topic.publishers.iter().all(|one| one.qos.incompatible_policies(&asked).is_empty())
+            };
             if before.is_some_and(is_heard) {
                 continue;
             }
@@ -148,7 +149,7 @@ impl Heard {
             }
             let mailbox = self.node.raw_mailbox(&topic.name, type_name, hash, qos)?;
             let (reliability, durability) =
-                (qos.spelled(Policy::Reliability), qos.spelled(Policy::Durability));
+                (qos.policy_value(Policy::Reliability), qos.policy_value(Policy::Durability));
             terminal::say(&if before.is_none() {
                 format!("recording {} ({type_name})", topic.name)
             } else {

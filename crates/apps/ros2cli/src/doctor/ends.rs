@@ -23,7 +23,7 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
                 if publisher.type_name != subscription.type_name {
                     continue;
                 }
-                for policy in publisher.qos.lacks(&subscription.qos) {
+                for policy in publisher.qos.incompatible_policies(&subscription.qos) {
                     let by = publisher.node.as_deref().unwrap_or("somebody");
                     let to = subscription.node.as_deref().unwrap_or("somebody");
                     found.push(misfit(
@@ -31,8 +31,8 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
                         by,
                         to,
                         policy,
-                        &publisher.qos.spelled(policy),
-                        &subscription.qos.spelled(policy),
+                        &publisher.qos.policy_value(policy),
+                        &subscription.qos.policy_value(policy),
                     ));
                 }
             }

@@ -75,7 +75,7 @@ pub fn publish(
     let wanted = options.wait_matching.unwrap_or(usize::from(options.times.is_some()));
     let listeners = |seen: &Seen| {
         let ends = seen.topic(&topic).map_or(&[][..], |topic| &topic.subscriptions);
-        ends.iter().filter(|end| qos.lacks(&end.qos).is_empty()).count()
+        ends.iter().filter(|end| qos.incompatible_policies(&end.qos).is_empty()).count()
     };
     let is_met = |seen: &Seen| wanted == 0 || listeners(seen) >= wanted && publisher.is_heard();
     let waiting = Stopwatch::start();

@@ -58,7 +58,7 @@ fn kept(scans: &[CarmenScan], how: &str) -> Vec<bool> {
     (0..count).map(is_kept).collect()
 }
 
-/// Spoils a scan, and what odometry says at it.
+/// Perturbs a scan and its odometry.
 fn spoil(scan: &mut CarmenScan, how: &str, stream: &mut Stream) {
     let odometry = scan.odom_from_base;
     match how {

@@ -20,12 +20,11 @@ use crate::why::why;
 pub(crate) const WRONG_M: f64 = 0.12;
 /// Maps of particles whose loops are off by more in the mean are wrong \[m\].
 pub(crate) const WRONG_PARTICLES_M: f64 = 0.2;
-/// Logs without relations of which it is known where the robot was at the last scan, as seen from where it
-/// was at the first.
+/// Logs without relations whose last pose relative to the first is known.
 ///
-/// `hospital`: the last scan laid onto the first by a search over 12 m by 12 m and all headings, in steps of
-/// 0.05 m and 0.01 rad, apart from this program. The best place explains 0.50 of the points within 0.1 m, the
-/// best one elsewhere 0.18.
+/// `hospital`: the last scan matched to the first by an exhaustive search over 12 m by 12 m and all
+/// headings, in steps of 0.05 m and 0.01 rad, independent of this program. The best pose explains 0.50 of
+/// the points within 0.1 m, the best other one 0.18.
 const KNOWN_ENDS: [(&str, Pose2); 1] = [("hospital", Pose2::new(-0.19, 1.99, 0.26))];
 /// A trajectory is right where it ends no farther from there \[m\].
 const END_M: f64 = 1.0;
@@ -39,14 +38,14 @@ pub(crate) struct Log {
     pub(crate) truth: Option<Vec<Pose2>>,
 }
 
-/// A judgement of a map by what is known of the place; the program's own warnings are only held against it.
+/// Verdict on a map by ground truth; the program's own warnings are only compared with it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Right,
     RightWarned,
     WrongWarned,
     SilentlyWrong,
-    /// Nothing is known of the place.
+    /// There is no ground truth.
     Unknown,
     UnknownWarned,
 }
@@ -75,7 +74,7 @@ impl Verdict {
     }
 }
 
-/// How a run went.
+/// Result of a run.
 pub(crate) struct Outcome {
     pub(crate) log: String,
     pub(crate) run: &'static str,

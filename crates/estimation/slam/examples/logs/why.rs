@@ -33,8 +33,8 @@ pub(crate) fn why(missed: &[Miss], scans: &[Stamped], between: &[Stamped]) -> St
     text += &part("both ends at scans", &|it| it.beside_s <= 0.005);
     text += &part("an end up to 0.5 s beside a scan", &|it| (0.005..0.5).contains(&it.beside_s));
     text += &part("an end farther from any scan", &|it| it.beside_s >= 0.5);
-    // Lines that were held up are stamped when they were written, many at once: which of them a
-    // stamp means, nobody knows.
+    // Delayed lines are stamped when they were written, many at once; a stamp does not identify one of
+    // them.
     let mut lines: Vec<f64> = between.iter().chain(scans).map(|it| it.0).collect();
     lines.sort_by(f64::total_cmp);
     let is_held_up = |time_s: f64| {

@@ -13,16 +13,16 @@ use crate::scan::{Ends, Scan};
 
 /// Path length added at the start of a component, so that earlier scans count as old and can be closed with
 /// \[m\].
-const COMPONENT_GAP_M: f64 = 30.0;
+const CARRIED_M: f64 = 30.0;
 /// Longest interruption of the scans across which matching is trusted \[s\].
-const MAX_GAP_S: f64 = 10.0;
+const GAP_S: f64 = 10.0;
 /// Maximum agreement with the scans before of a scan that belongs elsewhere: without, and with an
 /// interruption or an odometry jump.
-const MAX_FOREIGN_RATIO: f64 = 0.6;
-const MAX_FOREIGN_AFTER_GAP_RATIO: f64 = 0.8;
+const STRANGE: f64 = 0.6;
+const SURE: f64 = 0.8;
 /// Minimum path and number of consecutive scans that belong elsewhere.
-const MIN_FOREIGN_M: f64 = 1.5;
-const MIN_FOREIGN_SCANS: usize = 4;
+const STRANGE_M: f64 = 1.5;
+const STRANGE_SCANS: usize = 4;
 
 /// Scans in a row that fit nothing.
 #[derive(Clone, Debug, Default)]
@@ -39,18 +39,18 @@ impl Slam {
         if scan_match.is_blank || !self.settings.closes_loops {
             return false;
         }
-        let is_interrupted = step.jump_m.is_some() || step.seconds > MAX_GAP_S;
-        if is_interrupted && scan_match.agreeing < MAX_FOREIGN_AFTER_GAP_RATIO {
+        let is_interrupted = step.jump_m.is_some() || step.seconds > GAP_S;
+        if is_interrupted && scan_match.agreeing < SURE {
             return true;
         }
-        if scan_match.agreeing > MAX_FOREIGN_RATIO {
+        if scan_match.agreeing > STRANGE {
             self.unmatched = UnmatchedRun::default();
             return false;
         }
         let (metres, radians) = apart(scan_match.motion, Pose2::IDENTITY);
         self.unmatched.scans += 1;
         self.unmatched.way_m += metres + ROTATION_ARM_M * radians;
-        self.unmatched.scans >= MIN_FOREIGN_SCANS && self.unmatched.way_m > MIN_FOREIGN_M
+        self.unmatched.scans >= STRANGE_SCANS && self.unmatched.way_m > STRANGE_M
     }
 
     /// Begins a piece of map with a scan, where odometry has it.
@@ -85,7 +85,7 @@ impl Slam {
         map_from_base: Pose2,
     ) -> usize {
         let new = self.graph.add_pose(map_from_base);
-        let travel_m = self.keyframes[self.keyframes.len() - 1].travel_m + COMPONENT_GAP_M;
+        let travel_m = self.keyframes[self.keyframes.len() - 1].travel_m + CARRIED_M;
         self.keyframes.push(Keyframe::new(cloud, drawn_ends(ends, &self.settings), travel_m));
         self.diagnostics.begin(odom_from_base);
         self.loops.restart(new, travel_m);

@@ -13,12 +13,12 @@ use crate::local::apart;
 use crate::remark::{Remark, RemarkKind};
 
 /// Pairs of scans that are compared in one slice, some 2 ms together, and kept scans that are visited.
-const SLICE_COMPARISONS: usize = 4;
-const SLICE_VISITS: usize = 40;
+const COMPARISONS: usize = 4;
+const VISITS: usize = 40;
 /// Scans that moved less against each other are not compared again \[m, rad\]: a small part of the
 /// tolerance of a comparison, at 10 m for the turn.
-const MAX_MOTION_M: f64 = 0.03;
-const MAX_MOTION_RAD: f64 = 0.003;
+const SAME_M: f64 = 0.03;
+const SAME_RAD: f64 = 0.003;
 /// Path after a stretch before it is reported \[m\]: until then a closure that needs more witnesses may
 /// put it right.
 const SETTLED_M: f64 = 15.0;
@@ -83,8 +83,8 @@ impl LiveAudit {
         }
         self.is_current = false;
         let mut compared = 0;
-        for _ in 0..SLICE_VISITS {
-            if self.next >= keyframes.len() || compared >= SLICE_COMPARISONS {
+        for _ in 0..VISITS {
+            if self.next >= keyframes.len() || compared >= COMPARISONS {
                 break;
             }
             compared += self.visit(keyframes, graph);
@@ -109,7 +109,7 @@ impl LiveAudit {
             let is_same = |it: &&ConstraintResidual| {
                 let (metres, radians) =
                     apart(it.other_from_keyframe, graph.between(other, keyframe));
-                it.other == other && metres < MAX_MOTION_M && radians < MAX_MOTION_RAD
+                it.other == other && metres < SAME_M && radians < SAME_RAD
             };
             self.held.push(known.iter().find(is_same).copied().unwrap_or_else(|| {
                 compared += 1;

@@ -7,13 +7,13 @@ use crate::tables::GMAPPING;
 /// Standard deviations of odometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the position, per metre of path.
+    /// Position, per metre of path.
     pub place_by_way: f64,
-    /// Of the position \[m\], per radian of rotation.
+    /// Position \[m\], per radian of rotation.
     pub place_by_turn: f64,
-    /// Of the heading \[rad\], per metre of path.
+    /// Heading \[rad\], per metre of path.
     pub heading_by_way: f64,
-    /// Of the heading, per radian of rotation.
+    /// Heading, per radian of rotation.
     pub heading_by_turn: f64,
 }
 

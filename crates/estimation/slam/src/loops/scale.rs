@@ -3,27 +3,27 @@
 use crate::keyframe::Keyframe;
 
 /// Scans before, and how many of them are asked.
-const KEYFRAMES_BEFORE: usize = 320;
-const EVERY_KEYFRAMES: usize = 10;
+const BEFORE: usize = 320;
+const EVERY: usize = 10;
 /// Typical range up to which indoor lengths apply \[m\], and maximum factor beyond it.
-const INDOOR_RANGE_M: f32 = 12.0;
-const MAX_SCALE_FACTOR: f64 = 3.0;
+const INDOORS_M: f32 = 12.0;
+const MOST: f64 = 3.0;
 /// Quantile of the point ranges of a scan.
-const RANGE_QUANTILE_RATIO: f64 = 0.75;
+const PART: f64 = 0.75;
 
 /// Ratio of the typical range to the indoor one: the median, over the path before a keyframe, of the range
 /// within which three quarters of the points of a scan are.
 pub(super) fn scale(keyframes: &[Keyframe], last: usize) -> f64 {
-    let first = last.saturating_sub(KEYFRAMES_BEFORE);
-    let ranges = keyframes[first..=last].iter().rev().step_by(EVERY_KEYFRAMES).filter_map(range_m);
+    let first = last.saturating_sub(BEFORE);
+    let ranges = keyframes[first..=last].iter().rev().step_by(EVERY).filter_map(range_m);
     let typical_m = nth(ranges.collect(), 0.5).unwrap_or(0.0);
-    f64::from(typical_m / INDOOR_RANGE_M).clamp(1.0, MAX_SCALE_FACTOR)
+    f64::from(typical_m / INDOORS_M).clamp(1.0, MOST)
 }
 
 fn range_m(keyframe: &Keyframe) -> Option<f32> {
     let cloud = keyframe.cloud();
     let [x, y] = cloud.origin();
-    nth(cloud.points().iter().map(|p| (p.x - x).hypot(p.y - y)).collect(), RANGE_QUANTILE_RATIO)
+    nth(cloud.points().iter().map(|p| (p.x - x).hypot(p.y - y)).collect(), PART)
 }
 
 fn nth(mut values: Vec<f32>, part: f64) -> Option<f32> {

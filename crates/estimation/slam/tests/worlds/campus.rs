@@ -7,7 +7,7 @@ use super::rig::{RIG, Rig};
 use super::solid::{HIGH, Post, Scene, Surface, Wall};
 use super::{Moment, Robot};
 
-/// Ways lie along these \[m\].
+/// Paths run along these \[m\].
 const ACROSS_M: [f64; 4] = [20.0, 105.0, 195.0, 280.0];
 const UP_M: [f64; 3] = [15.0, 100.0, 185.0];
 
@@ -42,7 +42,7 @@ pub(crate) fn campus(seed: u64, is_short: bool) -> Vec<Moment> {
 fn grounds(seed: u64) -> Scene {
     let mut stream = Stream::keyed(seed, "campus", 0);
     let mut scene = Scene::default();
-    // Some houses between the ways, not in the middle of their lawns; around, now and then one more.
+    // Some houses between the paths, off the middle of their lawns; a few more around.
     let mut lots: Vec<[f64; 4]> = Vec::new();
     for column in 0..3 {
         for row in 0..2 {
@@ -109,7 +109,7 @@ fn tree(scene: &mut Scene, stream: &mut Stream, middle: [f64; 2]) {
     scene.posts.push(Post { middle, radius_m: 0.1 + 0.2 * stream.unit(), z_m: HIGH });
 }
 
-/// What stands beside a way: lamps at one side, trees, hedges, cars, and nothing for long.
+/// Roadside: lamp posts on one side, trees, hedges, cars, and long empty parts.
 fn roadside(
     scene: &mut Scene,
     stream: &mut Stream,

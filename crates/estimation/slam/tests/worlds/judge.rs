@@ -1,13 +1,13 @@
-//! A trajectory held against the truth.
+//! Comparison of a trajectory with ground truth.
 
 use std::collections::BTreeMap;
 
 use periplus_geometry::Pose2;
 
-/// How far a trajectory is off.
+/// Error of a trajectory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Judgement {
-    /// Length of the way \[m\].
+    /// Path length \[m\].
     pub(crate) way_m: f64,
     /// After the best rigid alignment \[m\].
     pub(crate) rms_m: f64,
@@ -15,16 +15,16 @@ pub(crate) struct Judgement {
     /// Mean error of relations between passes \[m\], and how many there are.
     pub(crate) loops_m: f64,
     pub(crate) loops: usize,
-    /// The same by way: from where on \[m\], how many, and their mean error \[m\].
+    /// Errors by path: start \[m\], number, mean error \[m\].
     pub(crate) stretches: Vec<(f64, usize, f64)>,
 }
 
-/// Places of different passes nearer than this are compared \[m\], one for each metre of way; passes are
-/// so much way apart \[m\].
+/// Maximum distance of poses of different passes that are compared \[m\], one per metre of path; minimum
+/// path between passes \[m\].
 const NEAR_M: f64 = 5.0;
 const EVERY_M: f64 = 1.0;
 const APART_M: f64 = 20.0;
-/// Errors are told for so much way together \[m\].
+/// Length of path over which errors are averaged \[m\].
 const STRETCH_M: f64 = 20.0;
 
 pub(crate) fn judge(truth: &[Pose2], found: &[Pose2]) -> Judgement {

@@ -34,7 +34,7 @@ pub(crate) const KINDS: [Kind; 12] = [
     Kind { name: "blocks", wrong_m: INDOORS_M, drive: blocks },
 ];
 
-/// A map is right or not, and says so or not.
+/// Verdict: is the map right, and is there a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Right,
@@ -54,7 +54,7 @@ impl Verdict {
     }
 }
 
-/// What became of a drive.
+/// Result of a drive.
 pub(crate) struct Outcome {
     pub(crate) slam: Slam,
     pub(crate) judgement: Judgement,

@@ -24,14 +24,14 @@ pub(crate) struct World {
     pub(crate) walls: Vec<[f64; 4]>,
 }
 
-/// What the robot is like.
+/// Properties of the robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Robot {
     pub(crate) beams: usize,
     pub(crate) field_rad: f64,
     pub(crate) range_max_m: f64,
     pub(crate) range_sigma_m: f64,
-    /// Odometry: part of the way and of the turn that is random, and what turns in per metre \[rad\].
+    /// Odometry noise: relative errors of distance and rotation, and heading drift per metre \[rad\].
     pub(crate) way_error: f64,
     pub(crate) turn_error: f64,
     pub(crate) bias_rad_per_m: f64,
@@ -137,8 +137,7 @@ impl World {
         world
     }
 
-    /// Corners of a drive through such a warehouse that is at least so long \[m\], and how long it
-    /// is.
+    /// Corners of a drive through the warehouse of at least this length \[m\], and its length.
     pub(crate) fn rounds(rows: usize, long_m: f64, way_m: f64, seed: u64) -> Vec<(f64, f64)> {
         let mut stream = Stream::keyed(seed, "rounds", 0);
         let mut corners = vec![(0.0, 0.0)];
@@ -248,7 +247,7 @@ impl World {
     }
 }
 
-/// Poses on the way from corner to corner, one every `step_m`, and every 20 degrees of a turn.
+/// Poses along the corners, one every `step_m`, and every 20 degrees of a rotation.
 pub(crate) fn poses_along(corners: &[(f64, f64)], step_m: f64, stream: &mut Stream) -> Vec<Pose2> {
     let mut poses: Vec<Pose2> = Vec::new();
     let mut yaw = 0.0;
@@ -268,7 +267,7 @@ pub(crate) fn poses_along(corners: &[(f64, f64)], step_m: f64, stream: &mut Stre
         let steps = (length / step_m).round().max(1.0) as usize;
         for step in 0..steps {
             let part = step as f64 / steps as f64;
-            // Nobody drives along the very middle.
+            // A little off the middle.
             let aside = 0.1 * libm::sin(0.7 * part * length);
             let (s, c) = libm::sincos(heading);
             poses.push(Pose2::new(
@@ -292,7 +291,7 @@ impl OdometryMonitor {
         Self { odometry: start, last: start }
     }
 
-    /// Where wheels have the robot when it has moved there; they tell so many times the way.
+    /// Odometry pose after this motion; odometry reports the distance times a factor.
     pub(crate) fn roll_to(
         &mut self,
         truth: Pose2,

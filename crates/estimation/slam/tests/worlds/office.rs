@@ -11,14 +11,14 @@ pub(crate) const DEEP_M: f64 = 20.0;
 const DOOR_M: f64 = 1.0;
 const ROOM_M: f64 = 5.0;
 
-/// What corridors are like.
+/// Properties of the corridors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Style {
     /// Half the width of a corridor \[m\].
     pub(crate) half_m: f64,
-    /// Whether walls between corridors and rooms, and the one at the end, are of glass.
+    /// True if walls between corridors and rooms, and the one at the end, are of glass.
     pub(crate) is_glazed: bool,
-    /// Whether rooms have doors that move.
+    /// True if rooms have doors that move.
     pub(crate) has_doors: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Ramps of 5 degrees: the scanner pitches, sees the ground before it, and over what is low.
+//! Ramps of 5 degrees: the scanner pitches, sees the floor in front of it, and over low obstacles.
 
 use periplus_geometry::Stream;
 
@@ -68,7 +68,7 @@ pub(crate) fn car_park(seed: u64, is_short: bool) -> Vec<Moment> {
     let mut stream = Stream::keyed(seed, "car park", 0);
     let mut scene = Scene::default();
     scene.patches.push(Patch { area: [top, 0.0, long, deep], z_m: UP_M, rise: 0.0 });
-    // What stands at the sides of the ramps: a curb, or a parapet.
+    // Sides of the ramps: a curb, or a parapet.
     let side = if seed.is_multiple_of(3) { 1.0 } else { 0.4 };
     for [y0, y1] in ramps {
         scene.patches.push(Patch { area: [foot, y0, top, y1], z_m: 0.0, rise: RISE });

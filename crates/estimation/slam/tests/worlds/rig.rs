@@ -1,4 +1,4 @@
-//! A robot in a scene: a scanner at a height, that tilts with the ground, and wheels.
+//! A robot in a scene: a scanner at a height, which tilts with the floor, and wheels.
 
 use periplus_geometry::{Pose2, Stream};
 use periplus_slam::Scan;
@@ -6,24 +6,24 @@ use periplus_slam::Scan;
 use super::solid::{Scene, Surface};
 use super::{Moment, OdometryMonitor, ROBOT, Robot, poses_along};
 
-/// What the robot is like.
+/// Properties of the robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rig {
     /// Beams, field, range and wheels.
     pub(crate) robot: Robot,
-    /// Of the scanner above the ground \[m\].
+    /// Height of the scanner above the floor \[m\].
     pub(crate) height_m: f64,
-    /// Standard deviation of pitch and roll on level ground \[rad\].
+    /// Standard deviation of pitch and roll on level floor \[rad\].
     pub(crate) bounce_rad: f64,
     /// Noise of a reading beside that of the robot, as a part of the range.
     pub(crate) range_part: f64,
     /// Part of the readings that are lost.
     pub(crate) lost: f64,
-    /// A beam points aside from where it should by so much (standard deviation) \[rad\].
+    /// Standard deviation of the beam angle \[rad\].
     pub(crate) jitter_rad: f64,
     /// Gaps of 4 degrees in each scan.
     pub(crate) gaps: usize,
-    /// Wheels tell so many times the way.
+    /// Ratio of the distance by odometry to the true distance.
     pub(crate) way_scale: f64,
     /// From scan to scan \[m\].
     pub(crate) step_m: f64,
@@ -58,7 +58,7 @@ impl Rig {
         Self { robot, way_scale: if is_bad { 1.03 } else { 1.0 }, ..self }
     }
 
-    /// A scanner of so many degrees, beams half a degree apart, and so much range.
+    /// A scanner with this field of view in degrees, beams half a degree apart, and this range.
     pub(crate) fn with_scanner(self, degrees: usize, range_max_m: f64) -> Self {
         let beams = 2 * degrees + usize::from(degrees < 360);
         let field_rad = (beams - 1) as f64 * 0.5_f64.to_radians();
@@ -73,7 +73,7 @@ impl Rig {
         Self { robot, range_part: 0.01, lost: 0.1, jitter_rad, gaps: 4, ..self }
     }
 
-    /// What the scanner sees from there.
+    /// Returns the scan from a pose.
     pub(crate) fn scan(
         &self,
         scene: &Scene,

@@ -1,14 +1,14 @@
-//! Scenes in three dimensions: upright walls and posts, ground that slopes, doors, and people who walk.
+//! Scenes in three dimensions: upright walls and posts, sloping floor, doors, and walking people.
 
 use std::collections::BTreeSet;
 
 use periplus_geometry::{Pose2, Stream};
 
-/// What a ray does at a wall.
+/// Interaction of a ray with a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Surface {
     Solid,
-    /// Leaves and twigs: readings scatter by so much \[m\].
+    /// Foliage: standard deviation of readings \[m\].
     Rough(f64),
     /// A pane: only rays that meet it nearly squarely come back.
     Glass,
@@ -23,8 +23,8 @@ pub(crate) struct Wall {
     pub(crate) ends: [f64; 4],
     pub(crate) z_m: [f64; 2],
     pub(crate) surface: Surface,
-    /// What it is a side of: things of one number go together when they are in the way. None for what
-    /// is built.
+    /// Number of the object it is a side of: the sides of one object are removed together. `None` for
+    /// buildings.
     pub(crate) thing: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct Post {
     pub(crate) z_m: [f64; 2],
 }
 
-/// Ground that is not level: a rectangle in the plane whose height rises along x.
+/// Sloping floor: a rectangle in the plane whose height rises along x.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patch {
     /// Least x, least y, largest x, largest y \[m\].
@@ -46,8 +46,8 @@ pub(crate) struct Patch {
     pub(crate) rise: f64,
 }
 
-/// A leaf that turns about the first of two ends: closed it lies on the line between them, open it
-/// stands across. It moves at times of its own, and stands open while the robot is there.
+/// A door leaf that rotates about the first of two ends: closed it is on the line between them, open it is
+/// perpendicular. It moves at given times, and is open while the robot is there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Door {
     pub(crate) ends: [f64; 4],
@@ -57,7 +57,7 @@ pub(crate) struct Door {
     pub(crate) period_s: f64,
 }
 
-/// Somebody who walks.
+/// A walking person.
 #[derive(Clone, Debug)]
 pub(crate) enum Walker {
     /// To and fro along a line of corners at a speed \[m/s\], from somewhere on it.
@@ -76,24 +76,24 @@ pub(crate) struct Scene {
     pub(crate) walkers: Vec<Walker>,
 }
 
-/// Walls reach from below all ground to above all rays, unless told otherwise.
+/// Default height range of walls: from below all floors to above all rays.
 pub(crate) const HIGH: [f64; 2] = [-5.0, 9.0];
 /// A robot this near to a door keeps it open \[m\].
 const HELD_OPEN_M: f64 = 1.6;
-/// A way is this wide to either side, and what is longer stays where it is \[m\].
+/// Half width of a cleared path; longer objects are not removed \[m\].
 const CLEAR_M: f64 = 0.5;
 const LARGE_M: f64 = 6.0;
 /// Half the girth of a person \[m\].
 const PERSON_M: f64 = 0.2;
 
-/// What a ray met.
+/// Hit of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit {
     pub(crate) range_m: f64,
     pub(crate) surface: Surface,
 }
 
-/// Distance of a place from a line between two ends \[m\].
+/// Distance of a position from a line between two ends \[m\].
 fn beside_m([x0, y0, x1, y1]: [f64; 4], [x, y]: [f64; 2]) -> f64 {
     let (ux, uy, rx, ry) = (x1 - x0, y1 - y0, x - x0, y - y0);
     let part = ((rx * ux + ry * uy) / (ux * ux + uy * uy).max(1e-12)).clamp(0.0, 1.0);
@@ -188,7 +188,7 @@ impl Walker {
                 corners.last().copied()
             }
             Self::With { beside, from_s, to_s } => {
-                // Nobody keeps step to the centimetre.
+                // People do not keep step to the centimetre.
                 let sway = 0.12 * libm::sin(2.0 * time_s + 7.0 * beside[0]);
                 let (x, y) = robot.transform_point(beside[0] + sway, beside[1]);
                 (*from_s..*to_s).contains(&time_s).then_some([x, y])
@@ -216,12 +216,12 @@ impl Scene {
         self.walls.push(Wall::new(ends));
     }
 
-    /// Height of the ground \[m\].
+    /// Height of the floor \[m\].
     pub(crate) fn height_m(&self, x: f64, y: f64) -> f64 {
         self.patches.iter().find(|it| it.holds(x, y)).map_or(0.0, |it| it.height_m(x))
     }
 
-    /// Takes away what stands in the way of a robot, but for what is built and what is large.
+    /// Removes small objects from the path of a robot.
     pub(crate) fn cleared(mut self, way: &[Pose2]) -> Self {
         let is_in_way = |ends: [f64; 4]| {
             let is_near = |it: &Pose2| beside_m(ends, [it.x_m, it.y_m]) < CLEAR_M;
@@ -241,7 +241,7 @@ impl Scene {
         self
     }
 
-    /// What is within reach of the robot at a time, with all that moves set down.
+    /// Returns the objects within reach of the robot at a time, moving ones at their positions.
     pub(crate) fn around(&self, time_s: f64, robot: Pose2, reach_m: f64) -> Self {
         let is_near = |ends: [f64; 4]| beside_m(ends, [robot.x_m, robot.y_m]) < reach_m;
         let leaves = self.doors.iter().map(|it| it.leaf(time_s, robot));
@@ -271,7 +271,7 @@ impl Scene {
         hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(range_m, surface)| Hit { range_m, surface })
     }
 
-    /// Where a ray meets the ground.
+    /// Intersection of a ray with the floor.
     fn ground(&self, from: [f64; 3], to: [f64; 3]) -> Option<f64> {
         if to[2] == 0.0 && self.patches.is_empty() {
             return None;

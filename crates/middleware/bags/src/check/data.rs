@@ -1,4 +1,4 @@
-//! The part of a file that holds the messages.
+//! Validation of the data section.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::record::{
     parse_message_index,
 };
 
-/// What was found there.
+/// Findings of the data section.
 #[derive(Default)]
 pub(super) struct Data {
     pub(super) schemas: BTreeMap<u16, Schema>,
@@ -19,26 +19,30 @@ pub(super) struct Data {
     /// Offset and length of metadata records.
     pub(super) metadata: Vec<(u64, u64)>,
     pub(super) statistics: Statistics,
-    /// The first byte behind it.
+    /// End of the data section.
     pub(super) end: usize,
 }
 
-/// The messages of a chunk by channel: times and offsets, in the order of the chunk.
+/// Messages of a chunk by channel: times and offsets in the order of the chunk.
 type Messages = BTreeMap<u16, Vec<(u64, u64)>>;
 
 impl Data {
-    /// Walks from the first record to the end of the data. None when it has no end.
+    /// Walks from the first record to the end of the data section. None if it has no end.
     pub(super) fn walk(bytes: &[u8], faults: &mut Faults) -> Option<Self> {
         let mut data = Self::default();
         let mut at = MAGIC.len();
         let mut unindexed: Option<(usize, Messages)> = None;
         loop {
             let Some((opcode, content)) = record_at(bytes, at) else {
-                faults.add(at, "a record is cut, or the data have no end");
+                faults.add(at, "a record is truncated, or the data section has no end");
                 return None;
             };
             let next = at + PREFIX + content.len();
-            faults.unless((at == MAGIC.len()) == (opcode == op::HEADER), at, "the header is first");
+            faults.unless(
+                (at == MAGIC.len()) == (opcode == op::HEADER),
+                at,
+                "the header must be the first record",
+            );
             if opcode == op::MESSAGE_INDEX {
                 data.index(at, next, content, unindexed.as_mut(), faults);
                 at = next;
@@ -46,7 +50,7 @@ impl Data {
             }
             if let Some((chunk, left)) = unindexed.take() {
                 let is_empty = left.values().all(Vec::is_empty);
-                faults.unless(is_empty, chunk, "messages of the chunk are in no index");
+                faults.unless(is_empty, chunk, "messages of the chunk are missing in the index");
             }
             match opcode {
                 op::CHUNK => {
@@ -61,7 +65,7 @@ impl Data {
                 op::DATA_END => {
                     let crc = Cursor::new(content).u32();
                     let right = crc == Some(0) || crc == Some(crc32fast::hash(&bytes[..at]));
-                    faults.unless(right, at, "the sum over the data is wrong");
+                    faults.unless(right, at, "the checksum of the data section is wrong");
                     data.end = next;
                     data.statistics.schemas = u16::try_from(data.schemas.len()).unwrap_or(u16::MAX);
                     data.statistics.channels =
@@ -77,7 +81,7 @@ impl Data {
         }
     }
 
-    /// A record that may stand inside of chunks and outside.
+    /// Checks a record that may be inside or outside of chunks.
     fn plain(
         &mut self,
         at: usize,
@@ -92,27 +96,27 @@ impl Data {
                     faults.unless(
                         same && schema.id > 0,
                         at,
-                        "two types have one number, or it is 0",
+                        "two schemas have the same id, or the id is 0",
                     );
                     self.schemas.insert(schema.id, schema);
                 }
-                None => faults.add(at, "a schema is cut"),
+                None => faults.add(at, "a schema is truncated"),
             },
             op::CHANNEL => match Channel::parse(content) {
                 Some(channel) => {
                     let is_known =
                         channel.schema == 0 || self.schemas.contains_key(&channel.schema);
-                    faults.unless(is_known, at, "a channel comes before its schema");
+                    faults.unless(is_known, at, "a channel precedes its schema");
                     let same = self.channels.get(&channel.id).is_none_or(|known| *known == channel);
-                    faults.unless(same, at, "two channels have one number");
+                    faults.unless(same, at, "two channels have the same id");
                     self.channels.insert(channel.id, channel);
                 }
-                None => faults.add(at, "a channel is cut"),
+                None => faults.add(at, "a channel is truncated"),
             },
             op::MESSAGE => match MessageHead::parse(content) {
                 Some((head, _)) => {
                     let is_known = self.channels.contains_key(&head.channel);
-                    faults.unless(is_known, at, "a message comes before its channel");
+                    faults.unless(is_known, at, "a message precedes its channel");
                     let sums = &mut self.statistics;
                     let is_first = sums.messages == 0;
                     sums.start =
@@ -122,9 +126,9 @@ impl Data {
                     *sums.by_channel.entry(head.channel).or_default() += 1;
                     return Some(head);
                 }
-                None => faults.add(at, "a message is cut"),
+                None => faults.add(at, "a message is truncated"),
             },
-            _ => faults.add(at, format!("a record of kind {opcode:#04x} does not belong here")),
+            _ => faults.add(at, format!("a record with opcode {opcode:#04x} is not allowed here")),
         }
         None
     }
@@ -138,17 +142,17 @@ impl Data {
     ) -> Option<Messages> {
         self.statistics.chunks += 1;
         let Some((head, packed)) = ChunkHead::parse(content) else {
-            faults.add(at, "a chunk is cut");
+            faults.add(at, "a chunk is truncated");
             return None;
         };
         faults.unless(packed.len() as u64 == head.packed, at, "the length of a chunk is wrong");
         let records = Compression::from_name(&head.compression)
-            .ok_or_else(|| format!("`{}` is no known compression", head.compression))
+            .ok_or_else(|| format!("`{}` is not a known compression", head.compression))
             .and_then(|kind| {
                 let limit = Limits::default().chunk;
                 if head.length > limit {
                     return Err(format!(
-                        "a chunk announces {} bytes, more than the {limit} that are read",
+                        "a chunk declares {} bytes, more than the limit of {limit}",
                         head.length
                     ));
                 }
@@ -162,14 +166,14 @@ impl Data {
             }
         };
         let right = head.crc == 0 || crc32fast::hash(&records) == head.crc;
-        faults.unless(right, at, "the sum over a chunk is wrong");
+        faults.unless(right, at, "the checksum of a chunk is wrong");
         let mut messages = Messages::new();
         let mut cursor = Cursor::new(&records);
         let mut span: Option<(u64, u64)> = None;
         while !cursor.rest().is_empty() {
             let offset = (records.len() - cursor.rest().len()) as u64;
             let Some((opcode, content)) = cursor.record() else {
-                faults.add(at, format!("a record in the chunk is cut, at {offset} of it"));
+                faults.add(at, format!("a record is truncated at offset {offset} of the chunk"));
                 break;
             };
             if let Some(head) = self.plain(at, opcode, content, faults) {
@@ -179,7 +183,7 @@ impl Data {
             }
         }
         let right = (head.start, head.end) == span.unwrap_or((0, 0));
-        faults.unless(right, at, "the times of a chunk are not those of its messages");
+        faults.unless(right, at, "the time range of a chunk does not match its messages");
         self.chunks.push(ChunkIndex {
             start: head.start,
             end: head.end,
@@ -194,7 +198,7 @@ impl Data {
         Some(messages)
     }
 
-    /// An index must name exactly the messages of its channel, by time.
+    /// Checks that an index lists exactly the messages of its channel, by time.
     fn index(
         &mut self,
         at: usize,
@@ -204,14 +208,14 @@ impl Data {
         faults: &mut Faults,
     ) {
         let Some((channel, entries)) = parse_message_index(content) else {
-            return faults.add(at, "a message index is cut");
+            return faults.add(at, "a message index is truncated");
         };
         let Some((_, messages)) = chunk else {
             return faults.add(at, "a message index follows no chunk");
         };
         let mut expected = messages.remove(&channel).unwrap_or_default();
         expected.sort_unstable();
-        faults.unless(entries == expected, at, "a message index is not that of the messages");
+        faults.unless(entries == expected, at, "a message index does not match the messages");
         if let Some(chunk) = self.chunks.last_mut() {
             chunk.indexes.insert(channel, at as u64);
             chunk.indexes_length += (next - at) as u64;

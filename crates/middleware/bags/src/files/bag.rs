@@ -1,4 +1,4 @@
-//! The one door.
+//! Opening of bags.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -12,16 +12,16 @@ use crate::files::part::Part;
 use crate::files::stream::BagMessages;
 use crate::files::write::Storage;
 
-/// What kind of recording it is.
+/// ROS version of a bag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A folder of `ros2 bag`, or files as it has them.
+    /// A `ros2 bag` folder, or its files.
     Ros2,
-    /// Bags of ROS 1.
+    /// ROS 1 bags.
     Ros1,
 }
 
-/// A recording, of one file or many.
+/// A bag of one or more files.
 #[derive(Debug)]
 pub struct Bag {
     path: PathBuf,
@@ -32,18 +32,18 @@ pub struct Bag {
     findings: Diagnostics,
 }
 
-/// The name of the description in a folder.
+/// Name of the metadata file in a folder.
 pub(crate) const METADATA: &str = "metadata.yaml";
 
-/// A `metadata.yaml` larger than this is none \[bytes\].
+/// Maximum size of `metadata.yaml` \[bytes\].
 const LARGEST_METADATA: u64 = 64 << 20;
 
 impl Bag {
-    /// Opens whatever recording is there. What is damaged or missing is said in the
-    /// [findings](Self::findings); what is left can be read.
+    /// Opens a bag of any kind. Damaged or missing parts are reported in the
+    /// [findings](Self::findings); the rest can be read.
     ///
     /// # Errors
-    /// When nothing there is a recording.
+    /// When there is no bag at the path.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, BagError> {
         let path = path.as_ref();
         let about = path.metadata().map_err(BagError::file(path))?;
@@ -70,7 +70,7 @@ impl Bag {
             }
         }
         if parts.is_empty() {
-            let why = "the folder holds no .mcap and no .db3 file".to_owned();
+            let why = "the folder has no .mcap and no .db3 file".to_owned();
             return Err(failure.unwrap_or(BagError::NoBag(path.to_owned(), why)));
         }
         for part in &parts {
@@ -109,68 +109,68 @@ impl Bag {
         }
     }
 
-    /// Where it is.
+    /// Path of the bag.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What kind of recording it is.
+    /// ROS version of the bag.
     #[must_use]
     pub fn kind(&self) -> Kind {
         let is_ros1 = self.parts.iter().any(|part| part.storage == Storage::Ros1);
         if is_ros1 { Kind::Ros1 } else { Kind::Ros2 }
     }
 
-    /// How its files are stored.
+    /// Storage format of its files.
     #[must_use]
     pub fn storage(&self) -> Storage {
         self.parts.first().map_or(Storage::Mcap, |part| part.storage)
     }
 
-    /// Its topics.
+    /// Topics.
     #[must_use]
     pub fn topics(&self) -> &[BagTopic] {
         &self.topics
     }
 
-    /// How many messages each topic has.
+    /// Number of messages of each topic.
     #[must_use]
     pub fn counts(&self) -> &[u64] {
         &self.counts
     }
 
-    /// How many messages there are.
+    /// Number of messages.
     #[must_use]
     pub fn message_count(&self) -> u64 {
         self.counts.iter().fold(0, |sum, count| u64::saturating_add(sum, *count))
     }
 
-    /// Time of the first message and of the last \[ns\]; none without messages.
+    /// Times of the first and last message \[ns\]; none without messages.
     #[must_use]
     pub fn span_ns(&self) -> Option<(i64, i64)> {
         let spans = self.parts.iter().filter_map(|part| part.span_ns);
         spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)))
     }
 
-    /// Size of its files \[bytes\].
+    /// Size of the files \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.parts.iter().map(|part| part.bytes).sum()
     }
 
-    /// Its files.
+    /// Paths of the files.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         self.parts.iter().map(|part| &*part.path)
     }
 
-    /// What `metadata.yaml` says, if there is one.
+    /// Content of `metadata.yaml`, if it exists.
     #[must_use]
     pub fn metadata(&self) -> Option<&Metadata> {
         self.metadata.as_ref()
     }
 
-    /// The name of the ROS distribution that recorded it, if it tells.
+    /// Name of the ROS distribution that recorded the bag; empty if unknown.
     #[must_use]
     pub fn ros_distro(&self) -> &str {
         let told = self.metadata.as_ref().map_or("", |metadata| &metadata.info.ros_distro);
@@ -180,26 +180,26 @@ impl Bag {
         self.parts.iter().map(|part| &*part.ros_distro).find(|name| !name.is_empty()).unwrap_or("")
     }
 
-    /// Whether every file was closed properly.
+    /// True if every file was closed properly.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.parts.iter().all(|part| part.is_whole)
     }
 
-    /// What is wrong with it.
+    /// Problems found.
     #[must_use]
     pub fn findings(&self) -> &Diagnostics {
         &self.findings
     }
 
-    /// Its messages in the order of their times, across all files. Files are opened when their time
-    /// comes and closed when they are read.
+    /// Iterates over the messages in the order of time across all files. Files are opened on demand
+    /// and closed when they are read.
     #[must_use]
     pub fn messages(&self, selection: Selection) -> BagMessages {
         BagMessages::new(&self.parts, &self.topics, selection)
     }
 
-    /// What a `metadata.yaml` would say of its files.
+    /// Metadata of its files.
     #[must_use]
     pub fn describe(&self) -> crate::BagInfo {
         let mut topics: Vec<_> =
@@ -218,10 +218,10 @@ impl Bag {
         crate::BagInfo { topics, files, ros_distro: self.ros_distro().to_owned() }
     }
 
-    /// Writes its `metadata.yaml` anew, from what is in the files.
+    /// Rewrites `metadata.yaml` from the files.
     ///
     /// # Errors
-    /// When it is no folder of `ros2 bag`, or the file cannot be written.
+    /// When the bag is not a `ros2 bag` folder, or the file cannot be written.
     pub fn reindex(&self, style: Style) -> Result<(), BagError> {
         if !self.path.is_dir() {
             let why = "only folders of `ros2 bag` have a metadata.yaml".to_owned();
@@ -246,8 +246,8 @@ impl Bag {
     }
 }
 
-/// Numbers of topics by name, type and encoding. Topics of several files that agree in these are
-/// one.
+/// Topic indexes by name, type and encoding; topics of several files that agree in these are
+/// merged.
 #[derive(Default)]
 pub(crate) struct TopicIndex(BTreeMap<[String; 3], usize>);
 
@@ -260,7 +260,7 @@ impl TopicIndex {
         index
     }
 
-    /// The number of a topic; the next one for a new topic.
+    /// Returns the index of a topic, adding it if necessary.
     pub(crate) fn add(&mut self, topic: &BagTopic) -> usize {
         let next = self.0.len();
         *self.0.entry(Self::key(topic)).or_insert(next)
@@ -275,7 +275,7 @@ impl TopicIndex {
     }
 }
 
-/// The files of a folder, by its description or without.
+/// Files of a folder, with or without metadata.
 fn folder_files(
     folder: &Path,
     findings: &mut Diagnostics,
@@ -300,29 +300,30 @@ fn folder_files(
         let wrong = format!("`{}` is missing or damaged", path.display());
         findings.push(
             Diagnostic::warning("no-metadata", wrong)
-                .help("the files are read without it; `periplus bag reindex` writes it anew"),
+                .help("the files are read without it; `periplus bag reindex` rewrites it"),
         );
         return Ok((there, None));
     };
     let mut files = Vec::new();
     for named in &metadata.info.files {
-        // Old ones name the folder too. Whatever is named, it lies in this folder.
+        // Old metadata includes the folder name. All files are in this folder.
         let Some(name) = Path::new(&named.path).file_name() else { continue };
         let file = folder.join(name);
         if file.is_file() {
             files.push(file);
         } else {
-            let wrong = format!("`{}` names `{}`, which is not there", path.display(), named.path);
+            let wrong =
+                format!("`{}` lists `{}`, which does not exist", path.display(), named.path);
             findings.push(Diagnostic::error("missing-part", wrong));
         }
     }
     let named: BTreeSet<&PathBuf> = files.iter().collect();
     let more: Vec<PathBuf> = there.into_iter().filter(|file| !named.contains(file)).collect();
     for file in &more {
-        let wrong = format!("`{}` does not name `{}`", path.display(), file.display());
+        let wrong = format!("`{}` does not list `{}`", path.display(), file.display());
         findings.push(
             Diagnostic::warning("unnamed-part", wrong)
-                .help("it is read as well; `periplus bag reindex` writes the metadata anew"),
+                .help("it is read as well; `periplus bag reindex` rewrites the metadata"),
         );
     }
     files.extend(more);

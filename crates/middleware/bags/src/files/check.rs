@@ -1,4 +1,4 @@
-//! Whether a recording is in order: every sum and index, every message by its type.
+//! Validation of a bag: checksums, indexes, and decoding of every message.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,17 +8,17 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::files::{Bag, BagError, Storage};
 
-/// MCAP files up to this size are held against the format byte for byte \[bytes\]; of larger ones
-/// the sums of all chunks are.
+/// Maximum size of MCAP files that are validated strictly \[bytes\]; of larger ones only the chunk
+/// checksums are verified.
 const STRICT: u64 = 256 << 20;
 
-/// So many messages pass from one word about progress to the next.
+/// Number of messages between two progress callbacks.
 const STEP: u64 = 256;
 
-/// Reads everything and decodes every message. Returns how many there are, and what is wrong.
+/// Reads and decodes all messages. Returns their number and the findings.
 ///
 /// # Errors
-/// When a file cannot be read on.
+/// When a file becomes unreadable.
 pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnostics), BagError> {
     let mut findings = Diagnostics::new();
     for path in bag.files() {
@@ -31,7 +31,7 @@ pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnosti
             }
         }
     }
-    // Whoever can be made bytes of ROS 1 was read as its type says, to the last byte.
+    // A message that can be converted to the other encoding was decoded completely.
     let opposite = |encoding: &str| if encoding == "ros1" { Target::Ros2 } else { Target::Ros1 };
     let mut ways: Vec<Option<Translation>> = Vec::new();
     for topic in bag.topics() {
@@ -39,7 +39,7 @@ pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnosti
         let way = Translation::new(topic, opposite(&topic.encoding), &mut unused);
         if way.is_none() {
             let wrong = format!(
-                "messages of `{}` (type `{}`, encoded as `{}`) cannot be looked into",
+                "messages of `{}` (type `{}`, encoded as `{}`) cannot be decoded",
                 topic.name, topic.type_name, topic.encoding
             );
             findings.push(Diagnostic::hint("unknown-type", wrong));
@@ -64,17 +64,19 @@ pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnosti
         }
     }
     for fault in messages.faults() {
-        // What opening it found was told already.
+        // Damage found at opening was reported already.
         findings.push(Diagnostic::warning("damaged-bag", fault.clone()));
     }
     for (topic, (count, error)) in bad {
         let name = &bag.topics()[topic].name;
-        let wrong = format!("{count} messages of `{name}` are none of their type: {error}");
+        let wrong =
+            format!("{count} messages of `{name}` cannot be decoded as their type: {error}");
         findings.push(Diagnostic::warning("bad-message", wrong));
     }
-    for ((topic, count), told) in bag.topics().iter().zip(&counts).zip(bag.counts()) {
-        if count != told {
-            let wrong = format!("`{}` has {count} messages, not {told} as told", topic.name);
+    for ((topic, count), declared) in bag.topics().iter().zip(&counts).zip(bag.counts()) {
+        if count != declared {
+            let wrong =
+                format!("`{}` has {count} messages, but {declared} are declared", topic.name);
             findings.push(Diagnostic::warning("wrong-count", wrong));
         }
     }
@@ -82,15 +84,14 @@ pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnosti
     Ok((total, findings))
 }
 
-/// What `metadata.yaml` says against what is there.
+/// Compares `metadata.yaml` with the content.
 fn compare_metadata(bag: &Bag, total: u64, findings: &mut Diagnostics) {
     let Some(metadata) = bag.metadata() else { return };
-    let told = metadata.info.messages();
-    if told != total {
-        let wrong = format!("metadata.yaml tells of {told} messages, and there are {total}");
+    let declared = metadata.info.messages();
+    if declared != total {
+        let wrong = format!("metadata.yaml declares {declared} messages, but there are {total}");
         findings.push(
-            Diagnostic::warning("wrong-metadata", wrong)
-                .help("`periplus bag reindex` writes it anew"),
+            Diagnostic::warning("wrong-metadata", wrong).help("`periplus bag reindex` rewrites it"),
         );
     }
 }

@@ -1,4 +1,4 @@
-//! From one kind of recording to another.
+//! Conversion of bags.
 
 use crate::{BagInfo, Selection, Stamp, Target, Translation};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
@@ -6,35 +6,35 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use crate::files::stream::BagMessages;
 use crate::files::{Bag, BagError, BagWriter, Storage, WriteSettings};
 
-/// What to convert, and into what.
+/// Input selection and output format of a conversion.
 #[derive(Clone, Debug)]
 pub struct Conversion {
-    /// Which messages.
+    /// Messages to convert.
     pub selection: Selection,
-    /// How the result is written.
+    /// Settings of the output.
     pub write: WriteSettings,
 }
 
-/// What came of it.
+/// Result of a conversion.
 #[derive(Debug)]
 pub struct Report {
-    /// What is in the result.
+    /// Content of the output.
     pub info: BagInfo,
-    /// Bytes of all messages that were read.
+    /// Size of all messages read \[bytes\].
     pub bytes: u64,
-    /// What was left out, and why.
+    /// Messages and topics left out, with the reasons.
     pub findings: Diagnostics,
 }
 
-/// So many messages pass from one word about progress to the next, at most.
+/// Maximum number of messages between two progress callbacks.
 const STEP: u64 = 256;
 
-/// Writes the messages of recordings to a new one, in the order of their times; between ROS 1 and
-/// ROS 2 they are translated. `progress` is told how many messages are done.
+/// Writes the messages of several bags to a new one in the order of time, converting between ROS 1
+/// and ROS 2. `progress` gets the number of messages done.
 ///
 /// # Errors
-/// When one cannot be read on or the result cannot be written. A message that cannot be translated is
-/// left out, and the findings tell.
+/// When an input becomes unreadable or the output cannot be written. A message that cannot
+/// be converted is left out with a finding.
 pub fn convert(
     bags: &[Bag],
     output: impl AsRef<std::path::Path>,
@@ -66,7 +66,7 @@ pub fn convert(
     Ok(Report { info: writer.finish()?, bytes, findings })
 }
 
-/// Which recording has the earliest message.
+/// Index of the bag with the earliest next message.
 fn earliest(inputs: &mut [Input]) -> Result<Option<usize>, BagError> {
     if let [only] = inputs {
         return Ok(only.messages.peek_ns()?.map(|_| 0));
@@ -84,7 +84,7 @@ fn earliest(inputs: &mut [Input]) -> Result<Option<usize>, BagError> {
 
 struct Input {
     messages: BagMessages,
-    /// By topic: what becomes of its messages, its number in the result, and how many were lost.
+    /// Per topic: its conversion and its index in the output; none if it is left out.
     ways: Vec<Option<(Translation, usize)>>,
     lost: Vec<u64>,
 }
@@ -103,7 +103,7 @@ impl Input {
         for topic in bag.topics() {
             let is_foreign = target == Target::Ros2 && !["cdr", "ros1"].contains(&&*topic.encoding);
             let way = match wanted(&topic.name) {
-                // Whatever it is, a recording of ROS 2 can hold it as it is.
+                // A ROS 2 bag can store any encoding unchanged.
                 true if is_foreign => Some(Translation::untouched(topic)),
                 true => Translation::new(topic, target, findings),
                 false => None,
@@ -120,7 +120,7 @@ impl Input {
         Ok(Self { messages: bag.messages(selection.clone()), ways, lost })
     }
 
-    /// Writes the next message. Returns how many bytes it has.
+    /// Writes the next message. Returns its size \[bytes\].
     fn pass(
         &mut self,
         writer: &mut BagWriter,
@@ -139,12 +139,12 @@ impl Input {
             Ok(data) => writer.write(*id, stamp, data)?,
             Err(error) => {
                 self.lost[message.topic] += 1;
-                // One word for each topic is enough.
+                // One finding per topic.
                 if self.lost[message.topic] == 1 {
-                    let wrong = format!("a message of `{name}` cannot be translated: {error}");
+                    let wrong = format!("a message of `{name}` cannot be converted: {error}");
                     findings.push(
                         Diagnostic::warning("bad-message", wrong)
-                            .help("it is left out, and so are others like it"),
+                            .help("it is left out, as are all others that cannot be converted"),
                     );
                 }
             }

@@ -1,4 +1,4 @@
-//! What can go wrong with a recording.
+//! Errors of bags.
 
 use std::fmt;
 use std::io;
@@ -8,27 +8,27 @@ use crate::{ReadError, WriteError};
 use periplus_diagnostics::plain_words;
 use periplus_graph::GraphError;
 
-/// Why a recording cannot be opened, read or written.
+/// Reason for which a bag cannot be opened, read or written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum BagError {
-    /// A file or folder cannot be opened or made.
+    /// A file or folder cannot be opened or created.
     File(PathBuf, io::Error),
-    /// Nothing there is a recording.
+    /// There is no bag at the path.
     NoBag(PathBuf, String),
-    /// A file cannot be read on.
+    /// A file became unreadable.
     Read(PathBuf, ReadError),
     /// A database cannot be read or written.
     Database(PathBuf, rusqlite::Error),
-    /// A packed file or message cannot be unpacked.
+    /// A compressed file or message cannot be decompressed.
     Unpack(PathBuf, String),
-    /// A recording cannot be written on.
+    /// A file cannot be written.
     Write(PathBuf, WriteError),
-    /// Something is there already.
+    /// The output exists already.
     Exists(PathBuf),
-    /// The settings contradict each other.
+    /// The settings are contradictory.
     Settings(String),
-    /// The graph refuses.
+    /// The graph refused an endpoint.
     Graph(GraphError),
 }
 
@@ -60,20 +60,18 @@ impl fmt::Display for BagError {
             Self::File(path, error) => {
                 write!(f, "`{}`: {}", path.display(), plain_words(error))
             }
-            Self::NoBag(path, why) => write!(f, "`{}` is no recording: {why}", path.display()),
+            Self::NoBag(path, why) => write!(f, "`{}` is not a bag: {why}", path.display()),
             Self::Read(path, error) => write!(f, "`{}`: {error}", path.display()),
             Self::Database(path, error) => {
                 write!(f, "`{}`: the database cannot be used: {error}", path.display())
             }
             Self::Unpack(path, why) => {
-                write!(f, "`{}` cannot be unpacked: {why}", path.display())
+                write!(f, "`{}` cannot be decompressed: {why}", path.display())
             }
             Self::Write(path, error) => write!(f, "`{}`: {error}", path.display()),
-            Self::Exists(path) => write!(
-                f,
-                "`{}` is there already; take it away or name another place",
-                path.display()
-            ),
+            Self::Exists(path) => {
+                write!(f, "`{}` already exists; remove it or choose another path", path.display())
+            }
             Self::Settings(why) => f.write_str(why),
             Self::Graph(error) => error.fmt(f),
         }

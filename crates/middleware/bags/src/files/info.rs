@@ -1,47 +1,47 @@
-//! What a recording holds, as `ros2 bag info` prints it and as JSON.
+//! Summary of a bag, as printed by `ros2 bag info` and as JSON.
 
 use std::fmt::Write as _;
 
 use crate::files::{Bag, Storage};
 
-/// What a recording holds.
+/// Summary of a bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Info {
-    /// Its files, as they were named.
+    /// Files, as given.
     pub files: Vec<String>,
-    /// Their size \[bytes\].
+    /// Size \[bytes\].
     pub bytes: u64,
-    /// How they are stored.
+    /// Storage format.
     pub storage: Storage,
-    /// The ROS distribution that recorded it; may be empty.
+    /// ROS distribution that recorded it; may be empty.
     pub ros_distro: String,
-    /// Time of the first message and of the last \[ns\].
+    /// Times of the first and last message \[ns\].
     pub span_ns: Option<(i64, i64)>,
-    /// How many messages.
+    /// Number of messages.
     pub messages: u64,
-    /// Its topics, by name.
+    /// Topics, by name.
     pub topics: Vec<TopicSum>,
-    /// How files or messages are packed, and which of them; mostly empty.
+    /// Compression format and mode; usually empty.
     pub packing: (String, String),
-    /// Whether all files were closed properly.
+    /// True if all files were closed properly.
     pub is_whole: bool,
 }
 
-/// One topic.
+/// Summary of a topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TopicSum {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its type.
+    /// Type.
     pub type_name: String,
-    /// How many messages.
+    /// Number of messages.
     pub messages: u64,
-    /// How they are encoded.
+    /// Encoding of the messages.
     pub encoding: String,
 }
 
 impl Info {
-    /// Sums up a recording.
+    /// Creates the summary of a bag.
     #[must_use]
     pub fn of(bag: &Bag) -> Self {
         let file = |path: &std::path::Path| {
@@ -71,7 +71,7 @@ impl Info {
         }
     }
 
-    /// In the words and columns of `ros2 bag info`.
+    /// Formats the summary as `ros2 bag info` does.
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::from("\n");
@@ -109,7 +109,7 @@ impl Info {
     }
 }
 
-/// `1.5 GiB`.
+/// Formats a size, such as `1.5 GiB`.
 fn size(bytes: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];
     let mut value = bytes as f64;
@@ -121,14 +121,14 @@ fn size(bytes: u64) -> String {
     if unit == 0 { format!("{bytes} B") } else { format!("{value:.1} {}", units[unit]) }
 }
 
-/// `12.345678901`.
+/// Formats seconds, such as `12.345678901`.
 fn seconds(time_ns: i64) -> String {
     let sign = if time_ns < 0 { "-" } else { "" };
     let all = time_ns.unsigned_abs();
     format!("{sign}{}.{:09}", all / 1_000_000_000, all % 1_000_000_000)
 }
 
-/// `Nov 21 2026 15:04:05.123456789 (1795273445.123456789)`, in UTC.
+/// Formats a time in UTC, such as `Nov 21 2026 15:04:05.123456789 (1795273445.123456789)`.
 fn moment(time_ns: i64) -> String {
     let all = time_ns.max(0).unsigned_abs();
     let (day, rest) = (all / 86_400_000_000_000, all % 86_400_000_000_000);
@@ -147,7 +147,7 @@ fn moment(time_ns: i64) -> String {
     )
 }
 
-/// `2026_11_21-15_04_05`, in UTC: how `ros2 bag record` names folders.
+/// Formats a time in UTC as in the folder names of `ros2 bag record`: `2026_11_21-15_04_05`.
 #[must_use]
 pub fn stamp_name(time_ns: i64) -> String {
     let all = time_ns.max(0).unsigned_abs();

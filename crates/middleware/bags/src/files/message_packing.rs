@@ -1,21 +1,22 @@
-//! Messages that are packed one by one.
+//! Compression of single messages.
 //!
-//! Messages of ROS 2 begin with a zero, so the magic of a packing tells itself apart.
+//! ROS 2 messages start with a zero byte, so that the magic number of a compression format is
+//! unambiguous.
 
 use std::io::Read;
 
 use crate::files::write::Packing;
 
-/// How a message is packed, if it is.
+/// Compression of a message, if any.
 pub(crate) fn packing_of(data: &[u8]) -> Option<Packing> {
     [Packing::Zstd, Packing::Lz4].into_iter().find(|packing| data.starts_with(&packing.magic()))
 }
 
-/// Larger messages are refused \[bytes\]: those of ROS are far smaller, and a few kilobytes may
-/// unpack to this.
+/// Maximum size of a decompressed message \[bytes\]; protects against small messages that
+/// decompress to any size.
 const LARGEST: u64 = 256 << 20;
 
-/// Unpacks a message into `out`.
+/// Decompresses a message into `out`.
 pub(crate) fn unpack(packing: Packing, data: &[u8], out: &mut Vec<u8>) -> Result<(), String> {
     out.clear();
     let read = match packing {
@@ -25,7 +26,7 @@ pub(crate) fn unpack(packing: Packing, data: &[u8], out: &mut Vec<u8>) -> Result
     };
     read.map_err(|error| error.to_string())?;
     if out.len() as u64 > LARGEST {
-        return Err(format!("it holds more than {LARGEST} bytes"));
+        return Err(format!("it has more than {LARGEST} bytes"));
     }
     Ok(())
 }

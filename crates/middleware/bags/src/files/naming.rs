@@ -1,4 +1,4 @@
-//! What the names and first bytes of files say.
+//! Recognition of files by name and first bytes.
 
 use std::fs::File;
 use std::io::Read;
@@ -7,16 +7,16 @@ use std::path::{Path, PathBuf};
 use crate::files::BagError;
 use crate::files::write::{Packing, Storage};
 
-/// What a file is by its first bytes.
+/// Content of a file, from its first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
-    /// As it is.
+    /// An uncompressed bag file.
     Plain(Storage),
-    /// A packed file; what is in it shows when it is unpacked.
+    /// A compressed file; its content is known only after decompression.
     Packed(Packing),
 }
 
-/// The first bytes of a file, as far as they tell what it is.
+/// Recognizes a file by its first bytes.
 pub(crate) fn content(path: &Path) -> Result<Option<Content>, BagError> {
     let file = File::open(path).map_err(BagError::file(path))?;
     let mut start = Vec::new();
@@ -31,7 +31,7 @@ pub(crate) fn content(path: &Path) -> Result<Option<Content>, BagError> {
     Ok(known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, content)| *content))
 }
 
-/// The files of a folder that may be parts of a recording, in the order of their numbers.
+/// Files of a folder that may be parts of a bag, in the order of their numbers.
 pub(crate) fn bag_files(folder: &Path) -> Result<Vec<PathBuf>, BagError> {
     let entries = std::fs::read_dir(folder).map_err(BagError::file(folder))?;
     let mut files = Vec::new();

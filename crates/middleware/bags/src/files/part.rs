@@ -1,4 +1,4 @@
-//! One file of a recording.
+//! A file of a bag.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -11,15 +11,15 @@ use crate::files::sqlite::Database;
 use crate::files::temporary::Temporary;
 use crate::files::write::{Packing, Storage};
 
-/// What a file has, known without keeping it open.
+/// Content of a file, without keeping it open.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     pub(crate) path: PathBuf,
     pub(crate) storage: Storage,
-    /// How the whole file is packed.
+    /// Compression of the whole file.
     pub(crate) packing: Option<Packing>,
     pub(crate) topics: Vec<BagTopic>,
-    /// How many messages each topic has.
+    /// Number of messages of each topic.
     pub(crate) counts: Vec<u64>,
     pub(crate) span_ns: Option<(i64, i64)>,
     pub(crate) faults: Vec<String>,
@@ -29,7 +29,7 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// Looks into a file.
+    /// Reads the summary of a file.
     pub(crate) fn look(path: &Path) -> Result<Self, BagError> {
         let bytes = path.metadata().map_err(BagError::file(path))?.len();
         let (file, storage, packing) = plain(path)?;
@@ -42,7 +42,7 @@ impl Part {
         Ok(Self { packing, bytes, ..part })
     }
 
-    /// Opens it to read its messages.
+    /// Opens the file for reading messages.
     pub(crate) fn read(&self, selection: Selection) -> Result<Open, BagError> {
         let (file, storage, _) = plain(&self.path)?;
         let path = file.as_ref().map_or(&*self.path, Temporary::path);
@@ -57,7 +57,7 @@ impl Part {
     }
 }
 
-/// The file as it is or unpacked.
+/// Returns the file itself or a decompressed copy.
 fn plain(path: &Path) -> Result<(Option<Temporary>, Storage, Option<Packing>), BagError> {
     let strange = || {
         let why = "it is neither MCAP, nor a database of rosbag2, nor a bag of ROS 1".to_owned();
@@ -84,7 +84,7 @@ fn look(path: &Path, storage: Storage) -> Result<Part, BagError> {
     let mut reader = open(path)?;
     let mut counts = reader.counts().map(<[u64]>::to_vec);
     if counts.is_none() {
-        // Nobody wrote down how many there are.
+        // The file contains no counts.
         let mut counted = vec![0; reader.topics().len()];
         let mut messages = reader.messages(Selection::default());
         while let Some(message) = messages.next().map_err(BagError::read(path))? {
@@ -112,7 +112,7 @@ fn look(path: &Path, storage: Storage) -> Result<Part, BagError> {
 pub(crate) struct Open {
     path: PathBuf,
     source: Source,
-    /// What it was unpacked to.
+    /// Decompressed copy.
     _file: Option<Temporary>,
 }
 
@@ -130,7 +130,7 @@ impl Open {
         }
     }
 
-    /// The next message; its topic is one of this file's.
+    /// Returns the next message; its topic is an index of this file.
     pub(crate) fn next(&mut self) -> Result<Option<Message<'_>>, BagError> {
         match &mut self.source {
             Source::Stream(messages) => messages.next().map_err(BagError::read(&self.path)),
@@ -138,7 +138,7 @@ impl Open {
         }
     }
 
-    /// What turned out to be damaged.
+    /// Damage found so far.
     pub(crate) fn faults(&self) -> Vec<String> {
         match &self.source {
             Source::Stream(messages) => {

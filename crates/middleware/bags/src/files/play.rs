@@ -1,4 +1,4 @@
-//! A recording played on a graph.
+//! Playback of a bag on a graph.
 
 mod ahead;
 
@@ -14,27 +14,27 @@ use crate::files::profile::offer;
 use crate::files::{Bag, BagError};
 use ahead::Ahead;
 
-/// How a recording is played.
+/// Settings of playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaySettings {
-    /// Seconds of the recording per second.
+    /// Playback rate: seconds of the bag per second.
     pub rate: f64,
-    /// Whether it begins again at its end.
+    /// True to restart at the end.
     pub is_looped: bool,
-    /// Which topics and times, by the names and times in the recording.
+    /// Topics and times to play, by their names and times in the bag.
     pub selection: Selection,
-    /// Rules `from:=to` for the names of topics.
+    /// Remapping rules `from:=to` for topic names.
     pub remaps: Vec<String>,
-    /// How often `/clock` is told \[Hz of the recording's seconds\]; none for never.
+    /// Rate of `/clock` \[Hz in bag time\]; none for no clock.
     pub clock_hz: Option<f64>,
-    /// Whether it waits for [`Player::set_paused`].
+    /// True to start paused.
     pub is_paused: bool,
-    /// So many messages are read ahead, but not more than 256 MiB.
+    /// Maximum number of messages read ahead; at most 256 MiB.
     pub read_ahead: usize,
 }
 
 impl Default for PlaySettings {
-    /// All of it, once, at its own pace, without a clock.
+    /// The whole bag once, at rate 1, without a clock.
     fn default() -> Self {
         Self {
             rate: 1.0,
@@ -48,35 +48,36 @@ impl Default for PlaySettings {
     }
 }
 
-/// Plays a recording. It reads no clock: it is told the time and publishes what is due.
+/// Plays a bag. It reads no clock: the caller advances its time.
 pub struct Player {
     bag: Bag,
     settings: PlaySettings,
     node: Node,
-    /// By topic of the recording.
+    /// Conversion and publisher of each topic of the bag.
     outlets: Vec<Option<(Translation, RawPublisher)>>,
     clock: Option<(Publisher<Clock>, i64)>,
     ahead: Ahead,
-    /// Time of the caller and time of the recording that belong together \[ns\].
+    /// Corresponding caller time and bag time \[ns\].
     anchor: Option<(i64, i64)>,
     start_ns: i64,
-    /// Time of the recording \[ns\].
+    /// Current bag time \[ns\].
     now_ns: i64,
-    /// When the clock is told next, in times of the recording \[ns\].
+    /// Bag time of the next clock message \[ns\].
     tick_ns: i64,
     published: u64,
     findings: Diagnostics,
 }
 
 impl Player {
-    /// Makes the publishers of a recording's topics, as they were offered. Topics that cannot be
-    /// played are left out, and the findings say why.
+    /// Creates the publishers of the topics with their recorded QoS. Topics that cannot be played
+    /// are skipped with a finding.
     ///
     /// # Errors
-    /// When a name or rule is not valid, a topic has another type already, or the rate is none.
+    /// When a name or rule is not valid, a topic has another type already, or the rate is
+    /// not positive.
     pub fn new(bag: Bag, graph: &Graph, settings: PlaySettings) -> Result<Self, BagError> {
         if !(settings.rate.is_finite() && settings.rate > 0.0) {
-            let why = format!("{} is no rate: it has to be above 0", settings.rate);
+            let why = format!("the rate {} is not valid: it must be above 0", settings.rate);
             return Err(BagError::Settings(why));
         }
         if settings.clock_hz.is_some_and(|hz| !(hz.is_finite() && hz > 0.0 && hz <= 1e6)) {
@@ -93,10 +94,10 @@ impl Player {
         for topic in bag.topics() {
             let wanted = selection.topics.as_ref().is_none_or(|names| names.contains(&topic.name));
             if wanted && settings.clock_hz.is_some() && topic.name == "/clock" {
-                let wrong = "the recording has a `/clock` of its own, which is not played";
+                let wrong = "the bag has its own `/clock`, which is not played";
                 findings.push(
                     Diagnostic::warning("two-clocks", wrong)
-                        .help("leave out --clock to play the one of the recording"),
+                        .help("omit --clock to play the one of the bag"),
                 );
                 outlets.push(None);
                 continue;
@@ -138,12 +139,11 @@ impl Player {
         })
     }
 
-    /// Publishes what is due at a time of the caller \[ns\]; the first call begins. Returns when there
-    /// is something to do again, on the same clock: never while it is paused, as far as it knows
-    /// (`i64::MAX`); none when it has come to its end.
+    /// Publishes what is due at a caller time \[ns\]; the first call starts playback. Returns the
+    /// caller time of the next call: `i64::MAX` while paused, none at the end.
     ///
     /// # Errors
-    /// When the recording cannot be read on.
+    /// When the bag becomes unreadable.
     pub fn advance_to(&mut self, wall_ns: i64) -> Result<Option<i64>, BagError> {
         if self.settings.is_paused {
             self.anchor = None;
@@ -187,11 +187,11 @@ impl Player {
 
     fn wall_time(&self, (wall_ns, bag_ns): (i64, i64), time_ns: i64) -> i64 {
         let ahead = time_ns.saturating_sub(bag_ns) as f64 / self.settings.rate;
-        // Rounded up: a moment too early would find nothing due.
+        // Rounded up: at an earlier time nothing would be due.
         wall_ns.saturating_add(ahead.ceil() as i64)
     }
 
-    /// Tells the clock.
+    /// Publishes the clock.
     fn tick(&mut self) {
         let Some((publisher, period_ns)) = &self.clock else { return };
         publisher.publish(Clock { clock: Time::of_ns(self.tick_ns) });
@@ -224,25 +224,25 @@ impl Player {
     /// Publishes the next message at once, also while paused. False at the end.
     ///
     /// # Errors
-    /// When the recording cannot be read on.
+    /// When the bag becomes unreadable.
     pub fn step(&mut self) -> Result<bool, BagError> {
         self.anchor = None;
         self.publish()
     }
 
-    /// Stops or goes on.
+    /// Pauses or resumes.
     pub fn set_paused(&mut self, is_paused: bool) {
         self.settings.is_paused = is_paused;
         self.anchor = None;
     }
 
-    /// Whether it stands still.
+    /// True while paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.settings.is_paused
     }
 
-    /// Goes on at another rate; one that is no number above 0 changes nothing.
+    /// Changes the rate; invalid rates are ignored.
     pub fn set_rate(&mut self, rate: f64) {
         if rate.is_finite() && rate > 0.0 {
             self.settings.rate = rate;
@@ -250,37 +250,37 @@ impl Player {
         }
     }
 
-    /// Seconds of the recording per second.
+    /// Playback rate.
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.settings.rate
     }
 
-    /// How far it is, as time of the recording \[ns\].
+    /// Current bag time \[ns\].
     #[must_use]
     pub fn now_ns(&self) -> i64 {
         self.now_ns
     }
 
-    /// How many messages it published.
+    /// Number of messages published.
     #[must_use]
     pub fn published(&self) -> u64 {
         self.published
     }
 
-    /// The recording.
+    /// The bag.
     #[must_use]
     pub fn bag(&self) -> &Bag {
         &self.bag
     }
 
-    /// Its node.
+    /// The player's node.
     #[must_use]
     pub fn node(&self) -> &Node {
         &self.node
     }
 
-    /// What was wrong since the last call.
+    /// Returns the findings since the last call.
     pub fn take_findings(&mut self) -> Diagnostics {
         std::mem::take(&mut self.findings)
     }

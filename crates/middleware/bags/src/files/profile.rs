@@ -1,10 +1,10 @@
-//! What bags and graphs call quality of service, from the one to the other.
+//! Conversion of QoS between bags and graphs.
 
 use crate as bags;
 use crate::{BagTopic, QosProfile, TopicInfo};
 use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
 
-/// What `metadata.yaml` says of a topic.
+/// Metadata of a topic.
 pub(crate) fn topic_info(topic: &BagTopic) -> TopicInfo {
     let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
     TopicInfo {
@@ -17,8 +17,8 @@ pub(crate) fn topic_info(topic: &BagTopic) -> TopicInfo {
     }
 }
 
-/// The profile of a publisher. A depth of 0 is one that it does not announce: programs of DDS need
-/// not, and rosbag2 writes `unknown` for these.
+/// QoS profile of a publisher. A depth of 0 is unknown: DDS does not require announcing it, and
+/// rosbag2 writes `unknown`.
 pub(crate) fn profile(qos: &Qos) -> QosProfile {
     let span = |ns: Option<i64>| ns.and_then(|ns| u64::try_from(ns).ok());
     QosProfile {
@@ -46,9 +46,9 @@ pub(crate) fn profile(qos: &Qos) -> QosProfile {
     }
 }
 
-/// What a player offers on a topic that was offered like this: reliable when all were, and latched
-/// when all were, so that whoever could listen then can listen now. Deadlines and lifespans belong to
-/// the time of the recording.
+/// QoS of a player's publisher from the recorded ones: reliable if all were, and transient local if
+/// all were, so that every original subscriber is compatible. Deadlines and lifespans are not
+/// applied.
 pub(crate) fn offer(profiles: &[QosProfile]) -> Qos {
     let reliable = |one: &QosProfile| one.reliability != bags::Reliability::BestEffort;
     let latched = |one: &QosProfile| one.durability == bags::Durability::TransientLocal;

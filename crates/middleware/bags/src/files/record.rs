@@ -1,4 +1,4 @@
-//! A graph recorded.
+//! Recording of a graph.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,52 +12,52 @@ use periplus_msgs::TypeRegistry;
 use crate::files::profile::profile;
 use crate::files::{BagError, BagWriter, Storage, WriteSettings};
 
-/// Which topics are recorded.
+/// Filter of topics to record.
 pub type Wanted = Box<dyn Fn(&TopicInfo) -> bool + Send + Sync>;
 
-/// What is recorded, and how.
+/// Settings of a recorder.
 pub struct RecordSettings {
-    /// How it is written.
+    /// Settings of the bag.
     pub write: WriteSettings,
-    /// Which topics.
+    /// Topics to record.
     pub wanted: Wanted,
-    /// How many messages may wait in live while the disk is busy.
+    /// Queue depth in live mode, while the disk is busy.
     pub depth: usize,
-    /// Tells the time at which a message is recorded \[ns\]; none for that of the graph.
+    /// Clock for the time of recording \[ns\]; none for the time of the graph.
     pub clock: Option<Now>,
-    /// QoS of the publishers of a topic by its full name; none for those that the graph has. A
-    /// recorder of other programs knows these from discovery: what stands for them in the graph keeps
-    /// as many messages as the recorder asked for.
+    /// QoS of the publishers of a topic by its full name; none to use those of the graph. A
+    /// recorder of remote topics knows them from discovery; the publishers that represent them in
+    /// the graph have the depth that the recorder requested.
     pub offered: Option<Offered>,
 }
 
-/// Tells the time \[ns\].
+/// Returns the time \[ns\].
 pub type Now = Box<dyn Fn() -> i64 + Send + Sync>;
 
-/// QoS of the publishers of a topic. A depth of 0 is one that they do not announce.
+/// Returns the QoS of the publishers of a topic. A depth of 0 is unknown.
 pub type Offered = Box<dyn Fn(&str) -> Vec<Qos> + Send + Sync>;
 
 impl RecordSettings {
-    /// All topics.
+    /// Records all topics.
     #[must_use]
     pub fn all(write: WriteSettings) -> Self {
         Self { write, wanted: Box::new(|_| true), depth: 10_000, clock: None, offered: None }
     }
 }
 
-/// Writes what is published on a graph to a recording, at the times of the graph.
+/// Records the topics of a graph, with the times of the graph.
 pub struct Recorder {
     graph: Graph,
     tap: TapId,
     shared: Arc<Shared>,
 }
 
-/// What was recorded.
+/// Result of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recording {
-    /// What is in it.
+    /// Content of the bag.
     pub info: BagInfo,
-    /// How many messages came too fast for the disk.
+    /// Number of messages lost because the disk was too slow.
     pub dropped: u64,
 }
 
@@ -67,28 +67,28 @@ struct Shared {
 }
 
 struct State {
-    /// None once it has ended or failed.
+    /// None after the end or a failure.
     writer: Option<BagWriter>,
-    /// None for those that cannot be recorded.
+    /// None for topics that cannot be recorded.
     topics: BTreeMap<String, Option<Way>>,
     failure: Option<BagError>,
     messages: u64,
 }
 
-/// How the messages of a topic are written.
+/// A recorded topic.
 struct Way {
     id: usize,
-    /// For bags of ROS 1.
+    /// Conversion, for ROS 1 bags.
     translation: Translation,
 }
 
 struct BagSink(Arc<Shared>);
 
 impl Recorder {
-    /// Begins a recording; see [`BagWriter::create`].
+    /// Starts a recording; see [`BagWriter::create`].
     ///
     /// # Errors
-    /// When it cannot be made.
+    /// When it cannot be created.
     pub fn start(
         graph: &Graph,
         path: impl AsRef<Path>,
@@ -106,11 +106,11 @@ impl Recorder {
         Ok(Self { graph: graph.clone(), tap, shared })
     }
 
-    /// Puts on the disk what has waited for a second, by the clock of the graph. To be called from
-    /// time to time, for topics that fell silent.
+    /// Writes messages older than a second to disk, by the clock of the graph. Call it
+    /// periodically, for topics that have stopped.
     ///
     /// # Errors
-    /// When a message could not be kept; nothing more is recorded then.
+    /// When a message could not be written; the recording has stopped then.
     pub fn keep(&self) -> Result<(), BagError> {
         let settings = &self.shared.settings;
         let now_ns = settings.clock.as_ref().map_or_else(|| self.graph.now_ns(), |now| now());
@@ -121,7 +121,7 @@ impl Recorder {
         state.failure.take().map_or(Ok(()), Err)
     }
 
-    /// How many messages were recorded.
+    /// Number of messages recorded.
     #[must_use]
     pub fn messages(&self) -> u64 {
         self.shared.lock().messages
@@ -130,7 +130,7 @@ impl Recorder {
     /// Ends the recording.
     ///
     /// # Errors
-    /// When a message could not be kept, or the end cannot be written.
+    /// When a message could not be written, or the file cannot be completed.
     pub fn finish(self) -> Result<Recording, BagError> {
         let dropped = self.graph.tap_dropped(self.tap);
         self.graph.untap(self.tap);
@@ -172,7 +172,7 @@ impl Sink for BagSink {
 }
 
 impl State {
-    /// After a failure nothing more is taken; it is told at the end.
+    /// Stops recording after a failure, which [`Recorder::finish`] returns.
     fn fail(&mut self, error: BagError) {
         self.failure.get_or_insert(error);
         self.writer = None;
@@ -191,7 +191,7 @@ impl State {
             self.topics.insert(topic.name.clone(), way);
         }
         let Some(Some(way)) = self.topics.get_mut(&topic.name) else { return Ok(()) };
-        // A message that no wire could send is none for a recording either.
+        // A message that cannot be encoded is not recorded.
         let Ok(bytes) = sample.cdr() else { return Ok(()) };
         let Ok(data) = way.translation.translate(bytes) else { return Ok(()) };
         writer.write(way.id, Stamp::at(time_ns), data)?;
@@ -219,7 +219,7 @@ fn way(
     Ok(Some(Way { id, translation }))
 }
 
-/// A topic of a graph as recordings have it.
+/// A topic of a graph in the form of a bag.
 fn describe(topic: &TopicInfo, offered: &[Qos]) -> BagTopic {
     let types = TypeRegistry::builtin();
     let text = types.schema_text(&topic.type_name).unwrap_or_default();

@@ -1,7 +1,7 @@
-//! Databases of rosbag2.
+//! rosbag2 databases (sqlite3).
 //!
-//! Tables and their versions after `rosbag2_storage_sqlite3`: 1 (Foxy: no profiles), 2 (Galactic), 3
-//! (Humble and Iron: a table `schema`), 4 (Jazzy: texts and hashes of types).
+//! Schema versions of `rosbag2_storage_sqlite3`: 1 (Foxy: no QoS profiles), 2 (Galactic), 3 (Humble
+//! and Iron: a table `schema`), 4 (Jazzy: type definitions and hashes).
 
 mod read;
 mod rescue;

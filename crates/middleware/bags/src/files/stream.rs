@@ -1,4 +1,4 @@
-//! Messages of many files in the order of their times.
+//! Messages of several files in the order of time.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,20 +10,19 @@ use crate::files::bag::TopicIndex;
 use crate::files::message_packing::{packing_of, unpack};
 use crate::files::part::{Open, Part};
 
-/// One message of a recording; its topic is one of [`crate::files::Bag::topics`].
+/// A message of a bag; its topic is an index into [`crate::files::Bag::topics`].
 pub type BagMessage<'a> = Message<'a>;
 
-/// The messages of a recording, in the order of their times; those of one time in the order of the
-/// files.
+/// Messages of a bag in the order of time; those of equal time in the order of the files.
 pub struct BagMessages {
     selection: Selection,
     topics: TopicIndex,
     /// Files that are not open yet, the earliest last.
     waiting: Vec<(usize, Part)>,
     open: Vec<Option<Input>>,
-    /// Time of the next message of each open file, and which file.
+    /// Time of the next message of each open file, and the index of the file.
     heads: BinaryHeap<Reverse<(i64, usize)>>,
-    /// The file of the message that was given last.
+    /// The file of the last message returned.
     given: Option<usize>,
     unpacked: Vec<u8>,
     faults: Vec<String>,
@@ -31,9 +30,9 @@ pub struct BagMessages {
 
 struct Input {
     open: Open,
-    /// Which topic of the recording a topic of the file is.
+    /// Topic index in the bag of each topic of the file.
     topics: Vec<usize>,
-    /// Whether its messages may be packed: those of ROS 2 begin with zero.
+    /// True if messages may be compressed: uncompressed ROS 2 messages start with zero.
     is_cdr: Vec<bool>,
 }
 
@@ -60,7 +59,7 @@ impl BagMessages {
         }
     }
 
-    /// Opens all files that may hold the next message.
+    /// Opens all files that may contain the next message.
     fn fill(&mut self) -> Result<(), BagError> {
         if let Some(number) = self.given.take() {
             self.ahead(number)?;
@@ -83,7 +82,7 @@ impl BagMessages {
         Ok(())
     }
 
-    /// Looks at the next message of a file; closes it when there is none.
+    /// Peeks at the next message of a file; closes the file at its end.
     fn ahead(&mut self, number: usize) -> Result<(), BagError> {
         let Some(input) = &mut self.open[number] else { return Ok(()) };
         match input.open.peek_ns()? {
@@ -105,10 +104,10 @@ impl BagMessages {
         Ok(self.heads.peek().map(|Reverse((time_ns, _))| *time_ns))
     }
 
-    /// The next message. What is damaged is left out and told by [`BagMessages::faults`].
+    /// Returns the next message. Damaged parts are skipped and reported by [`BagMessages::faults`].
     ///
     /// # Errors
-    /// When a file cannot be read on.
+    /// When a file becomes unreadable.
     #[expect(clippy::should_implement_trait, reason = "a message borrows from its file")]
     pub fn next(&mut self) -> Result<Option<BagMessage<'_>>, BagError> {
         self.fill()?;
@@ -122,15 +121,15 @@ impl BagMessages {
         {
             match unpack(packing, data, &mut self.unpacked) {
                 Ok(()) => data = &self.unpacked,
-                // It stays as it is, and whoever decodes it will say so too.
-                Err(why) => self.faults.push(format!("a message cannot be unpacked: {why}")),
+                // The message is returned as it is; decoding it fails, too.
+                Err(why) => self.faults.push(format!("a message cannot be decompressed: {why}")),
             }
         }
         let topic = topics.get(message.topic).copied().unwrap_or_default();
         Ok(Some(Message { topic, data, ..message }))
     }
 
-    /// What was damaged in the files that were read so far.
+    /// Damage found in the files so far.
     #[must_use]
     pub fn faults(&self) -> &[String] {
         &self.faults
@@ -138,6 +137,6 @@ impl BagMessages {
 }
 
 fn start_ns(part: &Part) -> i64 {
-    // A file whose times nobody knows is opened at once.
+    // A file with unknown times is opened at once.
     part.span_ns.map_or(i64::MIN, |(start, _)| start)
 }

@@ -1,4 +1,4 @@
-//! Files that are gone when nobody needs them any more.
+//! Temporary files, removed when they are dropped.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Read, Write};
@@ -8,18 +8,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use crate::files::BagError;
 use crate::files::write::Packing;
 
-/// Limit of what a packed file may unpack to \[bytes\]: larger recordings are split by those who write them,
-/// and a few kilobytes of Zstandard may unpack to any size.
+/// Maximum size of a decompressed file \[bytes\]: recorders split larger bags, and a few kilobytes
+/// of Zstandard may decompress to any size.
 const UNPACKED_MAX_BYTES: u64 = 64 << 30;
 
-/// Limit of what a packed file may unpack to, as a multiple of its own size. Pictures without noise pack to a
-/// thousandth.
+/// Maximum compression ratio of a file. Images without noise compress to a thousandth.
 const UNPACKED_MAX_RATIO: u64 = 4_000;
 
-/// Size from which on [`UNPACKED_MAX_RATIO`] holds \[bytes\].
+/// Size from which [`UNPACKED_MAX_RATIO`] applies \[bytes\].
 const UNPACKED_SMALL_BYTES: u64 = 256 << 20;
 
-/// A file unpacked beside others of its kind, removed when dropped.
+/// A decompressed temporary file, removed when dropped.
 #[derive(Debug)]
 pub(crate) struct Temporary {
     path: PathBuf,
@@ -30,7 +29,7 @@ impl Temporary {
         &self.path
     }
 
-    /// Unpacks a file to the folder for temporary files.
+    /// Decompresses a file to the folder for temporary files.
     pub(crate) fn unpack(packed: &Path, packing: Packing) -> Result<Self, BagError> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
@@ -50,7 +49,7 @@ impl Temporary {
         let packed_bytes = fs::metadata(packed).map_err(BagError::file(packed))?.len();
         let limit = limit_bytes(packed_bytes);
         let mut written = 0_u64;
-        // Of a file that is cut as much as comes out: its reader knows what to do with it.
+        // A truncated file is decompressed as far as possible; its reader handles the rest.
         let mut buffer = vec![0; 1 << 20];
         loop {
             match unpacked.read(&mut buffer) {
@@ -59,8 +58,8 @@ impl Temporary {
                     written += count as u64;
                     if written > limit {
                         let why = format!(
-                            "its {packed_bytes} bytes unpack to more than {limit}, the limit for a file of \
-                             this size; unpack it yourself (`zstd -d`, `lz4 -d`) if that is what it holds"
+                            "its {packed_bytes} bytes decompress to more than {limit}, the limit for a file of \
+                             this size; decompress it yourself (`zstd -d`, `lz4 -d`) if that is intended"
                         );
                         return Err(BagError::Unpack(packed.to_owned(), why));
                     }
@@ -74,7 +73,7 @@ impl Temporary {
     }
 }
 
-/// Limit of what a packed file may unpack to \[bytes\].
+/// Maximum size of a decompressed file \[bytes\].
 fn limit_bytes(packed_bytes: u64) -> u64 {
     let by_ratio = packed_bytes.saturating_mul(UNPACKED_MAX_RATIO);
     by_ratio.clamp(UNPACKED_SMALL_BYTES, UNPACKED_MAX_BYTES)
@@ -82,7 +81,7 @@ fn limit_bytes(packed_bytes: u64) -> u64 {
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        // Nobody can do more about it here.
+        // A failure cannot be handled here.
         let _ = fs::remove_file(&self.path);
     }
 }
@@ -91,7 +90,8 @@ impl Drop for Temporary {
 mod tests {
     use super::*;
 
-    /// Zeros pack to almost nothing: the disk would be filled by a file of some kilobytes.
+    /// Regression test: zeros compress to almost nothing, so that a file of some kilobytes filled
+    /// the disk.
     #[test]
     fn a_file_that_unpacks_to_far_more_than_it_holds_is_refused() {
         let name = format!("periplus-bag-test-{}.zst", std::process::id());
@@ -106,7 +106,7 @@ mod tests {
         fs::write(&path, packed).unwrap();
         let told = Temporary::unpack(&path, Packing::Zstd).map(|_| ()).unwrap_err().to_string();
         let _ = fs::remove_file(&path);
-        assert!(told.contains("unpack to more than 268435456"), "{told}");
+        assert!(told.contains("decompress to more than 268435456"), "{told}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Writing recordings: a file or a folder, split, packed, safe against the end of the program.
+//! Writing of bags: a file or a folder, split, compressed, safe against crashes.
 
 mod file;
 mod settings;
@@ -16,34 +16,34 @@ use file::FileWriter;
 
 pub use settings::{ChunkPacking, Packing, PackingMode, Storage, WriteSettings};
 
-/// Writes a recording of one file or many.
+/// Writes a bag of one or more files.
 ///
-/// Everything that is a second old is on the disk whenever the program ends. In a folder,
-/// `metadata.yaml` names every file from its beginning, so that others find them all after a crash.
+/// Messages older than a second survive a crash at any time. In a folder, `metadata.yaml` lists
+/// every file from its start, so that other programs find all of them after a crash.
 pub struct BagWriter {
-    /// The folder with its `metadata.yaml`; none for single files.
+    /// Folder with `metadata.yaml`; none for single files.
     folder: Option<PathBuf>,
-    /// Folder and name of the files, without number and ending.
+    /// Path of the files without number and extension.
     stem: PathBuf,
     settings: WriteSettings,
     file: Option<FileWriter>,
     path: PathBuf,
     topics: Vec<(BagTopic, TopicInfo)>,
     index: TopicIndex,
-    /// What a topic is called in the open file.
+    /// Topic ids in the open file.
     ids: Vec<usize>,
     files: Vec<FileInfo>,
-    /// Of the open file.
+    /// Description of the open file.
     current: FileInfo,
     packed: Vec<u8>,
 }
 
 impl BagWriter {
-    /// Begins a recording: a single file when the path ends in `.mcap`, `.db3` or `.bag`, otherwise
-    /// a folder as `ros2 bag` makes it; bags of ROS 1 are always files.
+    /// Creates a bag: a single file if the path ends in `.mcap`, `.db3` or `.bag`, otherwise a
+    /// `ros2 bag` folder; ROS 1 bags are always files.
     ///
     /// # Errors
-    /// When it is there already, cannot be made, or the settings contradict each other.
+    /// When it exists already, cannot be created, or the settings are contradictory.
     pub fn create(path: impl AsRef<Path>, settings: WriteSettings) -> Result<Self, BagError> {
         let path = path.as_ref();
         settings.check(path)?;
@@ -95,7 +95,7 @@ impl BagWriter {
         self.put_metadata()
     }
 
-    /// Closes the open file and packs it.
+    /// Closes the open file and compresses it.
     fn close_file(&mut self) -> Result<(), BagError> {
         let Some(file) = self.file.take() else { return Ok(()) };
         file.finish(&self.stored())?;
@@ -108,10 +108,10 @@ impl BagWriter {
         Ok(())
     }
 
-    /// Adds a topic; one that is there with the same type is the same.
+    /// Adds a topic; a topic of the same name and type is reused.
     ///
     /// # Errors
-    /// When the recording cannot hold it.
+    /// When the bag cannot store it.
     pub fn topic(&mut self, topic: &BagTopic) -> Result<usize, BagError> {
         if let Some(at) = self.index.find(topic) {
             return Ok(at);
@@ -123,10 +123,10 @@ impl BagWriter {
         Ok(self.index.add(topic))
     }
 
-    /// Records a message of a topic.
+    /// Writes a message.
     ///
     /// # Errors
-    /// When the recording cannot hold it, or the disk does not take it.
+    /// When the bag cannot store it, or writing to disk fails.
     pub fn write(&mut self, topic: usize, stamp: Stamp, data: &[u8]) -> Result<(), BagError> {
         if self.is_full(stamp.log_ns) {
             self.close_file()?;
@@ -156,7 +156,7 @@ impl BagWriter {
         Ok(())
     }
 
-    /// Whether the open file may not take a message of this time.
+    /// True if a message of this time needs a new file.
     fn is_full(&self, time_ns: i64) -> bool {
         let is_long = |span_ns: i64| {
             self.current.span_ns.is_some_and(|(start, _)| time_ns.saturating_sub(start) >= span_ns)
@@ -167,33 +167,33 @@ impl BagWriter {
                 || self.settings.max_bytes.is_some_and(|most| bytes >= most))
     }
 
-    /// Says that nothing older than this will come: what has waited for a second goes to the disk.
+    /// Declares that no older messages follow: messages older than a second are written to disk.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// When writing to disk fails.
     pub fn advance_to(&mut self, time_ns: i64) -> Result<(), BagError> {
         self.file.as_mut().map_or(Ok(()), |file| file.advance_to(time_ns))
     }
 
-    /// Puts all on the disk.
+    /// Writes everything to disk.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// When writing to disk fails.
     pub fn flush(&mut self) -> Result<(), BagError> {
         self.file.as_mut().map_or(Ok(()), FileWriter::flush)
     }
 
-    /// Ends the recording. Returns what is in it.
+    /// Completes the bag. Returns its content.
     ///
     /// # Errors
-    /// When the disk does not take it.
+    /// When writing to disk fails.
     pub fn finish(mut self) -> Result<BagInfo, BagError> {
         self.close_file()?;
         self.put_metadata()?;
         Ok(self.info())
     }
 
-    /// What is in it so far.
+    /// Content so far.
     fn info(&self) -> BagInfo {
         let mut files = self.files.clone();
         if self.file.is_some() {
@@ -213,7 +213,7 @@ impl BagWriter {
         }
     }
 
-    /// Writes `metadata.yaml` in one step: it is always whole.
+    /// Replaces `metadata.yaml` atomically.
     fn put_metadata(&self) -> Result<(), BagError> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let text = self.info().to_yaml_for(self.settings.style, &self.stored());
@@ -223,7 +223,7 @@ impl BagWriter {
     }
 }
 
-/// Packs a whole file and takes the plain one away.
+/// Compresses a file and removes the original.
 fn pack_file(path: &Path, packing: Packing) -> Result<PathBuf, BagError> {
     let mut name = path.as_os_str().to_os_string();
     name.push(format!(".{}", packing.name()));

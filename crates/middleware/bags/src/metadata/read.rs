@@ -1,4 +1,4 @@
-//! `metadata.yaml` as rosbag2 wrote it, of any version.
+//! Parser for `metadata.yaml` of any version.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 use periplus_yaml::Node;
@@ -6,22 +6,22 @@ use periplus_yaml::Node;
 use super::{BagInfo, FileInfo, TopicInfo};
 use crate::qos;
 
-/// What `metadata.yaml` says.
+/// Content of `metadata.yaml`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Metadata {
-    /// Its version.
+    /// Version.
     pub version: i64,
-    /// How the files are stored: `mcap` or `sqlite3`.
+    /// Storage of the files: `mcap` or `sqlite3`.
     pub storage: String,
-    /// How whole files or messages are packed once more, such as `zstd`; mostly empty.
+    /// Compression format on top of the storage, such as `zstd`; usually empty.
     pub compression: String,
-    /// What is packed that way: `FILE`, `MESSAGE`; mostly empty.
+    /// Compression mode: `FILE`, `MESSAGE`; usually empty.
     pub compression_mode: String,
-    /// What is in the recording.
+    /// Content of the bag.
     pub info: BagInfo,
 }
 
-/// Reads `metadata.yaml`. None, with findings, when it does not name the files.
+/// Parses `metadata.yaml`. None, with findings, if it lists no files.
 pub fn read_metadata(
     file: FileId,
     sources: &SourceMap,
@@ -37,9 +37,9 @@ pub fn read_metadata(
     let bag = node.as_ref().and_then(|node| node.get("rosbag2_bagfile_information"));
     let paths = bag.and_then(|bag| bag.get("relative_file_paths")).and_then(Node::list);
     let (Some(bag), Some(paths)) = (bag, paths) else {
-        let wrong = "this is no metadata of a recording: it names no files";
+        let wrong = "this is not the metadata of a bag: it lists no files";
         let at = bag.map_or_else(|| sources.whole(file), |bag| bag.span);
-        let help = "`ros2 bag reindex` makes it anew; or name the .mcap file itself";
+        let help = "`ros2 bag reindex` recreates it; or open the .mcap file itself";
         diagnostics.push(Diagnostic::error("bad-metadata", wrong).at(at).help(help));
         return None;
     };
@@ -84,7 +84,7 @@ fn file_info(path: String, about: &[Node]) -> FileInfo {
 
 fn topic_info(node: &Node) -> TopicInfo {
     let about = node.get("topic_metadata").unwrap_or(node);
-    // A list since version 9, a text with a list in it before.
+    // A list since version 9, a string with YAML inside before.
     let profiles = about.get("offered_qos_profiles");
     let qos = match profiles.and_then(Node::text) {
         Some(text) => qos::from_text(text),

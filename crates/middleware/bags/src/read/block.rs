@@ -1,4 +1,4 @@
-//! A piece of a file that is read at one time: a chunk, or messages that stand in none.
+//! Blocks, the units of reading: a chunk, or messages outside of chunks.
 
 use std::collections::BTreeSet;
 use std::io::{self, Read, Seek};
@@ -8,37 +8,37 @@ use crate::compression::{Compression, unpack, unpack_some};
 use crate::record::{ChunkHead, Cursor, MessageHead, PREFIX, op};
 use crate::ros1;
 
-/// Where a piece is and what is in it.
+/// Location and content of a block.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     pub(crate) offset: u64,
     pub(crate) stored: u64,
     pub(crate) start: u64,
     pub(crate) end: u64,
-    /// Its length when it is unpacked.
+    /// Length after decompression \[bytes\].
     pub(crate) length: u64,
     pub(crate) kind: Kind,
-    /// Its channels; none when nobody knows.
+    /// Channels of the block; none if unknown.
     pub(crate) channels: Option<BTreeSet<u32>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// A whole chunk.
+    /// A complete chunk.
     Chunk,
-    /// A chunk that the end of the file cuts.
+    /// A chunk truncated by the end of the file.
     CutChunk,
-    /// Records that stand in no chunk.
+    /// Records outside of chunks.
     Plain,
-    /// A chunk of a ROS 1 bag, whole or cut.
+    /// A chunk of a ROS 1 bag, complete or truncated.
     Ros1 {
-        /// Whether the end of the file cuts it.
+        /// True if the end of the file truncates it.
         is_cut: bool,
     },
 }
 
 impl Block {
-    /// The records, unpacked and held against their sum.
+    /// Reads and decompresses the records and verifies their checksum.
     pub(super) fn load<R: Read + Seek>(
         &self,
         source: &mut Source<R>,
@@ -51,15 +51,16 @@ impl Block {
             Kind::Chunk | Kind::CutChunk => {}
         }
         let content = stored.get(PREFIX..).unwrap_or_default();
-        let (head, packed) = ChunkHead::parse(content).ok_or_else(|| wrong("a chunk is cut"))?;
+        let (head, packed) =
+            ChunkHead::parse(content).ok_or_else(|| wrong("a chunk is truncated"))?;
         unpack_chunk(&head, packed, self.kind == Kind::CutChunk, most)
     }
 }
 
-/// One message among records.
+/// A message among records.
 #[derive(Clone, Copy)]
 pub(crate) struct Entry<'a> {
-    /// Where its record begins.
+    /// Start of its record.
     pub(crate) at: usize,
     pub(crate) channel: u32,
     pub(crate) sequence: u32,
@@ -69,7 +70,7 @@ pub(crate) struct Entry<'a> {
 }
 
 impl Kind {
-    /// The complete messages among records of this kind, from a place on.
+    /// Iterates over the complete messages among records of this kind, from an offset.
     pub(crate) fn messages(self, records: &[u8], from: usize) -> impl Iterator<Item = Entry<'_>> {
         let mut at = from;
         std::iter::from_fn(move || match self {
@@ -111,7 +112,7 @@ fn wrong(message: impl Into<String>) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message.into())
 }
 
-/// The records of a chunk; of one that is cut as many bytes as come out.
+/// Decompresses the records of a chunk; of a truncated one as many bytes as possible.
 pub(super) fn unpack_chunk(
     head: &ChunkHead,
     packed: &[u8],
@@ -119,10 +120,10 @@ pub(super) fn unpack_chunk(
     most: u64,
 ) -> io::Result<Vec<u8>> {
     let compression = Compression::from_name(&head.compression)
-        .ok_or_else(|| wrong(format!("`{}` is no known compression", head.compression)))?;
+        .ok_or_else(|| wrong(format!("`{}` is not a known compression", head.compression)))?;
     if head.length > most {
         return Err(wrong(format!(
-            "a chunk announces {} bytes, more than the {most} that are read",
+            "a chunk declares {} bytes, more than the limit of {most}",
             head.length
         )));
     }
@@ -131,7 +132,7 @@ pub(super) fn unpack_chunk(
     }
     let records = unpack(compression, packed, head.length)?;
     if head.crc != 0 && crc32fast::hash(&records) != head.crc {
-        return Err(wrong("the sum over a chunk is wrong"));
+        return Err(wrong("the checksum of a chunk is wrong"));
     }
     Ok(records)
 }

@@ -1,4 +1,4 @@
-//! Messages in the order of their times.
+//! Iteration over messages in the order of time.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -8,17 +8,17 @@ use std::ops::RangeInclusive;
 use super::block::{Block, Kind};
 use super::{ReadError, Reader, fault, signed};
 
-/// Which messages.
+/// Filter for messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
-    /// Names of topics; none are all.
+    /// Topic names; none for all.
     pub topics: Option<BTreeSet<String>>,
-    /// From when to when, by log time \[ns\].
+    /// Range of log times \[ns\].
     pub span_ns: RangeInclusive<i64>,
 }
 
 impl Default for Selection {
-    /// All.
+    /// All messages.
     fn default() -> Self {
         Self { topics: None, span_ns: i64::MIN..=i64::MAX }
     }
@@ -32,29 +32,29 @@ impl Selection {
     }
 }
 
-/// One message of a file.
+/// A message of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Message<'a> {
-    /// Which of the [topics](Reader::topics).
+    /// Index into the [topics](Reader::topics).
     pub topic: usize,
-    /// Its number among the messages of its publisher.
+    /// Sequence number of its publisher.
     pub sequence: u32,
-    /// When it was recorded \[ns\].
+    /// Time of recording \[ns\].
     pub log_ns: i64,
-    /// When it was sent \[ns\].
+    /// Time of publication \[ns\].
     pub publish_ns: i64,
-    /// Its bytes.
+    /// Serialized message.
     pub data: &'a [u8],
 }
 
-/// A piece that is unpacked: its selected messages, the next one last.
+/// A decompressed block: its selected messages, the next one last.
 struct Open {
     kind: Kind,
     records: Vec<u8>,
     ahead: Vec<(u64, usize)>,
 }
 
-/// Messages of a [`Reader`], in the order of their times.
+/// Messages of a [`Reader`] in the order of time.
 pub struct Messages<'r, R> {
     reader: &'r mut Reader<R>,
     walk: Walk,
@@ -66,17 +66,18 @@ impl<'r, R: Read + Seek> Messages<'r, R> {
         Self { reader, walk }
     }
 
-    /// The next message. A damaged piece is left out and becomes a [fault](Reader::faults).
+    /// Returns the next message. A damaged block is skipped and becomes a [fault](Reader::faults).
     ///
     /// # Errors
-    /// When the source fails, or too many pieces would have to be unpacked at one time.
+    /// When the source fails, or too many blocks would have to be decompressed at one
+    /// time.
     #[expect(clippy::should_implement_trait, reason = "a message borrows from its chunk")]
     pub fn next(&mut self) -> Result<Option<Message<'_>>, ReadError> {
         self.walk.next(self.reader)
     }
 }
 
-/// As [`Messages`], with a reader of its own.
+/// Same as [`Messages`], with its own reader.
 pub struct OwnMessages<R> {
     reader: Reader<R>,
     walk: Walk,
@@ -102,7 +103,7 @@ impl<R: Read + Seek> OwnMessages<R> {
         Ok(self.walk.heads.peek().map(|Reverse((time, ..))| signed(*time)))
     }
 
-    /// As [`Messages::next`].
+    /// Same as [`Messages::next`].
     ///
     /// # Errors
     /// As [`Messages::next`].
@@ -112,18 +113,18 @@ impl<R: Read + Seek> OwnMessages<R> {
     }
 }
 
-/// How far the messages have been given.
+/// State of the iteration.
 struct Walk {
     channels: BTreeSet<u32>,
     span: RangeInclusive<u64>,
-    /// The pieces that are still to be unpacked, the earliest last.
+    /// Blocks to be read, the earliest last.
     blocks: Vec<Block>,
     open: BTreeMap<usize, Open>,
-    /// Next time, place in the file, and number among `open` of each open piece.
+    /// Next time, offset in the file, and index into `open` of each open block.
     heads: BinaryHeap<Reverse<(u64, u64, usize)>>,
     unpacked: u64,
     opened: usize,
-    /// The piece of the message that was given last.
+    /// The block of the last message returned.
     finished: Option<usize>,
 }
 
@@ -141,9 +142,9 @@ impl Walk {
             .collect();
         let unsigned = |time_ns: i64| u64::try_from(time_ns).unwrap_or(0);
         let (from, to) = (*selection.span_ns.start(), *selection.span_ns.end());
-        // The end of time is that of the file.
+        // The maximum selects to the end of the file.
         let last = if to == i64::MAX { u64::MAX } else { unsigned(to) };
-        #[expect(clippy::reversed_empty_ranges, reason = "a range without times")]
+        #[expect(clippy::reversed_empty_ranges, reason = "an empty range")]
         let span = if to < 0 { 1..=0 } else { unsigned(from)..=last };
         let mut blocks: Vec<Block> = reader
             .blocks
@@ -165,7 +166,7 @@ impl Walk {
         }
     }
 
-    /// Unpacks all pieces that may hold the next message.
+    /// Opens all blocks that may contain the next message.
     fn fill<R: Read + Seek>(&mut self, reader: &mut Reader<R>) -> Result<(), ReadError> {
         if let Some(done) = self.finished.take() {
             self.close(done);
@@ -191,7 +192,7 @@ impl Walk {
         let Some((_, at)) = open.ahead.pop() else { return Ok(None) };
         match open.ahead.last() {
             Some(&(time, _)) => self.heads.push(Reverse((time, offset, number))),
-            // Its memory is still lent to the caller.
+            // Its buffer is still borrowed by the caller.
             None => self.finished = Some(number),
         }
         let Some(entry) = open.kind.messages(&open.records, at).next() else { return Ok(None) };
@@ -223,7 +224,7 @@ impl Walk {
         };
         let times = block.kind.messages(&records, 0).map(|entry| entry.log_time);
         if times.min().is_some_and(|earliest| earliest < block.start) {
-            let wrong = "messages are older than the index says, and may come late";
+            let wrong = "messages are older than their index states and may come late";
             fault(&mut reader.faults, block.offset, wrong);
         }
         let mut ahead: Vec<(u64, usize)> = block

@@ -1,4 +1,4 @@
-//! A file that is read here and there.
+//! Random access to a file.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
@@ -15,7 +15,8 @@ impl<R: Read + Seek> Source<R> {
         Ok(Self { inner: BufReader::with_capacity(1 << 16, inner), at: 0, length })
     }
 
-    /// Bytes from `offset` on; fewer where the file ends. Memory grows with what is there.
+    /// Reads bytes from `offset`; fewer at the end of the file. Memory is allocated as data
+    /// arrives.
     pub(crate) fn bytes(&mut self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
         let length = length.min(self.length.saturating_sub(offset));
         // Small steps stay in the buffer.

@@ -1,4 +1,4 @@
-//! What a file says about itself at its end.
+//! Summary section at the end of a file.
 
 use std::io::{Read, Seek};
 
@@ -10,7 +10,7 @@ use crate::record::{
     Channel, ChunkIndex, Cursor, FOOTER, Footer, MAGIC, PREFIX, Schema, Statistics, op,
 };
 
-/// The contents by the summary; none when there is none or it cannot be believed.
+/// Reads the content from the summary; none if it is missing or invalid.
 pub(super) fn read<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
@@ -31,14 +31,14 @@ pub(super) fn read<R: Read + Seek>(
         return Ok(None);
     }
     if footer.summary < MAGIC.len() as u64 || footer.summary > footer_at {
-        fault(faults, footer_at, "the footer names a summary outside of the file");
+        fault(faults, footer_at, "the footer refers to a summary outside of the file");
         return Ok(None);
     }
     let mut bytes = source.bytes(footer.summary, footer_at - footer.summary)?;
     let length = bytes.len();
     bytes.extend_from_slice(&tail[..PREFIX + 16]);
     if footer.crc != 0 && footer.crc != crc32fast::hash(&bytes) {
-        fault(faults, footer_at, "the sum over the summary is wrong");
+        fault(faults, footer_at, "the checksum of the summary is wrong");
         return Ok(None);
     }
     let Some((contents, chunks)) = parse(&bytes[..length]) else {
@@ -75,8 +75,8 @@ fn parse(summary: &[u8]) -> Option<(Contents, Vec<ChunkIndex>)> {
     Some((contents, chunks))
 }
 
-/// Adds what the summary does not name: messages that stand in no chunk. None when it does not
-/// name enough to trust it.
+/// Adds the blocks that the summary does not list: messages outside of chunks. None if the summary
+/// is too incomplete to be trusted.
 fn complete<R: Read + Seek>(
     source: &mut Source<R>,
     mut contents: Contents,
@@ -85,7 +85,7 @@ fn complete<R: Read + Seek>(
     limits: &Limits,
     faults: &mut Vec<Fault>,
 ) -> Result<Option<Contents>, ReadError> {
-    // Repeating types and topics is a choice of the writer, and so is indexing the chunks.
+    // Repeated schemas and channels are optional, as are chunk indexes.
     let has_names = chunks
         .iter()
         .all(|chunk| chunk.indexes.keys().all(|channel| contents.channels.contains_key(channel)));
@@ -105,11 +105,11 @@ fn complete<R: Read + Seek>(
             .and_then(|next| next.checked_add(chunk.indexes_length))
             .filter(|&next| chunk.offset >= at && next <= end);
         let Some(next) = next else {
-            fault(faults, chunk.offset, "the summary names a chunk where none can be");
+            fault(faults, chunk.offset, "the summary refers to a chunk at an impossible offset");
             return Ok(None);
         };
         if chunk.length > limits.chunk {
-            let wrong = format!("a chunk holds {} bytes, more than is allowed", chunk.length);
+            let wrong = format!("a chunk has {} bytes, more than the limit", chunk.length);
             fault(faults, chunk.offset, wrong);
         } else {
             contents.blocks.push(Block {
@@ -119,7 +119,7 @@ fn complete<R: Read + Seek>(
                 end: chunk.end,
                 length: chunk.length,
                 kind: Kind::Chunk,
-                // Without indexes nothing is known of the channels.
+                // The channels are unknown without indexes.
                 channels: (!chunk.indexes.is_empty())
                     .then(|| chunk.indexes.into_keys().map(u32::from).collect()),
             });

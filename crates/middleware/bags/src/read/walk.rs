@@ -1,4 +1,4 @@
-//! Through a file from front to back, for files without a good summary.
+//! Scan of a file from front to back, for files without a valid summary.
 
 use std::io::{Read, Seek};
 
@@ -8,13 +8,13 @@ use super::{Contents, Limits, ReadError, fault};
 use crate::Fault;
 use crate::record::{Channel, ChunkHead, Cursor, MAGIC, MessageHead, PREFIX, Schema, op};
 
-/// Messages that stand in no chunk are read together, up to about this many bytes.
+/// Approximate maximum size of a block of messages outside of chunks \[bytes\].
 const PLAIN_BLOCK: u64 = 1 << 20;
 
-/// The front of a record: enough for the head of a message.
+/// Size of the start of a record that is read \[bytes\]: enough for a message header.
 const FRONT: u64 = (PREFIX + 22) as u64;
 
-/// Everything that can be read.
+/// Reads all records.
 pub(super) fn all<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
@@ -27,7 +27,7 @@ pub(super) fn all<R: Read + Seek>(
     Ok(walk.contents)
 }
 
-/// What stands between chunks that are known.
+/// Reads the records between known chunks.
 pub(super) fn gap<R: Read + Seek>(
     source: &mut Source<R>,
     from: u64,
@@ -35,7 +35,7 @@ pub(super) fn gap<R: Read + Seek>(
     mut contents: Contents,
     faults: &mut Vec<Fault>,
 ) -> Result<Contents, ReadError> {
-    // The summary's own numbers have these in them.
+    // The summary's counts include these messages.
     let counts = std::mem::take(&mut contents.counts);
     let mut walk = Walk { contents, count: 0, plain: None };
     walk.range(source, from, to, None, faults)?;
@@ -49,7 +49,7 @@ struct Walk {
 }
 
 impl Walk {
-    /// Records from one place to another. With limits, chunks are looked into.
+    /// Reads the records of a range. With limits, chunks are scanned, too.
     fn range<R: Read + Seek>(
         &mut self,
         source: &mut Source<R>,

@@ -1,15 +1,15 @@
-//! Bytes to records. Nothing is believed: every length is held against what is there.
+//! Decoding of records. Input is untrusted: every length is checked against the available data.
 
 use std::collections::BTreeMap;
 
 use super::{Channel, ChunkHead, ChunkIndex, Footer, MessageHead, Schema, Statistics};
 
-/// A place in the content of a record.
+/// Read position in the content of a record.
 pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
 }
 
-/// A number of fixed size.
+/// Reader of a fixed-size number.
 macro_rules! number {
     ($name:ident, $type:ty) => {
         pub(crate) fn $name(&mut self) -> Option<$type> {
@@ -30,7 +30,7 @@ impl<'a> Cursor<'a> {
     number!(u32, u32);
     number!(u64, u64);
 
-    /// What is left.
+    /// Remaining bytes.
     pub(crate) fn rest(&self) -> &'a [u8] {
         self.bytes
     }
@@ -42,13 +42,13 @@ impl<'a> Cursor<'a> {
         Some(bytes)
     }
 
-    /// Bytes with their number in four bytes in front.
+    /// Bytes prefixed with their length in four bytes.
     pub(crate) fn bytes(&mut self) -> Option<&'a [u8]> {
         let length = self.u32()?;
         self.take(length.into())
     }
 
-    /// What is not UTF-8 is replaced: a strange name is no reason to lose the messages.
+    /// Text; invalid UTF-8 is replaced, so that a malformed name does not lose the messages.
     pub(crate) fn text(&mut self) -> Option<String> {
         self.bytes().map(|bytes| String::from_utf8_lossy(bytes).into_owned())
     }
@@ -71,7 +71,7 @@ impl<'a> Cursor<'a> {
         Some(counts)
     }
 
-    /// The next record of a chunk or summary: its opcode and content.
+    /// Next record of a chunk or summary: opcode and content.
     pub(crate) fn record(&mut self) -> Option<(u8, &'a [u8])> {
         let opcode = self.u8()?;
         let length = self.u64()?;
@@ -101,7 +101,7 @@ impl Channel {
 }
 
 impl MessageHead {
-    /// The front, and the data.
+    /// Header and data.
     pub(crate) fn parse(content: &[u8]) -> Option<(Self, &[u8])> {
         let mut at = Cursor::new(content);
         let head = Self {
@@ -115,7 +115,7 @@ impl MessageHead {
 }
 
 impl ChunkHead {
-    /// The front, and as much of the packed records as there is.
+    /// Header and the available part of the compressed records.
     pub(crate) fn parse(content: &[u8]) -> Option<(Self, &[u8])> {
         let mut at = Cursor::new(content);
         let head = Self {
@@ -130,7 +130,7 @@ impl ChunkHead {
     }
 }
 
-/// A channel, and times and offsets of its messages.
+/// Channel, and times and offsets of its messages.
 pub(crate) type MessageIndex = (u16, Vec<(u64, u64)>);
 
 pub(crate) fn parse_message_index(content: &[u8]) -> Option<MessageIndex> {

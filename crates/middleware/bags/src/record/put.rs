@@ -1,23 +1,23 @@
-//! Records to bytes.
+//! Encoding of records.
 
 use std::collections::BTreeMap;
 
 use super::{Channel, ChunkHead, ChunkIndex, Footer, MessageHead, Schema, Statistics, op};
 
-/// Begins a record of unknown length; [`end`] fills the length in.
+/// Starts a record of unknown length; [`end`] fills in the length.
 pub(crate) fn begin(out: &mut Vec<u8>, opcode: u8) -> usize {
     out.push(opcode);
     out.extend([0; 8]);
     out.len()
 }
 
-/// Ends the record whose content began at `start`, with `more` bytes of it still to come.
+/// Ends the record whose content started at `start`, with `more` bytes still to follow.
 pub(crate) fn end(out: &mut [u8], start: usize, more: usize) {
     let length = (out.len() - start + more) as u64;
     out[start - 8..start].copy_from_slice(&length.to_le_bytes());
 }
 
-/// A length in four bytes. What we write is shorter: callers check what comes from outside.
+/// Writes a length in four bytes. Callers check the length of external data.
 fn put_length(out: &mut Vec<u8>, length: usize) {
     out.extend(u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes());
 }
@@ -83,7 +83,7 @@ impl MessageHead {
 }
 
 impl ChunkHead {
-    /// The record up to its packed records.
+    /// Writes the record up to its compressed records.
     pub(crate) fn put(&self, out: &mut Vec<u8>) {
         let start = begin(out, op::CHUNK);
         out.extend(self.start.to_le_bytes());
@@ -97,7 +97,7 @@ impl ChunkHead {
     }
 }
 
-/// The index of one channel's messages in a chunk: times, and offsets in the unpacked chunk.
+/// Message index of a channel in a chunk: times, and offsets in the decompressed chunk.
 pub(crate) fn put_message_index(out: &mut Vec<u8>, channel: u16, entries: &[(u64, u64)]) {
     let start = begin(out, op::MESSAGE_INDEX);
     out.extend(channel.to_le_bytes());
@@ -139,7 +139,7 @@ impl Statistics {
     }
 }
 
-/// Named texts about the file.
+/// Metadata record.
 pub(crate) fn put_metadata(out: &mut Vec<u8>, name: &str, map: &BTreeMap<String, String>) {
     let start = begin(out, op::METADATA);
     put_text(out, name);
@@ -147,7 +147,7 @@ pub(crate) fn put_metadata(out: &mut Vec<u8>, name: &str, map: &BTreeMap<String,
     end(out, start, 0);
 }
 
-/// Where such texts are.
+/// Metadata index record.
 pub(crate) fn put_metadata_index(out: &mut Vec<u8>, offset: u64, length: u64, name: &str) {
     let start = begin(out, op::METADATA_INDEX);
     out.extend(offset.to_le_bytes());
@@ -156,7 +156,7 @@ pub(crate) fn put_metadata_index(out: &mut Vec<u8>, offset: u64, length: u64, na
     end(out, start, 0);
 }
 
-/// Where the records of one kind are in the summary.
+/// Summary offset record.
 pub(crate) fn put_summary_offset(out: &mut Vec<u8>, opcode: u8, offset: u64, length: u64) {
     let start = begin(out, op::SUMMARY_OFFSET);
     out.push(opcode);

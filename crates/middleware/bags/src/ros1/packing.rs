@@ -1,4 +1,4 @@
-//! How the bytes of a chunk are packed.
+//! Compression of chunks.
 
 use std::io::{self, Write as _};
 
@@ -10,20 +10,20 @@ use super::{op, record};
 use crate::compression::read;
 use crate::record::Cursor;
 
-/// How the chunks of a bag of ROS 1 are packed.
+/// Compression of chunks of a ROS 1 bag.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ros1Compression {
-    /// As they are, as `rosbag record` has it by itself.
+    /// No compression, the default of `rosbag record`.
     #[default]
     None,
     /// bzip2: small and very slow.
     Bz2,
-    /// LZ4 frames of the kind that `roslz4` reads.
+    /// LZ4 frames in the form that `roslz4` reads.
     Lz4,
 }
 
 impl Ros1Compression {
-    /// The name that a chunk carries.
+    /// Name of the compression in a chunk.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Ros1Compression {
         }
     }
 
-    /// From the name that a chunk carries.
+    /// Parses the name of the compression in a chunk.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         [Self::None, Self::Bz2, Self::Lz4].into_iter().find(|one| one.name() == name)
@@ -49,7 +49,7 @@ impl Ros1Compression {
                 encoder.finish()?;
             }
             Self::Lz4 => {
-                // Blocks of their own, a sum at the end and no length: others it refuses.
+                // roslz4 requires independent blocks, a checksum at the end and no content size.
                 let frame = FrameInfo::new()
                     .block_size(BlockSize::Max1MB)
                     .block_mode(BlockMode::Independent)
@@ -62,7 +62,8 @@ impl Ros1Compression {
         Ok(())
     }
 
-    /// As much as comes out, at most one byte more than `length`, and why no more.
+    /// Decompresses as much as possible, at most one byte more than `length`; returns the error
+    /// that ended it.
     fn unpack_some(self, packed: &[u8], length: u64) -> (Vec<u8>, io::Result<()>) {
         let mut bytes = Vec::new();
         let outcome = match self {
@@ -74,19 +75,21 @@ impl Ros1Compression {
     }
 }
 
-/// The records of a chunk, given its record; of one that is cut as many bytes as come out.
+/// Decompresses the records of a chunk from its record; of a truncated one as many bytes as
+/// possible.
 pub(crate) fn unpack_record(stored: &[u8], is_cut: bool, most: u64) -> io::Result<Vec<u8>> {
     let wrong = |message: String| io::Error::new(io::ErrorKind::InvalidData, message);
     let mut cursor = Cursor::new(stored);
     let header = cursor.bytes().map(record::Header::new);
     let header = header.filter(|header| header.opcode() == Some(op::CHUNK));
-    let header = header.ok_or_else(|| wrong("no chunk is where the index names one".into()))?;
+    let header =
+        header.ok_or_else(|| wrong("the index refers to an offset without a chunk".into()))?;
     let name = header.text("compression").unwrap_or_default();
     let compression = Ros1Compression::from_name(&name)
-        .ok_or_else(|| wrong(format!("`{name}` is no known compression")))?;
+        .ok_or_else(|| wrong(format!("`{name}` is not a known compression")))?;
     let length = u64::from(header.u32("size").unwrap_or(0));
     if length > most {
-        return Err(wrong(format!("a chunk holds {length} bytes, more than is allowed")));
+        return Err(wrong(format!("a chunk has {length} bytes, more than the limit")));
     }
     let announced = cursor.u32().unwrap_or(0) as usize;
     let packed = cursor.rest();
@@ -95,10 +98,10 @@ pub(crate) fn unpack_record(stored: &[u8], is_cut: bool, most: u64) -> io::Resul
     if is_cut {
         return Ok(bytes);
     }
-    outcome.map_err(|error| wrong(format!("a chunk cannot be unpacked: {error}")))?;
+    outcome.map_err(|error| wrong(format!("a chunk cannot be decompressed: {error}")))?;
     if bytes.len() as u64 != length {
         let many = bytes.len();
-        return Err(wrong(format!("a chunk announces {length} bytes and holds {many}")));
+        return Err(wrong(format!("a chunk declares {length} bytes but has {many}")));
     }
     Ok(bytes)
 }

@@ -1,4 +1,4 @@
-//! Opening a file by its index.
+//! Opening of a file by its index.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Seek};
@@ -9,7 +9,7 @@ use crate::read::{Block, Found, Kind, Source, fault};
 use crate::record::Cursor;
 use crate::{BagTopic, Fault, Limits, ReadError};
 
-/// What is in a file, by its index or by a walk.
+/// Reads the content of a file from its index or from a scan.
 pub(crate) fn read<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
@@ -21,21 +21,21 @@ pub(crate) fn read<R: Read + Seek>(
     walk::all(source, limits, faults)
 }
 
-/// The topics so far, and which connection is which.
+/// Topics so far, and the topic of each connection.
 #[derive(Default)]
 pub(super) struct Topics {
     pub(super) topics: Vec<BagTopic>,
     pub(super) by_connection: BTreeMap<u32, usize>,
-    /// The topic of a name, type and sum.
+    /// Topic index by name, type and MD5 sum.
     by_name: BTreeMap<[String; 3], usize>,
 }
 
 impl Topics {
-    /// Takes a connection; several publishers of one topic and type are one topic here.
+    /// Adds a connection; publishers of the same topic and type share one topic.
     pub(super) fn add(&mut self, header: Header<'_>, data: &[u8]) -> Option<()> {
         let connection = header.u32("conn")?;
         let about = Header::new(data);
-        // The outer name is the one under which it was recorded.
+        // The name in the record header is the recorded one.
         let name = header.text("topic").or_else(|| about.text("topic"))?;
         let mut metadata = BTreeMap::new();
         for key in ["md5sum", "callerid", "latching"] {
@@ -60,13 +60,13 @@ impl Topics {
     }
 }
 
-/// None when there is no index or it cannot be believed.
+/// Reads the index; none if it is missing or invalid.
 fn by_index<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
     faults: &mut Vec<Fault>,
 ) -> Result<Option<Found>, ReadError> {
-    // The header is filled up to 4096 bytes so that it can be written again.
+    // The header is padded to 4096 bytes so that it can be rewritten.
     let front = source.bytes(MAGIC.len() as u64, 4096)?;
     let header = Cursor::new(&front).bytes().map(Header::new);
     let header = header.filter(|header| header.opcode() == Some(op::BAG));
@@ -89,18 +89,22 @@ fn by_index<R: Read + Seek>(
     let mut blocks = Vec::new();
     for info in infos {
         let Some((stored, length)) = chunk_at(source, info.at, index_at)? else {
-            fault(faults, info.at, "the index names a chunk where none is");
+            fault(faults, info.at, "the index refers to an offset without a chunk");
             return Ok(None);
         };
         for (connection, count) in &info.counts {
             let Some(&topic) = topics.by_connection.get(connection) else {
-                fault(faults, info.at, "the index names a topic that it does not describe");
+                fault(
+                    faults,
+                    info.at,
+                    "the index refers to a connection that it does not describe",
+                );
                 return Ok(None);
             };
             counts[topic] = counts[topic].saturating_add(u64::from(*count));
         }
         if length > limits.chunk {
-            let wrong = format!("a chunk holds {length} bytes, more than is allowed");
+            let wrong = format!("a chunk has {length} bytes, more than the limit");
             fault(faults, info.at, wrong);
             continue;
         }
@@ -153,7 +157,7 @@ fn parse(index: &[u8]) -> Option<(Topics, Vec<ChunkInfo>)> {
     Some((topics, infos))
 }
 
-/// Length of a chunk's record, and of what it holds.
+/// Sizes of a chunk's record and of its content.
 fn chunk_at<R: Read + Seek>(
     source: &mut Source<R>,
     at: u64,

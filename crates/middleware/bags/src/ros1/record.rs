@@ -1,9 +1,9 @@
-//! Records: bytes to fields and back.
+//! Encoding and decoding of records.
 
 use super::op;
 use crate::record::Cursor;
 
-/// The fields of a record's header. Nothing is believed.
+/// Fields of a record's header. Input is untrusted.
 #[derive(Clone, Copy)]
 pub(super) struct Header<'a>(&'a [u8]);
 
@@ -45,16 +45,16 @@ impl<'a> Header<'a> {
     }
 }
 
-/// The last time that a bag can tell, in the year 2106 \[ns\].
+/// The latest time that a bag can represent, in the year 2106 \[ns\].
 const LATEST: u64 = u32::MAX as u64 * 1_000_000_000 + 999_999_999;
 
-/// Seconds and nanoseconds \[ns\]. The latter may be more than a second, in bags that are damaged.
+/// Time from seconds and nanoseconds \[ns\]. The nanoseconds may exceed a second in damaged bags.
 pub(super) fn time(cursor: &mut Cursor<'_>) -> Option<u64> {
     let (sec, nsec) = (cursor.u32()?, cursor.u32()?);
     Some((u64::from(sec) * 1_000_000_000 + u64::from(nsec)).min(LATEST))
 }
 
-/// The next record: its header and its data.
+/// Next record: header and data.
 pub(super) fn next<'a>(cursor: &mut Cursor<'a>) -> Option<(Header<'a>, &'a [u8])> {
     let header = cursor.bytes()?;
     Some((Header::new(header), cursor.bytes()?))
@@ -67,7 +67,7 @@ pub(crate) struct Message<'a> {
     pub(crate) data: &'a [u8],
 }
 
-/// The next complete message from a place on, with its own place; the place moves behind it.
+/// Returns the next complete message from offset `at` with its offset, and advances `at`.
 pub(crate) fn next_message<'a>(records: &'a [u8], at: &mut usize) -> Option<(usize, Message<'a>)> {
     let mut cursor = Cursor::new(records.get(*at..)?);
     loop {
@@ -82,7 +82,7 @@ pub(crate) fn next_message<'a>(records: &'a [u8], at: &mut usize) -> Option<(usi
     }
 }
 
-/// Appends a header, with its length in front.
+/// Appends a header, prefixed with its length.
 pub(super) fn put_header(out: &mut Vec<u8>, fields: &[(&str, &[u8])]) {
     let length: usize = fields.iter().map(|(name, value)| 4 + name.len() + 1 + value.len()).sum();
     put_u32(out, length);
@@ -94,19 +94,19 @@ pub(super) fn put_header(out: &mut Vec<u8>, fields: &[(&str, &[u8])]) {
     }
 }
 
-/// Appends data, with its length in front.
+/// Appends data, prefixed with its length.
 pub(super) fn put_data(out: &mut Vec<u8>, data: &[u8]) {
     put_u32(out, data.len());
     out.extend_from_slice(data);
 }
 
-/// Lengths were held against the largest that the format can tell.
-#[expect(clippy::cast_possible_truncation, reason = "what is longer was refused")]
+/// Writes a length; callers have checked it against the limit of the format.
+#[expect(clippy::cast_possible_truncation, reason = "longer data was rejected")]
 pub(super) fn put_u32(out: &mut Vec<u8>, value: usize) {
     out.extend((value as u32).to_le_bytes());
 }
 
-/// A time as seconds and nanoseconds; the last one when it is later than that.
+/// A time as seconds and nanoseconds, saturated at the latest time.
 pub(super) fn time_bytes(time: u64) -> [u8; 8] {
     let time = time.min(LATEST);
     let sec = u32::try_from(time / 1_000_000_000).unwrap_or(u32::MAX);

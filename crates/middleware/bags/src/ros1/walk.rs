@@ -1,4 +1,4 @@
-//! Through a file from front to back, for files without a good index.
+//! Scan of a file from front to back, for files without a valid index.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Seek};
@@ -10,10 +10,10 @@ use crate::read::{Block, Found, Kind, Source, fault};
 use crate::record::Cursor;
 use crate::{Fault, Limits, ReadError};
 
-/// Longer headers are damage \[bytes\]: those of connections have the texts of types in their data.
+/// Maximum size of a header \[bytes\]; type definitions are in the data.
 const LONGEST_HEADER: u32 = 1 << 20;
 
-/// Everything that can be read.
+/// Reads all records.
 pub(super) fn all<R: Read + Seek>(
     source: &mut Source<R>,
     limits: &Limits,
@@ -25,7 +25,7 @@ pub(super) fn all<R: Read + Seek>(
         let lead = source.bytes(at, 4)?;
         let Some(length) = Cursor::new(&lead).u32().filter(|&length| length <= LONGEST_HEADER)
         else {
-            fault(faults, at, "a record is damaged or cut; nothing behind it can be read");
+            fault(faults, at, "a record is damaged or truncated; nothing after it can be read");
             break;
         };
         let head_length = 8 + u64::from(length);
@@ -48,9 +48,11 @@ pub(super) fn all<R: Read + Seek>(
                 walk.topics.add(header, &data);
             }
             Some(op::BAG | op::INDEX | op::CHUNK_INFO | op::CONNECTION) => {}
-            Some(op::MESSAGE) => fault(faults, at, "a message stands in no chunk and is left out"),
+            Some(op::MESSAGE) => {
+                fault(faults, at, "a message is outside of all chunks and is skipped")
+            }
             _ => {
-                fault(faults, at, "this is no record; nothing behind it can be read");
+                fault(faults, at, "this is not a record; nothing after it can be read");
                 break;
             }
         }
@@ -66,7 +68,7 @@ pub(super) fn all<R: Read + Seek>(
 struct Walk {
     topics: Topics,
     blocks: Vec<Block>,
-    /// By connection.
+    /// Message counts by connection.
     counts: BTreeMap<u32, u64>,
 }
 
@@ -118,7 +120,7 @@ impl Walk {
             }
         }
         let messages = Some(counts.iter().sum());
-        // Messages of a topic that nothing describes are of no use.
+        // Messages of an undescribed topic cannot be used.
         let blocks = self.blocks;
         Found { topics, by_channel: by_connection, counts, blocks, messages, has_summary: false }
     }

@@ -1,4 +1,4 @@
-//! Writing a file.
+//! Writer of ROS 1 bags.
 
 use std::collections::BTreeMap;
 use std::io::{self, Seek, SeekFrom, Write};
@@ -7,21 +7,21 @@ use super::record::{put_data, put_header, put_u32, time_bytes};
 use super::{MAGIC, Ros1Compression, op};
 use crate::{BagInfo, BagTopic, FileInfo, Stamp, TopicInfo, WriteError};
 
-/// How a bag of ROS 1 is written.
+/// Settings of a ROS 1 bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ros1Settings {
-    /// The name of the file, for its description.
+    /// File name, for the description of the bag.
     pub file_name: String,
-    /// How chunks are packed.
+    /// Compression of chunks.
     pub compression: Ros1Compression,
-    /// A chunk is closed when it holds this many bytes, before they are packed.
+    /// Chunk size before compression \[bytes\]; a chunk that reaches it is closed.
     pub chunk_bytes: usize,
-    /// A chunk is closed before its messages span this time \[ns\].
+    /// Maximum time span of the messages of a chunk \[ns\].
     pub chunk_span_ns: u64,
 }
 
 impl Ros1Settings {
-    /// Chunks of a second or 768 KiB, as `rosbag record` has them, not packed.
+    /// Chunks of a second or 768 KiB without compression, as `rosbag record`.
     #[must_use]
     pub fn new(file_name: impl Into<String>) -> Self {
         Self {
@@ -33,14 +33,14 @@ impl Ros1Settings {
     }
 }
 
-/// Writes one bag of ROS 1. Until [`Ros1Writer::finish`] it has no index; what was flushed can be
-/// read all the same, here and by `rosbag reindex`.
+/// Writer of a ROS 1 bag. Without [`Ros1Writer::finish`] it has no index; flushed data can still be
+/// read, here and by `rosbag reindex`.
 pub struct Ros1Writer<W> {
     sink: W,
     settings: Ros1Settings,
     at: u64,
     topics: Vec<(BagTopic, TopicInfo)>,
-    /// Numbers of topics by name and type.
+    /// Topic ids by name and type.
     ids: BTreeMap<(String, String), u32>,
     chunk: Chunk,
     chunks: Vec<Chunk>,
@@ -48,26 +48,26 @@ pub struct Ros1Writer<W> {
     record: Vec<u8>,
 }
 
-/// A chunk: while it grows with its records, later only what the index needs.
+/// A chunk: its records while it is open, afterwards only the data for the index.
 #[derive(Default)]
 struct Chunk {
     records: Vec<u8>,
     at: u64,
     span: Option<(u64, u64)>,
-    /// By connection: how many messages.
+    /// Message counts by connection.
     counts: BTreeMap<u32, u32>,
-    /// By connection: times, and where in `records` the message begins.
+    /// By connection: times, and offsets of the messages in `records`.
     entries: BTreeMap<u32, Vec<(u64, usize)>>,
 }
 
-/// The largest that a message, a chunk or an index may be \[bytes\]: ROS 1 counts with signs.
+/// Maximum size of a message, chunk or index \[bytes\]: ROS 1 uses signed 32-bit lengths.
 const MOST: usize = i32::MAX as usize - (1 << 20);
 
 impl<W: Write + Seek> Ros1Writer<W> {
-    /// Begins a file.
+    /// Starts a file.
     ///
     /// # Errors
-    /// When the sink does not take its first bytes.
+    /// When the sink fails.
     pub fn new(mut sink: W, settings: Ros1Settings) -> Result<Self, WriteError> {
         let mut head = MAGIC.to_vec();
         head.extend(bag_header(0, 0, 0));
@@ -86,8 +86,8 @@ impl<W: Write + Seek> Ros1Writer<W> {
         })
     }
 
-    /// Adds a topic whose messages are encoded as ROS 1 does, with a text of ROS 1. Returns its
-    /// number for [`Ros1Writer::write`].
+    /// Adds a topic with ROS 1 encoding and a ROS 1 schema. Returns its id for
+    /// [`Ros1Writer::write`].
     ///
     /// # Errors
     /// When a text is too long.
@@ -114,15 +114,14 @@ impl<W: Write + Seek> Ros1Writer<W> {
         Ok(id)
     }
 
-    /// Records a message. ROS 1 knows one time of a message, that of its recording, and none before
-    /// its first nanosecond.
+    /// Writes a message. ROS 1 stores only the time of recording, and requires it to be positive.
     ///
     /// # Errors
-    /// When the bag cannot hold it, or the sink does not take the bytes.
+    /// When the bag cannot hold the message, or the sink fails.
     pub fn write(&mut self, topic: u32, stamp: Stamp, data: &[u8]) -> Result<(), WriteError> {
         let time = u64::try_from(stamp.log_ns)
             .map_err(|_| WriteError::NegativeTime(stamp.log_ns))?
-            // `ros::TIME_MIN`: players begin there.
+            // `ros::TIME_MIN`: players start there.
             .max(1);
         if data.len() > MOST {
             return Err(WriteError::TooLong("a message".into()));
@@ -150,21 +149,21 @@ impl<W: Write + Seek> Ros1Writer<W> {
         Ok(())
     }
 
-    /// Says that no message older than `time_ns` will come: when the open chunk has lasted long
-    /// enough by then, it is closed.
+    /// Declares that no message older than `time_ns` follows, so that an open chunk of sufficient
+    /// duration is closed.
     ///
     /// # Errors
-    /// When the sink does not take the bytes.
+    /// When the sink fails.
     pub fn advance_to(&mut self, time_ns: i64) -> Result<(), WriteError> {
         let time = u64::try_from(time_ns).unwrap_or(0);
         let is_over = |(start, _)| time.saturating_sub(start) >= self.settings.chunk_span_ns;
         if self.chunk.span.is_some_and(is_over) { self.close_chunk() } else { Ok(()) }
     }
 
-    /// Closes the open chunk: all that was recorded is with the sink.
+    /// Closes the open chunk and hands all messages to the sink.
     ///
     /// # Errors
-    /// When the sink does not take the bytes.
+    /// When the sink fails.
     pub fn flush(&mut self) -> Result<(), WriteError> {
         if self.chunk.records.is_empty() { Ok(()) } else { self.close_chunk() }
     }
@@ -205,7 +204,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
         }
         put(&mut self.sink, &mut self.at, &self.record)?;
         self.sink.flush()?;
-        // Its memory is used again.
+        // The buffer is reused.
         let mut records = std::mem::take(&mut chunk.records);
         records.clear();
         self.chunk.records = records;
@@ -213,10 +212,10 @@ impl<W: Write + Seek> Ros1Writer<W> {
         Ok(())
     }
 
-    /// Ends the file with its index and gives the sink back, with what is in the file.
+    /// Writes the index and returns the sink and a description of the content.
     ///
     /// # Errors
-    /// When the sink does not take the bytes.
+    /// When the sink fails.
     pub fn finish(mut self) -> Result<(W, BagInfo), WriteError> {
         self.flush()?;
         let index_at = self.at;
@@ -251,7 +250,7 @@ fn put<W: Write>(sink: &mut W, at: &mut u64, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The record behind the magic, always 4096 bytes long.
+/// The bag header record, always 4096 bytes long.
 fn bag_header(index_at: u64, connections: usize, chunks: usize) -> Vec<u8> {
     let (mut conn_count, mut chunk_count) = (Vec::new(), Vec::new());
     put_u32(&mut conn_count, connections);
@@ -275,7 +274,7 @@ fn put_connection(out: &mut Vec<u8>, id: u32, topic: &BagTopic) {
         [("op", &[op::CONNECTION]), ("conn", &id.to_le_bytes()), ("topic", topic.name.as_bytes())];
     put_header(out, &fields);
     let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
-    // ROS 1 names types without the folder.
+    // ROS 1 type names have no `msg` part.
     let type_name = topic.type_name.replacen("/msg/", "/", 1);
     let mut fields: Vec<(&str, &[u8])> = vec![
         ("topic", topic.name.as_bytes()),
@@ -288,7 +287,7 @@ fn put_connection(out: &mut Vec<u8>, id: u32, topic: &BagTopic) {
             fields.push((key, about(key).as_bytes()));
         }
     }
-    // A connection's data are a header with its length, that of the data.
+    // The data of a connection is a header, prefixed with its length.
     put_header(out, &fields);
 }
 

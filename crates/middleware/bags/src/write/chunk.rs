@@ -1,24 +1,24 @@
-//! The messages of about a second.
+//! Chunks of messages.
 
 use std::io;
 
 use crate::compression::Packer;
 use crate::record::MessageHead;
 
-/// Messages that are packed together.
+/// Messages that are compressed together.
 #[derive(Debug, Default)]
 pub(super) struct Chunk {
-    /// Types and topics that are new: they stand in front of the chunk.
+    /// New schemas and channels, written before the chunk.
     pub(super) preamble: Vec<u8>,
     /// The message records.
     pub(super) records: Vec<u8>,
-    /// Earliest and latest time of a message.
+    /// Earliest and latest message time \[ns\].
     pub(super) span: Option<(u64, u64)>,
-    /// By channel: times, and where in `records` the message begins.
+    /// By channel: times, and offsets of the messages in `records`.
     pub(super) indexes: Vec<Vec<(u64, u64)>>,
-    /// The records when they are packed; none where they stay as they are.
+    /// The compressed records; none without compression.
     pub(super) packed: Option<Vec<u8>>,
-    /// Sum of the records, once [`Chunk::pack`] has been called.
+    /// Checksum of the records, set by [`Chunk::pack`].
     pub(super) crc: u32,
 }
 
@@ -27,7 +27,7 @@ impl Chunk {
         self.preamble.is_empty() && self.records.is_empty()
     }
 
-    /// Whether a message of this time would make it last too long.
+    /// True if a message of this time would exceed the maximum time span.
     pub(super) fn is_over(&self, time: u64, longest: u64) -> bool {
         self.span.is_some_and(|(start, _)| time.saturating_sub(start) >= longest)
     }
@@ -43,13 +43,13 @@ impl Chunk {
         self.span = Some((start.min(head.log_time), end.max(head.log_time)));
     }
 
-    /// What takes time before a chunk can be written.
+    /// Compresses the records and computes the checksum.
     pub(super) fn pack(&mut self, packer: &mut Packer) -> io::Result<()> {
         self.crc = crc32fast::hash(&self.records);
         packer.pack(&self.records, &mut self.packed)
     }
 
-    /// Empty again, with the memory that it has.
+    /// Clears the chunk and keeps its memory.
     pub(super) fn clear(&mut self) {
         self.preamble.clear();
         self.records.clear();

@@ -1,4 +1,4 @@
-//! The way of chunks to the file: straight, or by threads that pack and one that writes.
+//! Pipeline of chunks to the file: direct, or through threads that compress and one that writes.
 
 use std::io::{self, Write};
 use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
@@ -12,23 +12,23 @@ use crate::compression::Packer;
 pub(super) enum Line<W> {
     Straight(Box<(Sealer<W>, Packer)>),
     Threaded(Threads<W>),
-    /// It ended early; its error was told.
+    /// Ended early; its error was returned.
     Broken,
 }
 
-/// Chunks go to the packers in turn, and the sealer takes them in the same turn, so that they stay
-/// in order whoever is faster.
+/// Chunks are distributed to the compression threads in turn, and the writing thread collects them
+/// in the same order, so that the order is kept.
 pub(super) struct Threads<W> {
-    /// One for each packer; a full one makes the writer wait.
+    /// A bounded queue per compression thread; a full one blocks the writer.
     full: Vec<SyncSender<Chunk>>,
-    /// Whose turn it is.
+    /// Index of the next thread.
     next: usize,
-    /// Chunks that are written, whose memory is used again.
+    /// Written chunks, whose memory is reused.
     empty: Receiver<Chunk>,
     sealing: JoinHandle<io::Result<Sealer<W>>>,
 }
 
-/// More threads than this pack faster than any disk writes.
+/// Maximum number of compression threads; more are faster than any disk.
 const MOST_THREADS: usize = 8;
 
 impl<W: Write + Send + 'static> Line<W> {
@@ -51,7 +51,7 @@ impl<W: Write + Send + 'static> Line<W> {
         Ok(Self::Threaded(Threads { full, next: 0, empty, sealing }))
     }
 
-    /// Seals a chunk and leaves an empty one.
+    /// Passes a chunk to the pipeline and replaces it by an empty one.
     pub(super) fn seal(&mut self, chunk: &mut Chunk) -> io::Result<()> {
         match self {
             Self::Straight(both) => {
@@ -77,7 +77,7 @@ impl<W: Write + Send + 'static> Line<W> {
         }
     }
 
-    /// Waits until all is written.
+    /// Waits until everything is written.
     pub(super) fn finish(self) -> io::Result<Sealer<W>> {
         match self {
             Self::Straight(both) => Ok(both.0),
@@ -90,7 +90,7 @@ impl<W: Write + Send + 'static> Line<W> {
     }
 }
 
-/// Packs until no more chunks come or nobody wants them.
+/// Compresses until there are no more chunks or the receiver is gone.
 fn pack(mut packer: Packer, chunks: &Receiver<Chunk>, done: &SyncSender<io::Result<Chunk>>) {
     for mut chunk in chunks {
         let result = chunk.pack(&mut packer).map(|()| chunk);
@@ -100,7 +100,7 @@ fn pack(mut packer: Packer, chunks: &Receiver<Chunk>, done: &SyncSender<io::Resu
     }
 }
 
-/// Writes until the packer whose turn it is has no more: then nobody has.
+/// Writes until the next compression thread in turn has no more chunks; then none has.
 fn seal<W: Write>(
     mut sealer: Sealer<W>,
     packed: &[Receiver<io::Result<Chunk>>],
@@ -111,7 +111,7 @@ fn seal<W: Write>(
         let mut chunk = chunk?;
         sealer.seal(&chunk)?;
         chunk.clear();
-        // When nobody wants its memory, the writer is gone.
+        // Fails only when the writer is gone.
         let _ = done.send(chunk);
     }
     Ok(sealer)

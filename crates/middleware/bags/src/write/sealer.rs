@@ -1,4 +1,4 @@
-//! Writes packed chunks, and remembers where they are.
+//! Writes compressed chunks and records their offsets.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -12,10 +12,10 @@ use crate::record::{
 };
 use crate::{BagInfo, Compression, FileInfo, Stored};
 
-/// The name under which rosbag2 keeps its metadata in a file.
+/// Name of rosbag2's metadata record in a file.
 const METADATA: &str = "rosbag2";
 
-/// A sink that counts and sums up what goes through it.
+/// A sink with a byte count and checksums.
 struct Counter<W> {
     sink: W,
     written: u64,
@@ -31,18 +31,18 @@ impl<W: Write> Counter<W> {
     }
 }
 
-/// Everything behind the open chunk.
+/// State of the file after the open chunk.
 pub(super) struct Sealer<W> {
     out: Counter<W>,
     compression: Compression,
     chunks: Vec<ChunkIndex>,
-    /// Offset and length of the metadata records.
+    /// Offsets and lengths of the metadata records.
     metadata: Vec<(u64, u64)>,
     scratch: Vec<u8>,
 }
 
 impl<W: Write> Sealer<W> {
-    /// Begins the file: magic, header, and what readers of a cut file need to know.
+    /// Starts the file: magic, header, and the metadata that readers of a truncated file need.
     pub(super) fn new(sink: W, settings: &Settings) -> io::Result<Self> {
         let out = Counter { sink, written: 0, crc: crc32fast::Hasher::new() };
         let mut head = MAGIC.to_vec();
@@ -73,7 +73,7 @@ impl<W: Write> Sealer<W> {
         self.out.put(&self.scratch)
     }
 
-    /// Writes a packed chunk with what stands in front of it and its index, and flushes.
+    /// Writes a compressed chunk with its schemas, channels and index, and flushes.
     pub(super) fn seal(&mut self, chunk: &Chunk) -> io::Result<()> {
         self.out.put(&chunk.preamble)?;
         if let Some((start, end)) = chunk.span {
@@ -174,7 +174,7 @@ impl<W: Write> Sealer<W> {
         Ok((self.out.sink, info))
     }
 
-    /// The summary, the footer and the last magic.
+    /// Encodes the summary, the footer and the last magic.
     fn summary(&self, topics: &Topics, statistics: &Statistics) -> Vec<u8> {
         let base = self.out.written;
         let mut out = Vec::new();
@@ -199,7 +199,7 @@ impl<W: Write> Sealer<W> {
         for (opcode, offset, length) in groups {
             put_summary_offset(&mut out, opcode, offset, length);
         }
-        // The sum covers the footer up to itself.
+        // The checksum covers the footer up to its own field.
         let footer = out.len();
         Footer { summary: base, offsets, crc: 0 }.put(&mut out);
         let crc_at = footer + PREFIX + 16;

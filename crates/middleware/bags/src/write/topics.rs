@@ -1,4 +1,4 @@
-//! The topics of a file and their types.
+//! Topics of a file and their types.
 
 use std::collections::BTreeMap;
 
@@ -11,20 +11,20 @@ use crate::{BagTopic, QosProfile, Style, TopicInfo, qos};
 /// A topic to record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topic {
-    /// Its full name, such as `/scan`.
+    /// Full name, such as `/scan`.
     pub name: String,
-    /// The full name of its type, such as `sensor_msgs/msg/LaserScan`.
+    /// Full type name, such as `sensor_msgs/msg/LaserScan`.
     pub type_name: String,
-    /// The texts that define the type, as `ros2msg` has them.
+    /// Schema of the type, in `ros2msg` encoding.
     pub schema_text: String,
-    /// The type hash; may be empty.
+    /// Type hash; may be empty.
     pub type_hash: String,
-    /// How each of its publishers offers it.
+    /// QoS offered by each of its publishers.
     pub qos: Vec<QosProfile>,
 }
 
 impl Topic {
-    /// A topic of a type that is known here.
+    /// A topic of a known type.
     #[must_use]
     pub fn of<T: Message>(name: impl Into<String>, qos: &[QosProfile]) -> Self {
         Self {
@@ -37,11 +37,11 @@ impl Topic {
     }
 }
 
-/// Names a topic of a [`super::Writer`].
+/// Id of a topic of a [`super::Writer`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TopicId(u16);
 
-/// A message's channel and its number there.
+/// Channel and sequence number of a message.
 pub(super) struct Counted {
     pub(super) id: u16,
     pub(super) sequence: u32,
@@ -82,7 +82,7 @@ impl Topics {
         self.insert(info, "ros2msg", topic.schema_text.into_bytes(), metadata, preamble)
     }
 
-    /// A topic of another file, of whatever encoding.
+    /// Adds a topic of another file, in any encoding.
     pub(super) fn copy(
         &mut self,
         topic: &BagTopic,
@@ -113,7 +113,7 @@ impl Topics {
         if let Some(&id) = self.by_name.get(&key) {
             return Ok(TopicId(id));
         }
-        // Number 0 is no schema; channels are counted from 1 as well, as rosbag2 does.
+        // Schema id 0 is reserved; channel ids start at 1 as well, as in rosbag2.
         let number = |count: usize| u16::try_from(count + 1).map_err(|_| WriteError::TooManyTopics);
         let id = number(self.channels.len())?;
         let schema = self
@@ -145,7 +145,7 @@ impl Topics {
         let info = usize::from(topic.0).checked_sub(1).and_then(|index| self.infos.get_mut(index));
         let info = info.ok_or(WriteError::UnknownTopic)?;
         info.messages += 1;
-        #[expect(clippy::cast_possible_truncation, reason = "numbers of messages start over")]
+        #[expect(clippy::cast_possible_truncation, reason = "sequence numbers wrap around")]
         let sequence = info.messages as u32;
         Ok(Counted { id: topic.0, sequence })
     }

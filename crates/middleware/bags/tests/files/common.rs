@@ -1,4 +1,4 @@
-//! Folders that are gone after the test, and a recording of numbers.
+//! Temporary folders for tests, and a bag of numbers.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use periplus_bags::{BagTopic, Selection, Stamp, Target, Translation};
 use periplus_diagnostics::Diagnostics;
 use periplus_msgs::{Message, std_msgs::UInt32};
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 pub(crate) struct Folder(PathBuf);
 
 impl Folder {
@@ -33,7 +33,7 @@ impl Drop for Folder {
 /// Number, time and topic.
 pub(crate) type Row = (u32, i64, String);
 
-/// Forty numbers on two topics, a tenth of a second apart.
+/// Forty numbers on two topics, 0.1 s apart.
 pub(crate) fn numbers() -> Vec<Row> {
     let name = |number: u32| if number.is_multiple_of(2) { "/even" } else { "/odd" };
     (0..40).map(|one| (one, i64::from(one) * 100_000_000 + 5, name(one).to_owned())).collect()

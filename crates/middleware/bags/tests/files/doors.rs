@@ -1,4 +1,4 @@
-//! Every kind of recording through the one door, and into every other kind.
+//! Opening and conversion of all kinds of bags.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ fn settings(storage: Storage) -> WriteSettings {
     WriteSettings::new(storage)
 }
 
-/// All the ways in which recordings are written, by name.
+/// All storage and compression formats, by name.
 fn ways() -> Vec<(&'static str, WriteSettings)> {
     use ChunkPacking::{Bz2, Lz4, None};
     use Storage::{Mcap, Ros1, Sqlite};
@@ -113,9 +113,9 @@ fn a_folder_is_read_without_its_metadata() {
     assert_eq!(rows(&bag, Selection::default()), numbers());
     bag.reindex(Style::Jazzy).unwrap();
     assert_eq!(fs::read_to_string(&metadata).unwrap(), written);
-    // Naming the description means the folder.
+    // The path of the metadata file opens the folder.
     assert_eq!(Bag::open(&metadata).unwrap().message_count(), 40);
-    // A file that is gone takes its own messages with it.
+    // Only the messages of a missing file are lost.
     fs::remove_file(path.join("bag_0.mcap")).unwrap();
     let bag = Bag::open(&path).unwrap();
     assert!(bag.findings().has_errors());
@@ -143,7 +143,8 @@ fn a_database_whose_index_leads_back_is_read_all_the_same() {
     assert!(messages.faults().iter().any(|fault| fault.contains("damaged")));
 }
 
-/// Four thousand messages more, so that there are pages to lose; their numbers are those of the rows.
+/// Four thousand more messages, so that there are pages to lose; their numbers are those of the
+/// rows.
 fn large_database(path: &Path) -> Vec<u8> {
     write_numbers(path, settings(Storage::Sqlite));
     let mut connection = rusqlite::Connection::open(path).unwrap();
@@ -169,7 +170,7 @@ fn of_a_damaged_database_what_can_be_read_is_read() {
     let pages = whole.len() / PAGE;
     assert!(pages > 30);
     let cut = whole[..pages * 7 / 10 * PAGE].to_vec();
-    // A transfer that ended within a page.
+    // A transfer interrupted within a page.
     let torn = whole[..whole.len() * 7 / 10 + 1000].to_vec();
     let mut hole = whole;
     hole[pages / 2 * PAGE..(pages / 2 + 4) * PAGE].fill(0xa5);
@@ -196,7 +197,7 @@ fn of_a_damaged_database_what_can_be_read_is_read() {
     }
 }
 
-/// The tables of Foxy, Galactic and Humble, as `rosbag2_storage_sqlite3` had them.
+/// Tables of Foxy, Galactic and Humble, as created by `rosbag2_storage_sqlite3`.
 #[test]
 fn databases_of_older_releases_are_read() {
     let folder = Folder::new("older");
@@ -225,7 +226,7 @@ fn databases_of_older_releases_are_read() {
         let bag = Bag::open(&path).unwrap();
         assert_eq!(bag.ros_distro(), distro);
         assert_eq!(rows(&bag, Selection::default()), [(5, 7, "/odd".to_owned())]);
-        // Its type is known by name, so it goes to ROS 1.
+        // Its type is known by name, so it can be converted to ROS 1.
         let goal = folder.path(&format!("{name}.bag"));
         let conversion =
             Conversion { selection: Selection::default(), write: settings(Storage::Ros1) };
@@ -261,12 +262,12 @@ fn what_cannot_be_is_refused() {
         periplus_bags::files::BagWriter::create(path, settings).err().map(|error| error.to_string())
     };
     let refused = create(&path, settings(Storage::Mcap)).unwrap();
-    assert!(refused.contains("is there already"), "{refused}");
+    assert!(refused.contains("already exists"), "{refused}");
     let other = folder.path("x.db3");
     let refused = create(&other, settings(Storage::Mcap)).unwrap();
-    assert!(refused.contains("no name for the storage mcap"), "{refused}");
+    assert!(refused.contains("does not have the extension of the storage mcap"), "{refused}");
     let split = WriteSettings { max_bytes: Some(9), ..settings(Storage::Sqlite) };
-    assert!(create(&other, split).unwrap().contains("not split"));
+    assert!(create(&other, split).unwrap().contains("cannot be split"));
     fs::write(folder.path("text.txt"), "no bag").unwrap();
     assert!(matches!(Bag::open(folder.path("text.txt")), Err(BagError::NoBag(..))));
     fs::create_dir(folder.path("empty")).unwrap();

@@ -1,4 +1,4 @@
-//! Recordings and graphs: played, recorded, and killed.
+//! Playback and recording on a graph, and killed recorders.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
@@ -17,7 +17,7 @@ use periplus_msgs::std_msgs::{String as Text, UInt32};
 const STORAGES: [(Storage, &str); 3] =
     [(Storage::Mcap, "bag"), (Storage::Sqlite, "base"), (Storage::Ros1, "one.bag")];
 
-/// Plays to the end on a clock of its own. Returns how long it took \[ns\].
+/// Plays to the end on a simulated caller clock. Returns the duration \[ns\].
 fn play(player: &mut Player, graph: &Graph) -> i64 {
     let mut wall_ns = 1_000;
     while let Some(next_ns) = player.advance_to(wall_ns).unwrap() {
@@ -134,7 +134,7 @@ fn latched_topics_stay_latched() {
     }
 }
 
-/// The child of [`a_killed_recording_loses_a_second_at_most`]; by itself it does nothing.
+/// Child process of [`a_killed_recording_loses_a_second_at_most`]; does nothing on its own.
 #[test]
 fn child_that_records_until_it_is_killed() {
     let Some(path) = std::env::var_os("PERIPLUS_KILLED_RECORDING") else { return };
@@ -178,7 +178,7 @@ fn a_killed_recording_loses_a_second_at_most() {
                 break;
             }
         }
-        // SIGKILL: nothing of the program runs any more.
+        // SIGKILL: no cleanup code runs.
         child.kill().unwrap();
         child.wait().unwrap();
         let bag = Bag::open(&path).unwrap();

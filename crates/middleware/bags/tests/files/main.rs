@@ -1,6 +1,9 @@
-//! Recordings on the disk.
+//! Bags on disk.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
-#![allow(clippy::print_stdout, reason = "a parent reads what its child says; skipped tests say so")]
+#![allow(
+    clippy::print_stdout,
+    reason = "a parent reads the output of its child; skipped tests report it"
+)]
 #![allow(
     clippy::disallowed_methods,
     reason = "these tests look at files, clocks and the environment"

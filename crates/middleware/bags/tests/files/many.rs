@@ -1,4 +1,4 @@
-//! Recordings with very many topics: work grows with their number, not with its square.
+//! Bags with very many topics: work grows linearly with their number.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -24,7 +24,7 @@ fn write(path: &Path, count: u32) {
     bag.finish().unwrap();
 }
 
-/// The fastest of three turns.
+/// Shortest time of three runs.
 fn fastest(mut work: impl FnMut()) -> Duration {
     let turn = |_| {
         let start = Instant::now();

@@ -1,5 +1,5 @@
-//! Our recordings in other people's libraries and theirs in ours, for every type of message. Needs
-//! Python with `mcap`, `mcap-ros2-support` and `rosbags`: `PERIPLUS_PYTHON`, otherwise `python3`.
+//! Interoperability with other libraries in both directions, for every message type. Needs Python
+//! with `mcap`, `mcap-ros2-support` and `rosbags`: `PERIPLUS_PYTHON`, otherwise `python3`.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use periplus_bags::{BagTopic, Selection, Stamp, Style, Target, Translation};
 use periplus_diagnostics::Diagnostics;
 use periplus_msgs::{DynamicMessage, Format, TypeRegistry};
 
-/// Python with the peers, if there is one.
+/// Python with the peer libraries, if installed.
 fn python() -> Option<PathBuf> {
     let python = std::env::var_os("PERIPLUS_PYTHON").unwrap_or_else(|| "python3".into());
     let probe = Command::new(&python).args([SCRIPT, "probe"]).output();
@@ -32,7 +32,7 @@ fn run(python: &Path, task: &str, paths: &[PathBuf]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Every type with random values that its own test has from rosbags, three times.
+/// Every type with the random values of its own rosbags test, three times.
 fn write_all(path: &Path) -> u64 {
     let types = TypeRegistry::builtin();
     let mut bag = BagWriter::create(path, WriteSettings::new(Storage::Mcap)).unwrap();
@@ -40,7 +40,7 @@ fn write_all(path: &Path) -> u64 {
     for line in include_str!("../../../../messages/msgs/tests/data/oracle.jsonl").lines() {
         let line: serde_json::Value = serde_json::from_str(line).unwrap();
         let type_name = line["type"].as_str().unwrap();
-        // Parts of services and actions are not sent on topics.
+        // Parts of services and actions are not published on topics.
         if !type_name.contains("/msg/") {
             continue;
         }

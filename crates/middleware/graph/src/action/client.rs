@@ -1,4 +1,4 @@
-//! Who sends goals.
+//! Action clients.
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -26,8 +26,8 @@ pub struct ActionClient<A: Action> {
     status: Mailbox<GoalStatusArray>,
 }
 
-/// Makes names of goals. They follow from the name of the node, the time, and how many were made, so
-/// that a run in lockstep makes the same ones again.
+/// Generates goal ids. They follow from the node name, the time, and a counter, so that a run in
+/// lockstep generates the same ids again.
 pub(super) struct Ids {
     node: Node,
     count: AtomicU64,
@@ -54,7 +54,7 @@ impl Ids {
 }
 
 impl Node {
-    /// Sends goals of an action. Who works on them may come later.
+    /// Creates an action client. The action server may appear later.
     ///
     /// # Errors
     /// When the name is not valid, or a topic or service of it has another type.
@@ -79,13 +79,13 @@ impl<A: Action> ActionClient<A> {
         &self.name
     }
 
-    /// Whether somebody works on goals.
+    /// True if an action server is available.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.send.is_ready() && self.result.is_ready() && self.cancel.is_ready()
     }
 
-    /// Sends a goal. What becomes of it is told when the graph goes on.
+    /// Sends a goal. [`SentGoal::look`] reports its progress once the graph has advanced.
     #[must_use]
     pub fn send(&self, goal: A::Goal) -> SentGoal<A> {
         let id = self.ids.next();
@@ -93,11 +93,12 @@ impl<A: Action> ActionClient<A> {
         SentGoal { id, result: self.result.clone(), stage: Mutex::new(stage) }
     }
 
-    /// What was told since the last look, of goals of anybody.
+    /// Returns the feedback received since the last call, for the goals of all clients.
     #[must_use]
     pub fn feedback(&self) -> Vec<(GoalId, A::Feedback)> {
-        let told = self.feedback.drain();
-        told.iter()
+        let feedback_messages = self.feedback.drain();
+        feedback_messages
+            .iter()
             .map(|message| {
                 let (id, feedback) = A::told_feedback(message);
                 (GoalId::from(id), feedback.clone())
@@ -105,7 +106,7 @@ impl<A: Action> ActionClient<A> {
             .collect()
     }
 
-    /// The states of all goals, if they have changed since the last look.
+    /// Returns the states of all goals if they have changed since the last call.
     #[must_use]
     pub fn states(&self) -> Option<Vec<(GoalId, GoalState)>> {
         let message = self.status.latest()?;
@@ -116,19 +117,19 @@ impl<A: Action> ActionClient<A> {
         Some(each.map(state).collect())
     }
 
-    /// Asks to stop a goal.
+    /// Requests cancellation of a goal.
     #[must_use]
     pub fn cancel(&self, id: GoalId) -> Pending<CancelGoal> {
         self.ask_cancel(id, Time::default())
     }
 
-    /// Asks to stop all goals, of anybody.
+    /// Requests cancellation of all goals, of all clients.
     #[must_use]
     pub fn cancel_all(&self) -> Pending<CancelGoal> {
         self.ask_cancel(GoalId::NONE, Time::default())
     }
 
-    /// Asks to stop all goals that were accepted by a time \[ns\].
+    /// Requests cancellation of all goals that were accepted up to a time \[ns\].
     #[must_use]
     pub fn cancel_before(&self, time_ns: i64) -> Pending<CancelGoal> {
         self.ask_cancel(GoalId::NONE, Time::of_ns(time_ns))
@@ -140,22 +141,22 @@ impl<A: Action> ActionClient<A> {
     }
 }
 
-/// What became of a goal.
+/// Progress of a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GoalProgress<R> {
-    /// Nobody has said yet.
+    /// Sent; not answered yet.
     Sent,
-    /// It will not be done.
+    /// Rejected by the server.
     Rejected,
-    /// It will be done, and its end is waited for.
+    /// Accepted; the result is pending.
     Accepted,
-    /// It is over: how, and what came of it.
+    /// Finished: the final state and the result.
     Over(GoalState, Arc<R>),
-    /// There is no answer.
+    /// The call failed.
     Failed(CallError),
 }
 
-/// A goal on its way.
+/// A goal that was sent.
 pub struct SentGoal<A: Action> {
     id: GoalId,
     result: Arc<Client<A::GetResult>>,
@@ -169,13 +170,13 @@ enum Stage<A: Action> {
 }
 
 impl<A: Action> SentGoal<A> {
-    /// Its name.
+    /// Id of the goal.
     #[must_use]
     pub fn id(&self) -> GoalId {
         self.id
     }
 
-    /// What has become of it by now.
+    /// Returns the progress of the goal.
     #[must_use]
     pub fn look(&self) -> GoalProgress<A::Result> {
         let mut stage = lock(&self.stage);

@@ -1,4 +1,4 @@
-//! Who sends goals of an action whose type is known only by its name.
+//! Action clients for types that are known only by name.
 
 use std::sync::{Arc, Mutex};
 
@@ -13,7 +13,7 @@ use crate::common::lock;
 use crate::node::Node;
 use crate::{CallError, Client, GraphError, Pending, RawClient, RawMailbox, RawMessage};
 
-/// Sends goals of an action by the name of its type: what a command line needs.
+/// Sends goals of an action whose type is given by name, as command lines need.
 pub struct DynamicActionClient {
     ids: Ids,
     types: Types,
@@ -23,7 +23,7 @@ pub struct DynamicActionClient {
     feedback: RawMailbox,
 }
 
-/// The types of the messages that are sent.
+/// Types of the messages that are sent.
 #[derive(Clone)]
 struct Types {
     send_request: Arc<Layout>,
@@ -34,7 +34,7 @@ struct Types {
 }
 
 impl Node {
-    /// Sends goals of an action of a type such as `nav2_msgs/action/NavigateToPose`.
+    /// Creates a client for an action type such as `nav2_msgs/action/NavigateToPose`.
     ///
     /// # Errors
     /// When the type is not known, the name is not valid, or a topic or service of it has another
@@ -83,27 +83,27 @@ fn unknown(type_name: &str, types: &TypeRegistry) -> GraphError {
     let known = types.type_names().filter_map(|name| name.strip_suffix("_SendGoal_Request"));
     let near = periplus_diagnostics::closest(type_name, known);
     let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-    let reason = format!("the type of actions `{type_name}` is not known{near}");
+    let reason = format!("the action type `{type_name}` is unknown{near}");
     GraphError::Value { reason }
 }
 
 impl DynamicActionClient {
-    /// Whether somebody works on goals.
+    /// True if an action server is available.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.send.is_ready() && self.result.is_ready() && self.cancel.is_ready()
     }
 
-    /// Sends a goal, given as JSON; fields that are not given keep their defaults.
+    /// Sends a goal, given as JSON; missing fields keep their defaults.
     ///
     /// # Errors
-    /// When something else is there than the type has.
+    /// When the JSON has fields that the type does not have, or values of another type.
     pub fn send(&self, goal: &Value) -> Result<DynamicGoal, DecodeError> {
         let id = self.ids.next();
         let request = json!({ "goal_id": { "uuid": id.0 }, "goal": goal });
         let cdr = encode(&self.types.send_request, &request)?;
         let stage = Arc::new(Mutex::new(Stage::Sent));
-        let (told, types, result) = (stage.clone(), self.types.clone(), self.result.clone());
+        let (shared, types, result) = (stage.clone(), self.types.clone(), self.result.clone());
         self.send.call(cdr, move |answer| {
             let accepted = answer.and_then(|answer| read(&types.send_response, &answer));
             let next = match accepted {
@@ -112,22 +112,22 @@ impl DynamicActionClient {
                 Ok(_) => Stage::Done(DynamicProgress::Rejected),
             };
             let is_accepted = matches!(next, Stage::Accepted);
-            *lock(&told) = next;
+            *lock(&shared) = next;
             let request = json!({ "goal_id": { "uuid": id.0 } });
             let Ok(cdr) = encode(&types.result_request, &request) else { return };
             if is_accepted {
                 result.call(cdr, move |answer| {
                     let answer = answer.and_then(|answer| read(&types.result_response, &answer));
                     let over = answer.map_or_else(DynamicProgress::Failed, over);
-                    *lock(&told) = Stage::Done(over);
+                    *lock(&shared) = Stage::Done(over);
                 });
             }
         });
         Ok(DynamicGoal { id, stage })
     }
 
-    /// What was told since the last look, of goals of anybody: messages of the type
-    /// `..._FeedbackMessage`, whose field `feedback` is what was told.
+    /// Returns the feedback received since the last call, for the goals of all clients, as messages
+    /// of the type `..._FeedbackMessage`, whose field `feedback` holds the content.
     #[must_use]
     pub fn feedback(&self) -> Vec<(GoalId, DynamicMessage)> {
         let samples = self.feedback.drain();
@@ -139,7 +139,7 @@ impl DynamicActionClient {
         samples.iter().filter_map(read).collect()
     }
 
-    /// Asks to stop a goal; [`GoalId::NONE`] means all.
+    /// Requests cancellation of a goal; [`GoalId::NONE`] means all.
     #[must_use]
     pub fn cancel(&self, id: GoalId) -> Pending<CancelGoal> {
         let goal_info = GoalInfo { goal_id: id.into(), ..Default::default() };
@@ -176,23 +176,23 @@ fn id_of(uuid: &Value) -> Option<GoalId> {
     Some(GoalId(bytes?.try_into().ok()?))
 }
 
-/// What became of a goal.
+/// Progress of a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DynamicProgress {
-    /// Nobody has said yet.
+    /// Sent; not answered yet.
     Sent,
-    /// It will not be done.
+    /// Rejected by the server.
     Rejected,
-    /// It will be done, and its end is waited for.
+    /// Accepted; the result is pending.
     Accepted,
-    /// It is over: how, and the message of the type `..._GetResult_Response`, whose field `result`
-    /// is what came of it.
+    /// Finished: the final state, and the message of the type `..._GetResult_Response`, whose field
+    /// `result` holds the result.
     Over(GoalState, DynamicMessage),
-    /// There is no answer.
+    /// The call failed.
     Failed(CallError),
 }
 
-/// A goal on its way.
+/// A goal that was sent.
 pub struct DynamicGoal {
     id: GoalId,
     stage: Arc<Mutex<Stage>>,
@@ -205,13 +205,13 @@ enum Stage {
 }
 
 impl DynamicGoal {
-    /// Its name.
+    /// Id of the goal.
     #[must_use]
     pub fn id(&self) -> GoalId {
         self.id
     }
 
-    /// What has become of it by now.
+    /// Returns the progress of the goal.
     #[must_use]
     pub fn look(&self) -> DynamicProgress {
         match &*lock(&self.stage) {

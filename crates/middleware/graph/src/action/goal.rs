@@ -1,16 +1,16 @@
-//! One goal: its name, and its states.
+//! Goal ids and the goal state machine.
 
 use std::fmt;
 
 use periplus_msgs::action_msgs::GoalStatus;
 use periplus_msgs::unique_identifier_msgs::UUID;
 
-/// Names a goal.
+/// Id of a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct GoalId(pub [u8; 16]);
 
 impl GoalId {
-    /// No goal: where a goal is asked for, all of them.
+    /// The null id: in requests it means all goals.
     pub const NONE: Self = Self([0; 16]);
 }
 
@@ -27,49 +27,49 @@ impl From<GoalId> for UUID {
 }
 
 impl fmt::Display for GoalId {
-    /// As 32 hexadecimal digits.
+    /// Formats the id as 32 hexadecimal digits.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
     }
 }
 
-/// How far a goal is.
+/// State of a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum GoalState {
-    /// There is no such goal.
+    /// No goal has this id.
     #[default]
     Unknown,
-    /// It waits.
+    /// Accepted, not started.
     Accepted,
-    /// It is being worked on.
+    /// Being executed.
     Executing,
-    /// Somebody asked to stop it, and it may.
+    /// Cancellation was requested and accepted.
     Canceling,
-    /// It is done.
+    /// Finished successfully.
     Succeeded,
-    /// It was stopped as asked.
+    /// Canceled on request.
     Canceled,
-    /// It could not be done.
+    /// Failed.
     Aborted,
 }
 
-/// What happens to a goal.
+/// Events of the goal state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GoalEvent {
-    /// Work begins.
+    /// Execution starts.
     Execute,
-    /// Somebody asked to stop it, and it may.
+    /// Cancellation was requested and accepted.
     Cancel,
-    /// It is done.
+    /// The goal succeeds.
     Succeed,
-    /// It cannot be done.
+    /// The goal fails.
     Abort,
-    /// It was stopped as asked.
+    /// The cancellation is complete.
     Canceled,
 }
 
 impl GoalState {
-    /// All of them, as `action_msgs/msg/GoalStatus` counts.
+    /// All states, in the order of `action_msgs/msg/GoalStatus`.
     pub const ALL: [Self; 7] = [
         Self::Unknown,
         Self::Accepted,
@@ -80,7 +80,7 @@ impl GoalState {
         Self::Aborted,
     ];
 
-    /// The state after an event; none where this cannot happen.
+    /// Returns the state after an event; none if the transition is not allowed.
     ///
     /// Source: `rcl_action/goal_state_machine.c`.
     #[must_use]
@@ -95,13 +95,13 @@ impl GoalState {
         }
     }
 
-    /// Whether nothing happens to it any more.
+    /// True for the final states.
     #[must_use]
     pub fn is_over(self) -> bool {
         matches!(self, Self::Succeeded | Self::Canceled | Self::Aborted)
     }
 
-    /// As `action_msgs/msg/GoalStatus` counts.
+    /// Number of the state in `action_msgs/msg/GoalStatus`.
     #[must_use]
     pub fn number(self) -> i8 {
         match self {
@@ -115,7 +115,7 @@ impl GoalState {
         }
     }
 
-    /// The state of a number; numbers that mean nothing are [`GoalState::Unknown`].
+    /// State of a number; unknown numbers give [`GoalState::Unknown`].
     #[must_use]
     pub fn of_number(number: i8) -> Self {
         Self::ALL.into_iter().find(|state| state.number() == number).unwrap_or_default()
@@ -123,7 +123,7 @@ impl GoalState {
 }
 
 impl fmt::Display for GoalState {
-    /// As `ros2 action send_goal` says it.
+    /// Formats the state as `ros2 action send_goal` does.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Unknown => "UNKNOWN",

@@ -1,25 +1,25 @@
-//! Which actions there are.
+//! The actions of a graph.
 
 use std::collections::BTreeMap;
 
 use crate::graph::Graph;
 
-/// An action and its ends.
+/// An action with its servers and clients.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ActionInfo {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its type, such as `nav2_msgs/action/Spin`.
+    /// Type, such as `nav2_msgs/action/Spin`.
     pub type_name: String,
-    /// Full names of the nodes that work on its goals, sorted.
+    /// Full names of the nodes that serve it, sorted.
     pub servers: Vec<String>,
     /// Full names of the nodes that send goals, sorted.
     pub clients: Vec<String>,
 }
 
 impl Graph {
-    /// The actions that somebody works on or sends goals of, by name. They are known by their
-    /// topics of feedback, as `rcl_action` knows them, so that those of others are seen, too.
+    /// Returns the actions with a server or a client, by name. They are found by their feedback
+    /// topics, as in `rcl_action`, so that those of other programs are included.
     #[must_use]
     pub fn actions(&self) -> Vec<ActionInfo> {
         let mut actions = BTreeMap::<String, ActionInfo>::new();

@@ -1,4 +1,4 @@
-//! Who works on goals.
+//! Action servers.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, Weak};
@@ -9,23 +9,23 @@ use periplus_msgs::action_msgs::{
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::{Action, Message, Service};
 
-use super::cancel::meant;
+use super::cancel::goals_to_cancel;
 use super::goal::{GoalEvent, GoalId, GoalState};
 use super::table::{Ended, Table};
 use super::{FEEDBACK_QOS, Names, STATUS_QOS};
 use crate::actor::Io;
-use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::lock;
+use crate::event_queue::{Event, EventQueue, Key, Rank};
 use crate::node::{Node, NodeCore};
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 use crate::service::{OwnServer, Reply, Request, ServerReaction};
 use crate::{Actor, GraphError, Publisher};
 
-/// How a server treats its goals.
+/// Settings of an action server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActionSettings {
-    /// How long a goal that is over is remembered, for who asks late \[ns\].
+    /// Time for which the result of a finished goal is kept for late requests \[ns\].
     pub result_timeout_ns: i64,
 }
 
@@ -36,15 +36,15 @@ impl Default for ActionSettings {
     }
 }
 
-/// Whether a goal may be stopped.
+/// Decides if a goal may be canceled.
 type MayCancel = Box<dyn Fn(GoalId) -> bool + Send + Sync>;
 
-/// What is done with a new goal.
+/// Callback for a new goal.
 type OnGoal<A> = Box<dyn Fn(NewGoal<A>) + Send + Sync>;
 
 pub(super) struct Core<A: Action> {
     node: Weak<NodeCore>,
-    agenda: Weak<Agenda>,
+    event_queue: Weak<EventQueue>,
     settings: ActionSettings,
     table: Mutex<Table<A>>,
     feedback: Publisher<A::FeedbackMessage>,
@@ -53,21 +53,21 @@ pub(super) struct Core<A: Action> {
     may_cancel: MayCancel,
 }
 
-/// Works on the goals of an action; the goals wait until somebody looks. Who asks to stop a goal
-/// is told yes; [`GoalHandle::is_canceling`] tells who works on it.
-#[must_use = "the action is gone when this is dropped"]
+/// Action server that is polled; goals wait in a queue. All cancel requests are accepted;
+/// [`GoalHandle::is_canceling`] reports them.
+#[must_use = "dropping this removes the action"]
 pub struct ActionServer<A: Action> {
     waiting: Arc<Mutex<VecDeque<NewGoal<A>>>>,
     _ends: Ends,
 }
 
-/// The services of an action, as long as this is there.
+/// The services of an action while this exists.
 struct Ends {
     _servers: [OwnServer; 3],
 }
 
 impl<A: Action> ActionServer<A> {
-    /// The oldest goal that waits to be accepted.
+    /// Returns the oldest goal that waits to be accepted.
     #[must_use]
     pub fn take(&self) -> Option<NewGoal<A>> {
         lock(&self.waiting).pop_front()
@@ -75,11 +75,11 @@ impl<A: Action> ActionServer<A> {
 }
 
 impl Node {
-    /// Works on the goals of an action.
+    /// Creates an action server.
     ///
     /// # Errors
-    /// When the name is not valid, a topic or service of it has another type, or another node works
-    /// on its goals.
+    /// When the name is not valid, a topic or service of it has another type, or another
+    /// node serves it.
     pub fn action_server<A: Action>(
         &self,
         name: &str,
@@ -94,9 +94,8 @@ impl Node {
 }
 
 impl<S: Send + 'static> Actor<S> {
-    /// Works on the goals of an action. `on_goal` gets each new goal, to accept it or not;
-    /// `on_cancel` says whether a goal may be stopped, and the one who works on it sees that in
-    /// [`GoalHandle::is_canceling`].
+    /// Creates an action server. `on_goal` gets each new goal and accepts or drops it; `on_cancel`
+    /// decides if a goal may be canceled, which [`GoalHandle::is_canceling`] then reports.
     ///
     /// # Errors
     /// As [`Node::action_server`].
@@ -137,7 +136,7 @@ fn ends<A: Action>(
     let names = Names::new(node, name)?;
     let core = Arc::new(Core::<A> {
         node: Arc::downgrade(&node.0),
-        agenda: Arc::downgrade(&node.0.agenda()),
+        event_queue: Arc::downgrade(&node.0.event_queue()),
         settings,
         table: Mutex::new(Table::new()),
         feedback: node.publisher(&names.end("feedback"), FEEDBACK_QOS)?,
@@ -155,15 +154,15 @@ fn ends<A: Action>(
         })?,
         end::<A::GetResult>(node, &names.end("get_result"), move |question, reply| {
             let ended = lock(&result.table).ask(GoalId::from(A::asked_result(&question)), reply);
-            tell::<A>(ended);
+            send_result::<A>(ended);
         })?,
     ];
-    // Who comes late knows that there are no goals yet.
+    // Late subscribers learn that there are no goals yet.
     core.status.publish(GoalStatusArray::default());
     Ok(Ends { _servers: servers })
 }
 
-/// A service whose answers may take their time.
+/// A service whose responses may be sent later.
 fn end<S: Service>(
     node: &Node,
     name: &str,
@@ -181,8 +180,8 @@ fn answer<T: Message>(reply: Reply, response: T) {
     reply.send(Ok(Arc::new(Payload::typed(Arc::new(response)))));
 }
 
-/// Tells a result to those who wait for it.
-fn tell<A: Action>(ended: Option<Ended<A>>) {
+/// Sends a result to the callers that wait for it.
+fn send_result<A: Action>(ended: Option<Ended<A>>) {
     let Some((state, result, waiting)) = ended else { return };
     for reply in waiting {
         answer(reply, A::give_result(state.number(), (*result).clone()));
@@ -200,32 +199,32 @@ impl<A: Action> Core<A> {
         let goal = Arc::new(goal.clone());
         let new = NewGoal { core: self.clone(), id, goal, reply: Some(reply) };
         if lock(&self.table).has(id) {
-            // There is a goal of this name: dropping the new one refuses it.
+            // The goal id is in use: dropping the new goal rejects it.
             return;
         }
         (self.on_goal)(new);
     }
 
     fn cancel(&self, request: &CancelGoalRequest) -> CancelGoalResponse {
-        let standings = lock(&self.table).standings();
-        let (meant, return_code) = meant(request, &standings);
+        let records = lock(&self.table).records();
+        let (meant, return_code) = goals_to_cancel(request, &records);
         let mut response = CancelGoalResponse { return_code, ..Default::default() };
         for id in &meant {
-            // Not under the lock: who works on the goal may look at it.
+            // Not under the lock: the callback may use the goal.
             if (self.may_cancel)(*id) && lock(&self.table).apply(*id, GoalEvent::Cancel) {
-                let standing = standings.iter().find(|goal| goal.id == *id);
+                let standing = records.iter().find(|goal| goal.id == *id);
                 response.goals_canceling.extend(standing.map(|standing| standing.info()));
             }
         }
         if !response.goals_canceling.is_empty() {
-            self.tell_states();
+            self.publish_states();
         } else if !meant.is_empty() {
             response.return_code = CancelGoalResponse::ERROR_REJECTED;
         }
         response
     }
 
-    fn tell_states(&self) {
+    fn publish_states(&self) {
         let states = lock(&self.table).statuses();
         self.status.publish(states);
     }
@@ -233,14 +232,15 @@ impl<A: Action> Core<A> {
     fn end(self: &Arc<Self>, id: GoalId, event: GoalEvent, result: A::Result) -> bool {
         let ended = lock(&self.table).end(id, event, Arc::new(result));
         let Some(ended) = ended else { return false };
-        self.tell_states();
-        tell::<A>(Some(ended));
+        self.publish_states();
+        send_result::<A>(Some(ended));
         self.expire_later(id);
         true
     }
 
     fn expire_later(self: &Arc<Self>, id: GoalId) {
-        let (Some(node), Some(agenda)) = (self.node.upgrade(), self.agenda.upgrade()) else {
+        let (Some(node), Some(event_queue)) = (self.node.upgrade(), self.event_queue.upgrade())
+        else {
             return;
         };
         let key = Key {
@@ -251,11 +251,11 @@ impl<A: Action> Core<A> {
             sequence: 0,
             ordinal: node.next_ordinal(),
         };
-        agenda.add(key, Arc::new(Expiry { core: Arc::downgrade(self), id }));
+        event_queue.add(key, Arc::new(Expiry { core: Arc::downgrade(self), id }));
     }
 }
 
-/// The time at which a goal is forgotten.
+/// The time at which a goal is removed.
 struct Expiry<A: Action> {
     core: Weak<Core<A>>,
     id: GoalId,
@@ -269,8 +269,8 @@ impl<A: Action> Event for Expiry<A> {
     }
 }
 
-/// A goal that somebody sent. If it is dropped, it is refused.
-#[must_use = "a goal that nobody accepts is refused"]
+/// A new goal. Dropping it rejects it.
+#[must_use = "dropping a new goal rejects it"]
 pub struct NewGoal<A: Action> {
     core: Arc<Core<A>>,
     id: GoalId,
@@ -279,24 +279,24 @@ pub struct NewGoal<A: Action> {
 }
 
 impl<A: Action> NewGoal<A> {
-    /// What is to be done.
+    /// The goal message.
     #[must_use]
     pub fn goal(&self) -> &Arc<A::Goal> {
         &self.goal
     }
 
-    /// Its name.
+    /// Id of the goal.
     #[must_use]
     pub fn id(&self) -> GoalId {
         self.id
     }
 
-    /// It will not be done.
+    /// Rejects the goal.
     pub fn reject(self) {}
 
-    /// It will be done: later, or now if [`GoalHandle::execute`] is called. None when another goal
-    /// has its name.
-    #[must_use = "a goal that nobody works on is stopped"]
+    /// Accepts the goal for later, or for now if [`GoalHandle::execute`] is called. None when the
+    /// goal id is in use.
+    #[must_use = "dropping the handle cancels the goal"]
     pub fn accept(mut self) -> Option<GoalHandle<A>> {
         let accepted_ns = self.core.now_ns();
         let mut table = lock(&self.core.table);
@@ -308,7 +308,7 @@ impl<A: Action> NewGoal<A> {
         if let Some(reply) = self.reply.take() {
             answer(reply, A::accept_goal(true, Time::of_ns(accepted_ns)));
         }
-        self.core.tell_states();
+        self.core.publish_states();
         Some(GoalHandle { core: self.core.clone(), id: self.id, goal: self.goal.clone() })
     }
 }
@@ -321,7 +321,7 @@ impl<A: Action> Drop for NewGoal<A> {
     }
 }
 
-/// A goal that is worked on. If it is dropped before its end, it counts as stopped.
+/// A goal that is being executed. Dropping it before its end marks it as canceled.
 pub struct GoalHandle<A: Action> {
     core: Arc<Core<A>>,
     id: GoalId,
@@ -329,57 +329,57 @@ pub struct GoalHandle<A: Action> {
 }
 
 impl<A: Action> GoalHandle<A> {
-    /// What is to be done.
+    /// The goal message.
     #[must_use]
     pub fn goal(&self) -> &Arc<A::Goal> {
         &self.goal
     }
 
-    /// Its name.
+    /// Id of the goal.
     #[must_use]
     pub fn id(&self) -> GoalId {
         self.id
     }
 
-    /// How far it is.
+    /// State of the goal.
     #[must_use]
     pub fn state(&self) -> GoalState {
         lock(&self.core.table).state(self.id)
     }
 
-    /// Whether it is to be stopped.
+    /// True if cancellation was requested.
     #[must_use]
     pub fn is_canceling(&self) -> bool {
         self.state() == GoalState::Canceling
     }
 
-    /// Work begins. False when it has already, or is to be stopped.
+    /// Starts execution. False if it has started already or is being canceled.
     pub fn execute(&self) -> bool {
         let began = lock(&self.core.table).apply(self.id, GoalEvent::Execute);
         if began {
-            self.core.tell_states();
+            self.core.publish_states();
         }
         began
     }
 
-    /// Tells how far it is.
+    /// Publishes feedback.
     pub fn feedback(&self, feedback: A::Feedback) {
         if self.core.feedback.is_heard() {
             self.core.feedback.publish(A::tell_feedback(self.id.into(), feedback));
         }
     }
 
-    /// It is done. False, and nothing told, when that cannot be: it never began, or is over.
+    /// Ends the goal with success. False without effect if it never started or is over.
     pub fn succeed(&self, result: A::Result) -> bool {
         self.core.end(self.id, GoalEvent::Succeed, result)
     }
 
-    /// It cannot be done. False as for [`GoalHandle::succeed`].
+    /// Ends the goal as failed. False as for [`GoalHandle::succeed`].
     pub fn abort(&self, result: A::Result) -> bool {
         self.core.end(self.id, GoalEvent::Abort, result)
     }
 
-    /// It was stopped as asked. False when nobody asked.
+    /// Ends the goal as canceled. False if no cancellation was requested.
     pub fn canceled(&self, result: A::Result) -> bool {
         self.core.end(self.id, GoalEvent::Canceled, result)
     }

@@ -1,4 +1,4 @@
-//! The goals of a server.
+//! The goals of an action server.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use periplus_msgs::Action;
 use periplus_msgs::action_msgs::{GoalStatus, GoalStatusArray};
 
 use super::GoalId;
-use super::cancel::Standing;
+use super::cancel::GoalRecord;
 use super::goal::{GoalEvent, GoalState};
 use crate::service::Reply;
 
@@ -15,13 +15,13 @@ pub(super) struct Table<A: Action> {
 }
 
 struct Entry<A: Action> {
-    standing: Standing,
+    standing: GoalRecord,
     result: Option<Arc<A::Result>>,
-    /// Who waits for the result.
+    /// Callers that wait for the result.
     waiting: Vec<Reply>,
 }
 
-/// What is to be told to whom, now that a goal is over.
+/// A finished goal: state, result, and the callers to send it to.
 pub(super) type Ended<A> = (GoalState, Arc<<A as Action>::Result>, Vec<Reply>);
 
 impl<A: Action> Table<A> {
@@ -34,7 +34,7 @@ impl<A: Action> Table<A> {
     }
 
     pub(super) fn accept(&mut self, id: GoalId, accepted_ns: i64) {
-        let standing = Standing { id, accepted_ns, state: GoalState::Accepted };
+        let standing = GoalRecord { id, accepted_ns, state: GoalState::Accepted };
         self.goals.push(Entry { standing, result: None, waiting: Vec::new() });
     }
 
@@ -47,7 +47,7 @@ impl<A: Action> Table<A> {
         goal.map_or(GoalState::Unknown, |goal| goal.standing.state)
     }
 
-    /// Whether this could happen.
+    /// Applies an event; false if the transition is not allowed.
     pub(super) fn apply(&mut self, id: GoalId, event: GoalEvent) -> bool {
         let Some(goal) = self.find(id) else { return false };
         match goal.standing.state.after(event) {
@@ -59,7 +59,7 @@ impl<A: Action> Table<A> {
         }
     }
 
-    /// The end of a goal; none when it cannot end so.
+    /// Ends a goal; none if the transition is not allowed.
     pub(super) fn end(
         &mut self,
         id: GoalId,
@@ -74,7 +74,7 @@ impl<A: Action> Table<A> {
         Some((goal.standing.state, result, std::mem::take(&mut goal.waiting)))
     }
 
-    /// Lets somebody wait for a result; or gives the reply back with what is to be answered.
+    /// Adds a caller that waits for a result; returns it with the result if that is known.
     pub(super) fn ask(&mut self, id: GoalId, reply: Reply) -> Option<Ended<A>> {
         let Some(goal) = self.find(id) else {
             return Some((GoalState::Unknown, Arc::default(), vec![reply]));
@@ -88,12 +88,12 @@ impl<A: Action> Table<A> {
         }
     }
 
-    /// A goal that is over is forgotten.
+    /// Removes a finished goal.
     pub(super) fn forget(&mut self, id: GoalId) {
         self.goals.retain(|goal| goal.standing.id != id || !goal.standing.state.is_over());
     }
 
-    pub(super) fn standings(&self) -> Vec<Standing> {
+    pub(super) fn records(&self) -> Vec<GoalRecord> {
         self.goals.iter().map(|goal| goal.standing).collect()
     }
 

@@ -1,21 +1,21 @@
-//! Telling nodes that the clock jumped.
+//! Callbacks for jumps of the clock.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use super::{Actor, Io};
-use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::{Common, lock};
+use crate::event_queue::{Event, EventQueue, Key, Rank};
 
-/// Who wants to know, by node and number.
+/// Jump handlers by node and number.
 #[derive(Default)]
-pub(crate) struct Jumps(Mutex<BTreeMap<Place, Arc<JumpHandler>>>);
+pub(crate) struct Jumps(Mutex<BTreeMap<HandlerKey, Arc<JumpHandler>>>);
 
 /// Name of the node, and number of the handler in it.
-type Place = (Arc<str>, u64);
+type HandlerKey = (Arc<str>, u64);
 
 pub(crate) struct JumpHandler {
-    agenda: Arc<Agenda>,
+    event_queue: Arc<EventQueue>,
     react: Box<dyn Fn() + Send + Sync>,
 }
 
@@ -26,8 +26,8 @@ impl Event for JumpHandler {
 }
 
 impl Jumps {
-    /// The clock jumped to `now_ns`: before anything else, each node hears of it.
-    pub(crate) fn tell(&self, now_ns: i64) {
+    /// Queues the jump handlers of all nodes; they run before anything else.
+    pub(crate) fn notify(&self, now_ns: i64) {
         for ((node, ordinal), handler) in lock(&self.0).iter() {
             let key = Key {
                 time_ns: now_ns,
@@ -37,37 +37,37 @@ impl Jumps {
                 sequence: 0,
                 ordinal: *ordinal,
             };
-            handler.agenda.add(key, handler.clone());
+            handler.event_queue.add(key, handler.clone());
         }
     }
 }
 
-/// A handler that is forgotten when this is dropped.
+/// A handler that is removed when this is dropped.
 struct OwnJump {
-    place: Place,
+    key: HandlerKey,
     common: Arc<Common>,
 }
 
 impl Drop for OwnJump {
     fn drop(&mut self) {
-        let gone = lock(&self.common.jumps.0).remove(&self.place);
+        let gone = lock(&self.common.jumps.0).remove(&self.key);
         drop(gone);
     }
 }
 
 impl<S: Send + 'static> Actor<S> {
-    /// Reacts to a jump of the clock: a reset, or a bag that begins again. Buffers of what was are
-    /// emptied here. Timers start anew by themselves.
+    /// Calls back on a jump of the clock, such as a reset or a bag that loops. Clear time-dependent
+    /// buffers here. Timers restart by themselves.
     pub fn on_jump(&mut self, react: impl FnMut(&mut S, &mut Io<'_, S>) + Send + 'static) {
         let act = self.act(react);
         let node = self.node.0.clone();
         let handler = JumpHandler {
-            agenda: node.agenda(),
+            event_queue: node.event_queue(),
             react: Box::new(move || act(&mut |react, state, io| react(state, io))),
         };
-        let place = (node.full_name.clone(), node.next_ordinal());
+        let key = (node.full_name.clone(), node.next_ordinal());
         let common = node.core.common.clone();
-        lock(&common.jumps.0).insert(place.clone(), Arc::new(handler));
-        self.parts.push(Box::new(OwnJump { place, common }));
+        lock(&common.jumps.0).insert(key.clone(), Arc::new(handler));
+        self.parts.push(Box::new(OwnJump { key, common }));
     }
 }

@@ -1,7 +1,7 @@
-//! Files of parameters: nodes, and below each `ros__parameters`.
+//! Parameter files: nodes, each with a mapping `ros__parameters`.
 //!
-//! Source: `rcl_yaml_param_parser`. Names of nodes may be split by namespaces, and names of
-//! parameters by groups: both nest.
+//! Source: `rcl_yaml_param_parser`. Node names may be nested by namespace, parameter names by
+//! group.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -25,7 +25,7 @@ pub(super) fn read(
     match periplus_yaml::parse(file, sources) {
         Ok(Some(node)) => nodes(arguments, "", &node, diagnostics),
         Ok(None) => {
-            let empty = Diagnostic::warning("no-parameters", "there are no parameters in here");
+            let empty = Diagnostic::warning("no-parameters", "the file has no parameters");
             diagnostics.push(empty.at(sources.whole(file)));
         }
         Err(wrong) => diagnostics.push(*wrong),
@@ -34,10 +34,10 @@ pub(super) fn read(
 
 fn nodes(arguments: &mut Arguments, path: &str, at: &Node, diagnostics: &mut Diagnostics) {
     let Some(entries) = at.entries() else {
-        let message = format!("{} where the name of a node belongs", at.kind());
+        let message = format!("{} where a node name is expected", at.kind());
         let wrong = Diagnostic::error("bad-parameter-file", message).at(at.span);
         diagnostics.push(wrong.help(format!(
-            "write the name of the node (or `/**` for all), below it `{PARAMETERS}`, below that \
+            "write the node name (or `/**` for all), below it `{PARAMETERS}`, below that \
              the parameters"
         )));
         return;
@@ -45,7 +45,7 @@ fn nodes(arguments: &mut Arguments, path: &str, at: &Node, diagnostics: &mut Dia
     for (key, value) in entries {
         let Some(name) = key.text() else {
             diagnostics
-                .push(Diagnostic::error("bad-parameter-file", "this is no name").at(key.span));
+                .push(Diagnostic::error("bad-parameter-file", "this is not a name").at(key.span));
             continue;
         };
         if name != PARAMETERS {
@@ -53,7 +53,7 @@ fn nodes(arguments: &mut Arguments, path: &str, at: &Node, diagnostics: &mut Dia
             continue;
         }
         if path.is_empty() {
-            let message = format!("`{PARAMETERS}` belongs below the name of a node");
+            let message = format!("`{PARAMETERS}` must be below a node name");
             let wrong = Diagnostic::error("bad-parameter-file", message).at(key.span);
             diagnostics.push(wrong.help("write `/**` above it for all nodes"));
             continue;
@@ -61,7 +61,7 @@ fn nodes(arguments: &mut Arguments, path: &str, at: &Node, diagnostics: &mut Dia
         match Pattern::read(path) {
             Ok(pattern) => group(arguments, &pattern, "", value, diagnostics),
             Err(reason) => {
-                let message = format!("the name of a node `{path}` {reason}");
+                let message = format!("the node name `{path}` {reason}");
                 diagnostics.push(Diagnostic::error("bad-parameter-file", message).at(key.span));
             }
         }
@@ -78,7 +78,7 @@ fn group(
     let Some(entries) = at.entries() else {
         // A node without parameters.
         if !at.is_null() {
-            let message = format!("{} where names and values of parameters belong", at.kind());
+            let message = format!("{} where parameter names and values are expected", at.kind());
             diagnostics.push(Diagnostic::error("bad-parameter-file", message).at(at.span));
         }
         return;
@@ -86,7 +86,7 @@ fn group(
     for (key, value) in entries {
         let Some(name) = key.text().filter(|name| !name.is_empty()) else {
             diagnostics
-                .push(Diagnostic::error("bad-parameter-file", "this is no name").at(key.span));
+                .push(Diagnostic::error("bad-parameter-file", "this is not a name").at(key.span));
             continue;
         };
         let name = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
@@ -104,7 +104,7 @@ fn group(
     }
 }
 
-/// Parameters of a node as a file, the way `ros2 param dump` writes it.
+/// Formats the parameters of a node as a file, as `ros2 param dump` does.
 ///
 /// ```
 /// use periplus_graph::{parameter_from_yaml, parameters_to_yaml};
@@ -127,7 +127,7 @@ pub fn parameters_to_yaml(node: &str, parameters: &[(String, ParameterValue)]) -
     out
 }
 
-/// Groups and values by name.
+/// Tree of groups and values by name.
 #[derive(Default)]
 struct Tree<'v> {
     values: BTreeMap<String, &'v ParameterValue>,

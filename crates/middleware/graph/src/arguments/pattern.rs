@@ -1,13 +1,14 @@
-//! Patterns for full names of nodes.
+//! Patterns for full node names.
 
-/// `/a/*/b/**`: `*` is any one part of a name, `**` any number of them, none too.
+/// A pattern such as `/a/*/b/**`: `*` matches one part of a name, `**` any number of parts,
+/// including none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pattern {
     written: String,
 }
 
 impl Pattern {
-    /// Reads one; a slash in front may be missing. The error is the rest of "the pattern ...".
+    /// Parses a pattern; the leading slash is optional. The error is the rest of "the pattern ...".
     pub(super) fn read(written: &str) -> Result<Self, String> {
         let parts = written.trim_matches('/').split('/');
         for part in parts {
@@ -20,22 +21,24 @@ impl Pattern {
             }
             return Err(if part.contains('*') {
                 format!(
-                    "has a wildcard inside of `{part}`; `*` is a whole part of a name, `**` any \
+                    "has a wildcard inside `{part}`; `*` matches a whole part of a name, `**` any \
                      number of parts"
                 )
             } else {
-                format!("has `{part}`, which no node is called: letters, digits and `_` only")
+                format!(
+                    "has `{part}`, which is not a node name: only letters, digits and `_` are allowed"
+                )
             });
         }
         Ok(Self { written: format!("/{}", written.trim_matches('/')) })
     }
 
-    /// All nodes.
+    /// Matches all nodes.
     pub(super) fn all() -> Self {
         Self { written: "/**".into() }
     }
 
-    /// Nodes of this name in any namespace.
+    /// Matches nodes of this name in any namespace.
     pub(super) fn named(node: &str) -> Self {
         Self { written: format!("/**/{node}") }
     }
@@ -47,7 +50,7 @@ impl Pattern {
     pub(super) fn fits(&self, node: &str) -> bool {
         let parts: Vec<&str> = self.written[1..].split('/').collect();
         let names: Vec<&str> = node.trim_start_matches('/').split('/').collect();
-        // `open[k]`: the parts so far fit the first `k` names.
+        // `open[k]`: the parts so far match the first `k` names.
         let mut open = vec![false; names.len() + 1];
         open[0] = true;
         for part in parts {

@@ -1,4 +1,4 @@
-//! The words of a command line.
+//! Parser for `--ros-args`.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use super::{Arguments, Pattern, file};
 use crate::log::Level;
 use crate::remap::Rule;
 
-/// The word after which words are for nodes, until `--` or the end.
+/// Flag that starts the arguments for nodes, which end at `--` or the end of the line.
 pub const ROS_ARGS: &str = "--ros-args";
 
-/// Every flag that ROS 2 knows.
+/// Every flag of ROS 2.
 const FLAGS: [&str; 17] = [
     "-r",
     "--remap",
@@ -33,8 +33,8 @@ const FLAGS: [&str; 17] = [
     ROS_ARGS,
 ];
 
-/// Parts the words of a command line: those for the program, and those for nodes, which stand
-/// between `--ros-args` and `--` or the end. There may be several such parts.
+/// Splits a command line into the arguments of the program and those for nodes, between
+/// `--ros-args` and `--` or the end. Several such sections are allowed.
 ///
 /// ```
 /// use periplus_graph::split_arguments;
@@ -60,10 +60,10 @@ pub fn split_arguments(words: impl IntoIterator<Item = String>) -> (Vec<String>,
 }
 
 impl Arguments {
-    /// Reads the words that stand after `--ros-args`. Files of parameters are read with `read`;
-    /// its error is the rest of the sentence "the file ...".
+    /// Parses the arguments after `--ros-args`. Parameter files are read with `read`; its error is
+    /// the rest of the sentence "the file ...".
     ///
-    /// What cannot be understood is a finding, and the rest counts.
+    /// Invalid arguments give findings; the rest is used.
     #[must_use]
     pub fn read(
         words: &[String],
@@ -77,7 +77,7 @@ impl Arguments {
             let mut value = |what: &str| {
                 let value = words.next().cloned();
                 if value.is_none() {
-                    let message = format!("`{flag}` needs {what} behind it");
+                    let message = format!("`{flag}` needs {what} after it");
                     diagnostics.push(Diagnostic::error("ros-args", message));
                 }
                 value
@@ -99,20 +99,20 @@ impl Arguments {
                     }
                 }
                 "--params-file" => {
-                    if let Some(path) = value("a file of parameters") {
+                    if let Some(path) = value("a parameter file") {
                         match read(Path::new(&path)) {
                             Ok(text) => {
                                 let id = sources.add(path, text);
                                 file::read(&mut arguments, id, sources, diagnostics);
                             }
                             Err(reason) => {
-                                let message = format!("the file of parameters `{path}` {reason}");
+                                let message = format!("the parameter file `{path}` {reason}");
                                 diagnostics.push(Diagnostic::error("ros-args", message));
                             }
                         }
                     }
                 }
-                "-e" | "--enclave" => arguments.enclave = value("the name of an enclave"),
+                "-e" | "--enclave" => arguments.enclave = value("an enclave name"),
                 "--log-level" => {
                     if let Some(rule) = value("a level, or `logger:=level`") {
                         arguments.log_level(&rule, diagnostics);
@@ -124,7 +124,7 @@ impl Arguments {
                 }
                 "--disable-rosout-logs" => arguments.no_rosout = true,
                 "--enable-rosout-logs" => arguments.no_rosout = false,
-                // Nodes write no files and nothing on the terminal by themselves.
+                // Nodes write neither files nor to the terminal.
                 "--enable-stdout-logs"
                 | "--disable-stdout-logs"
                 | "--enable-external-lib-logs"
@@ -135,7 +135,7 @@ impl Arguments {
         arguments
     }
 
-    /// `name:=value` or `node:name:=value`.
+    /// Parses `name:=value` or `node:name:=value`.
     fn parameter(&mut self, rule: &str, sources: &mut SourceMap, diagnostics: &mut Diagnostics) {
         let whole = {
             let file = sources.add("-p", rule);
@@ -154,7 +154,7 @@ impl Arguments {
         let pattern = match node {
             None => Ok(Pattern::all()),
             Some(node) if node.contains('/') => Pattern::read(node),
-            // A bare name means the node in any namespace.
+            // A bare name matches the node in any namespace.
             Some(node) => Pattern::read(node).map(|_| Pattern::named(node)),
         };
         let pattern = match pattern {
@@ -164,7 +164,7 @@ impl Arguments {
                 let at = whole.part(0, node.len());
                 return fail(
                     at,
-                    format!("the name of a node `{node}` {reason}"),
+                    format!("the node name `{node}` {reason}"),
                     "write `node:name:=value`",
                 );
             }
@@ -186,7 +186,7 @@ impl Arguments {
         }
     }
 
-    /// `level` or `logger:=level`.
+    /// Parses `level` or `logger:=level`.
     fn log_level(&mut self, rule: &str, diagnostics: &mut Diagnostics) {
         let (logger, word) = match rule.split_once(":=") {
             Some((logger, word)) => (Some(logger), word),
@@ -199,7 +199,7 @@ impl Arguments {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("write one of {}", names.join(", ")),
             };
-            let message = format!("`{word}` is no level of a log");
+            let message = format!("`{word}` is not a log level");
             return diagnostics.push(Diagnostic::error("ros-args", message).help(help));
         };
         match logger {
@@ -213,21 +213,21 @@ impl Arguments {
 }
 
 fn ignored(flag: &str) -> Diagnostic {
-    let message = format!("`{flag}` changes nothing here: nodes log on `/rosout`");
+    let message = format!("`{flag}` has no effect: nodes log to `/rosout`");
     Diagnostic::warning("ros-args", message)
 }
 
 fn unknown(word: &str) -> Diagnostic {
     let wrong = |message: String| Diagnostic::error("ros-args", message);
     if word.contains(":=") {
-        // What ROS 1 and the first ROS 2 took.
+        // The syntax of ROS 1 and the first ROS 2.
         return wrong(format!("`{word}` has no flag before it"))
-            .help(format!("write `-r {word}` for a name, `-p {word}` for a parameter"));
+            .help(format!("write `-r {word}` for a remapping, `-p {word}` for a parameter"));
     }
-    let wrong = wrong(format!("`{word}` is no word of `{ROS_ARGS}`"));
+    let wrong = wrong(format!("`{word}` is not a flag of `{ROS_ARGS}`"));
     match closest(word, FLAGS) {
         Some(near) => wrong.help(format!("did you mean `{near}`?")),
-        None => wrong.help("write `--` to end what is for nodes"),
+        None => wrong.help("write `--` to end the arguments for nodes"),
     }
 }
 
@@ -263,14 +263,14 @@ demo:
                 &mut |path| match path.to_str() {
                     Some("p.yaml") => Ok(FILE.into()),
                     Some("wrong.yaml") => Ok(WRONG.into()),
-                    _ => Err("is not there".into()),
+                    _ => Err("does not exist".into()),
                 },
             );
         let text = diagnostics.iter().map(|one| render(one, &sources, Style::Plain)).collect();
         (arguments, text)
     }
 
-    fn told(arguments: &Arguments, node: &str) -> String {
+    fn summary(arguments: &Arguments, node: &str) -> String {
         let all = arguments.parameters_of(node);
         let each = all.iter().map(|(name, value)| format!("{name}={}", parameter_to_yaml(value)));
         each.collect::<Vec<_>>().join(" ")
@@ -280,15 +280,15 @@ demo:
     fn later_patterns_win() {
         let (arguments, wrong) = read("--params-file p.yaml");
         assert_eq!(wrong, "");
-        assert_eq!(told(&arguments, "/demo/scan"), "frames=[a, b] plugin.radius=0.5 rate=3");
-        assert_eq!(told(&arguments, "/scan"), "plugin.radius=0.5 rate=1");
-        // `-p` means all nodes, `/**`, which the file names first: what is special there wins.
+        assert_eq!(summary(&arguments, "/demo/scan"), "frames=[a, b] plugin.radius=0.5 rate=3");
+        assert_eq!(summary(&arguments, "/scan"), "plugin.radius=0.5 rate=1");
+        // `-p` means all nodes, `/**`, which the file names first: the more specific pattern wins.
         let (arguments, _) = read("--params-file p.yaml -p rate:=9");
-        assert_eq!(told(&arguments, "/scan"), "plugin.radius=0.5 rate=9");
-        assert_eq!(told(&arguments, "/demo/scan"), "frames=[a, b] plugin.radius=0.5 rate=3");
+        assert_eq!(summary(&arguments, "/scan"), "plugin.radius=0.5 rate=9");
+        assert_eq!(summary(&arguments, "/demo/scan"), "frames=[a, b] plugin.radius=0.5 rate=3");
         let (arguments, _) = read("--params-file p.yaml -p scan:rate:=9 -p /demo/scan:on:=yes");
         assert_eq!(
-            told(&arguments, "/demo/scan"),
+            summary(&arguments, "/demo/scan"),
             "frames=[a, b] on=true plugin.radius=0.5 rate=9"
         );
     }
@@ -319,62 +319,62 @@ ros__parameters: {}
     }
 
     #[test]
-    fn slips_in_files_are_told_with_their_place() {
+    fn errors_in_files_are_reported_with_their_position() {
         check(
             "--params-file wrong.yaml",
             expect![[r#"
-            error[bad-parameter-file]: a number where the name of a node belongs
-             --> wrong.yaml:2:9
-              |
-            2 |   rate: 1
-              |         ^
-              |
-              = help: write the name of the node (or `/**` for all), below it `ros__parameters`, below that the parameters
-            error[bad-parameter-file]: `ros__parameters` belongs below the name of a node
-             --> wrong.yaml:3:1
-              |
-            3 | ros__parameters: {}
-              | ^^^^^^^^^^^^^^^
-              |
-              = help: write `/**` above it for all nodes
-            error[bad-parameter-file]: the name of a node `/sc*n` has a wildcard inside of `sc*n`; `*` is a whole part of a name, `**` any number of parts
-             --> wrong.yaml:4:9
-              |
-            4 | /sc*n: {ros__parameters: {a: 1}}
-              |         ^^^^^^^^^^^^^^^
-            error[bad-parameter]: `limits`: the value is a list of numbers with a whole number in it; all must be of one kind: write `2.0`
-             --> wrong.yaml:7:19
-              |
-            7 |     limits: [1.5, 2]
-              |                   ^
-            error[bad-parameter]: `nothing`: the value is nothing; write `""` for a text without letters
-             --> wrong.yaml:8:12
-              |
-            8 |     nothing:
-              |            ^
-            error[bad-parameter]: `deep`: the value is a list of lists or mappings; a list has values
-             --> wrong.yaml:9:12
-              |
-            9 |     deep: [{a: 1}]
-              |            ^^^^^^
-        "#]],
+                error[bad-parameter-file]: a number where a node name is expected
+                 --> wrong.yaml:2:9
+                  |
+                2 |   rate: 1
+                  |         ^
+                  |
+                  = help: write the node name (or `/**` for all), below it `ros__parameters`, below that the parameters
+                error[bad-parameter-file]: `ros__parameters` must be below a node name
+                 --> wrong.yaml:3:1
+                  |
+                3 | ros__parameters: {}
+                  | ^^^^^^^^^^^^^^^
+                  |
+                  = help: write `/**` above it for all nodes
+                error[bad-parameter-file]: the node name `/sc*n` has a wildcard inside `sc*n`; `*` matches a whole part of a name, `**` any number of parts
+                 --> wrong.yaml:4:9
+                  |
+                4 | /sc*n: {ros__parameters: {a: 1}}
+                  |         ^^^^^^^^^^^^^^^
+                error[bad-parameter]: `limits`: the value is a list of numbers with an integer in it; all must be of one type: write `2.0`
+                 --> wrong.yaml:7:19
+                  |
+                7 |     limits: [1.5, 2]
+                  |                   ^
+                error[bad-parameter]: `nothing`: the value is null; write `""` for an empty string
+                 --> wrong.yaml:8:12
+                  |
+                8 |     nothing:
+                  |            ^
+                error[bad-parameter]: `deep`: the value is a list of lists or mappings; the items must be values
+                 --> wrong.yaml:9:12
+                  |
+                9 |     deep: [{a: 1}]
+                  |            ^^^^^^
+            "#]],
         );
     }
 
     #[test]
-    fn slips_on_the_line_are_told() {
+    fn errors_on_the_command_line_are_reported() {
         check(
             "x:=1 --parms-file a -r -p a -p b:=[1 --log-level wran -r a:= --params-file gone.yaml --log-config-file x -p",
             expect![[r#"
                 error[ros-args]: `x:=1` has no flag before it
                  |
-                 = help: write `-r x:=1` for a name, `-p x:=1` for a parameter
-                error[ros-args]: `--parms-file` is no word of `--ros-args`
+                 = help: write `-r x:=1` for a remapping, `-p x:=1` for a parameter
+                error[ros-args]: `--parms-file` is not a flag of `--ros-args`
                  |
                  = help: did you mean `--params-file`?
-                error[ros-args]: `a` is no word of `--ros-args`
+                error[ros-args]: `a` is not a flag of `--ros-args`
                  |
-                 = help: write `--` to end what is for nodes
+                 = help: write `--` to end the arguments for nodes
                 error[ros-args]: the remapping `-p` has no `:=`; write `from:=to`, `node:from:=to`, `__node:=name` or `__ns:=/namespace`
                 error[ros-args]: `b`: the value cannot be read: this is not YAML: while parsing a flow sequence, expected ',' or ']'
                  --> -p:1:4
@@ -383,13 +383,13 @@ ros__parameters: {}
                   |    ^^
                   |
                   = help: values are YAML: `5`, `0.5`, `true`, `word`, `[1.0, 2.0]`
-                error[ros-args]: `wran` is no level of a log
+                error[ros-args]: `wran` is not a log level
                  |
                  = help: did you mean `warn`?
                 error[ros-args]: the remapping `a:=` has nothing after its `:=`; write `from:=to`, `node:from:=to`, `__node:=name` or `__ns:=/namespace`
-                error[ros-args]: the file of parameters `gone.yaml` is not there
-                warning[ros-args]: `--log-config-file` changes nothing here: nodes log on `/rosout`
-                error[ros-args]: `-p` needs a parameter, `name:=value` behind it
+                error[ros-args]: the parameter file `gone.yaml` does not exist
+                warning[ros-args]: `--log-config-file` has no effect: nodes log to `/rosout`
+                error[ros-args]: `-p` needs a parameter, `name:=value` after it
             "#]],
         );
     }

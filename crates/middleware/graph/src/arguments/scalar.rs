@@ -1,6 +1,6 @@
-//! Values of parameters as YAML, and back.
+//! Parameter values as YAML, and back.
 //!
-//! Source of what a word means: `get_value` in `rcl_yaml_param_parser/parse.c`.
+//! Source of the type of a scalar: `get_value` in `rcl_yaml_param_parser/parse.c`.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use periplus_geometry::{decode_base64, encode_base64};
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_yaml::{Node, Value};
 
-/// The value of a parameter as one writes it behind `-p name:=` or `ros2 param set`.
+/// Parses a parameter value as written after `-p name:=` or for `ros2 param set`.
 ///
 /// # Errors
 /// The rest of the sentence "the value ...".
@@ -18,18 +18,19 @@ pub fn parameter_from_yaml(text: &str) -> Result<ParameterValue, String> {
     let file = sources.add("value", text);
     match periplus_yaml::parse(file, &sources) {
         Ok(Some(node)) => value(&node).map_err(|wrong| wrong.message),
-        // Nothing, in quotes or not, is a text without letters.
+        // An empty text, quoted or not, is an empty string.
         Ok(None) => Ok(of_text(String::new())),
         Err(wrong) => Err(format!("cannot be read: {}", wrong.message)),
     }
 }
 
-/// The value of a node. The message of the finding is the rest of the sentence "the value ...".
+/// Converts the value of a YAML node. The message of the finding is the rest of the sentence "the
+/// value ...".
 pub(super) fn value(node: &Node) -> Result<ParameterValue, Box<Diagnostic>> {
     let fail = |message: &str| Box::new(Diagnostic::error("bad-parameter", message).at(node.span));
     match &node.value {
         Value::Scalar { .. } if node.is_null() => {
-            Err(fail("is nothing; write `\"\"` for a text without letters"))
+            Err(fail("is null; write `\"\"` for an empty string"))
         }
         Value::Scalar { .. } if node.is_binary => {
             bytes(node).map(of_bytes).ok_or_else(|| fail(NO_BASE64))
@@ -60,13 +61,13 @@ fn scalar(text: &str, is_plain: bool) -> ParameterValue {
     of_text(text.to_owned())
 }
 
-/// The bytes of a scalar with the tag `!!binary`. It may be written over several lines.
+/// Decodes a scalar with the tag `!!binary`, which may span several lines.
 fn bytes(node: &Node) -> Option<Vec<u8>> {
     let letters: String = node.text()?.split_ascii_whitespace().collect();
     decode_base64(&letters)
 }
 
-/// The rest of the sentence "the value ...".
+/// Message for invalid base64, the rest of the sentence "the value ...".
 const NO_BASE64: &str =
     "has the tag `!!binary` and is not base64; write `!!binary AQ==` for the byte 1";
 
@@ -90,7 +91,7 @@ fn truth(text: &str) -> Option<bool> {
     }
 }
 
-/// Decimal, `0x` hexadecimal, or octal after a zero, as `strtol` reads it.
+/// Parses decimal, `0x` hexadecimal, or octal after a zero, as `strtol` does.
 fn integer(text: &str) -> Option<i64> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(digits) => (-1, digits),
@@ -117,7 +118,7 @@ fn number(text: &str) -> Option<f64> {
         ".nan" | ".NaN" | ".NAN" => return Some(f64::NAN),
         _ => {}
     }
-    // Rust reads "inf" and "nan" as well, which are texts here.
+    // Rust also parses "inf" and "nan", which are strings here.
     let is_number = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
     text.parse().ok().filter(|_| is_number)
 }
@@ -133,7 +134,10 @@ fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
     let mut all = ParameterValue::default();
     for (index, item) in items.iter().enumerate() {
         let Value::Scalar { text, is_plain } = &item.value else {
-            return Err((Some(item), "is a list of lists or mappings; a list has values".into()));
+            return Err((
+                Some(item),
+                "is a list of lists or mappings; the items must be values".into(),
+            ));
         };
         if item.is_binary {
             let wrong = "is a list in which some items are `!!binary` and others are not";
@@ -142,7 +146,7 @@ fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
         let one = scalar(text, *is_plain);
         if index > 0 && all.r#type != list_type(one.r#type) {
             let wrong = format!(
-                "is a list of {} with {} in it; all must be of one kind{}",
+                "is a list of {} with {} in it; all must be of one type{}",
                 kind(all.r#type - list_type(0)),
                 article(one.r#type),
                 if one.r#type == Type::PARAMETER_INTEGER
@@ -164,20 +168,20 @@ fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
         }
     }
     if items.is_empty() {
-        return Err((None, "is an empty list, which does not say what it is a list of".into()));
+        return Err((None, "is an empty list, whose item type is unknown".into()));
     }
     Ok(all)
 }
 
-/// The type of a list of values of a type: for bool 1, 6 and so on.
+/// Type of a list of values of a type: 6 for bool (1), and so on.
 fn list_type(one: u8) -> u8 {
     one + (Type::PARAMETER_BOOL_ARRAY - Type::PARAMETER_BOOL)
 }
 
 fn kind(one: u8) -> &'static str {
     match one {
-        Type::PARAMETER_BOOL => "truth values",
-        Type::PARAMETER_INTEGER => "whole numbers",
+        Type::PARAMETER_BOOL => "booleans",
+        Type::PARAMETER_INTEGER => "integers",
         Type::PARAMETER_DOUBLE => "numbers",
         _ => "texts",
     }
@@ -185,14 +189,15 @@ fn kind(one: u8) -> &'static str {
 
 fn article(one: u8) -> &'static str {
     match one {
-        Type::PARAMETER_BOOL => "a truth value",
-        Type::PARAMETER_INTEGER => "a whole number",
+        Type::PARAMETER_BOOL => "a boolean",
+        Type::PARAMETER_INTEGER => "an integer",
         Type::PARAMETER_DOUBLE => "a number",
-        _ => "a text",
+        _ => "a string",
     }
 }
 
-/// A value as YAML that [`parameter_from_yaml`] reads back as the same; what is not set is `null`.
+/// Formats a value as YAML that [`parameter_from_yaml`] parses to the same value; a value that is
+/// not set is `null`.
 #[must_use]
 pub fn parameter_to_yaml(value: &ParameterValue) -> String {
     fn list<T>(items: &[T], one: impl Fn(&T) -> String) -> String {
@@ -223,7 +228,7 @@ fn of_number(number: f64) -> String {
     } else if number.is_infinite() {
         if number > 0.0 { ".inf" } else { "-.inf" }.into()
     } else {
-        // YAML 1.1 takes a number for one only with a point and a sign of the exponent.
+        // YAML 1.1 accepts an exponent only with a decimal point and a sign.
         let text = format!("{number:?}");
         let Some((digits, exponent)) = text.split_once('e') else { return text };
         let point = if digits.contains('.') { "" } else { ".0" };
@@ -232,7 +237,7 @@ fn of_number(number: f64) -> String {
     }
 }
 
-/// Plain where it means the same and is easy to see; otherwise in quotes.
+/// Plain where that is unambiguous; otherwise quoted.
 fn quoted(text: &str) -> String {
     let is_word = |c: char| c.is_alphanumeric() || "_-/.".contains(c);
     let is_plain = text.starts_with(|c: char| c.is_alphabetic() || "_/".contains(c))
@@ -296,7 +301,7 @@ mod tests {
         check("[true, no]", "6 [true, false]");
         check(
             "[1.5, 2]",
-            "is a list of numbers with a whole number in it; all must be of one kind: write `2.0`",
+            "is a list of numbers with an integer in it; all must be of one type: write `2.0`",
         );
         check("[!!binary AQ==, !!binary /w==]", "5 [!!binary \"AQ==\", !!binary \"/w==\"]");
         check("!!binary |\n  Af8=\n", "5 [!!binary \"AQ==\", !!binary \"/w==\"]");
@@ -306,9 +311,9 @@ mod tests {
             "[!!binary AQ==, 2]",
             "is a list in which some items are `!!binary` and others are not",
         );
-        check("[]", "is an empty list, which does not say what it is a list of");
+        check("[]", "is an empty list, whose item type is unknown");
         check("{a: 1}", "is a mapping; a parameter is one value or a list");
-        check("~", "is nothing; write `\"\"` for a text without letters");
+        check("~", "is null; write `\"\"` for an empty string");
     }
 
     proptest! {

@@ -1,7 +1,7 @@
-//! Bonds: each of two programs sends heartbeats under a common id on the topic `bond`, and learns from
-//! the other's when that one stops or dies. Nav2's lifecycle manager keeps one with each node.
+//! Bonds: two programs send heartbeats under a common id on the topic `bond` and detect when the
+//! other stops. Nav2's lifecycle manager keeps one with each node.
 //!
-//! All times are steady ones: `bondcpp` runs its timers on the steady clock, and a bond between two
+//! All times are steady: `bondcpp` runs its timers on the steady clock, and a bond between two
 //! programs holds while the simulation of one is paused.
 //!
 //! Source: the documentation of `bond_core` (message `bond/Status`, its constants and states),
@@ -20,30 +20,30 @@ use crate::{Actor, Mailbox, Node, Publisher, Qos, SteadyCallback};
 /// Topic of all bonds of a namespace.
 const TOPIC: &str = "bond";
 
-/// Messages that wait on it.
+/// Queue depth of the topic.
 const DEPTH: usize = 100;
 
-/// Period at which the end of a bond is published until the other end has seen it \[ns\].
+/// Period at which the end of a bond is published until the other end has acknowledged it \[ns\].
 const DEAD_PUBLISH_PERIOD_NS: i64 = 50_000_000;
 
-/// Time after which an end that was not answered stops publishing its end \[ns\].
+/// Timeout for that acknowledgement \[ns\].
 const DISCONNECT_TIMEOUT_NS: i64 = 2_000_000_000;
 
-/// Timeout of a node's own end, as Nav2's nodes have it \[s\].
+/// Heartbeat timeout of the node's end, as in Nav2 \[s\].
 const NODE_TIMEOUT_S: f64 = 4.0;
 
-/// How a bond is kept.
+/// Settings of a bond.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BondSettings {
     /// Period of heartbeats \[s\].
     pub period_s: f64,
     /// Time without a heartbeat after which the bond is broken \[s\].
     pub timeout_s: f64,
-    /// True for the end that begins: it sends heartbeats before it has received one.
+    /// True for the end that sends heartbeats before it has received one.
     pub begins: bool,
 }
 
-/// One end of a bond, apart from topics.
+/// State machine of one end of a bond.
 #[derive(Debug)]
 pub struct Bond {
     id: String,
@@ -56,11 +56,11 @@ pub struct Bond {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// No heartbeat was received yet.
+    /// No heartbeat received yet.
     Waiting,
-    /// The last heartbeat was received at this time.
+    /// Time of the last heartbeat \[ns\].
     Alive(i64),
-    /// This end was ended at this time; the other may not know.
+    /// Time at which this end broke the bond \[ns\]; not acknowledged yet.
     Ending(i64),
     Broken,
 }
@@ -73,7 +73,7 @@ fn ns(seconds: f64) -> i64 {
 }
 
 impl Bond {
-    /// An end of the bond `id`; `instance_id` is this end's alone.
+    /// Creates one end of the bond `id`; `instance_id` is unique to this end.
     #[must_use]
     pub fn new(id: &str, instance_id: &str, settings: BondSettings) -> Self {
         Self {
@@ -86,8 +86,8 @@ impl Bond {
         }
     }
 
-    /// Takes a message of the topic. Those of other bonds and of this end are ignored, and those of a
-    /// third end.
+    /// Processes a message of the topic. Messages of other bonds, of this end, and of a third end
+    /// are ignored.
     pub fn receive(&mut self, status: &Status, now_ns: i64) {
         if status.id != self.id || status.instance_id == self.instance_id {
             return;
@@ -95,13 +95,13 @@ impl Bond {
         match &self.sister {
             Some(sister) if *sister != status.instance_id => return,
             Some(_) => {}
-            // The end of a bond that was before.
+            // The end of an earlier bond.
             None if !status.active => return,
             None => self.sister = Some(status.instance_id.clone()),
         }
         self.state = match (self.state, status.active) {
             (State::Waiting | State::Alive(_), true) => State::Alive(now_ns),
-            // The other end ended it: it is told once that this is known.
+            // The other end broke the bond: acknowledge once.
             (State::Waiting | State::Alive(_), false) => {
                 State::Ending(now_ns - DISCONNECT_TIMEOUT_NS)
             }
@@ -110,7 +110,7 @@ impl Bond {
         };
     }
 
-    /// Ends the bond.
+    /// Breaks the bond.
     pub fn end(&mut self, now_ns: i64) {
         self.state = match self.state {
             State::Alive(_) => State::Ending(now_ns),
@@ -122,7 +122,7 @@ impl Bond {
         }
     }
 
-    /// The message that is due, if one is. Asked more often than the period, it keeps to the period.
+    /// Returns the message that is due, if any. Calls more often than the period have no effect.
     pub fn due(&mut self, now_ns: i64) -> Option<Status> {
         match self.state {
             // Time went back: a reset, where no edge drives steady time.
@@ -161,21 +161,21 @@ impl Bond {
         })
     }
 
-    /// True when both ends have heard of each other and none has ended it.
+    /// True when both ends have received heartbeats and neither has broken the bond.
     #[must_use]
     pub fn is_formed(&self) -> bool {
         matches!(self.state, State::Alive(_))
     }
 
-    /// True when it was ended, or heartbeats stopped.
+    /// True when it was broken by either end, or heartbeats stopped.
     #[must_use]
     pub fn is_broken(&self) -> bool {
         matches!(self.state, State::Ending(_) | State::Broken)
     }
 }
 
-/// A node's end of the bond to its lifecycle manager. It is silent until the manager begins, so that
-/// nothing is published where there is none.
+/// The node's end of the bond to its lifecycle manager. It is silent until the manager starts, so
+/// that nothing is published where there is none.
 pub(super) struct End {
     node: Node,
     heartbeats: Arc<Mutex<Heartbeats>>,
@@ -207,13 +207,13 @@ impl Heartbeats {
 }
 
 impl End {
-    /// Begins; none when the node's period is not positive or the topic has another type.
+    /// Starts the bond; none if the node's period is not positive or the topic has another type.
     pub(super) fn start(node: &Node) -> Option<Self> {
         let period_s = lock(&node.0.standard().store).bond_period_s();
         if period_s.is_nan() || period_s <= 0.0 {
             return None;
         }
-        // No end has the name of one before it.
+        // The instance id is never reused.
         let number = node.0.next_ordinal();
         let settings = BondSettings { period_s, timeout_s: NODE_TIMEOUT_S, begins: false };
         let graph = node.graph();
@@ -238,7 +238,7 @@ impl End {
         Some(Self { node: node.clone(), heartbeats, _steady: steady, _timer: timer })
     }
 
-    /// Ends the bond, and publishes that.
+    /// Breaks the bond and publishes that.
     pub(super) fn end(&self) {
         let now_ns = self.node.graph().steady_now_ns();
         let mut heartbeats = lock(&self.heartbeats);
@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(node.due(0), None);
         exchange(&mut manager, &mut node, 0);
         assert!(manager.is_formed() && node.is_formed());
-        // To the period, however often it is asked.
+        // One message per period, however often it is called.
         assert_eq!(node.due(SECOND / 20), None);
         let status = node.due(SECOND / 10).unwrap();
         assert!(status.active && status.heartbeat_period == 0.1 && status.heartbeat_timeout == 4.0);
@@ -295,7 +295,8 @@ mod tests {
         assert!(manager.is_broken());
     }
 
-    /// A reset of simulated time left an end silent until the time before the reset came again.
+    /// Regression test: after a reset of simulated time an end was silent until the time before the
+    /// reset.
     #[test]
     fn heartbeats_go_on_when_time_goes_back() {
         let (mut manager, mut node) = pair();
@@ -308,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_is_told_until_it_is_known() {
+    fn an_end_is_published_until_it_is_acknowledged() {
         let (mut manager, mut node) = pair();
         exchange(&mut manager, &mut node, 0);
         node.end(SECOND);
@@ -316,7 +317,7 @@ mod tests {
         assert!(!last.active && node.is_broken());
         manager.receive(&last, SECOND);
         assert!(manager.is_broken());
-        // The manager says that it knows, once; then both are silent.
+        // The manager acknowledges once; then both are silent.
         let known = manager.due(SECOND).unwrap();
         assert!(!known.active);
         assert_eq!(manager.due(2 * SECOND), None);
@@ -325,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_that_nobody_hears_stops() {
+    fn an_end_that_is_not_acknowledged_stops() {
         let (mut manager, mut node) = pair();
         exchange(&mut manager, &mut node, 0);
         node.end(SECOND);

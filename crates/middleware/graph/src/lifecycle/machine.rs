@@ -1,4 +1,4 @@
-//! The states of a managed node, and how one leads to another.
+//! State machine of managed nodes.
 
 use std::fmt;
 
@@ -7,62 +7,62 @@ use periplus_msgs::lifecycle_msgs::{self, State};
 use LifecycleState as S;
 use lifecycle_msgs::Transition as T;
 
-/// The state of a managed node: one of rest, or one on the way.
+/// State of a managed node: a primary state or a transition state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LifecycleState {
-    /// Nobody knows.
+    /// Unknown.
     Unknown,
-    /// It has nothing yet.
+    /// Created, not configured.
     Unconfigured,
-    /// It has all it needs, and rests.
+    /// Configured, not active.
     Inactive,
-    /// It works.
+    /// Active.
     Active,
-    /// It is over.
+    /// Shut down.
     Finalized,
-    /// On the way from unconfigured to inactive.
+    /// Transition from unconfigured to inactive.
     Configuring,
-    /// On the way back.
+    /// Transition from inactive to unconfigured.
     CleaningUp,
-    /// On the way to its end.
+    /// Transition to finalized.
     ShuttingDown,
-    /// On the way from inactive to active.
+    /// Transition from inactive to active.
     Activating,
-    /// On the way back.
+    /// Transition from active to inactive.
     Deactivating,
-    /// Something went wrong, and it cleans up.
+    /// Cleanup after an error.
     ErrorProcessing,
 }
 
-/// What a managed node is asked to do.
+/// Callbacks of a managed node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Get all it needs.
+    /// Allocate resources.
     Configure,
-    /// Give it back.
+    /// Release resources.
     Cleanup,
-    /// Begin to work.
+    /// Start operation.
     Activate,
-    /// Stop working.
+    /// Stop operation.
     Deactivate,
-    /// End.
+    /// Shut down.
     Shutdown,
-    /// Clean up after an error, to begin anew.
+    /// Clean up after an error, to restart unconfigured.
     Error,
 }
 
-/// How it went.
+/// Return value of a callback.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
-    /// Well.
+    /// Succeeded.
     Success,
-    /// Not, and all is as before.
+    /// Failed; the state is as before.
     Failure,
-    /// Not, and nobody knows how it is.
+    /// Failed; the state is undefined.
     Error,
 }
 
-/// A change that others may ask for.
+/// Transitions that other nodes can request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transition {
     /// From unconfigured to inactive.
@@ -73,11 +73,11 @@ pub enum Transition {
     Activate,
     /// From active to inactive.
     Deactivate,
-    /// From anywhere to the end.
+    /// From any primary state to finalized.
     Shutdown,
 }
 
-/// One way from a state to another.
+/// An edge of the state machine.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Edge {
     pub(super) id: u8,
@@ -94,7 +94,7 @@ const SUCCESS: &str = "transition_success";
 const FAILURE: &str = "transition_failure";
 const ERROR: &str = "transition_error";
 
-/// All ways.
+/// All edges.
 pub(super) const EDGES: [Edge; 25] = [
     edge(T::TRANSITION_CONFIGURE, "configure", S::Unconfigured, S::Configuring),
     edge(T::TRANSITION_ON_CONFIGURE_SUCCESS, SUCCESS, S::Configuring, S::Inactive),
@@ -123,12 +123,12 @@ pub(super) const EDGES: [Edge; 25] = [
     edge(T::TRANSITION_ON_ERROR_ERROR, ERROR, S::ErrorProcessing, S::Finalized),
 ];
 
-/// The ways out of a state.
+/// Edges from a state.
 pub(super) fn edges_from(state: LifecycleState) -> impl Iterator<Item = &'static Edge> {
     EDGES.iter().filter(move |edge| edge.start == state)
 }
 
-/// The way out of a state on the way.
+/// Edge from a transition state for an outcome.
 pub(super) fn after(state: LifecycleState, outcome: StepOutcome) -> Option<&'static Edge> {
     let label = match outcome {
         StepOutcome::Success => SUCCESS,
@@ -149,14 +149,14 @@ impl Transition {
         }
     }
 
-    /// Its way from a state, if there is one.
+    /// Edge of this transition from a state, if there is one.
     pub(super) fn at(self, state: LifecycleState) -> Option<&'static Edge> {
         edges_from(state).find(|edge| edge.label == self.label())
     }
 }
 
 impl LifecycleState {
-    /// All of them, in the order in which ROS lists them.
+    /// All states, in the order of ROS.
     pub const ALL: [Self; 11] = [
         Self::Unknown,
         Self::Unconfigured,
@@ -171,7 +171,7 @@ impl LifecycleState {
         Self::ErrorProcessing,
     ];
 
-    /// As `lifecycle_msgs/msg/State` counts.
+    /// Number of the state in `lifecycle_msgs/msg/State`.
     #[must_use]
     pub fn number(self) -> u8 {
         match self {
@@ -189,7 +189,7 @@ impl LifecycleState {
         }
     }
 
-    /// What is done in a state on the way.
+    /// Callback of a transition state.
     pub(super) fn step(self) -> Option<Step> {
         match self {
             Self::Configuring => Some(Step::Configure),
@@ -208,7 +208,7 @@ impl LifecycleState {
 }
 
 impl fmt::Display for LifecycleState {
-    /// As ROS labels it.
+    /// Formats the label of ROS.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Unknown => "unknown",

@@ -1,4 +1,4 @@
-//! What others may ask of a managed node.
+//! Lifecycle services of a managed node.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use periplus_msgs::lifecycle_msgs::{
     GetStateResponse, TransitionDescription,
 };
 
-use super::Life;
+use super::LifecycleCore;
 use super::machine::{EDGES, Edge, LifecycleState, edges_from};
 use crate::GraphError;
 use crate::common::lock;
@@ -18,7 +18,7 @@ use crate::registry::TypeOf;
 use crate::service::OwnServer;
 use crate::standard::reaction;
 
-pub(super) fn serve(node: &Node, life: &Arc<Life>) -> Result<[OwnServer; 5], GraphError> {
+pub(super) fn serve(node: &Node, life: &Arc<LifecycleCore>) -> Result<[OwnServer; 5], GraphError> {
     Ok([
         server::<ChangeState>(node, life, "~/change_state", |life, request| ChangeStateResponse {
             success: life.change(|state| asked(state, request)),
@@ -41,17 +41,17 @@ pub(super) fn serve(node: &Node, life: &Arc<Life>) -> Result<[OwnServer; 5], Gra
 
 fn server<S: Service>(
     node: &Node,
-    life: &Arc<Life>,
+    life: &Arc<LifecycleCore>,
     name: &str,
-    answer: impl Fn(&Life, &S::Request) -> S::Response + Send + Sync + 'static,
+    answer: impl Fn(&LifecycleCore, &S::Request) -> S::Response + Send + Sync + 'static,
 ) -> Result<OwnServer, GraphError> {
     let life = life.clone();
     let reaction = reaction::<S>(&node.0, move |_, request| answer(&life, request));
     node.0.server(name, TypeOf::service::<S>(), Some(reaction))
 }
 
-/// The change that somebody means: by its label where there is one, otherwise by its number, as
-/// `rclcpp_lifecycle` reads it. What ends a step is not for others.
+/// Edge that a request selects: by its label if given, otherwise by its number, as in
+/// `rclcpp_lifecycle`. Edges that end a transition state cannot be requested.
 fn asked(state: LifecycleState, request: &ChangeStateRequest) -> Option<&'static Edge> {
     let wanted = &request.transition;
     let is_wanted = |edge: &&Edge| {

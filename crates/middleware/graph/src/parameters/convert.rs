@@ -1,4 +1,4 @@
-//! Values and descriptions of parameters as messages.
+//! Conversion of parameter values and descriptors to messages.
 
 use periplus_msgs::rcl_interfaces::{
     FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterType, ParameterValue,
@@ -29,10 +29,10 @@ fn kind(value: &Value) -> u8 {
     }
 }
 
-/// The largest number of a type of ROS.
-const MOST_TYPE: u8 = ParameterType::PARAMETER_STRING_ARRAY;
+/// Highest parameter type number of ROS.
+const MAX_TYPE: u8 = ParameterType::PARAMETER_STRING_ARRAY;
 
-/// The error is the rest of the sentence "the value ...".
+/// Converts a message to a value. The error is the rest of the sentence "the value ...".
 pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
     Ok(match value.r#type {
         ParameterType::PARAMETER_BOOL => Value::Bool(value.bool_value),
@@ -45,9 +45,9 @@ pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
         ParameterType::PARAMETER_DOUBLE_ARRAY => Value::Numbers(value.double_array_value.clone()),
         ParameterType::PARAMETER_STRING_ARRAY => Value::Texts(value.string_array_value.clone()),
         ParameterType::PARAMETER_NOT_SET => {
-            return Err("is not set; parameters of a table cannot be taken away".into());
+            return Err("is not set; declared parameters cannot be deleted".into());
         }
-        // Lists of flags are tables' lists of words: `odom0_config` of a filter.
+        // Lists of booleans map to the tables' lists of words: `odom0_config` of a filter.
         ParameterType::PARAMETER_BOOL_ARRAY => {
             Value::Texts(value.bool_array_value.iter().map(bool::to_string).collect())
         }
@@ -55,14 +55,12 @@ pub(super) fn from_message(value: &ParameterValue) -> Result<Value, String> {
             Value::Numbers(value.byte_array_value.iter().map(|one| f64::from(*one)).collect())
         }
         other => {
-            return Err(format!(
-                "has the unknown type {other}; ROS has the types 0 to {MOST_TYPE}"
-            ));
+            return Err(format!("has the unknown type {other}; ROS has the types 0 to {MAX_TYPE}"));
         }
     })
 }
 
-/// What a table says of a parameter.
+/// Descriptor of a parameter.
 pub(super) fn describe(parameter: &Parameter) -> ParameterDescriptor {
     let unit = parameter.unit.map(|unit| format!(" [{unit}]")).unwrap_or_default();
     let mut descriptor = ParameterDescriptor {
@@ -75,11 +73,12 @@ pub(super) fn describe(parameter: &Parameter) -> ParameterDescriptor {
         descriptor.additional_constraints = format!("one of {}", words.join(", "));
     }
     let Some(range) = parameter.range else { return descriptor };
-    // Messages know neither an open end nor a range of lists, so the words say it, too.
+    // The message has neither open ranges nor ranges of lists, so the text states the range as
+    // well.
     descriptor.additional_constraints = range.to_string();
     match parameter.kind {
         Kind::Integer => descriptor.integer_range.push(IntegerRange {
-            // Conversions saturate, so no end becomes the greatest number.
+            // Conversions saturate: an open end becomes the largest integer.
             #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
             from_value: range.min as i64 + i64::from(range.above),
             #[expect(clippy::cast_possible_truncation, reason = "it saturates")]

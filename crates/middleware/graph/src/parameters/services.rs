@@ -1,4 +1,4 @@
-//! The six services of parameters.
+//! The six parameter services.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::node::NodeCore;
 use crate::service::Server;
 use crate::standard::server;
 
-/// Offers the services of a node.
+/// Creates the services of a node.
 pub(crate) fn serve(node: &Arc<NodeCore>, made: &mut Vec<Arc<Server>>) -> Result<(), GraphError> {
     made.push(server::<GetParameters>(node, "~/get_parameters", |node, request| {
         let store = lock(&node.standard().store);
@@ -52,7 +52,7 @@ pub(crate) fn serve(node: &Arc<NodeCore>, made: &mut Vec<Arc<Server>>) -> Result
 }
 
 fn set(node: &NodeCore, parameters: &[Named]) -> SetParametersResult {
-    // Free again before the node is asked: it may go meanwhile.
+    // Unlocked before the callback: the node may be dropped meanwhile.
     let change = lock(&node.standard().change).as_ref().map(|change| change.apply.clone());
     match node.set_parameters(parameters, change) {
         Ok(()) => SetParametersResult { successful: true, reason: String::new() },
@@ -60,7 +60,7 @@ fn set(node: &NodeCore, parameters: &[Named]) -> SetParametersResult {
     }
 }
 
-/// The names below the prefixes, at most `depth` levels deep (0 for any), and the groups they are in.
+/// Names below the prefixes, at most `depth` levels deep (0 for no limit), and their groups.
 fn list(names: &[&str], request: &ListParametersRequest) -> ListParametersResult {
     let is_near = |rest: &str| {
         let levels = rest.matches('.').count() as u64;

@@ -1,4 +1,4 @@
-//! The values of a node's parameters, and what may be done with them.
+//! Values of a node's parameters and the operations on them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -11,31 +11,31 @@ use periplus_params::{Kind, Value, Values};
 use super::convert;
 use crate::common::Common;
 
-/// The parameter that every node has beside those of its table.
+/// Parameter that every node has in addition to its table.
 const USE_SIM_TIME: &str = "use_sim_time";
 
-/// The parameter that every managed node has beside those of its table, as Nav2's nodes have it.
+/// Parameter that every managed node has in addition to its table, as in Nav2.
 const BOND_PERIOD: &str = "bond_heartbeat_period";
 
-/// Its default \[s\].
+/// Default of `bond_heartbeat_period` \[s\].
 const BOND_PERIOD_S: f64 = 0.1;
 
-/// What a node was told before it declared anything, and what it declared.
+/// Parameters of a node: overrides given before declaration, and declared values.
 pub(crate) struct Store {
     node: Arc<str>,
     common: Arc<Common>,
-    /// What arguments say; for parameters that may be declared later.
+    /// Overrides from arguments, for parameters that may be declared later.
     given: BTreeMap<String, ParameterValue>,
     values: Option<Values>,
-    /// Parameters that no table declares, where a node takes any.
+    /// Undeclared parameters, for nodes that allow them.
     free: Option<BTreeMap<String, ParameterValue>>,
     generation: u64,
-    /// True once it is a managed node.
+    /// True for a managed node.
     is_managed: bool,
 }
 
 impl Store {
-    /// With `any`, all that is given is declared, and whatever others set.
+    /// With `any`, all overrides and all parameters that other nodes set are declared.
     pub(crate) fn new(
         node: Arc<str>,
         common: Arc<Common>,
@@ -57,8 +57,8 @@ impl Store {
         self.generation
     }
 
-    /// Declares a table, with what arguments say in place of what is there. Gives the reasons of
-    /// those that do not fit.
+    /// Declares a table and applies the overrides. Returns the reasons for the overrides that are
+    /// not valid.
     pub(crate) fn declare(&mut self, mut values: Values) -> Vec<String> {
         let mut unfit = Vec::new();
         for (name, value) in &self.given {
@@ -77,17 +77,17 @@ impl Store {
         unfit
     }
 
-    /// Declares what managed nodes have.
+    /// Declares the parameters of managed nodes.
     pub(crate) fn manage(&mut self) {
         self.is_managed = true;
     }
 
-    /// Period of the heartbeats of the node's bond \[s\]; not positive for none.
+    /// Heartbeat period of the node's bond \[s\]; no bond if not positive.
     pub(crate) fn bond_period_s(&self) -> f64 {
         self.get(BOND_PERIOD).map_or(BOND_PERIOD_S, |value| value.double_value)
     }
 
-    /// The bond's parameter, where no table has it.
+    /// The bond parameter, if no table declares it.
     fn bond(&self, name: &str) -> Option<ParameterValue> {
         let is_asked = self.is_managed && name == BOND_PERIOD;
         is_asked.then(|| {
@@ -124,7 +124,7 @@ impl Store {
             || self.free.as_ref().is_some_and(|free| free.contains_key(name))
     }
 
-    /// The names of all parameters, sorted.
+    /// Names of all parameters, sorted.
     pub(super) fn names(&self) -> Vec<&str> {
         let mut names: BTreeSet<&str> = BTreeSet::new();
         names.insert(USE_SIM_TIME);
@@ -158,15 +158,15 @@ impl Store {
         self.names().into_iter().map(|name| self.named(name)).collect()
     }
 
-    /// Those of the table.
+    /// Parameters of the table.
     pub(super) fn declared(&self) -> Vec<Named> {
         let mut names: Vec<&str> = self.table().collect();
         names.sort_unstable();
         names.into_iter().map(|name| self.named(name)).collect()
     }
 
-    /// The values of the table as they would be with all of these set. The error is for the one who
-    /// sets.
+    /// Returns the values of the table with all of these set. The error is for the caller of the
+    /// service.
     pub(super) fn propose(&self, set: &[Named]) -> Result<Option<Values>, String> {
         let mut values = self.values.clone();
         for Named { name, value } in set {
@@ -184,7 +184,7 @@ impl Store {
                 }
                 _ if self.free.is_some() => self.check_free(name, value)?,
                 _ if self.is_managed && name == BOND_PERIOD => {
-                    return Err(format!("`{name}` is set when the node starts"));
+                    return Err(format!("`{name}` can only be set when the node starts"));
                 }
                 _ => return Err(self.unknown(name)),
             }
@@ -219,11 +219,11 @@ impl Store {
             Ok(Value::Bool(_)) => {}
             _ => return Err(format!("`{USE_SIM_TIME}`: the value is neither true nor false")),
         }
-        let time = if is_simulated { "simulated time" } else { "the time of the machine" };
+        let time = if is_simulated { "simulated time" } else { "system time" };
         Err(format!("`{USE_SIM_TIME}` is {is_simulated}: all nodes of this program run on {time}"))
     }
 
-    /// These values hold from now on. Gives what is told of it.
+    /// Stores these values. Returns the parameter event to publish.
     pub(super) fn accept(&mut self, values: Option<Values>, set: &[Named]) -> ParameterEvent {
         let mut event = ParameterEvent::default();
         let had: Vec<bool> = set.iter().map(|one| self.has(&one.name)).collect();
@@ -256,7 +256,7 @@ impl Store {
         if name == USE_SIM_TIME {
             return ParameterDescriptor {
                 r#type: ParameterType::PARAMETER_BOOL,
-                description: "Whether the nodes of this program run on simulated time.".into(),
+                description: "Use simulated time in all nodes of this program.".into(),
                 read_only: true,
                 ..blank
             };
@@ -267,9 +267,10 @@ impl Store {
         if self.is_managed && name == BOND_PERIOD {
             return ParameterDescriptor {
                 r#type: ParameterType::PARAMETER_DOUBLE,
-                description: "Seconds between heartbeats to a lifecycle manager (default 0.1); no \
+                description:
+                    "Period of the heartbeats to a lifecycle manager [s] (default 0.1); no \
                               bond is kept if this is not positive."
-                    .into(),
+                        .into(),
                 read_only: true,
                 ..blank
             };

@@ -1,4 +1,4 @@
-//! One service: who answers, and who calls.
+//! A service with its server and clients.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::info::ServiceInfo;
 use crate::sample::EndpointId;
 use crate::service::Server;
 
-/// A service and its ends.
+/// A service and its endpoints.
 pub(crate) struct ServiceEntry {
     pub(super) type_of: TypeOf,
     pub(super) type_from: Arc<str>,
@@ -21,7 +21,7 @@ impl ServiceEntry {
         self.server.is_some() || !self.clients.is_empty()
     }
 
-    /// True when a node answers or calls it.
+    /// True if the node is its server or a client.
     pub(super) fn is_of(&self, node: &str) -> bool {
         let mut clients = self.clients.iter();
         self.server.as_ref().is_some_and(|server| *server.node == *node)

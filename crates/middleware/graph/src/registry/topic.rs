@@ -1,4 +1,4 @@
-//! One topic: who publishes, who subscribes, who taps, and who does not fit whom.
+//! A topic with its publishers, subscriptions and taps.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -9,24 +9,24 @@ use periplus_diagnostics::Diagnostic;
 use super::TypeOf;
 use crate::common::Common;
 use crate::info::{
-    EndpointInfo, Mismatch, PublisherTraffic, SubscriptionTraffic, TopicInfo, Traffic,
+    EndpointInfo, PublisherTraffic, QosMismatch, SubscriptionTraffic, TopicInfo, Traffic,
 };
-use crate::inlet::Inlet;
-use crate::outlet::{Outlet, Topic};
+use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
+use crate::subscription_core::SubscriptionCore;
 use crate::tap::{Tap, TapId};
-use crate::{Qos, Sample, Unfit};
+use crate::{IncompatiblePolicy, Qos, Sample};
 
-/// A topic and its ends.
+/// A topic and its endpoints.
 pub(crate) struct TopicEntry {
     pub(super) topic: Arc<Topic>,
     pub(super) type_of: TypeOf,
-    /// The node that brought the type.
+    /// The node that defined the type.
     pub(super) type_from: Arc<str>,
-    pub(super) outlets: Vec<Arc<Outlet>>,
-    pub(super) inlets: Vec<Arc<Inlet>>,
+    pub(super) publishers: Vec<Arc<PublisherCore>>,
+    pub(super) subscriptions: Vec<Arc<SubscriptionCore>>,
     pub(super) taps: Arc<[Arc<Tap>]>,
-    /// Pairs whose QoS do not fit, as far as they were reported.
+    /// Incompatible pairs that were reported.
     reported: BTreeSet<(Arc<str>, Arc<str>)>,
 }
 
@@ -36,26 +36,26 @@ impl TopicEntry {
             topic: Arc::new(Topic { name, sequence: 0.into() }),
             type_of,
             type_from: node.clone(),
-            outlets: Vec::new(),
-            inlets: Vec::new(),
+            publishers: Vec::new(),
+            subscriptions: Vec::new(),
             taps: Arc::new([]),
             reported: BTreeSet::new(),
         }
     }
 
-    pub(crate) fn outlets(&self) -> &[Arc<Outlet>] {
-        &self.outlets
+    pub(crate) fn publishers(&self) -> &[Arc<PublisherCore>] {
+        &self.publishers
     }
 
-    pub(crate) fn inlets(&self) -> &[Arc<Inlet>] {
-        &self.inlets
+    pub(crate) fn subscriptions(&self) -> &[Arc<SubscriptionCore>] {
+        &self.subscriptions
     }
 
     pub(super) fn is_used(&self) -> bool {
-        !(self.outlets.is_empty() && self.inlets.is_empty())
+        !(self.publishers.is_empty() && self.subscriptions.is_empty())
     }
 
-    /// Adds the taps that want this topic; whether any does.
+    /// Adds the taps that want this topic; true if any does.
     pub(super) fn ask(&mut self, taps: &[Arc<Tap>]) -> bool {
         let info = self.info();
         let had: Vec<TapId> = self.taps.iter().map(|tap| tap.id).collect();
@@ -66,55 +66,59 @@ impl TopicEntry {
         any
     }
 
-    /// Tells every outlet who listens; gives what they keep, in the order of publication.
-    pub(super) fn connect(&mut self, common: &Common) -> Vec<(Arc<Outlet>, Sample)> {
-        self.outlets.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
-        self.inlets.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
-        // Only taps look at it, and on topics with many ends it is long.
+    /// Updates the connections of every publisher; returns the retained messages in the order of
+    /// publication.
+    pub(super) fn connect(&mut self, common: &Common) -> Vec<(Arc<PublisherCore>, Sample)> {
+        self.publishers.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
+        self.subscriptions.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
+        // Only taps need the description, and it is long on topics with many endpoints.
         let info = if self.taps.is_empty() { Arc::default() } else { Arc::new(self.info()) };
         let mut kept = Vec::new();
-        for outlet in &self.outlets {
-            let offered = outlet.qos();
-            let fits = |inlet: &&Arc<Inlet>| offered.lacks(&inlet.qos()).is_empty();
-            let inlets = self.inlets.iter().filter(fits).cloned().collect();
-            let samples = outlet.connect(inlets, self.taps.clone(), info.clone());
-            kept.extend(samples.into_iter().map(|sample| (outlet.clone(), sample)));
+        for publisher in &self.publishers {
+            let offered = publisher.qos();
+            let fits = |subscription: &&Arc<SubscriptionCore>| {
+                offered.incompatible_policies(&subscription.qos()).is_empty()
+            };
+            let subscriptions = self.subscriptions.iter().filter(fits).cloned().collect();
+            let samples = publisher.connect(subscriptions, self.taps.clone(), info.clone());
+            kept.extend(samples.into_iter().map(|sample| (publisher.clone(), sample)));
         }
         self.report_mismatches(common);
         kept.sort_by_key(|(_, sample)| sample.sequence);
         kept
     }
 
-    /// Says once for each pair of nodes that nothing will flow between them.
+    /// Reports each incompatible pair of nodes once.
     fn report_mismatches(&mut self, common: &Common) {
-        for outlet in &self.outlets {
-            for inlet in &self.inlets {
-                let unfit = Unfit::between(&outlet.qos(), &inlet.qos());
-                let pair = (outlet.node.clone(), inlet.node.clone());
+        for publisher in &self.publishers {
+            for subscription in &self.subscriptions {
+                let unfit = IncompatiblePolicy::between(&publisher.qos(), &subscription.qos());
+                let pair = (publisher.node.clone(), subscription.node.clone());
                 if unfit.is_empty() || !self.reported.insert(pair) {
                     continue;
                 }
                 let policies: Vec<String> = unfit.iter().map(ToString::to_string).collect();
                 let message = format!(
-                    "`{}` gets nothing from `{}` on the topic `{}`: the publisher {}",
-                    inlet.node,
-                    outlet.node,
+                    "`{}` receives nothing from `{}` on the topic `{}`: the publisher {}",
+                    subscription.node,
+                    publisher.node,
                     self.topic.name,
                     policies.join("; ")
                 );
-                let help = "let the publisher offer more, or the subscription ask for less";
+                let help =
+                    "make the QoS of the publisher stronger, or that of the subscription weaker";
                 common.report(Diagnostic::warning("qos-mismatch", message).help(help));
             }
         }
     }
 
     pub(super) fn info(&self) -> TopicInfo {
-        let mismatches = self.outlets.iter().flat_map(|outlet| {
-            self.inlets.iter().filter_map(|inlet| {
-                let policies = outlet.qos().lacks(&inlet.qos());
-                (!policies.is_empty()).then(|| Mismatch {
-                    publisher: outlet.node.to_string(),
-                    subscription: inlet.node.to_string(),
+        let mismatches = self.publishers.iter().flat_map(|publisher| {
+            self.subscriptions.iter().filter_map(|subscription| {
+                let policies = publisher.qos().incompatible_policies(&subscription.qos());
+                (!policies.is_empty()).then(|| QosMismatch {
+                    publisher: publisher.node.to_string(),
+                    subscription: subscription.node.to_string(),
                     policies,
                 })
             })
@@ -124,12 +128,12 @@ impl TopicEntry {
             type_name: self.type_of.name.clone(),
             type_hash: self.type_of.hash.clone(),
             publishers: self
-                .outlets
+                .publishers
                 .iter()
                 .map(|end| endpoint(end.id, &end.node, end.qos()))
                 .collect(),
             subscriptions: self
-                .inlets
+                .subscriptions
                 .iter()
                 .map(|end| endpoint(end.id, &end.node, end.qos()))
                 .collect(),
@@ -139,16 +143,16 @@ impl TopicEntry {
     }
 
     pub(super) fn traffic(&self, now_ns: i64) -> Traffic {
-        let publishers = self.outlets.iter().map(|outlet| PublisherTraffic {
-            id: outlet.id,
-            node: outlet.node.to_string(),
-            published: outlet.published.load(Ordering::Relaxed),
-            missed_deadlines: outlet.missed_deadlines(),
+        let publishers = self.publishers.iter().map(|publisher| PublisherTraffic {
+            id: publisher.id,
+            node: publisher.node.to_string(),
+            published: publisher.published.load(Ordering::Relaxed),
+            missed_deadlines: publisher.missed_deadlines(),
         });
-        let subscriptions = self.inlets.iter().map(|inlet| SubscriptionTraffic {
-            id: inlet.id,
-            node: inlet.node.to_string(),
-            counts: inlet.counts(),
+        let subscriptions = self.subscriptions.iter().map(|subscription| SubscriptionTraffic {
+            id: subscription.id,
+            node: subscription.node.to_string(),
+            counts: subscription.counts(),
         });
         Traffic {
             topic: self.topic.name.to_string(),

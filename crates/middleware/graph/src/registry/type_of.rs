@@ -10,7 +10,7 @@ pub(crate) struct TypeOf {
 }
 
 impl TypeOf {
-    /// Refuses another type. A hash counts where both are known.
+    /// Refuses another type. Hashes are compared if both are known.
     pub(super) fn check(
         &self,
         what: &'static str,
@@ -26,7 +26,7 @@ impl TypeOf {
         if self.name == asked.name && same_hash {
             return Ok(());
         }
-        let tell = |type_of: &Self| match (&type_of.hash, same_hash) {
+        let describe = |type_of: &Self| match (&type_of.hash, same_hash) {
             (Some(hash), false) if self.name == asked.name => {
                 format!("{} with the hash {hash}", type_of.name)
             }
@@ -35,9 +35,9 @@ impl TypeOf {
         Err(GraphError::Type(Box::new(TypeClash {
             what,
             name: name.to_owned(),
-            has: tell(self),
+            has: describe(self),
             has_node: from.to_owned(),
-            asked: tell(asked),
+            asked: describe(asked),
             asked_node: node.to_owned(),
         })))
     }

@@ -1,4 +1,4 @@
-//! Who calls a service.
+//! Service clients.
 
 use std::marker::PhantomData;
 use std::sync::{Arc, Mutex};
@@ -13,7 +13,7 @@ use crate::payload::Payload;
 use crate::registry::TypeOf;
 use crate::sample::EndpointId;
 
-/// The end that calls.
+/// Client end of a service.
 pub(crate) struct Caller {
     id: EndpointId,
     pub(crate) name: Arc<str>,
@@ -69,7 +69,7 @@ impl NodeCore {
     }
 }
 
-/// Calls a service.
+/// Client of a service.
 pub struct Client<S> {
     pub(crate) caller: Caller,
     of: PhantomData<fn(S)>,
@@ -80,7 +80,8 @@ impl<S: Service> Client<S> {
         Self { caller, of: PhantomData }
     }
 
-    /// Asks. The answer comes when who answers has had time to; in lockstep, when the graph goes on.
+    /// Sends a request. The response arrives once the server has run; in lockstep, when the graph
+    /// advances.
     #[must_use]
     pub fn call(&self, request: S::Request) -> Pending<S> {
         let slot = Arc::new(Mutex::new(None));
@@ -91,7 +92,7 @@ impl<S: Service> Client<S> {
         Pending { slot, name, of: PhantomData }
     }
 
-    /// Whether somebody answers.
+    /// True if a server is available.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.caller.server().is_some()
@@ -104,7 +105,7 @@ impl<S: Service> Client<S> {
     }
 }
 
-/// A call whose answer is on its way.
+/// A call that waits for its response.
 pub struct Pending<S> {
     slot: Arc<Mutex<Option<Answer>>>,
     name: Arc<str>,
@@ -112,7 +113,7 @@ pub struct Pending<S> {
 }
 
 impl<S: Service> Pending<S> {
-    /// The answer, once, when it is there.
+    /// Returns the response once, when it has arrived.
     #[must_use]
     pub fn take(&self) -> Option<Result<Arc<S::Response>, CallError>> {
         let answer = lock(&self.slot).take()?;
@@ -120,7 +121,7 @@ impl<S: Service> Pending<S> {
     }
 }
 
-/// The answer as a value.
+/// Decodes the response.
 pub(crate) fn read_answer<S: Service>(
     answer: Answer,
     service: &str,

@@ -1,28 +1,28 @@
-//! Why a call has no answer.
+//! Errors of service calls.
 
 use std::fmt;
 
-/// Why a call has no answer.
+/// Reason for which a call has no response.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CallError {
-    /// Nobody answers this service.
+    /// The service has no server.
     NoServer {
         /// Its full name.
         service: String,
-        /// The service that may be meant.
+        /// An existing service with a similar name.
         near: Option<String>,
     },
-    /// Who answers it went away, or let the call fall.
+    /// The server was removed or dropped the request.
     Unanswered {
         /// Full name of the service.
         service: String,
     },
-    /// The question or the answer is no such message.
+    /// The request or the response cannot be decoded.
     Undecodable {
         /// Full name of the service.
         service: String,
-        /// What is wrong with it.
+        /// Cause.
         reason: String,
     },
 }
@@ -31,17 +31,17 @@ impl fmt::Display for CallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoServer { service, near } => {
-                write!(f, "nobody answers the service `{service}`")?;
+                write!(f, "no server for the service `{service}`")?;
                 match near {
                     Some(near) => write!(f, ", did you mean `{near}`?"),
                     None => Ok(()),
                 }
             }
             Self::Unanswered { service } => {
-                write!(f, "who answers the service `{service}` went away without an answer")
+                write!(f, "the server of `{service}` was removed before it responded")
             }
             Self::Undecodable { service, reason } => {
-                write!(f, "a message of the service `{service}` cannot be read: {reason}")
+                write!(f, "a message of the service `{service}` cannot be decoded: {reason}")
             }
         }
     }

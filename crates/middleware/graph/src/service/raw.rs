@@ -1,4 +1,4 @@
-//! Services whose types are known only by name: what wires pass on.
+//! Services whose types are known only by name, for transports.
 
 use std::sync::Arc;
 
@@ -10,12 +10,12 @@ use crate::node::Node;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 
-/// A question or an answer. Cloning shares it.
+/// A serialized request or response. Clones share it.
 #[derive(Clone)]
 pub struct RawMessage(Arc<Payload>);
 
 impl RawMessage {
-    /// The message as CDR, with the four bytes in front that say how it is coded.
+    /// Returns the message as CDR, with the four-byte encapsulation header.
     ///
     /// # Errors
     /// When a string or list is longer than its type allows.
@@ -24,14 +24,13 @@ impl RawMessage {
     }
 }
 
-/// Calls a service for somebody outside.
+/// Service client on behalf of a remote client.
 pub struct RawClient {
     caller: Caller,
 }
 
 impl RawClient {
-    /// Asks. `answered` gets the answer, once, from the thread that answers; it keeps what the
-    /// outside needs to find its call again.
+    /// Sends a request. `answered` gets the response, once, on the thread of the server.
     pub fn call(
         &self,
         cdr: Vec<u8>,
@@ -41,50 +40,50 @@ impl RawClient {
         self.caller.call(Payload::raw(cdr), reply);
     }
 
-    /// Whether somebody answers.
+    /// True if a server is available.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.caller.server().is_some()
     }
 }
 
-/// The calls of a service that somebody outside answers.
+/// Requests to a service with a remote server.
 pub struct RawCalls {
     own: OwnServer,
 }
 
 impl RawCalls {
-    /// The oldest call that waits.
+    /// Returns the oldest request.
     #[must_use]
     pub fn take(&self) -> Option<RawCall> {
         let Request { payload, reply } = self.own.server.take()?;
         Some(RawCall { request: RawMessage(payload), reply })
     }
 
-    /// Lets `wake` be called, once for each call that comes from now on, from the thread that asks;
-    /// it must not wait for anything. Only the first one is taken.
+    /// Sets a callback that runs once for each new request, on the thread of the client; it must
+    /// not block. Only the first callback is kept.
     pub fn on_call(&self, wake: impl Fn() + Send + Sync + 'static) {
         let _ = self.own.server.wake.set(Box::new(wake));
     }
 }
 
-/// A call that waits for its answer. If it is dropped, the caller is told that none will come.
+/// A request that waits for its response. Dropping it gives the caller an error.
 #[must_use]
 pub struct RawCall {
-    /// The question.
+    /// The request message.
     pub request: RawMessage,
     reply: Reply,
 }
 
 impl RawCall {
-    /// Answers with CDR.
+    /// Sends the response as CDR.
     pub fn answer(self, cdr: Vec<u8>) {
         self.reply.send(Ok(Arc::new(Payload::raw(cdr))));
     }
 }
 
 impl Node {
-    /// Calls a service whose type is known only by name and, perhaps, by its hash.
+    /// Creates a client of a service whose type is known only by name and optional hash.
     ///
     /// # Errors
     /// As [`Node::client`].
@@ -97,7 +96,7 @@ impl Node {
         Ok(RawClient { caller: self.0.caller(name, TypeOf::new(type_name, type_hash))? })
     }
 
-    /// Answers a service whose type is known only by name and, perhaps, by its hash.
+    /// Creates a server of a service whose type is known only by name and optional hash.
     ///
     /// # Errors
     /// As [`Node::server`].

@@ -461,7 +461,7 @@ fn the_transform_that_is_missing_is_named() {
     let said = stage.said();
     assert!(
         said.contains(
-            "no transform from `laser` to `base_link`: nobody has published the frame `laser`"
+            "no transform from `laser` to `base_link`: the frame `laser` is not published"
         ),
         "{said}"
     );
@@ -471,7 +471,10 @@ fn the_transform_that_is_missing_is_named() {
     stage.scan(vec![1.0; 120]);
     stage.advance(2000);
     let said = stage.said();
-    assert!(said.contains("`base_link` hangs on `odom`, `laser` hangs on `mount`"), "{said}");
+    assert!(
+        said.contains("the root of `base_link` is `odom`, the root of `laser` is `mount`"),
+        "{said}"
+    );
     stage.advance(6000);
     let said = stage.said();
     assert!(

@@ -79,7 +79,7 @@ fn the_same_name_twice_is_refused_as_in_ros_2() {
     let bench = Bench::exact(&plugin.repeat(2));
     assert_eq!(bench.devices.len(), 1);
     expect![[r#"
-        error[plugin-refused]: plugin `truth` cannot take its place: there is a node `/truth` already; give one of them another name (`__node:=`) or namespace (`__ns:=`)
+        error[plugin-refused]: plugin `truth` cannot take its place: there is already a node `/truth`; give one of them another name (`__node:=`) or namespace (`__ns:=`)
           --> robot.sdf:37:45
            |
         37 |         <body_name>base</body_name></plugin><plugin name='truth' filename='libgazebo_ros_p3d.so'>

@@ -1,4 +1,4 @@
-//! What is sent, and between whom.
+//! Messages and loads of the comparison, and the pairs of programs.
 
 use periplus_msgs::Message;
 use periplus_msgs::geometry_msgs::PointStamped;
@@ -7,7 +7,7 @@ use periplus_msgs::std_msgs::Header;
 
 use super::peer::Side;
 
-/// A type of message; each begins with a header, whose stamp says when it was published.
+/// A message type; each begins with a header whose stamp is the time of publication.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// 640 by 480 points of 32 bytes: 9.83 MB.
@@ -39,7 +39,7 @@ impl Kind {
         [Self::Cloud, Self::Scan, Self::Small].into_iter().find(|kind| kind.dds_type() == name)
     }
 
-    /// A message as CDR.
+    /// Returns a message as CDR.
     pub(super) fn template(self) -> Vec<u8> {
         let encoded = match self {
             Self::Cloud => cloud().to_cdr(),
@@ -79,17 +79,18 @@ fn scan() -> LaserScan {
     LaserScan { header: header(), ranges, intensities, range_max: 12.0, ..LaserScan::default() }
 }
 
-/// So many messages, so often.
+/// A number of messages at a rate.
 pub(super) struct Load {
     pub(super) name: &'static str,
     pub(super) kind: Kind,
     pub(super) count: u32,
     pub(super) period_us: u32,
-    /// How many messages either end keeps.
+    /// Queue depth of both endpoints.
     pub(super) depth: u32,
-    /// Receive buffer of the peers' sockets \[bytes\]; none for what they have by themselves.
+    /// Receive buffer of the peers' sockets \[bytes\]; none for their default.
     pub(super) buffer: Option<u32>,
-    /// Whether large samples make Cyclone's fragments and Fast DDS's transports matter.
+    /// True if samples are so large that Cyclone's fragment size and the transports of Fast DDS
+    /// matter.
     pub(super) is_large: bool,
 }
 
@@ -98,7 +99,7 @@ const SMALL_S: u32 = 5;
 
 pub(super) const LOADS: [Load; 5] = [
     Load {
-        name: "cloud, usual buffers",
+        name: "cloud, default buffers",
         kind: Kind::Cloud,
         count: LARGE_S * 30,
         period_us: 33_333,
@@ -144,7 +145,7 @@ pub(super) const LOADS: [Load; 5] = [
     },
 ];
 
-/// Who sends to whom.
+/// Sender and receiver.
 pub(super) struct Pair {
     pub(super) from: Side,
     pub(super) to: Side,

@@ -1,13 +1,13 @@
-//! The wire beside the peers: from whom to whom, how fast, how late, for how much of a core.
-//! `cargo xtask bench wire` builds the peers and runs it.
+//! Compares this transport with its peers: rate, latency and CPU time for each pair of sender and
+//! receiver. `cargo xtask bench wire` builds the peers and runs it.
 //!
-//! All pairs run one after the other in one go, with the same samples. Programs of all sides say the
-//! same words (see [`peer`]), and the CPU time of each is read from the system, thread by thread.
+//! All pairs run one after the other with the same samples. All programs use the same protocol (see
+//! [`peer`]); their CPU time is read from the system for each thread.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a program that measures"
+    reason = "a benchmark"
 )]
 
 mod load;
@@ -38,7 +38,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// `FAST PYTHON SCRIPT FOLDER [ONLY]`: prints the tables, and writes `wire.json` into the folder.
+/// Runs `FAST PYTHON SCRIPT FOLDER [ONLY]`: prints the tables and writes `wire.json` into the
+/// folder.
 fn race(words: &[String]) -> Result<(), String> {
     let [fast, python, script, folder, only @ ..] = words else {
         return Err("usage: race FAST PYTHON SCRIPT FOLDER [ONLY]".to_owned());
@@ -52,7 +53,7 @@ fn race(words: &[String]) -> Result<(), String> {
         .map_err(|error| format!("{}: {error}", record.display()))
 }
 
-/// Runs all pairs under all loads whose name has `only`; gives the tables and the figures.
+/// Runs all pairs under all loads whose name contains `only`; returns the tables and the figures.
 fn compare(
     fast: &Path,
     python: &Path,
@@ -83,7 +84,7 @@ fn compare(
     Ok((table::tables(&figures), figures))
 }
 
-/// What it costs a program to wake as often as it publishes, without publishing.
+/// Measures the CPU time of a program that wakes as often as it would publish, without publishing.
 fn waking(peers: &Peers, load: &Load) -> Result<Value, String> {
     let words = ["loop".to_owned(), load.count.to_string(), load.period_us.to_string()];
     let mut program = peers.start(Side::Ours, None, &words)?;
@@ -131,7 +132,7 @@ fn measure(
     publisher.expect("done")?;
     let publishing_s = start.elapsed().as_secs_f64();
     let (publisher_after, subscriber_after) = (publisher.cpu(), subscriber.cpu());
-    // What is on its way may still arrive.
+    // Messages in transit may still arrive.
     std::thread::sleep(std::time::Duration::from_millis(1_500));
     let got = subscriber.end("got")?;
     let mut words = got.split(' ').map(|word| word.parse::<f64>().unwrap_or(f64::NAN));

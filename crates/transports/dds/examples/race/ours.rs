@@ -1,4 +1,4 @@
-//! Periplus as one of the programs that send and receive; see [`super::peer`].
+//! Periplus as a sender and receiver; see [`super::peer`].
 
 use std::io::{Read as _, Write as _};
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2};
 
 use super::load::Kind;
 
-/// A message with a time on it.
+/// A message with a time stamp.
 trait Stamped: Message + Clone {
     fn stamp(&mut self) -> &mut Time;
     fn time(&self) -> &Time;
@@ -34,7 +34,8 @@ macro_rules! stamped {
 
 stamped!(PointStamped, LaserScan, PointCloud2);
 
-/// Publishes or subscribes, as the words say; with `loop COUNT PERIOD_US` it only wakes as often.
+/// Publishes or subscribes according to the arguments; with `loop COUNT PERIOD_US` it only wakes at
+/// that rate.
 pub(super) fn run(words: &[String]) -> Result<(), String> {
     if let [verb, count, period_us] = words
         && verb == "loop"
@@ -58,7 +59,7 @@ pub(super) fn run(words: &[String]) -> Result<(), String> {
 fn take_part<T: Stamped>(words: &[String]) -> Result<(), String> {
     let number = |place: usize| -> Result<u32, String> {
         let word = words.get(place).map_or("", String::as_str);
-        word.parse().map_err(|_| format!("word {place}, `{word}`, has to be a number"))
+        word.parse().map_err(|_| format!("argument {place}, `{word}`, must be a number"))
     };
     let settings = Settings { domain_id: number(0)?, ..Settings::default() };
     let topic = words[2].trim_start_matches("rt").to_owned();
@@ -80,7 +81,7 @@ fn take_part<T: Stamped>(words: &[String]) -> Result<(), String> {
     while !publisher.is_heard() {
         std::thread::sleep(Duration::from_millis(5));
     }
-    // The other end may find us later than we found it.
+    // The other side may discover this program later than this program discovers it.
     std::thread::sleep(Duration::from_millis(700));
     repeat(count, period, || {
         let now_ns = unix_ns();
@@ -95,7 +96,7 @@ fn take_part<T: Stamped>(words: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// Acts so often, and says when it begins and ends.
+/// Calls a function `count` times and reports start and end.
 fn repeat(count: u32, period: Duration, mut act: impl FnMut()) {
     say("begin");
     let mut next = Instant::now();

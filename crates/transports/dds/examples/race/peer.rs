@@ -1,13 +1,13 @@
-//! The programs that send and receive.
+//! Programs that send and receive.
 //!
 //! ```text
 //! DOMAIN pub TOPIC TYPE DEPTH TEMPLATE COUNT PERIOD_US
 //! DOMAIN sub TOPIC TYPE DEPTH
 //! ```
 //!
-//! A publisher says `begin` when it is heard and `done` when all is published. A subscriber says
-//! `ready`; when its input ends it says `got`, the time from the first message to the last \[s\],
-//! and how old each was when it came \[us\].
+//! A publisher prints `begin` when it has a subscriber and `done` when everything is published. A
+//! subscriber prints `ready`; when its input ends it prints `got`, the time from the first message
+//! to the last \[s\], and the age of each message on arrival \[us\].
 
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
@@ -16,18 +16,18 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 
 use serde_json::{Map, Value};
 
-/// Whose program.
+/// Implementation of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     /// Periplus.
     Ours,
-    /// Fast DDS as it is by itself: with shared memory between its own.
+    /// Fast DDS with its defaults: shared memory between its own programs.
     Fast,
     /// Fast DDS, UDP only.
     FastByUdp,
-    /// Cyclone DDS as it is by itself.
+    /// Cyclone DDS with its defaults.
     Cyclone,
-    /// Cyclone DDS with fragments as large as ours.
+    /// Cyclone DDS with the fragment size of this transport.
     CycloneAsOurs,
 }
 
@@ -43,7 +43,7 @@ impl Side {
     }
 }
 
-/// Where the programs are.
+/// Paths of the programs.
 pub(super) struct Peers {
     own: PathBuf,
     fast: Option<PathBuf>,
@@ -116,7 +116,7 @@ impl Peers {
     }
 }
 
-/// Settings of Cyclone for the interface of this machine.
+/// Cyclone DDS settings for the loopback interface.
 fn cyclone(as_ours: bool, buffer: Option<u32>) -> String {
     let fragments = if as_ours {
         "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>"
@@ -132,10 +132,10 @@ fn cyclone(as_ours: bool, buffer: Option<u32>) -> String {
     )
 }
 
-/// CPU time of each thread so far \[ns\], by its number.
+/// CPU time of each thread so far \[ns\], by thread id.
 pub(super) type Cpu = BTreeMap<String, (String, u64)>;
 
-/// A program that runs; it is killed when this is dropped.
+/// A running program; it is killed when this is dropped.
 pub(super) struct Running {
     child: Child,
     output: BufReader<ChildStdout>,
@@ -143,16 +143,16 @@ pub(super) struct Running {
 }
 
 impl Running {
-    /// Waits for a line that begins with this word; what is behind it.
+    /// Waits for a line that begins with this word; returns the rest of the line.
     pub(super) fn expect(&mut self, word: &str) -> Result<String, String> {
         let mut line = String::new();
         let read = self.output.read_line(&mut line);
         let rest = read.ok().and_then(|_| line.trim_end().strip_prefix(word));
-        let said = || format!("{} said `{}`, not `{word}`", self.name, line.trim_end());
-        Ok(rest.ok_or_else(said)?.trim_start().to_owned())
+        let unexpected = || format!("{} printed `{}`, not `{word}`", self.name, line.trim_end());
+        Ok(rest.ok_or_else(unexpected)?.trim_start().to_owned())
     }
 
-    /// Ends its input and waits for its last word.
+    /// Closes the input and waits for the last line.
     pub(super) fn end(&mut self, word: &str) -> Result<String, String> {
         drop(self.child.stdin.take());
         self.expect(word)
@@ -181,7 +181,7 @@ impl Drop for Running {
     }
 }
 
-/// How much of a core a program took.
+/// CPU time of a program as a fraction of one core.
 pub(super) fn share(before: &Cpu, after: &Cpu, wall_s: f64) -> f64 {
     let spent = |(id, (_, ns)): (&String, &(String, u64))| {
         ns.saturating_sub(before.get(id).map_or(0, |(_, before)| *before))
@@ -189,7 +189,7 @@ pub(super) fn share(before: &Cpu, after: &Cpu, wall_s: f64) -> f64 {
     after.iter().map(spent).sum::<u64>() as f64 * 1e-9 / wall_s
 }
 
-/// The same for each name of its threads.
+/// The same for each thread name.
 pub(super) fn threads(before: &Cpu, after: &Cpu, wall_s: f64) -> Value {
     let mut names: BTreeMap<&str, f64> = BTreeMap::new();
     for (id, (name, ns)) in after {

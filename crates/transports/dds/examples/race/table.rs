@@ -1,10 +1,10 @@
-//! What came of it, for a person.
+//! Results as Markdown.
 
 use std::fmt::Write as _;
 
 use serde_json::Value;
 
-/// A table for each load, in Markdown.
+/// Formats a table for each load.
 pub(super) fn tables(figures: &Value) -> String {
     let none = Vec::new();
     let lines = figures.as_array().unwrap_or(&none);

@@ -1,4 +1,4 @@
-//! Making endpoints, and saying what is wrong.
+//! Creation of DDS endpoints, and findings.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -19,7 +19,7 @@ pub(super) struct Net {
     said: RefCell<BTreeSet<String>>,
 }
 
-/// What an endpoint is for, as DDS names it.
+/// Names of an endpoint in DDS.
 pub(super) struct Subject<'a> {
     pub(super) topic: &'a str,
     pub(super) type_name: &'a str,
@@ -31,19 +31,19 @@ impl Net {
         Self { participant, waitset, shared, said: RefCell::default() }
     }
 
-    /// Says something once.
+    /// Reports a finding once.
     pub(super) fn say(&self, finding: Diagnostic) {
         if self.said.borrow_mut().insert(finding.message.clone()) {
             self.shared.report(finding);
         }
     }
 
-    /// Says once that something does not work.
+    /// Reports a failure once.
     pub(super) fn complain(&self, code: &'static str, message: String) {
         self.say(Diagnostic::warning(code, message));
     }
 
-    /// A writer with its queue, and the token that reports a change of its readers.
+    /// Creates a writer with its queue, and the token that reports changes of its readers.
     pub(super) fn watched_writer(
         &self,
         subject: &Subject<'_>,
@@ -56,7 +56,7 @@ impl Net {
         Some((self.queued(writer, qos, keeps), token))
     }
 
-    /// A writer with its queue.
+    /// Creates a writer with its queue.
     pub(super) fn writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Arc<Outgoing>> {
         Some(self.queued(self.raw_writer(subject, qos)?, qos, true))
     }
@@ -65,20 +65,20 @@ impl Net {
         let depth = qos.depth.unwrap_or(crate::qos::MOST_KEPT);
         let outgoing = Outgoing::new(writer, depth, keeps, &self.shared.lanes);
         let mut writers = lock(&self.shared.writers);
-        // Those that nobody but this list has are sent and gone.
+        // Drop writers that only this list refers to once they are flushed.
         writers.retain(|one| Arc::strong_count(one) > 1);
         writers.push(outgoing.clone());
         outgoing
     }
 
-    /// A writer that is written to directly.
+    /// Creates a writer without a queue.
     pub(super) fn raw_writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Writer> {
         let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
         let made = self.participant.writer(subject.topic, subject.type_name, qos, &said);
         made.map_err(|error| self.complain("wire", error.to_string())).ok()
     }
 
-    /// A reader, and the token that says that it has samples.
+    /// Creates a reader, and the token that reports new samples.
     pub(super) fn reader(&self, subject: &Subject<'_>, qos: &Qos) -> Option<(Reader, Token)> {
         let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
         let made = self.participant.reader(subject.topic, subject.type_name, qos, &said);

@@ -1,4 +1,4 @@
-//! What does not fit between us and the others, said once each.
+//! Reports of incompatible endpoints, once each.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -14,28 +14,28 @@ use crate::Guid;
 use crate::names;
 use crate::peers::{Endpoint, NAMELESS, Peers};
 
-/// Who comes is known before its node is; so long its name is waited for.
+/// Time to wait for the node name of a new endpoint.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What is sent is looked at this often.
+/// Period at which outgoing traffic is checked.
 const LOOK: Duration = Duration::from_millis(250);
 
-/// Samples of best effort must fit into the receiver's buffer as a whole \[bytes\]: measured with
-/// buffers as stock kernels give them.
+/// Maximum size of best-effort samples \[bytes\]: a whole sample has to fit into the receiver's
+/// socket buffer. Measured with the default buffers of stock kernels.
 const LARGEST_BEST_EFFORT: usize = 1_200_000;
 
 #[derive(Default)]
 pub(super) struct Told {
-    /// Ends that do not fit, whose node has no name yet.
+    /// Incompatible endpoints whose node name is unknown so far.
     waiting: BTreeMap<Guid, Since>,
     done: BTreeSet<(String, Guid)>,
     large: BTreeSet<EndpointId>,
     slow: BTreeSet<EndpointId>,
-    /// When it last looked at what is sent.
+    /// Time of the last traffic check.
     looked: Option<Since>,
 }
 
-/// One end of ours.
+/// A local endpoint.
 struct Own<'a> {
     topic: &'a str,
     node: &'a str,
@@ -56,7 +56,7 @@ impl Told {
         !self.waiting.is_empty()
     }
 
-    /// Compares our ends with theirs.
+    /// Compares the local endpoints with the remote ones.
     pub(super) fn look(&mut self, net: &Net, topics: &Topics, peers: &Peers) {
         self.waiting.retain(|_, since| since.elapsed() < 2 * PATIENCE);
         for (_, one) in topics.publishing() {
@@ -97,7 +97,7 @@ impl Told {
         }
     }
 
-    /// Says what is too large or too fast for those who listen.
+    /// Warns about topics that are too large or too fast for their subscribers.
     pub(super) fn look_at_traffic(&mut self, net: &Net, topics: &Topics) {
         if self.looked.is_some_and(|looked| looked.elapsed() < LOOK) {
             return;
@@ -129,8 +129,8 @@ impl Told {
             let (dropped, refused) = one.outgoing.losses();
             if dropped + refused > 0 && self.slow.insert(id) {
                 let message = format!(
-                    "subscriptions to `{}` elsewhere are slower than `{}` publishes; older \
-                     messages are dropped for newer ones",
+                    "remote subscriptions to `{}` are slower than `{}` publishes; older \
+                     messages are dropped in favour of newer ones",
                     one.topic, one.node
                 );
                 net.say(Diagnostic::warning("slow-peer", message).help(
@@ -144,13 +144,14 @@ impl Told {
 
 type Describe<'a> = Box<dyn Fn(&str) -> Diagnostic + 'a>;
 
-/// In what the two ends differ, to be told with the name of the other's node.
+/// Compares two endpoints; the returned function describes the difference, given the name of the
+/// remote node.
 fn differ<'a>(own: &'a Own<'a>, end: &'a Endpoint) -> Option<Describe<'a>> {
     if end.type_name != names::type_of(own.type_name) {
         return Some(Box::new(|node| other_type(own, end, node)));
     }
     let (offer, asked) = if own.is_writer { (own.qos, &end.qos) } else { (&end.qos, own.qos) };
-    let lacks = offer.lacks(asked);
+    let lacks = offer.incompatible_policies(asked);
     if !lacks.is_empty() {
         return Some(Box::new(move |node| other_qos(own, end, node, &lacks)));
     }
@@ -176,15 +177,15 @@ fn other_qos(own: &Own<'_>, end: &Endpoint, node: &str, lacks: &[Policy]) -> Dia
     let policies: Vec<String> = lacks
         .iter()
         .map(|policy| {
-            let (offer, asked) = (offer.spelled(*policy), asked.spelled(*policy));
-            format!("offers {policy} {offer}, asked for is {asked}")
+            let (offer, asked) = (offer.policy_value(*policy), asked.policy_value(*policy));
+            format!("offers {policy} {offer}, requested is {asked}")
         })
         .collect();
     let message = format!(
-        "`{asks}` gets nothing from `{offers}` on the topic `{}`: the publisher {}",
+        "`{asks}` receives nothing from `{offers}` on the topic `{}`: the publisher {}",
         own.topic,
         policies.join("; it ")
     );
     Diagnostic::warning("qos-mismatch", message)
-        .help("ask for less, or offer more, so that no policy asked for is stronger")
+        .help("request weaker policies, or offer stronger ones")
 }

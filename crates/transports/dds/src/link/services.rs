@@ -1,4 +1,4 @@
-//! Services: others call ours, and we call theirs.
+//! Services and clients over DDS.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
@@ -14,35 +14,35 @@ use crate::outgoing::{Outgoing, Parcel, Response};
 use crate::peers::Peers;
 use crate::request::{self, Mapping, Ticket};
 
-/// How long a response waits for its client's reader to be discovered; then it is dropped.
+/// Time that a response waits for the discovery of its client's reader before it is dropped.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// So many calls of one service wait for their answers; then the oldest is let fall.
+/// Maximum number of pending calls per service; then the oldest is dropped.
 const MOST_CALLS: usize = 10_000;
 
 #[derive(Default)]
 pub(super) struct Services {
     serving: BTreeMap<String, Serving>,
     calling: BTreeMap<String, Calling>,
-    /// Answers of the graph that are on their way out.
+    /// Responses of the graph to be sent.
     answers: Arc<Mutex<Vec<Answer>>>,
 }
 
-/// A service that the graph answers, on the network.
+/// A service of the graph on the network.
 struct Serving {
     node: String,
     type_name: String,
     client: RawClient,
     questions: Reader,
     token: Token,
-    /// One writer for clients of all vendors: rmw_fastrtps takes a service for ready only if there are
-    /// as many writers of responses as readers of requests. Each response goes to its client alone, so
-    /// that no client gets the form of another vendor.
+    /// One writer for clients of all vendors: rmw_fastrtps considers a service ready only if there
+    /// are as many response writers as request readers. Each response is sent to its client only,
+    /// so that no client gets the format of another vendor.
     answers: Arc<Outgoing>,
     waker: Waker,
 }
 
-/// An answer that waits for the reader that it is for.
+/// A response that waits for its client's reader.
 struct Answer {
     service: String,
     ticket: Ticket,
@@ -52,18 +52,18 @@ struct Answer {
     since: Since,
 }
 
-/// A service elsewhere that the graph calls.
+/// A remote service that the graph calls.
 struct Calling {
     nodes: Vec<String>,
     type_name: String,
     type_hash: Option<String>,
-    /// Each request goes to one server alone, in the form of its vendor.
+    /// Each request is sent to one server only, in the format of its vendor.
     questions: Writer,
     answers: Reader,
     token: Token,
-    /// Who answers, while somebody does.
+    /// The server, while there is one.
     server: Option<Server>,
-    /// Number of the last question, by our own count.
+    /// Sequence number of the last request.
     number: i64,
     waiting: BTreeMap<(Mapping, i64), RawCall>,
 }
@@ -71,12 +71,12 @@ struct Calling {
 struct Server {
     participant: Guid,
     mapping: Mapping,
-    /// What makes the graph see that there is one.
+    /// Makes the server visible in the graph.
     calls: RawCalls,
 }
 
 impl Services {
-    /// Makes and drops endpoints. `services` has only what belongs to the graph itself.
+    /// Creates and removes endpoints. `services` has only the graph's own.
     pub(super) fn sync(&mut self, net: &Net, node: &Node, services: &[ServiceInfo]) {
         let mut unserved: BTreeSet<String> = self.serving.keys().cloned().collect();
         let mut uncalled: BTreeSet<String> = self.calling.keys().cloned().collect();
@@ -118,7 +118,7 @@ impl Services {
             Ok(client) => client,
             Err(error) => return net.complain("wire", error.to_string()),
         };
-        // Answers of many callers may wait.
+        // Responses to many callers may be queued.
         let many = Qos { depth: Some(1000), ..qos };
         let Some(answers) = net.writer(&told, &many) else { return };
         let Some((questions, token)) = net.reader(&asked, &many) else { return };
@@ -135,7 +135,8 @@ impl Services {
         let qos = Qos { depth: Some(1000), ..Qos::default() };
         let asked = Subject { topic: &request, type_name: &question, type_hash };
         let told = Subject { topic: &reply, type_name: &answer, type_hash };
-        // Answers first: who sees the questions' writer may send an answer at once.
+        // The response reader comes first: a server that sees the request writer may respond at
+        // once.
         let Some((answers, token)) = net.reader(&told, &qos) else { return };
         let Some(questions) = net.raw_writer(&asked, &qos) else { return };
         let calling = Calling {
@@ -152,13 +153,13 @@ impl Services {
         self.calling.insert(service.name.clone(), calling);
     }
 
-    /// Finds who answers what the graph calls.
+    /// Finds the servers of the services that the graph calls.
     pub(super) fn meet(&mut self, net: &Net, node: &Node, peers: &Peers) {
         for (name, calling) in &mut self.calling {
             let servers = peers.servers(name);
             let is_there = |one: &Server| servers.iter().any(|(guid, _)| *guid == one.participant);
             if !calling.server.as_ref().is_none_or(is_there) {
-                // Their callers are told that no answer will come.
+                // Pending callers get an error.
                 calling.server = None;
                 calling.waiting.clear();
             }
@@ -179,7 +180,7 @@ impl Services {
         }
     }
 
-    /// Takes questions and answers that arrived, and sends the questions of the graph.
+    /// Receives requests and responses, and sends the requests of the graph.
     pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
         for (name, serving) in &self.serving {
             if tokens.contains(&serving.token) {
@@ -194,7 +195,7 @@ impl Services {
         }
     }
 
-    /// Sends answers whose callers are known.
+    /// Sends the responses whose clients are discovered.
     pub(super) fn answer(&mut self) {
         let mut answers = std::mem::take(&mut *lock(&self.answers));
         if answers.is_empty() {
@@ -213,7 +214,7 @@ impl Services {
         lock(&self.answers).append(&mut answers);
     }
 
-    /// Endpoints with the nodes that they belong to, and whether they write.
+    /// Endpoints with their nodes; true for writers.
     pub(super) fn ends(&self) -> impl Iterator<Item = (&str, Guid, bool)> {
         let serving = self.serving.values().flat_map(|one| {
             let node = one.node.as_str();
@@ -229,7 +230,7 @@ impl Services {
 }
 
 impl Serving {
-    /// Passes questions on to the graph.
+    /// Forwards requests to the graph.
     fn take(&self, net: &Net, name: &str, answers: &Arc<Mutex<Vec<Answer>>>) {
         loop {
             let sample = match self.questions.take() {
@@ -241,14 +242,14 @@ impl Serving {
             let Some((ticket, body)) = request::read_question(sample) else {
                 net.complain(
                     "strange-question",
-                    format!("the service `{name}` got a question that is too short to be one"),
+                    format!("the service `{name}` received a request that is too short"),
                 );
                 continue;
             };
             let (answers, waker) = (answers.clone(), self.waker.clone());
             let service = name.to_owned();
             self.client.call(body, move |answered| {
-                // Without an answer the caller waits, as it would for any server that fails.
+                // Without a response the caller waits, as for any server that fails.
                 let Ok(message) = answered else { return };
                 let Ok(body) = message.cdr() else { return };
                 lock(&answers).push(Answer {
@@ -278,7 +279,7 @@ impl Calling {
 
     fn send_questions(&mut self, net: &Net, name: &str) {
         let Some(server) = &self.server else { return };
-        // Discovery reports a server a moment before its reader is matched.
+        // Discovery reports a server shortly before its reader is matched.
         if !self.questions.reaches(server.participant) {
             return;
         }
@@ -288,7 +289,7 @@ impl Calling {
             let body = match call.request.cdr() {
                 Ok(body) => body,
                 Err(error) => {
-                    net.complain("wire", format!("a question to `{name}` has {error}"));
+                    net.complain("wire", format!("a request to `{name}` has {error}"));
                     continue;
                 }
             };
@@ -296,7 +297,7 @@ impl Calling {
             let (bytes, related) =
                 request::write_question(mapping, caller, answers_to, self.number, body);
             match self.questions.write_to(server.participant, bytes, related) {
-                // The server just left; its callers are told when discovery reports that.
+                // The server just left; pending callers get an error when discovery reports that.
                 Ok(None) => {}
                 Ok(Some(sequence)) => {
                     let number = if mapping == Mapping::Fast { sequence } else { self.number };
@@ -305,7 +306,7 @@ impl Calling {
                     }
                     self.waiting.insert((mapping, number), call);
                 }
-                Err(error) => net.complain("wire", format!("a question to `{name}`: {error}")),
+                Err(error) => net.complain("wire", format!("a request to `{name}`: {error}")),
             }
         }
     }

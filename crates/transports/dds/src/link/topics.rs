@@ -1,4 +1,4 @@
-//! Topics: what the graph publishes goes out, and what others publish comes in.
+//! Topics: sends messages of the graph and receives those of other participants.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::outgoing::Outgoing;
 use crate::peers::Peers;
 use crate::{names, qos};
 
-/// Messages of publishers whose writer is not made yet; so many wait.
+/// Maximum number of queued messages of publishers without a writer yet.
 const MOST_EARLY: usize = 64;
 
 #[derive(Default)]
@@ -26,7 +26,7 @@ pub(super) struct Topics {
     feeds: BTreeMap<Guid, Feed>,
 }
 
-/// A publisher of the graph, on the network.
+/// A publisher of the graph on the network.
 pub(super) struct Publishing {
     pub(super) node: String,
     pub(super) topic: String,
@@ -37,7 +37,7 @@ pub(super) struct Publishing {
     token: Token,
 }
 
-/// Subscriptions of the graph that ask for the same, on the network.
+/// Subscriptions of the graph with the same request, as one DDS reader.
 pub(super) struct Subscribing {
     pub(super) nodes: Vec<String>,
     pub(super) topic: String,
@@ -46,11 +46,11 @@ pub(super) struct Subscribing {
     pub(super) qos: Qos,
     reader: Reader,
     token: Token,
-    /// What came from writers that discovery has not told of yet.
+    /// Samples of writers that discovery has not reported yet.
     early: VecDeque<(Guid, Vec<u8>)>,
 }
 
-/// What decides from whom a subscription gets anything.
+/// Policies that decide which writers match a subscription.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Asked {
     reliability: Reliability,
@@ -72,15 +72,15 @@ impl Asked {
     }
 }
 
-/// A writer elsewhere, as the graph sees it.
+/// A remote writer, as seen by the graph.
 struct Feed {
     publisher: RawPublisher,
-    /// The reader that takes from it, of those that it matches: each message shall come once.
+    /// The matched reader that delivers its samples, so that each message is delivered once.
     by: (String, Asked),
 }
 
 impl Topics {
-    /// Makes and drops endpoints. `topics` has only what belongs to the graph itself.
+    /// Creates and removes endpoints. `topics` has only the graph's own.
     pub(super) fn sync(&mut self, net: &Net, graph: &Graph, topics: &[TopicInfo]) {
         let mut gone: BTreeSet<EndpointId> = self.publishing.keys().copied().collect();
         let mut unasked: BTreeSet<(String, Asked)> = self.subscribing.keys().cloned().collect();
@@ -93,7 +93,7 @@ impl Topics {
             let subject = Subject { topic: &name, type_name: &type_name, type_hash };
             for end in &topic.publishers {
                 gone.remove(&end.id);
-                // One that offers something else than before is made anew.
+                // A publisher with changed QoS gets a new writer.
                 if self.publishing.get(&end.id).is_none_or(|one| one.qos != end.qos) {
                     self.publishing.remove(&end.id);
                     self.publish(net, &subject, topic, end.id, &end.node, end.qos);
@@ -162,15 +162,15 @@ impl Topics {
         self.subscribing.insert(key, subscribing);
     }
 
-    /// Looks again at who listens where readers came or went.
+    /// Updates the subscriptions of topics whose readers changed.
     pub(super) fn notice(&mut self, graph: &Graph, tokens: &[Token]) {
         if self.publishing.values().any(|one| tokens.contains(&one.token)) {
             self.listen(graph);
         }
     }
 
-    /// Listens to the topics of the graph that somebody elsewhere hears, and to those that keep
-    /// messages for latecomers.
+    /// Taps the topics of the graph that have remote readers, and those that retain messages for
+    /// late subscribers.
     fn listen(&mut self, graph: &Graph) {
         let ways = self.publishing.iter().map(|(id, one)| {
             one.outgoing.count_readers();
@@ -179,7 +179,7 @@ impl Topics {
         self.taps.listen(graph, ways);
     }
 
-    /// Lets a publisher of the graph stand for each writer elsewhere that a subscription asks for.
+    /// Creates a publisher in the graph for each remote writer that a subscription matches.
     pub(super) fn feed(&mut self, net: &Net, node: &Node, peers: &Peers) {
         let mut wanted: BTreeMap<Guid, (String, Asked)> = BTreeMap::new();
         let mut offers: BTreeMap<Guid, (Qos, String)> = BTreeMap::new();
@@ -187,10 +187,13 @@ impl Topics {
             let (topic, type_name) =
                 (names::topic(&subscribing.topic), names::type_of(&subscribing.type_name));
             for (guid, end) in peers.ends(&topic, true) {
-                if end.type_name != type_name || !end.qos.lacks(&subscribing.qos).is_empty() {
+                if end.type_name != type_name
+                    || !end.qos.incompatible_policies(&subscribing.qos).is_empty()
+                {
                     continue;
                 }
-                // The strongest of those that fit takes; their order is that of strength.
+                // The strongest compatible reader takes the samples; the keys are in order of
+                // strength.
                 wanted.insert(guid, key.clone());
                 let (offer, _) =
                     offers.entry(guid).or_insert_with(|| (end.qos, subscribing.type_name.clone()));
@@ -211,7 +214,7 @@ impl Topics {
                 continue;
             }
             let Some((offer, type_name)) = offers.remove(&guid) else { continue };
-            // Age is what DDS looks at, on another clock.
+            // DDS checks the lifespan itself, on another clock.
             let offer = Qos { lifespan_ns: None, history: History::KeepLast, ..offer };
             match node.raw_publisher(&by.0, &type_name, None, offer) {
                 Ok(publisher) => {
@@ -235,7 +238,7 @@ impl Topics {
         }
     }
 
-    /// Takes what arrived.
+    /// Receives samples.
     pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
         for (key, subscribing) in &mut self.subscribing {
             if !tokens.contains(&subscribing.token) {
@@ -265,7 +268,7 @@ impl Topics {
         }
     }
 
-    /// Endpoints with the nodes that they belong to, and whether they write.
+    /// Endpoints with their nodes; true for writers.
     pub(super) fn ends(&self) -> impl Iterator<Item = (&str, Guid, bool)> {
         let writers = self.publishing.values();
         let writers = writers.map(|one| (one.node.as_str(), one.outgoing.writer.guid(), true));

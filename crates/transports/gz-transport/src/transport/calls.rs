@@ -1,4 +1,4 @@
-//! Services: questions and answers.
+//! Services: requests and responses.
 
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -17,25 +17,25 @@ use super::shared::{Kind, Shared};
 use super::{listener, sockets, uuid, zmtp};
 use crate::{CallError, Name};
 
-/// The largest question or answer \[B\]: a world as text, with its heights.
+/// Maximum size of a request or response \[bytes\]: a world as text, with its height maps.
 const LARGEST: usize = 64 << 20;
 
-/// So often it is looked whether somebody came who answers.
+/// Period at which a call checks for a new server.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What is done with a call.
+/// Callback for requests.
 pub(super) type Take = Box<dyn Fn(Call) + Send + Sync>;
 
-/// A question that came.
+/// A received request.
 #[derive(Debug)]
 pub struct Call {
-    /// The question.
+    /// The request.
     pub request: Vec<u8>,
-    /// To be given the answer.
+    /// Sends the response.
     pub answer: Answer,
 }
 
-/// Takes the answer to a question, now or later. Who drops it lets the other side wait in vain.
+/// Return path of a response, usable at any later time. If it is dropped, the client times out.
 pub struct Answer {
     shared: Arc<Shared>,
     to: Option<SocketAddr>,
@@ -43,14 +43,14 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Sends the answer; none inside says that the call was refused.
+    /// Sends the response; none reports failure.
     pub fn send(self, answer: Option<&[u8]>) {
         let Some(to) = self.to else { return };
         let [topic, node, request] = &self.parts;
         let is_done: &[u8] = if answer.is_some() { b"1" } else { b"0" };
         let bytes = answer.unwrap_or_default();
         let message = zmtp::message(&[topic, node, request, bytes, is_done]);
-        // Without the thread the transport is closed.
+        // Fails only after the transport is closed.
         let _ = self.shared.replies.send(Reply::To(to, message));
     }
 }
@@ -61,7 +61,7 @@ impl std::fmt::Debug for Answer {
     }
 }
 
-/// Answers a service as long as it is there.
+/// A service that is advertised until this is dropped.
 pub struct Server {
     shared: Arc<Shared>,
     name: Name,
@@ -69,7 +69,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// The service.
+    /// Name of the service.
     #[must_use]
     pub fn service(&self) -> &str {
         self.name.topic()
@@ -95,7 +95,7 @@ struct Serving {
     take: Take,
 }
 
-/// What became of a question: not answered yet, answered, refused.
+/// State of a call: pending, response, or failure.
 type Outcome = Option<Result<Vec<u8>, CallError>>;
 
 #[derive(Default)]
@@ -126,7 +126,7 @@ pub(super) fn serve(
         }),
     };
     let types = [request_type.to_owned(), response_type.to_owned()];
-    // Under the lock, so that nobody asks before there is one to answer.
+    // Under the lock, so that no request arrives before the server is registered.
     let mut servers = lock(&shared.calling.servers);
     let id = shared.offer(Kind::Services, offer);
     servers.insert(id, Arc::new(Serving { name: name.clone(), types, take }));
@@ -134,12 +134,12 @@ pub(super) fn serve(
     Server { shared: shared.clone(), name, id }
 }
 
-/// Whether both mean one type, whatever the release calls it.
+/// True if both names are one type in different releases.
 fn is_same_type(a: &str, b: &str) -> bool {
     a == b || bare_name(a).is_some_and(|a| bare_name(b) == Some(a))
 }
 
-/// Speaks with one who asks.
+/// Receives requests on a connection.
 pub(super) fn take_requests(shared: &Arc<Shared>, mut stream: TcpStream) {
     while let Ok(event) = zmtp::read(&mut stream, LARGEST) {
         let parts = match event {
@@ -156,8 +156,8 @@ pub(super) fn take_requests(shared: &Arc<Shared>, mut stream: TcpStream) {
     }
 }
 
-/// Topic, address and name of who receives the answer, its node, the number of the question, the
-/// question, both types.
+/// Parses a request: topic; address and id of the response receiver; its node; id of the request;
+/// the request; both types.
 fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, Call)> {
     let [topic, address, _, node, number, request, request_type, response_type] =
         <[Vec<u8>; 8]>::try_from(parts).ok()?;
@@ -171,13 +171,13 @@ fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, C
     let serving = wanted?.clone();
     drop(servers);
     let to = sockets::address(&text(&address)?).filter(|to| shared.ways.is_for(*to));
-    // Who asks for nothing back hears nothing back.
+    // A client that expects no response type gets none.
     let to = to.filter(|_| bare_name(&types[1]) != Some("Empty"));
     let answer = Answer { shared: shared.clone(), to, parts: [topic, node, number] };
     Some((serving, Call { request, answer }))
 }
 
-/// Speaks with one who answers.
+/// Receives responses on a connection.
 pub(super) fn take_answers(shared: &Arc<Shared>, mut stream: TcpStream) {
     while let Ok(event) = zmtp::read(&mut stream, LARGEST) {
         let zmtp::Event::Message(parts) = event else { continue };
@@ -235,7 +235,7 @@ pub(super) fn call(
     outcome.unwrap_or(Err(CallError::Late))
 }
 
-/// Who answers; somebody may come while time is left.
+/// Finds a server, waiting for discovery up to the deadline.
 fn find(
     shared: &Shared,
     name: &Name,

@@ -1,4 +1,4 @@
-//! Finds others and is found by them.
+//! Discovery of remote programs, topics and services.
 
 use std::net::UdpSocket;
 use std::sync::Arc;
@@ -14,10 +14,10 @@ use super::shared::{Kind, Shared, thread};
 use super::{packet, subscribe};
 use crate::Name;
 
-/// All say so often that they are there, and what they offer: a tool that just started waits for it.
+/// Heartbeat period; a tool that has just started waits for one.
 const HEARTBEAT: Duration = Duration::from_millis(1000);
 
-/// The largest packet that UDP carries.
+/// Maximum size of a UDP packet \[bytes\].
 const LARGEST: usize = 65_536;
 
 pub(super) fn start(shared: &Arc<Shared>, kind: Kind, socket: UdpSocket) -> JoinHandle<()> {
@@ -102,7 +102,7 @@ fn hear(shared: &Arc<Shared>, kind: Kind, told: Discovery) {
     }
 }
 
-/// One of ours who hears a topic; `publisher` is the program that it hears, if one is meant.
+/// Sends the subscription of a local subscriber; `publisher` is the program it is for, if any.
 pub(super) fn subscriber(
     shared: &Shared,
     name: &Name,
@@ -124,7 +124,7 @@ pub(super) fn subscriber(
     }
 }
 
-/// An offer that is whole, for us, and in our partition.
+/// Checks that an advertisement is complete, for this program, and in its partition.
 fn sound(
     shared: &Shared,
     kind: Kind,

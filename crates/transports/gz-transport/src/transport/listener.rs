@@ -1,4 +1,4 @@
-//! Takes connections of others.
+//! Accepts TCP connections.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -11,10 +11,10 @@ use periplus_transport::Since;
 use super::shared::{Shared, thread};
 use super::zmtp;
 
-/// What to do with a connection whose other side has said what it is.
+/// Handler of a connection after the handshake.
 pub(super) type Meet = fn(&Arc<Shared>, TcpStream);
 
-/// After a failure the next connection is waited for so long: there may be too many open.
+/// Pause after a failed accept, which may be caused by too many open files.
 const PAUSE: Duration = Duration::from_millis(50);
 
 pub(super) fn start(
@@ -53,10 +53,10 @@ pub(super) fn start(
     })
 }
 
-/// How long the other side may take to say what it is, however it splits its bytes.
+/// Timeout of the handshake.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Makes a connection ready, and shakes hands on it.
+/// Configures a connection and performs the handshake.
 pub(super) fn greet(
     stream: &mut TcpStream,
     kind: zmtp::Kind,
@@ -68,7 +68,7 @@ pub(super) fn greet(
     stream.set_read_timeout(None)
 }
 
-/// A connection whose reads together take no longer than `patience`.
+/// A connection whose reads share one timeout.
 struct Limited<'a> {
     stream: &'a mut TcpStream,
     clock: Since,
@@ -112,7 +112,7 @@ mod tests {
         let address = sockets::address(&shared.publishing).unwrap();
         let mut silent: Vec<TcpStream> =
             (0..200).map(|_| TcpStream::connect(address).unwrap()).collect();
-        // Also among silent ones, who greets is served.
+        // A peer that sends its greeting is served in spite of the silent ones.
         let mut subscriber = TcpStream::connect(address).unwrap();
         greet(&mut subscriber, zmtp::Kind::Sub, "").unwrap();
         let is_open = |stream: &mut TcpStream| {
@@ -146,7 +146,7 @@ mod tests {
         let address = listener.local_addr().unwrap();
         let dripping = std::thread::spawn(move || {
             let mut stream = TcpStream::connect(address).unwrap();
-            // Until the other side has had enough.
+            // Until the peer closes the connection.
             (0..50)
                 .take_while(|_| {
                     std::thread::sleep(Duration::from_millis(20));

@@ -1,22 +1,22 @@
-//! Packets by which programs find each other: two bytes of length, then a [`Discovery`].
+//! Discovery packets: a length of two bytes, then a [`Discovery`] message.
 
 use periplus_gz_msgs::{Discovery, DiscoveryKind, DiscoveryPublisher, Message};
 
 use crate::Name;
 
-/// The version of the protocol; others are not heard.
+/// Protocol version; other versions are ignored.
 const VERSION: u32 = 10;
 
-/// As a program that counts messages says it.
+/// Protocol version of programs that count messages.
 const COUNTING: u32 = 110;
 
-/// A name of a program or node is a UUID, or at least as short.
+/// Maximum length of a process or node id \[bytes\]; UUIDs are shorter.
 const MOST_ID: usize = 128;
 
-/// An address is `tcp://` and a few numbers.
+/// Maximum length of an address \[bytes\]: `tcp://`, host and port.
 const MOST_ADDRESS: usize = 256;
 
-/// A packet of this program.
+/// Encodes a packet of this program.
 pub(super) fn write(
     process: &str,
     kind: DiscoveryKind,
@@ -35,7 +35,7 @@ pub(super) fn write(
     packet
 }
 
-/// What somebody else told; none for what is no such packet.
+/// Decodes a packet; none if it is malformed or of another version.
 pub(super) fn read(packet: &[u8]) -> Option<Discovery> {
     let (length, body) = packet.split_first_chunk::<2>()?;
     let body = body.get(..u16::from_le_bytes(*length).into())?;
@@ -45,7 +45,7 @@ pub(super) fn read(packet: &[u8]) -> Option<Discovery> {
     (is_ours && is_named).then_some(told)
 }
 
-/// The name of what somebody offers; none if the offer is not whole.
+/// Name of an advertisement; none if it is incomplete.
 pub(super) fn name_of(offer: &DiscoveryPublisher) -> Option<Name> {
     let is_sound = offer.address.len() <= MOST_ADDRESS
         && offer.node_uuid.len() <= MOST_ID
@@ -54,10 +54,10 @@ pub(super) fn name_of(offer: &DiscoveryPublisher) -> Option<Name> {
     if is_sound { Name::read(&offer.topic) } else { None }
 }
 
-/// Reads a packet, for those who try any; whether it was one.
+/// Entry point for fuzzing: decodes a packet; true if it is valid.
 ///
 /// # Panics
-/// When it is another packet after it was written again, which must not be.
+/// When encoding and decoding it again gives another packet, which would be a bug.
 #[doc(hidden)]
 #[must_use]
 pub fn fuzz(packet: &[u8]) -> bool {
@@ -67,7 +67,7 @@ pub fn fuzz(packet: &[u8]) -> bool {
         let _ = super::sockets::address(&offer.address);
     }
     let again = write(&told.process_uuid, told.r#type, |again| *again = told.clone());
-    // What was longer than a packet can be is no packet.
+    // Encoding may exceed the maximum packet size.
     assert!(again.len() > usize::from(u16::MAX) || read(&again) == Some(told));
     true
 }
@@ -83,7 +83,7 @@ mod tests {
         let packet = write("p", DiscoveryKind::SUBSCRIBE, |told| {
             told.sub = Some(DiscoverySubscriber { topic: "@/a@/b".into() });
         });
-        // Length, version 10, the process, the kind, the topic.
+        // Length, version 10, process, kind, topic.
         assert_eq!(packet, b"\x11\0\x10\x0a\x1a\x01p\x20\x02\x32\x08\x0a\x06@/a@/b");
         let told = read(&packet).expect("a packet");
         assert_eq!(told.sub.map(|sub| sub.topic).as_deref(), Some("@/a@/b"));

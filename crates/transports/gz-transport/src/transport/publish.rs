@@ -1,4 +1,4 @@
-//! Topics on their way out.
+//! Publishers.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Write as _;
@@ -13,16 +13,16 @@ use super::shared::{Kind, Shared, thread};
 use super::zmtp;
 use crate::{MOST_NAME, Name};
 
-/// So many messages wait for one who is slow, as in Gazebo; more are not sent to it.
+/// Maximum number of queued messages per subscriber, as in Gazebo; newer ones are dropped.
 const MOST_WAITING: usize = 1_000;
 
-/// And so many bytes, beside the first message.
+/// Maximum size of the queued messages, in addition to the first \[bytes\].
 const MOST_WAITING_BYTES: usize = 64 << 20;
 
-/// So many topics can one ask for.
+/// Maximum number of subscription filters per connection.
 const MOST_FILTERS: usize = 10_000;
 
-/// Publishes a topic as long as it is there.
+/// A topic that is advertised until this is dropped.
 pub struct Publisher {
     shared: Arc<Shared>,
     name: Name,
@@ -49,7 +49,7 @@ pub(super) fn advertise(shared: &Arc<Shared>, name: Name, type_name: &str) -> Pu
 }
 
 impl Publisher {
-    /// Sends a message to all who hear the topic. It never waits for who is slow.
+    /// Sends a message to all subscribers. It never blocks on a slow one.
     pub fn publish(&self, message: impl AsRef<[u8]>) {
         let hearers = self.shared.hearers.of(&self.name);
         if hearers.is_empty() {
@@ -67,13 +67,13 @@ impl Publisher {
         }
     }
 
-    /// Whether somebody hears it.
+    /// True if there is a subscriber.
     #[must_use]
     pub fn is_heard(&self) -> bool {
         !self.shared.hearers.of(&self.name).is_empty()
     }
 
-    /// The topic.
+    /// Name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
         self.name.topic()
@@ -92,22 +92,22 @@ impl std::fmt::Debug for Publisher {
     }
 }
 
-/// Those who are connected.
+/// Connected subscribers.
 #[derive(Default)]
 pub(super) struct Hearers(Mutex<BTreeMap<u64, Arc<Hearer>>>);
 
 impl Hearers {
-    /// Those who asked for a topic: what they ask for are beginnings of names.
+    /// Subscribers of a topic; filters are prefixes of names.
     fn of(&self, name: &Name) -> Vec<Arc<Hearer>> {
         let hearers = lock(&self.0);
         hearers.values().filter(|hearer| hearer.wants(name)).cloned().collect()
     }
 }
 
-/// One who is connected.
+/// A connected subscriber.
 #[derive(Default)]
 struct Hearer {
-    /// What it asked for, and how often.
+    /// Its filters with their counts.
     filters: Mutex<BTreeMap<Vec<u8>, u32>>,
     queue: Mutex<Queue>,
     filled: Condvar,
@@ -144,7 +144,7 @@ impl Hearer {
         self.filled.notify_one();
     }
 
-    /// The next message; none when it is over.
+    /// Waits for the next message; none when the connection is closed.
     fn next(&self) -> Option<Arc<[u8]>> {
         let queue = lock(&self.queue);
         let is_idle = |queue: &mut Queue| queue.messages.is_empty() && !queue.is_closed;
@@ -173,7 +173,7 @@ impl Hearer {
     }
 }
 
-/// Speaks with one who wants to hear.
+/// Serves a subscriber connection.
 pub(super) fn meet(shared: &Arc<Shared>, mut stream: TcpStream) {
     let Ok(writing) = stream.try_clone() else { return };
     let hearer = Arc::new(Hearer::default());
@@ -188,7 +188,8 @@ pub(super) fn meet(shared: &Arc<Shared>, mut stream: TcpStream) {
                 let Some((kind @ (0 | 1), filter)) = parts[0].split_first() else { continue };
                 hearer.ask(*kind == 1, filter.to_vec());
             }
-            // Its answer would have to be put between messages; nobody asks who hears ZMTP 3.0.
+            // A reply would have to be inserted between messages; ZMTP 3.0 subscribers do not need
+            // it.
             zmtp::Event::Ping(_) => continue,
         }
         shared.hearings.fetch_add(1, Ordering::AcqRel);

@@ -1,4 +1,4 @@
-//! What others offer, and whether they are still there.
+//! Advertisements of remote programs, and their liveliness.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -8,25 +8,25 @@ use periplus_transport::Since;
 
 use crate::Name;
 
-/// Who says nothing for so long is gone; all say something each second.
+/// Timeout of a program without heartbeat; the heartbeat period is one second.
 const SILENCE: Duration = Duration::from_secs(3);
 
-/// So many offers are known at most, and so many programs; a network has some hundred.
+/// Maximum number of advertisements and programs stored; typical networks have some hundred.
 const MOST_OFFERS: usize = 20_000;
 const MOST_PROCESSES: usize = 4_000;
 
-/// Something that somebody offers.
+/// An advertised topic or service.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offered {
-    /// The topic or service.
+    /// Name of the topic or service.
     pub name: String,
-    /// Where.
+    /// Address of the server or publisher.
     pub address: String,
-    /// The type of messages, or those of question and answer.
+    /// Message type, or request and response types.
     pub types: Vec<String>,
-    /// Which program.
+    /// Id of the process.
     pub process: String,
-    /// Which node in it.
+    /// Id of the node.
     pub node: String,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Remote {
 }
 
 impl Remote {
-    /// A program said something.
+    /// Records a sign of life of a program.
     pub(super) fn note(&mut self, process: &str) {
         if let Some(since) = self.processes.get_mut(process) {
             *since = Since::now();
@@ -47,7 +47,7 @@ impl Remote {
         }
     }
 
-    /// Whether that is news.
+    /// Adds an advertisement; true if it is new.
     pub(super) fn add(&mut self, name: Name, offer: DiscoveryPublisher) -> bool {
         if !self.processes.contains_key(&offer.process_uuid) || self.count == MOST_OFFERS {
             return false;
@@ -67,7 +67,7 @@ impl Remote {
         is_new
     }
 
-    /// Whether somebody went.
+    /// Keeps matching advertisements; true if some were removed.
     fn keep(&mut self, mut stays: impl FnMut(&Name, &DiscoveryPublisher) -> bool) -> bool {
         let before = self.count;
         let mut count = 0;
@@ -80,20 +80,20 @@ impl Remote {
         count != before
     }
 
-    /// Somebody offers it no more; whether that is news.
+    /// Removes an advertisement; true if it existed.
     pub(super) fn remove(&mut self, name: &Name, process: &str, node: &str) -> bool {
         self.keep(|known, offer| {
             known != name || offer.process_uuid != process || offer.node_uuid != node
         })
     }
 
-    /// A program went; whether it had offered anything.
+    /// Removes a program; true if it had advertisements.
     pub(super) fn bye(&mut self, process: &str) -> bool {
         self.processes.remove(process);
         self.keep(|_, offer| offer.process_uuid != process)
     }
 
-    /// Forgets who has been silent too long; whether one of them had offered anything.
+    /// Removes programs that have timed out; true if one of them had advertisements.
     pub(super) fn forget_silent(&mut self) -> bool {
         let silent = |since: &Since| since.elapsed() > SILENCE;
         let before = self.processes.len();
@@ -155,7 +155,10 @@ mod tests {
     fn offers_come_and_go() {
         let mut remote = Remote::default();
         let name = Name::new("p", "/scan").expect("a name");
-        assert!(!remote.add(name.clone(), offer("a", "1")), "who never spoke offers nothing");
+        assert!(
+            !remote.add(name.clone(), offer("a", "1")),
+            "a program without heartbeat has no advertisements"
+        );
         remote.note("a");
         remote.note("b");
         assert!(remote.add(name.clone(), offer("a", "1")));

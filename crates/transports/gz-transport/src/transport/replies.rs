@@ -1,5 +1,5 @@
-//! Answers on their way to who asked. One thread takes them there, so that nobody waits for one who
-//! cannot be reached.
+//! Sending of service responses. One thread sends them, so that an unreachable client blocks no
+//! server.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
@@ -12,17 +12,17 @@ use std::time::Duration;
 use super::shared::{Shared, thread};
 use super::{listener, zmtp};
 
-/// How long a connection may take to be made.
+/// Timeout of a connection attempt.
 const CONNECT: Duration = Duration::from_millis(500);
 
-/// So many connections are kept for the next answer.
+/// Maximum number of connections kept for later responses.
 const MOST_KEPT: usize = 64;
 
-/// An answer to be sent.
+/// A response to send.
 pub(super) enum Reply {
-    /// To whom, and what.
+    /// Receiver and bytes.
     To(SocketAddr, Vec<u8>),
-    /// It is over.
+    /// Ends the thread.
     End,
 }
 
@@ -36,7 +36,7 @@ pub(super) fn start(shared: &Arc<Shared>, waiting: Receiver<Reply>) -> JoinHandl
         let mut kept: BTreeMap<SocketAddr, TcpStream> = BTreeMap::new();
         for reply in waiting {
             let Reply::To(to, bytes) = reply else { return };
-            // Who cannot be reached has gone, and waits for no answer.
+            // An unreachable client has left.
             let known = kept.remove(&to).filter(is_open);
             let sent = match known {
                 Some(stream) => send(stream, &bytes),
@@ -64,7 +64,7 @@ fn send(mut stream: TcpStream, bytes: &[u8]) -> io::Result<TcpStream> {
     Ok(stream)
 }
 
-/// Whether the other side is still there: it says nothing, but its end can be read.
+/// True if the peer has not closed the connection; it sends nothing.
 fn is_open(stream: &TcpStream) -> bool {
     if stream.set_nonblocking(true).is_err() {
         return false;

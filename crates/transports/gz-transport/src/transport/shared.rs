@@ -1,4 +1,4 @@
-//! What the threads of a transport have in common.
+//! State shared by the threads of a transport.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -20,14 +20,14 @@ use super::subscribe::Ears;
 use super::{calls, discovery, listener, packet, publish, uuid, zmtp};
 use crate::{Settings, WireError};
 
-/// So many connections are taken at once.
+/// Maximum number of open connections.
 const MOST_CONNECTIONS: usize = 1_000;
 
-/// Connections whose other side has not yet said what it is; one more ends the oldest. Each has a
-/// thread, and whoever connects and stays silent costs no more than these.
+/// Maximum number of connections without a finished handshake; one more closes the oldest. Each has
+/// a thread, and silent connections cost no more than these.
 const MAX_GREETINGS: usize = 32;
 
-/// What is found: each has a port of its own.
+/// Topics or services; each has its own discovery port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Topics,
@@ -37,31 +37,31 @@ pub(super) enum Kind {
 pub(super) struct Shared {
     pub(super) settings: Settings,
     pub(super) ways: Ways,
-    /// The name of this program, and of the one node that it has.
+    /// Id of this process and of its only node.
     pub(super) process: String,
     pub(super) node: String,
-    /// Where topics are published, services answered, answers received.
+    /// Addresses of the sockets for publishing, serving, and receiving responses.
     pub(super) publishing: String,
     pub(super) replying: String,
     pub(super) receiving: String,
-    /// By which names a router finds the last two.
+    /// Socket identities of the last two for routers.
     pub(super) replier: String,
     pub(super) receiver: String,
     senders: Vec<UdpSocket>,
     remote: [Mutex<Remote>; 2],
-    /// Rung when others offer something new.
+    /// Notified when new advertisements arrive.
     pub(super) news: Condvar,
-    /// What this program offers, by a number.
+    /// Advertisements of this program by id.
     offers: [Mutex<BTreeMap<u64, DiscoveryPublisher>>; 2],
     pub(super) hearers: Hearers,
     pub(super) ears: Ears,
     pub(super) calling: Calling,
     pub(super) replies: Sender<Reply>,
-    /// How often those who hear changed.
+    /// Counter of changes of the subscribers.
     pub(super) hearings: AtomicU64,
     pub(super) is_closing: AtomicBool,
     connections: Mutex<BTreeMap<u64, TcpStream>>,
-    /// Those of the connections that are not greeted yet; numbers grow with time.
+    /// Ids of the connections without a finished handshake, in ascending order of age.
     greetings: Mutex<BTreeSet<u64>>,
     next_id: AtomicU64,
 }
@@ -118,10 +118,10 @@ pub(super) fn open(settings: &Settings) -> Result<(Arc<Shared>, Vec<JoinHandle<(
     Ok((shared, threads))
 }
 
-/// A thread of its own.
+/// Starts a named thread.
 pub(super) fn thread(name: &str, run: impl FnOnce() + Send + 'static) -> JoinHandle<()> {
     let thread = std::thread::Builder::new().name(name.to_owned());
-    thread.spawn(run).expect("the system gives a thread")
+    thread.spawn(run).expect("the system starts a thread")
 }
 
 impl Shared {
@@ -137,7 +137,7 @@ impl Shared {
         lock(&self.remote[kind as usize])
     }
 
-    /// Says something to all others.
+    /// Sends a discovery message to all programs.
     pub(super) fn tell(&self, kind: Kind, what: DiscoveryKind, fill: impl FnOnce(&mut Discovery)) {
         let packet = packet::write(&self.process, what, fill);
         let port = match kind {
@@ -145,17 +145,17 @@ impl Shared {
             Kind::Services => self.settings.service_port,
         };
         for sender in &self.senders {
-            // A network that is not there now may be there at the next heartbeat.
+            // The network may be back at the next heartbeat.
             let _ = sender.send_to(&packet, (self.settings.group, port));
         }
     }
 
-    /// What this program offers of a kind.
+    /// Advertisements of this program.
     pub(super) fn offers(&self, kind: Kind) -> Vec<DiscoveryPublisher> {
         lock(&self.offers[kind as usize]).values().cloned().collect()
     }
 
-    /// Offers something, until it is [withdrawn](Self::withdraw) by its number.
+    /// Advertises something until it is [withdrawn](Self::withdraw) by its id.
     pub(super) fn offer(&self, kind: Kind, offer: DiscoveryPublisher) -> u64 {
         let id = self.next_id();
         lock(&self.offers[kind as usize]).insert(id, offer.clone());
@@ -170,7 +170,7 @@ impl Shared {
         }
     }
 
-    /// Takes a connection, so that it ends with the transport; none if there are too many.
+    /// Registers a connection, so that it is closed with the transport; none if there are too many.
     pub(super) fn admit(self: &Arc<Self>, stream: &TcpStream) -> Option<Admitted> {
         let id = self.next_id();
         let mut connections = lock(&self.connections);
@@ -181,8 +181,8 @@ impl Shared {
         Some(Admitted { shared: self.clone(), id })
     }
 
-    /// Counts a connection as one that is being greeted, until what is returned is dropped. Where there
-    /// are too many, the oldest ends.
+    /// Counts a connection as in handshake until the returned value is dropped. If there are too
+    /// many, the oldest is closed.
     pub(super) fn begin_greeting(self: &Arc<Self>, admitted: &Admitted) -> Greeting {
         let oldest = {
             let mut greetings = lock(&self.greetings);
@@ -209,7 +209,7 @@ impl Shared {
         let _ = self.replies.send(Reply::End);
         self.news.notify_all();
         self.calling.answered.notify_all();
-        // Who waits for a connection gets one.
+        // Connects to each listener to wake its thread.
         for address in [&self.publishing, &self.replying, &self.receiving] {
             if let Some(address) = super::sockets::address(address) {
                 let _ = TcpStream::connect(address);
@@ -218,7 +218,7 @@ impl Shared {
     }
 }
 
-/// A connection that is there.
+/// A registered connection.
 pub(super) struct Admitted {
     shared: Arc<Shared>,
     id: u64,
@@ -230,7 +230,7 @@ impl Drop for Admitted {
     }
 }
 
-/// A connection that is being greeted.
+/// A connection in handshake.
 pub(super) struct Greeting {
     shared: Arc<Shared>,
     id: u64,

@@ -1,4 +1,4 @@
-//! Addresses of this machine, and sockets for packets to all.
+//! Network interfaces and multicast sockets.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
@@ -8,16 +8,16 @@ use socket2::{Domain, Protocol, Socket, Type};
 
 use crate::{Reach, Settings};
 
-/// A thread that waits for packets looks around this often.
+/// Timeout of receiving threads, after which they check for shutdown.
 pub(super) const LOOK: Duration = Duration::from_millis(100);
 
-/// By which addresses this machine is on the network.
+/// Addresses of this machine.
 #[derive(Clone, Debug)]
 pub(super) struct Ways {
     reach: Reach,
-    /// Packets go out and come in by these.
+    /// Interfaces used for sending and receiving.
     own: Vec<Ipv4Addr>,
-    /// The one that others are told.
+    /// Address announced to other programs.
     pub(super) told: Ipv4Addr,
 }
 
@@ -35,12 +35,12 @@ impl Ways {
             (Reach::Network, Some(first)) => *first,
             _ => Ipv4Addr::LOCALHOST,
         };
-        // Programs of Gazebo that were told nothing speak by the first way out, also to each other.
+        // Gazebo programs without `GZ_IP` use the default route, also among each other.
         own.push(Ipv4Addr::LOCALHOST);
         Self { reach, own, told }
     }
 
-    /// Whether one at this address may be heard and spoken to.
+    /// True if packets from this address are accepted.
     pub(super) fn is_for(&self, address: SocketAddr) -> bool {
         match (self.reach, address) {
             (Reach::Network, _) => true,
@@ -51,7 +51,7 @@ impl Ways {
         }
     }
 
-    /// Address that the socket for the group is bound to. On Linux a socket bound to the group receives
+    /// Address that the multicast socket is bound to. On Linux a socket bound to the group receives
     /// nothing that is sent to an address of the machine.
     fn listens_at(&self, group: Ipv4Addr) -> Ipv4Addr {
         match self.reach {
@@ -60,7 +60,7 @@ impl Ways {
         }
     }
 
-    /// Hears the group, beside all others on this machine that do.
+    /// Opens the receive socket of the group, shared with all programs on this machine.
     pub(super) fn receiver(&self, group: Ipv4Addr, port: u16) -> io::Result<UdpSocket> {
         let socket = Socket::new(Domain::IPV4, Type::DGRAM, Some(Protocol::UDP))?;
         socket.set_reuse_address(true)?;
@@ -70,7 +70,7 @@ impl Ways {
         let mut joined = Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
         for own in &self.own {
             let result = socket.join_multicast_v4(&group, own);
-            // One is enough, and the same network may be there twice.
+            // One is enough, and a network may be listed twice.
             if joined.is_err() {
                 joined = result;
             }
@@ -80,8 +80,8 @@ impl Ways {
         Ok(socket.into())
     }
 
-    /// Speaks to the group. What is for this machine alone is sent so that no router and no wire
-    /// takes it.
+    /// Opens the send sockets. With [`Reach::Machine`](crate::settings::Reach) packets do not leave
+    /// the machine.
     pub(super) fn senders(&self) -> io::Result<Vec<UdpSocket>> {
         let mut senders = Vec::new();
         let mut failed = None;
@@ -107,7 +107,7 @@ impl Ways {
     }
 }
 
-/// Our address on the way to another; nothing is sent.
+/// Local address of the route to another address; nothing is sent.
 fn way_to(other: Ipv4Addr) -> Option<Ipv4Addr> {
     let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
     socket.connect(SocketAddrV4::new(other, 9)).ok()?;
@@ -117,7 +117,7 @@ fn way_to(other: Ipv4Addr) -> Option<Ipv4Addr> {
     }
 }
 
-/// `tcp://127.0.0.1:4000`.
+/// Parses an address such as `tcp://127.0.0.1:4000`.
 pub(super) fn address(text: &str) -> Option<SocketAddr> {
     text.strip_prefix("tcp://")?.parse().ok()
 }

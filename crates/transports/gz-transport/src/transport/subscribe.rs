@@ -1,4 +1,4 @@
-//! Topics on their way in.
+//! Subscriptions.
 
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -14,30 +14,30 @@ use super::shared::{Kind, Shared, thread};
 use super::{listener, sockets, zmtp};
 use crate::Name;
 
-/// The largest message \[B\]: a cloud of 8 million points.
+/// Maximum size of a message \[bytes\]: a point cloud of 8 million points.
 const LARGEST: usize = 256 << 20;
 
-/// How long a connection may take to be made, and how long one that broke is left alone.
+/// Timeout of a connection attempt, and pause after a lost connection.
 const CONNECT: Duration = Duration::from_secs(2);
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// What is asked for is heard from then on; a program that sends one message and ends sends it as soon as
-/// it knows that somebody hears.
+/// Delay before a subscription is announced to the publisher, so that the filter is active: a program
+/// that publishes one message and exits does so as soon as it has a subscriber.
 const GRACE: Duration = Duration::from_millis(10);
 
-/// A message that came.
+/// A received message.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival<'a> {
-    /// The full name of its type, as who published it says.
+    /// Full type name, as declared by the publisher.
     pub type_name: &'a str,
     /// The message.
     pub bytes: &'a [u8],
 }
 
-/// What is done with a message.
+/// Callback for messages.
 pub(super) type Take = Box<dyn Fn(Arrival<'_>) + Send + Sync>;
 
-/// Hears a topic as long as it is there.
+/// A subscription that exists until this is dropped.
 pub struct Subscription {
     shared: Arc<Shared>,
     ear: Arc<Ear>,
@@ -53,12 +53,12 @@ pub(super) struct Ear {
 #[derive(Default)]
 pub(super) struct Ears {
     all: Mutex<BTreeMap<u64, Arc<Ear>>>,
-    /// Connections to those who publish, by their addresses.
+    /// Connections to publishers by address.
     lines: Mutex<BTreeMap<String, Arc<Line>>>,
 }
 
 impl Ears {
-    /// All topics that are heard, with the types that are meant.
+    /// Subscribed topics with their types.
     pub(super) fn all(&self) -> Vec<(Name, String)> {
         lock(&self.all).values().map(|ear| (ear.name.clone(), ear.type_name.clone())).collect()
     }
@@ -87,13 +87,13 @@ pub(super) fn subscribe(
 }
 
 impl Subscription {
-    /// How many publish the topic.
+    /// Number of publishers of the topic.
     #[must_use]
     pub fn publishers(&self) -> usize {
         self.shared.remote(Kind::Topics).of(&self.ear.name).len()
     }
 
-    /// The topic.
+    /// Name of the topic.
     #[must_use]
     pub fn topic(&self) -> &str {
         self.ear.name.topic()
@@ -113,20 +113,20 @@ impl std::fmt::Debug for Subscription {
     }
 }
 
-/// A connection to one who publishes.
+/// A connection to a publisher.
 #[derive(Default)]
 struct Line(Mutex<Wish>);
 
 #[derive(Default)]
 struct Wish {
-    /// What is asked for, with the offers that it is asked for by.
+    /// Subscribed topics, with the advertisements that they match.
     topics: BTreeMap<Name, DiscoveryPublisher>,
     stream: Option<TcpStream>,
     is_closed: bool,
 }
 
 impl Line {
-    /// Asks for these topics and no others.
+    /// Sets the subscribed topics of this connection.
     fn want(&self, shared: &Shared, topics: BTreeMap<Name, DiscoveryPublisher>) {
         let mut wish = lock(&self.0);
         let before = std::mem::replace(&mut wish.topics, topics);
@@ -134,7 +134,7 @@ impl Line {
         let gone: Vec<_> = gone.collect();
         let come = wish.topics.iter().filter(|(name, _)| !before.contains_key(name));
         if let Some(mut stream) = wish.stream.as_ref() {
-            // That it is gone is noticed by who reads.
+            // The reading thread notices a lost connection.
             for (name, _) in &gone {
                 let _ = stream.write_all(&zmtp::subscription(false, name.full()));
             }
@@ -158,7 +158,7 @@ impl Line {
         lock(&self.0).is_closed
     }
 
-    /// From now on there is a connection: asks for all that is wanted.
+    /// Sends all filters on a new connection.
     fn connected(&self, shared: &Shared, stream: &TcpStream) -> std::io::Result<()> {
         let mut writing = stream.try_clone()?;
         let mut wish = lock(&self.0);
@@ -174,14 +174,14 @@ impl Line {
     }
 }
 
-/// Tells who publishes that it is heard, or no more: programs of Gazebo send nothing otherwise.
+/// Announces or ends a subscription to the publisher: Gazebo's programs send nothing without it.
 fn tell(shared: &Shared, what: DiscoveryKind, name: &Name, offer: &DiscoveryPublisher) {
     let type_name = offer.msg_pub.as_ref().map(|it| it.msg_type.clone()).unwrap_or_default();
     let ear = subscriber(shared, name, type_name, offer.process_uuid.clone());
     shared.tell(Kind::Topics, what, |told| told.r#pub = Some(ear));
 }
 
-/// Keeps connections as those who hear and those who publish are now.
+/// Updates the connections to match subscriptions and advertisements.
 pub(super) fn follow(shared: &Arc<Shared>) {
     let mut lines = lock(&shared.ears.lines);
     let mut wanted: BTreeMap<String, BTreeMap<Name, DiscoveryPublisher>> = BTreeMap::new();
@@ -219,7 +219,7 @@ fn start(shared: &Arc<Shared>, address: &str, line: Arc<Line>) {
             if let Ok(stream) = TcpStream::connect_timeout(&to, CONNECT)
                 && let Some(admitted) = shared.admit(&stream)
             {
-                // When it ends it is made again as long as somebody wants it.
+                // A lost connection is retried while there are subscriptions.
                 let _ = listen(&shared, &line, stream);
                 lock(&line.0).stream = None;
                 drop(admitted);
@@ -237,7 +237,7 @@ fn listen(shared: &Shared, line: &Line, mut stream: TcpStream) -> std::io::Resul
     loop {
         match zmtp::read(&mut stream, LARGEST)? {
             zmtp::Event::Message(parts) => {
-                // Topic, address, message, type; who counts messages adds one.
+                // Topic, address, message, type; programs that count messages append one part.
                 let [topic, _, bytes, type_name, ..] = parts.as_slice() else { continue };
                 let Ok(type_name) = std::str::from_utf8(type_name) else { continue };
                 for ear in shared.ears.of(topic) {

@@ -1,10 +1,11 @@
-//! Names that nobody else has.
+//! Unique ids.
 
-/// A random UUID (version 4) as text.
+/// Creates a random UUID (version 4) as text.
 pub(super) fn new() -> String {
     let mut bytes = [0_u8; 16];
     if getrandom::fill(&mut bytes).is_err() {
-        // Without chance the clock has to do: two programs do not start in one nanosecond.
+        // Without a source of randomness, the clock: two programs do not start in the same
+        // nanosecond.
         bytes[..8].copy_from_slice(&periplus_transport::unix_ns().to_le_bytes());
         bytes[8..12].copy_from_slice(&std::process::id().to_le_bytes());
     }

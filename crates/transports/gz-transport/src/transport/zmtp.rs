@@ -1,24 +1,25 @@
-//! How ZeroMQ frames messages on TCP.
+//! ZeroMQ framing on TCP.
 //!
-//! Source: ZMTP 3.0, `rfc.zeromq.org/spec/23`. Of its mechanisms only the one without security is
-//! there, which is what Gazebo uses.
+//! Source: ZMTP 3.0, `rfc.zeromq.org/spec/23`. Only the NULL security mechanism is implemented,
+//! which is the one that Gazebo uses.
 
 use std::io::{self, Read, Write};
 
-/// A message has as many parts at most; Gazebo's have nine.
+/// Maximum number of parts of a message; Gazebo's have nine.
 const MOST_PARTS: usize = 32;
 
-/// A command is small.
+/// Maximum size of a command \[bytes\].
 const MOST_COMMAND: usize = 4096;
 
-/// Bytes are taken in such pieces, so that a length alone costs no memory.
+/// Size of the pieces in which a body is read \[bytes\], so that a length field alone allocates no
+/// memory.
 const PIECE: usize = 1 << 20;
 
 const MORE: u8 = 1;
 const LONG: u8 = 2;
 const COMMAND: u8 = 4;
 
-/// What kind of socket one is.
+/// Socket type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Pub,
@@ -35,7 +36,7 @@ impl Kind {
         }
     }
 
-    /// Who may be at the other end.
+    /// True if a socket of the other type may be at the other end.
     fn talks_to(self, other: &[u8]) -> bool {
         match self {
             Self::Pub => matches!(other, b"SUB" | b"XSUB"),
@@ -49,7 +50,7 @@ fn wrong(what: &'static str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, what)
 }
 
-/// The first 64 bytes of each side: a signature, the version, the mechanism.
+/// The first 64 bytes of each side: signature, version, mechanism.
 fn greeting() -> [u8; 64] {
     let mut bytes = [0; 64];
     bytes[0] = 0xff;
@@ -59,7 +60,7 @@ fn greeting() -> [u8; 64] {
     bytes
 }
 
-/// The command by which a side says what it is.
+/// The READY command, with the socket type.
 fn ready(kind: Kind, identity: &[u8]) -> Vec<u8> {
     let mut body = b"\x05READY".to_vec();
     let mut property = |name: &[u8], value: &[u8]| {
@@ -75,7 +76,7 @@ fn ready(kind: Kind, identity: &[u8]) -> Vec<u8> {
     body
 }
 
-/// A property that the other side told.
+/// Value of a property of the peer.
 fn property<'a>(mut body: &'a [u8], wanted: &str) -> Option<&'a [u8]> {
     while let [length, rest @ ..] = body {
         let (name, rest) = rest.split_at_checked((*length).into())?;
@@ -90,10 +91,10 @@ fn property<'a>(mut body: &'a [u8], wanted: &str) -> Option<&'a [u8]> {
     None
 }
 
-/// Greets the other side and says what this one is. `identity` is by what a router finds it.
+/// Performs the handshake. `identity` is the socket identity for a router.
 ///
 /// # Errors
-/// When the other side is none, or of another kind.
+/// When the peer does not speak ZeroMQ, or has an incompatible socket type.
 pub(super) fn shake_hands(
     stream: &mut (impl Read + Write),
     kind: Kind,
@@ -103,10 +104,10 @@ pub(super) fn shake_hands(
     let mut theirs = [0; 64];
     stream.read_exact(&mut theirs)?;
     if theirs[0] != 0xff || theirs[9] & 1 == 0 || theirs[10] < 3 {
-        return Err(wrong("no ZeroMQ of version 4 is at the other end"));
+        return Err(wrong("the peer does not speak ZMTP 3"));
     }
     if &theirs[12..17] != b"NULL\0" {
-        return Err(wrong("the other end wants a password"));
+        return Err(wrong("the peer requires authentication"));
     }
     let mut out = Vec::new();
     put_frame(&mut out, COMMAND, &ready(kind, identity));
@@ -116,7 +117,7 @@ pub(super) fn shake_hands(
     let theirs = told.and_then(|body| property(body, "Socket-Type"));
     match theirs {
         Some(theirs) if kind.talks_to(theirs) => Ok(()),
-        _ => Err(wrong("a socket of another kind is at the other end")),
+        _ => Err(wrong("the peer has an incompatible socket type")),
     }
 }
 
@@ -134,7 +135,7 @@ fn put_frame(out: &mut Vec<u8>, flags: u8, body: &[u8]) {
     out.extend_from_slice(body);
 }
 
-/// The bytes of a message of some parts.
+/// Encodes a message of several parts.
 pub(super) fn message(parts: &[&[u8]]) -> Vec<u8> {
     let size: usize = parts.iter().map(|part| part.len() + 9).sum();
     let mut out = Vec::with_capacity(size);
@@ -150,7 +151,7 @@ fn read_frame(stream: &mut impl Read, most: usize) -> io::Result<(u8, Vec<u8>)> 
     stream.read_exact(&mut head)?;
     let flags = head[0];
     if flags & !(MORE | LONG | COMMAND) != 0 {
-        return Err(wrong("a frame of no known kind"));
+        return Err(wrong("a frame has unknown flags"));
     }
     let length = if flags & LONG == 0 {
         usize::from(head[1])
@@ -161,7 +162,7 @@ fn read_frame(stream: &mut impl Read, most: usize) -> io::Result<(u8, Vec<u8>)> 
         usize::try_from(u64::from_be_bytes(rest)).unwrap_or(usize::MAX)
     };
     if length > most {
-        return Err(wrong("a frame is larger than any should be"));
+        return Err(wrong("a frame exceeds the maximum size"));
     }
     let mut body = Vec::with_capacity(length.min(PIECE));
     while body.len() < length {
@@ -172,21 +173,21 @@ fn read_frame(stream: &mut impl Read, most: usize) -> io::Result<(u8, Vec<u8>)> 
     Ok((flags, body))
 }
 
-/// What comes after the hands were shaken.
+/// Data received after the handshake.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Event {
-    /// A message, in its parts.
+    /// A message in its parts.
     Message(Vec<Vec<u8>>),
-    /// The other side wants to know whether this one is there; what it wants back.
+    /// A ping with its context, which the pong repeats.
     Ping(Vec<u8>),
-    /// It subscribes, or ends to.
+    /// A subscription (true) or its end, with the filter.
     Subscribe(bool, Vec<u8>),
 }
 
-/// The next thing that the other side sends, of `most` bytes at most.
+/// Reads the next event, of at most `most` bytes.
 ///
 /// # Errors
-/// When the connection ends, or it is none of ZeroMQ.
+/// When the connection ends, or the data violates ZMTP.
 pub(super) fn read(stream: &mut impl Read, most: usize) -> io::Result<Event> {
     let mut parts = Vec::new();
     let mut left = most;
@@ -213,7 +214,7 @@ fn command(body: &[u8]) -> Option<Event> {
     let (length, rest) = body.split_first()?;
     let (name, rest) = rest.split_at_checked((*length).into())?;
     match name {
-        // Two bytes say how long it may take.
+        // The first two bytes are the time to live.
         b"PING" => Some(Event::Ping(rest.get(2..).unwrap_or_default().to_vec())),
         b"SUBSCRIBE" => Some(Event::Subscribe(true, rest.to_vec())),
         b"CANCEL" => Some(Event::Subscribe(false, rest.to_vec())),
@@ -221,7 +222,7 @@ fn command(body: &[u8]) -> Option<Event> {
     }
 }
 
-/// The answer to a ping.
+/// The PONG command.
 pub(super) fn pong(context: &[u8]) -> Vec<u8> {
     let mut body = b"\x04PONG".to_vec();
     body.extend_from_slice(context);
@@ -230,14 +231,14 @@ pub(super) fn pong(context: &[u8]) -> Vec<u8> {
     out
 }
 
-/// What a subscriber sends of a topic, or of its end.
+/// Encodes a subscription of a topic, or its end.
 pub(super) fn subscription(is_wanted: bool, filter: &str) -> Vec<u8> {
     let mut body = vec![u8::from(is_wanted)];
     body.extend_from_slice(filter.as_bytes());
     message(&[&body])
 }
 
-/// Reads all that bytes hold, for those who try any.
+/// Entry point for fuzzing: reads all events.
 #[doc(hidden)]
 pub fn fuzz(mut bytes: &[u8]) -> usize {
     let mut count = 0;
@@ -262,7 +263,7 @@ mod tests {
     use proptest::prelude::*;
     use std::collections::VecDeque;
 
-    /// A stream that the test feeds.
+    /// A stream that the test fills.
     #[derive(Default)]
     struct Loop {
         input: VecDeque<u8>,
@@ -318,7 +319,7 @@ mod tests {
         assert!(read(&mut bytes.as_slice(), 1 << 30).is_err());
         let mut bytes = vec![LONG];
         bytes.extend((1_u64 << 29).to_be_bytes());
-        // It is not there, so nothing is taken for it.
+        // The body is missing, so nothing is allocated for it.
         assert!(read(&mut bytes.as_slice(), 1 << 30).is_err());
     }
 

@@ -1,4 +1,4 @@
-//! Debian's `ignition-transport` 11: its command line, and a program of our own compiled against it.
+//! Debian's `ignition-transport` 11: its command line, and a test program compiled against it.
 #![allow(dead_code, unreachable_pub, reason = "each test takes what it needs")]
 
 use std::io::{BufRead, BufReader};
@@ -10,23 +10,23 @@ use std::time::Duration;
 
 pub const LONG: Duration = Duration::from_secs(40);
 
-/// Where Debian puts the programs behind `ign topic` and `ign service`.
+/// Folder of the programs behind `ign topic` and `ign service`.
 const PROGRAMS: &str = "/usr/libexec/ignition/transport11";
 
-/// How to get them.
+/// Installation command.
 const HOW: &str = "apt-get install g++ pkg-config ignition-transport-cli libignition-transport-dev";
 
 fn here() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../transports/gz-transport")
 }
 
-/// A program, for those who speak with it in a partition of their own.
+/// A program in a separate partition.
 pub struct Gazebo {
     partition: String,
 }
 
 impl Gazebo {
-    /// None where it is not installed, which is told.
+    /// None, with a message, if it is not installed.
     pub fn new(partition: &str) -> Option<Self> {
         let is_there = Path::new(PROGRAMS).join("ign-transport-topic").exists();
         if !is_there || peer().is_none() {
@@ -53,7 +53,7 @@ impl Gazebo {
 
     /// Runs `ign topic` or `ign service` to its end.
     pub fn tool(&self, which: &str, words: &[&str]) -> String {
-        // One that waits for a message in vain has to end too.
+        // A timeout ends a command that receives no message.
         let mut command = Command::new("timeout");
         let program = Path::new(PROGRAMS).join(format!("ign-transport-{which}"));
         command.arg("30").arg(program).args(words);
@@ -63,7 +63,7 @@ impl Gazebo {
         text(&stdout) + &text(&stderr)
     }
 
-    /// Runs it again and again until it says what is wanted: others need a moment to be found.
+    /// Repeats it until the output is as expected: discovery takes a moment.
     #[track_caller]
     pub fn tool_until(&self, which: &str, words: &[&str], wanted: &str) -> String {
         let mut said = String::new();
@@ -73,7 +73,7 @@ impl Gazebo {
                 return said;
             }
         }
-        panic!("`ign {which} {words:?}` does not say `{wanted}`, but:\n{said}");
+        panic!("`ign {which} {words:?}` does not print `{wanted}`, but:\n{said}");
     }
 
     /// Starts `ign topic` or `ign service`.
@@ -84,7 +84,7 @@ impl Gazebo {
         Running::of(self.start(command), format!("{words:?}"))
     }
 
-    /// Starts our own program.
+    /// Starts the test program.
     pub fn peer(&self, words: &[&str]) -> Running {
         let mut command = Command::new(peer().expect("it was looked for"));
         command.args(words);
@@ -92,7 +92,7 @@ impl Gazebo {
     }
 }
 
-/// A program that runs; it is ended when this is dropped.
+/// A running program; it is ended when this is dropped.
 pub struct Running {
     child: Child,
     lines: Receiver<String>,
@@ -112,10 +112,10 @@ impl Running {
     #[track_caller]
     pub fn line(&self) -> String {
         let line = self.lines.recv_timeout(LONG);
-        line.unwrap_or_else(|_| panic!("{} said nothing more", self.what))
+        line.unwrap_or_else(|_| panic!("{} has no more output", self.what))
     }
 
-    /// The next line that begins so.
+    /// Waits for the next line with this prefix.
     #[track_caller]
     pub fn line_with(&self, front: &str) -> String {
         loop {
@@ -154,7 +154,7 @@ fn compiled() -> Option<PathBuf> {
         .ok()
         .filter(|output| output.status.success())?;
     let flags = String::from_utf8(flags.stdout).ok()?;
-    // Under a name of its own: others may compile it at the same time.
+    // Under a unique name: other tests may compile it at the same time.
     let made = folder.join(format!("gazebo-peer-{}", std::process::id()));
     let compiler = Command::new("g++")
         .args(["-std=c++17", "-O0", "-o"])
@@ -166,7 +166,7 @@ fn compiled() -> Option<PathBuf> {
     (is_made && std::fs::rename(&made, &program).is_ok()).then_some(program)
 }
 
-/// Waits until something is so.
+/// Waits until a condition holds.
 #[track_caller]
 pub fn until(what: &str, mut is_so: impl FnMut() -> bool) {
     let start = std::time::Instant::now();

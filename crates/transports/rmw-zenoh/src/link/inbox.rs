@@ -1,4 +1,4 @@
-//! What arrives on a topic. Zenoh's own threads bring it, and publish it in the graph at once.
+//! Incoming messages of a topic. Zenoh's threads publish them in the graph directly.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Mutex;
@@ -9,10 +9,10 @@ use periplus_transport::{Foreign, Since, lock};
 
 use crate::attachment::Gid;
 
-/// Messages of publishers that are not known yet; so many wait.
+/// Maximum number of queued messages of unknown publishers.
 const MOST_EARLY: usize = 64;
 
-/// So long a publisher that is not known may take to say who it is; then it is taken as it is.
+/// Time after which a publisher without a token is accepted.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 #[derive(Default)]
@@ -20,22 +20,22 @@ pub(super) struct Inbox(Mutex<Inner>);
 
 #[derive(Default)]
 struct Inner {
-    /// A publisher of the graph stands for each elsewhere.
+    /// A publisher of the graph for each remote publisher.
     feeds: BTreeMap<Gid, Feed>,
     early: VecDeque<(Gid, Vec<u8>, Since)>,
 }
 
 pub(super) struct Feed {
     pub(super) publisher: RawPublisher,
-    /// Whether it said who it is.
+    /// True if its token was received.
     pub(super) is_known: bool,
 }
 
 impl Inbox {
-    /// A message; whether somebody must see who sent it.
+    /// Publishes or queues a message; true if its publisher is unknown so far.
     pub(super) fn take(&self, gid: Gid, bytes: Vec<u8>) -> bool {
         let mut inner = lock(&self.0);
-        // Under the lock, so that none overtakes those that waited.
+        // Under the lock, so that it does not overtake queued messages.
         if let Some(feed) = inner.feeds.get(&gid) {
             feed.publisher.publish(bytes);
             return false;
@@ -47,7 +47,8 @@ impl Inbox {
         true
     }
 
-    /// Lets publishers stand for those that are there now, and for none else. `make` makes one.
+    /// Creates and removes publishers in the graph to match the known remote publishers. `make`
+    /// creates one.
     pub(super) fn feed(
         &self,
         known: &[Gid],
@@ -56,7 +57,7 @@ impl Inbox {
     ) {
         let mut inner = lock(&self.0);
         inner.feeds.retain(|gid, feed| {
-            // Who never said that it is there does not say when it goes.
+            // A publisher without a token does not report that it leaves.
             let stays = !feed.is_known || known.contains(gid);
             if !stays {
                 lock(foreign).remove(&feed.publisher.id());
@@ -72,7 +73,7 @@ impl Inbox {
         }
     }
 
-    /// Takes those as they are who have sent messages and did not say in time who they are.
+    /// Accepts publishers that have sent messages and whose tokens did not arrive in time.
     pub(super) fn take_strangers(
         &self,
         foreign: &Foreign,
@@ -89,7 +90,7 @@ impl Inbox {
         }
     }
 
-    /// Those whose publishers are to go with the inbox.
+    /// Publishers to remove with the inbox.
     pub(super) fn close(&self, foreign: &Foreign) {
         let mut inner = lock(&self.0);
         for feed in std::mem::take(&mut inner.feeds).into_values() {
@@ -99,7 +100,7 @@ impl Inbox {
 }
 
 impl Inner {
-    /// From now on the publisher stands for this one; what of it waited is published.
+    /// Adds a publisher and publishes its queued messages.
     fn admit(&mut self, gid: Gid, feed: Feed, foreign: &Foreign) {
         lock(foreign).insert(feed.publisher.id());
         self.early.retain_mut(|(from, bytes, _)| {

@@ -1,4 +1,4 @@
-//! Making ends, and saying what is wrong.
+//! Creation of Zenoh endpoints, and findings.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +20,7 @@ pub(super) struct Net {
     pub(super) lane: Lane,
     pub(super) domain_id: u32,
     enclave: String,
-    /// Numbers of nodes, which they keep.
+    /// Persistent ids of nodes.
     nodes: RefCell<BTreeMap<String, u64>>,
     next_id: Cell<u64>,
     said: RefCell<BTreeSet<String>>,
@@ -38,19 +38,19 @@ impl Net {
         Self { session, shared, lane, domain_id, enclave, nodes, next_id, said }
     }
 
-    /// Says something once.
+    /// Reports a finding once.
     pub(super) fn say(&self, finding: Diagnostic) {
         if self.said.borrow_mut().insert(finding.message.clone()) {
             self.shared.report(finding);
         }
     }
 
-    /// Says once that Zenoh refuses something.
+    /// Reports a Zenoh error once.
     pub(super) fn complain(&self, error: &zenoh::Error) {
         self.say(Diagnostic::warning("wire", format!("Zenoh: {error}")));
     }
 
-    /// Says once that the graph refuses something.
+    /// Reports a graph error once.
     pub(super) fn complain_of_graph(&self, error: periplus_graph::GraphError) {
         self.say(Diagnostic::warning("wire", WireError::from(error).to_string()));
     }
@@ -59,7 +59,7 @@ impl Net {
         self.next_id.replace(self.next_id.get() + 1)
     }
 
-    /// Tells the others of a node, or of one of its ends; and its name on the network.
+    /// Declares the liveliness token of a node or endpoint; returns it with the id of the endpoint.
     pub(super) fn token(
         &self,
         kind: Kind,
@@ -88,7 +88,7 @@ impl Net {
         Some((gid, made.map_err(|error| self.complain(&error)).ok()?))
     }
 
-    /// Those of others that this one hears or asks, with their names on the network.
+    /// Ids of the remote endpoints of a kind that match this endpoint.
     pub(super) fn heard_by(&self, end: &End, kind: Kind) -> Vec<Gid> {
         self.shared.others(|others, _| {
             let wanted = others.iter().filter(|(_, token)| {

@@ -1,5 +1,5 @@
-//! What does not fit between us and the others, said once each. In Zenoh every quality of service fits
-//! every other; only types do not.
+//! Reports of incompatible endpoints, once each. In Zenoh all QoS are compatible; only types can
+//! differ.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -13,13 +13,13 @@ use super::net::Net;
 use super::topics::Topics;
 use crate::token::{End, Kind};
 
-/// What is sent is looked at this often.
+/// Period at which outgoing traffic is checked.
 const LOOK: Duration = Duration::from_millis(250);
 
 #[derive(Default)]
 pub(super) struct Told {
     slow: BTreeSet<EndpointId>,
-    /// When it last looked at what is sent.
+    /// Time of the last traffic check.
     looked: Option<Since>,
 }
 
@@ -28,7 +28,7 @@ fn party<'a>(node: &'a str, end: &'a End) -> Party<'a> {
 }
 
 impl Told {
-    /// Compares our ends with theirs.
+    /// Compares the local endpoints with the remote ones.
     pub(super) fn look(&self, net: &Net, topics: &Topics) {
         for (_, one) in topics.publishing() {
             compare(net, &one.node, &one.end, Kind::Subscription);
@@ -40,7 +40,7 @@ impl Told {
         }
     }
 
-    /// Says what is too fast for those who listen.
+    /// Warns about topics that are too fast for their subscribers.
     pub(super) fn look_at_traffic(&mut self, net: &Net, topics: &Topics) {
         if self.looked.is_some_and(|looked| looked.elapsed() < LOOK) {
             return;
@@ -53,7 +53,7 @@ impl Told {
                      for newer ones",
                     one.node, one.end.name
                 );
-                let help = "publish less often or smaller messages, or with more depth";
+                let help = "publish less often or smaller messages, or use a larger depth";
                 net.say(Diagnostic::warning("slow-peer", message).help(help));
             }
         }

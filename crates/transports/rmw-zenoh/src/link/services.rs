@@ -1,4 +1,4 @@
-//! Services: others call ours, and we call theirs.
+//! Services and clients over Zenoh.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
@@ -18,7 +18,8 @@ use crate::attachment::{Attachment, Gid};
 use crate::outgoing::Job;
 use crate::token::{End, Kind};
 
-/// A goal of an action may take as long as it likes; who goes is seen by its token.
+/// Query timeout. The result of an action may take any time; the token reports a server that
+/// leaves.
 const PATIENCE: Duration = Duration::from_secs(365 * 24 * 3600);
 
 #[derive(Default)]
@@ -27,7 +28,7 @@ pub(super) struct Services {
     calling: BTreeMap<String, Calling>,
 }
 
-/// A service that the graph answers, on the network.
+/// A service of the graph on the network.
 struct Serving {
     node: String,
     end: End,
@@ -35,19 +36,19 @@ struct Serving {
     _token: LivelinessToken,
 }
 
-/// A service elsewhere that the graph calls.
+/// A remote service that the graph calls.
 struct Calling {
     end: End,
-    /// By node that calls.
+    /// By client node.
     tokens: BTreeMap<String, (Gid, LivelinessToken)>,
-    /// What makes the graph see that somebody answers, while somebody does.
+    /// Makes the server visible in the graph, while there is one.
     server: Option<RawCalls>,
-    /// Number of the last question.
+    /// Sequence number of the last request.
     number: i64,
 }
 
 impl Services {
-    /// Makes and drops ends. `services` has only what belongs to the graph itself.
+    /// Creates and removes endpoints. `services` has only the graph's own.
     pub(super) fn sync(&mut self, net: &Net, node: &Node, services: &[ServiceInfo]) {
         let mut unserved: BTreeSet<String> = self.serving.keys().cloned().collect();
         let mut uncalled: BTreeSet<String> = self.calling.keys().cloned().collect();
@@ -76,7 +77,7 @@ impl Services {
         self.calling.retain(|name, _| !uncalled.contains(name));
     }
 
-    /// Finds who answers what the graph calls.
+    /// Finds the servers of the services that the graph calls.
     pub(super) fn meet(&mut self, net: &Net, node: &Node) {
         for calling in self.calling.values_mut() {
             if net.heard_by(&calling.end, Kind::Server).is_empty() {
@@ -95,7 +96,7 @@ impl Services {
         }
     }
 
-    /// Sends the questions of the graph.
+    /// Sends the requests of the graph.
     pub(super) fn send_questions(&mut self, net: &Net) {
         for calling in self.calling.values_mut() {
             calling.send(net);
@@ -108,7 +109,7 @@ fn end(service: &ServiceInfo) -> End {
     End { name, type_name, type_hash, qos: Qos::reliable(10) }
 }
 
-/// Answers questions of others by asking the graph.
+/// Answers remote requests by calling the graph.
 fn serve(net: &Net, node: &Node, server: &str, end: End) -> Option<Serving> {
     let hash = end.type_hash.as_deref();
     let client = match node.raw_client(&end.name, &end.type_name, hash) {
@@ -129,7 +130,7 @@ fn serve(net: &Net, node: &Node, server: &str, end: End) -> Option<Serving> {
             let asked = query.attachment().and_then(|one| Attachment::read(&one.to_bytes()));
             let (Some(asked), Some(body)) = (asked, query.payload()) else {
                 if !std::mem::replace(&mut *lock(&strange), true) {
-                    let message = format!("the service `{name}` got a question that is of no ROS");
+                    let message = format!("the service `{name}` received a request without the attachment of rmw_zenoh");
                     shared.report(Diagnostic::warning("strange-question", message));
                 }
                 return;
@@ -137,7 +138,7 @@ fn serve(net: &Net, node: &Node, server: &str, end: End) -> Option<Serving> {
             let body = body.to_bytes().into_owned();
             let lane = lane.clone();
             client.call(body, move |answered| {
-                // Without an answer the caller hears that the question is over.
+                // Without a response the query ends without a reply.
                 let Ok(message) = answered else { return };
                 let Ok(body) = message.cdr().map(ZBytes::from) else { return };
                 lane.schedule(Job::Once(Box::new(move || {
@@ -158,7 +159,7 @@ impl Calling {
         Self { end, tokens: BTreeMap::new(), server: None, number: 0 }
     }
 
-    /// Tells the others which nodes call.
+    /// Declares tokens for the client nodes.
     fn tell(&mut self, net: &Net, nodes: &[String]) {
         self.tokens.retain(|node, _| nodes.contains(node));
         for node in nodes {
@@ -178,7 +179,8 @@ impl Calling {
             self.number += 1;
             let beside = Attachment { number: self.number, time_ns: unix_ns(), gid: *gid }.write();
             let (session, key) = (net.session.clone(), self.end.keys(net.domain_id));
-            // The first answer counts; without one the call is dropped, and its caller is told.
+            // The first response is used; without one the call is dropped and its caller gets an
+            // error.
             let call = Arc::new(Mutex::new(Some(call)));
             net.lane.schedule(Job::Once(Box::new(move || {
                 let _ = session

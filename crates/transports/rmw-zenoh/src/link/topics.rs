@@ -1,4 +1,4 @@
-//! Topics: what the graph publishes goes out, and what others publish comes in.
+//! Topics: sends messages of the graph and receives those of other programs.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use periplus_graph::{
-    Durability, EndpointId, Graph, History, MOST_KEPT, Node, Qos, RawPublisher, Reliability,
-    TopicInfo,
+    Durability, EndpointId, Graph, History, KEEP_ALL_MAX_MESSAGES, Node, Qos, RawPublisher,
+    Reliability, TopicInfo,
 };
 use periplus_transport::Taps;
 use zenoh::Wait;
@@ -26,10 +26,11 @@ use crate::attachment::Attachment;
 use crate::outgoing::Outgoing;
 use crate::token::{End, Kind};
 
-/// How often a publisher that keeps messages says which was the last one, as `rmw_zenoh` does.
+/// Period at which a transient-local publisher announces its last sequence number, as `rmw_zenoh`
+/// does.
 const HEARTBEAT: Duration = Duration::from_millis(500);
 
-/// How long what was kept for latecomers may take to come.
+/// Timeout for the retained messages of a publisher.
 const HISTORY: Duration = Duration::from_secs(60);
 
 #[derive(Default)]
@@ -37,11 +38,11 @@ pub(super) struct Topics {
     publishing: BTreeMap<EndpointId, Publishing>,
     subscribing: BTreeMap<String, Subscribing>,
     taps: Taps<Outgoing>,
-    /// Set when who listens has changed.
+    /// Set when the remote subscribers have changed.
     is_due: Arc<AtomicBool>,
 }
 
-/// A publisher of the graph, on the network.
+/// A publisher of the graph on the network.
 pub(super) struct Publishing {
     pub(super) node: String,
     pub(super) end: End,
@@ -49,18 +50,18 @@ pub(super) struct Publishing {
     _token: LivelinessToken,
 }
 
-/// Subscriptions of the graph to one topic, on the network.
+/// Subscriptions of the graph to one topic on the network.
 pub(super) struct Subscribing {
     /// Their nodes and tokens.
     pub(super) ends: BTreeMap<EndpointId, (String, LivelinessToken)>,
-    /// The topic, and the most that any of them asks for.
+    /// The topic, with the strongest QoS that any of them requests.
     pub(super) end: End,
     inbox: Arc<Inbox>,
     _subscriber: AdvancedSubscriber<()>,
 }
 
 impl Topics {
-    /// Makes and drops ends. `topics` has only what belongs to the graph itself.
+    /// Creates and removes endpoints. `topics` has only the graph's own.
     pub(super) fn sync(&mut self, net: &Net, topics: &[TopicInfo]) {
         let mut gone: BTreeSet<EndpointId> = self.publishing.keys().copied().collect();
         let mut unasked: BTreeSet<String> = self.subscribing.keys().cloned().collect();
@@ -98,7 +99,8 @@ impl Topics {
         Some(Publishing { node: node.to_owned(), end, outgoing, _token: token })
     }
 
-    /// As `rmw_zenoh` makes them: only what is reliable and kept as a whole waits for who is slow.
+    /// Creates a publisher as `rmw_zenoh` does: only reliable `KEEP_ALL` publishers block on slow
+    /// subscribers.
     fn publisher(
         &self,
         net: &Net,
@@ -114,7 +116,7 @@ impl Topics {
         } else {
             zenoh::qos::Reliability::BestEffort
         };
-        // Who is in the same graph hears another way.
+        // Subscribers in the same graph get messages directly.
         let mut making = net
             .session
             .declare_publisher(end.key(net.domain_id))
@@ -166,7 +168,7 @@ impl Topics {
         }
     }
 
-    /// Lets publishers of the graph stand for those elsewhere.
+    /// Creates publishers in the graph for the remote ones.
     pub(super) fn feed(&mut self, net: &Net, node: &Node) {
         for one in self.subscribing.values() {
             let known = net.heard_by(&one.end, Kind::Publisher);
@@ -174,14 +176,14 @@ impl Topics {
         }
     }
 
-    /// Takes messages of those who did not say in time who they are.
+    /// Accepts messages of publishers whose tokens did not arrive in time.
     pub(super) fn take_strangers(&mut self, net: &Net, node: &Node) {
         for one in self.subscribing.values() {
             one.inbox.take_strangers(self.taps.foreign(), || one.feed(net, node));
         }
     }
 
-    /// Listens to what somebody elsewhere hears, if that may have changed.
+    /// Taps the topics with remote subscribers, if these may have changed.
     pub(super) fn listen(&mut self, graph: &Graph, is_new: bool) {
         if self.is_due.swap(false, Ordering::AcqRel) || is_new {
             let ways = self.publishing.iter();
@@ -204,15 +206,15 @@ fn end(topic: &TopicInfo, qos: Qos) -> End {
     End { name, type_name, type_hash: topic.type_hash.clone(), qos }
 }
 
-/// A history without end gets one.
+/// A `KEEP_ALL` history gets a limit.
 fn depth(qos: &Qos) -> usize {
     match qos.history {
-        History::KeepLast => qos.depth.clamp(1, MOST_KEPT),
-        History::KeepAll => MOST_KEPT,
+        History::KeepLast => qos.depth.clamp(1, KEEP_ALL_MAX_MESSAGES),
+        History::KeepAll => KEEP_ALL_MAX_MESSAGES,
     }
 }
 
-/// What satisfies both.
+/// The weakest QoS that satisfies both.
 fn strongest(a: Qos, b: Qos) -> Qos {
     let least = |a: Option<i64>, b: Option<i64>| match (a, b) {
         (Some(a), Some(b)) => Some(a.min(b)),
@@ -238,8 +240,8 @@ fn strongest(a: Qos, b: Qos) -> Qos {
     }
 }
 
-/// As `rmw_zenoh` makes them: who asks for it gets what was kept before it came, also of those who come
-/// later and had kept something.
+/// Creates a subscriber as `rmw_zenoh` does: with transient local durability it gets retained
+/// messages, also those of publishers that appear later.
 fn subscribing(net: &Net, end: End) -> zenoh::Result<Subscribing> {
     let inbox = Arc::new(Inbox::default());
     let (taking, shared) = (inbox.clone(), net.shared.clone());
@@ -248,7 +250,7 @@ fn subscribing(net: &Net, end: End) -> zenoh::Result<Subscribing> {
         .declare_subscriber(end.keys(net.domain_id))
         .callback(move |sample| {
             let beside = sample.attachment().and_then(|one| Attachment::read(&one.to_bytes()));
-            // Without it the message is of no ROS.
+            // Messages without an attachment are not from ROS.
             let Some(beside) = beside else { return };
             if taking.take(beside.gid, sample.payload().to_bytes().into_owned()) {
                 shared.wake();
@@ -271,8 +273,8 @@ fn subscribing(net: &Net, end: End) -> zenoh::Result<Subscribing> {
 }
 
 impl Subscribing {
-    /// A publisher of the graph that stands for one elsewhere. In Zenoh any publisher fits any
-    /// subscription, so it offers what is asked for.
+    /// Creates a publisher in the graph for a remote one. In Zenoh all QoS are compatible, so it
+    /// offers what is requested.
     fn feed(&self, net: &Net, node: &Node) -> Option<RawPublisher> {
         let End { name, type_name, type_hash, qos } = &self.end;
         let made = node.raw_publisher(name, type_name, type_hash.as_deref(), *qos);
@@ -295,8 +297,8 @@ mod tests {
         for a in all {
             for b in all {
                 let both = strongest(a, b);
-                assert_eq!(both.lacks(&a), [], "{a:?} {b:?}");
-                assert_eq!(both.lacks(&b), [], "{a:?} {b:?}");
+                assert_eq!(both.incompatible_policies(&a), [], "{a:?} {b:?}");
+                assert_eq!(both.incompatible_policies(&b), [], "{a:?} {b:?}");
             }
         }
     }

@@ -1,11 +1,11 @@
-//! What is on a network beyond the graph, where the graph is on one.
+//! Remote topics and services of the network that the graph is attached to.
 
 use std::collections::BTreeSet;
 
 use periplus_graph::Qos;
 
-/// What others have on a network that the graph is attached to. A graph knows of it only what it
-/// uses itself, so that clients would not see what they may ask for.
+/// Remote endpoints of the network. The graph lists only the topics that it uses itself; clients
+/// can subscribe to these as well.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Far {
     /// Topics.
@@ -14,43 +14,43 @@ pub struct Far {
     pub services: Vec<FarService>,
 }
 
-/// A topic that others use.
+/// A topic used by remote nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FarTopic {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its type.
+    /// Type.
     pub type_name: String,
-    /// The hash of its type, as far as known.
+    /// Type hash, if known.
     pub type_hash: Option<String>,
-    /// Who publishes, and what each offers.
+    /// Publishers with their offered QoS.
     pub publishers: Vec<FarEnd>,
-    /// Who subscribes, and what each asks for.
+    /// Subscriptions with their requested QoS.
     pub subscriptions: Vec<FarEnd>,
 }
 
-/// One end of a topic.
+/// A remote publisher or subscription.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FarEnd {
     /// Full name of its node.
     pub node: String,
-    /// What it offers or asks for.
+    /// QoS offered or requested.
     pub qos: Qos,
 }
 
-/// A service that others answer.
+/// A service with remote servers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FarService {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its type.
+    /// Type.
     pub type_name: String,
-    /// Full names of the nodes that answer it.
+    /// Full names of the server nodes.
     pub servers: BTreeSet<String>,
 }
 
 impl FarTopic {
-    /// What to ask for, so that all offers fit and the best of them is had.
+    /// The strongest request that is compatible with all offers.
     pub(crate) fn wanted(&self) -> Qos {
         let weakest = |one: Qos, other: &Qos| Qos {
             reliability: one.reliability.min(other.reliability),
@@ -70,5 +70,5 @@ impl FarTopic {
     }
 }
 
-/// Messages of one publisher that wait where nothing is told of it: transforms come in bursts.
+/// Queue depth per publisher if its depth is unknown; transforms come in bursts.
 const DEPTH: usize = 100;

@@ -1,20 +1,21 @@
-//! What is new in a map.
+//! Map updates.
 
 use periplus_msgs::map_msgs::OccupancyGridUpdate;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 
-/// How a map differs from an earlier one.
+/// Difference between two maps.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Difference {
-    /// It has another place or size: all of it is new.
+    /// Origin, resolution or size changed: send the whole map.
     All,
-    /// Only in this part.
+    /// Cells changed in this rectangle only.
     Part(OccupancyGridUpdate),
-    /// In nothing.
+    /// No cell changed.
     None,
 }
 
-/// How `now` differs from `before`: the smallest rectangle that has all that changed.
+/// Computes the difference between `before` and `now`: the smallest rectangle with all changed
+/// cells.
 pub(crate) fn difference(before: &OccupancyGrid, now: &OccupancyGrid) -> Difference {
     let width = now.info.width as usize;
     let is_same_place = before.header.frame_id == now.header.frame_id

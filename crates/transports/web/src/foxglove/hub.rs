@@ -1,4 +1,4 @@
-//! What stands between a graph and all clients.
+//! Connection of a graph to all clients.
 
 mod calls;
 mod channels;
@@ -25,35 +25,35 @@ use crate::foxglove::settings::Settings;
 use parameters::News;
 pub(crate) use state::State;
 
-/// How often the graph is looked at for what came and went, and clients are told the time.
+/// Period at which changes of the graph are checked and clients get the time.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Gives files by their URI.
+/// Returns files by their URI.
 pub(crate) type Assets = Arc<dyn Fn(&str) -> AssetAnswer + Send + Sync>;
 
-/// Lets clients take part in a graph as long as it is there: they see its topics, services and
-/// parameters, hear, publish and call. In the graph one node stands for all of them.
+/// Connects clients to a graph until it is dropped: they see its topics, services and parameters,
+/// subscribe, publish and call. One node of the graph represents all clients.
 pub struct Hub {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What the thread of a hub and its sessions have in common.
+/// State shared by the hub's thread and its sessions.
 pub(crate) struct Shared {
     pub(crate) graph: Graph,
-    /// The node that stands for all clients.
+    /// The node that represents all clients.
     pub(crate) node: Node,
     pub(crate) settings: Settings,
     pub(crate) state: Mutex<State>,
     pub(crate) assets: Mutex<Option<Assets>>,
-    /// What nodes answered about parameters, with the wish that it is for.
+    /// Responses of nodes to parameter requests, with the id of the request.
     news: Arc<Mutex<Vec<(u64, News)>>>,
     is_closing: Mutex<bool>,
     closing: Condvar,
 }
 
 impl Hub {
-    /// Stands before a graph.
+    /// Creates a hub for a graph.
     ///
     /// # Errors
     /// When the graph has a node `/viewers` already.
@@ -73,20 +73,21 @@ impl Hub {
         let (looking, builder) = (shared.clone(), std::thread::Builder::new());
         let run = move || looking.run();
         let thread = builder.name("viewers".to_owned()).spawn(run);
-        Ok(Self { shared, thread: Some(thread.expect("the system gives a thread")) })
+        Ok(Self { shared, thread: Some(thread.expect("the system starts a thread")) })
     }
 
-    /// Where files come from that clients ask for by URI. Whoever gives them decides which may be had.
+    /// Sets the source of files that clients request by URI. The callback decides which files may
+    /// be read.
     pub fn serve_assets(&self, fetch: impl Fn(&str) -> AssetAnswer + Send + Sync + 'static) {
         *lock(&self.shared.assets) = Some(Arc::new(fetch));
     }
 
-    /// What others have on a network that the graph is on. Tell it when it has changed.
+    /// Sets the remote endpoints. Call it when they have changed.
     pub fn set_far(&self, far: Far) {
         lock(&self.shared.state).set_far(&self.shared, far);
     }
 
-    /// A client comes. None when there are too many.
+    /// Adds a client. None if there are too many.
     #[must_use]
     pub fn join(&self) -> Option<Session> {
         let outbox = Arc::new(Outbox::new(self.shared.settings.limits.waiting));
@@ -94,13 +95,13 @@ impl Hub {
         Some(Session::new(id, self.shared.clone(), outbox))
     }
 
-    /// How many clients there are.
+    /// Number of clients.
     #[must_use]
     pub fn clients(&self) -> usize {
         lock(&self.shared.state).clients.len()
     }
 
-    /// What it was told.
+    /// Settings of the hub.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.shared.settings

@@ -1,4 +1,4 @@
-//! What waits for one client.
+//! Send queue of a client.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -14,20 +14,20 @@ use crate::foxglove::frame::Frame;
 use crate::foxglove::grid::{Difference, difference};
 use crate::foxglove::protocol;
 
-/// Messages of one subscription that wait: as many as fit here by the size of the last one, but one
-/// at least \[bytes\].
+/// Maximum size of the queued messages of a subscription, estimated from its last message; at least
+/// one message is kept \[bytes\].
 const MOST_WAITING: usize = 256 << 10;
 
-/// What waits for one client, until somebody takes it for the client's socket.
+/// Send queue of a client, read by the thread of its socket.
 ///
-/// - Answers and announcements come first and are never lost; a client for which too many wait is
-///   sent away.
-/// - Of latched topics the last messages wait, as many as each publisher keeps.
-/// - Of other topics the newest wait: as many as their publisher would keep, but not more than a few
-///   hundred kilobytes, and one where messages may get lost anyhow. Older ones are let fall.
-/// - Of a map whose updates the client hears too, it gets all once and then what is new in it, measured
-///   against what it has.
-/// - Subscriptions take turns, so that a camera does not hold up a scan.
+/// - Responses and announcements come first and are never dropped; a client with too many of them
+///   queued is disconnected.
+/// - Latched topics keep the last messages of each publisher, up to its depth.
+/// - Other topics keep the newest messages, up to the publisher's depth and a few hundred
+///   kilobytes; best-effort topics keep one. Older messages are dropped.
+/// - A client that subscribes to a map and its updates gets the map once, then updates relative to
+///   the map that it has.
+/// - Subscriptions take turns, so that a camera does not delay a scan.
 pub struct Outbox {
     waiting: Mutex<Waiting>,
     filled: Condvar,
@@ -40,41 +40,41 @@ struct Waiting {
     most_urgent_bytes: usize,
     time_ns: Option<i64>,
     lanes: BTreeMap<u32, Lane>,
-    /// The subscription that was last served.
+    /// The subscription served last.
     served: u32,
     end: Option<String>,
 }
 
-/// One subscription.
+/// Queue of a subscription.
 #[derive(Default)]
 struct Lane {
     samples: VecDeque<(Sample, Rule)>,
-    /// How large the last message was \[bytes\].
+    /// Size of the last message \[bytes\].
     size: usize,
     dropped: u64,
-    /// The subscription that gets what is new in this map, where there is one.
+    /// The subscription to the updates of this map, if any.
     updates: Option<u32>,
-    /// The map as the client has it.
+    /// The map that the client has.
     told: Option<Arc<OccupancyGrid>>,
 }
 
-/// How messages of a publisher wait.
+/// Queueing rule for messages of a publisher.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Rule {
-    /// How many of this publisher.
+    /// Depth for this publisher.
     pub(crate) depth: usize,
-    /// Whether they are for whoever comes later too.
+    /// True for latched topics.
     pub(crate) is_latched: bool,
 }
 
-/// What was taken out of an outbox.
+/// Result of taking from an outbox.
 #[derive(Debug)]
 pub enum Taken {
-    /// Something to send.
+    /// A frame to send.
     Frame(Frame),
-    /// Nothing came in time.
+    /// Nothing arrived before the timeout.
     Nothing,
-    /// Nothing will come any more: why, if there is a reason to tell.
+    /// The outbox is closed, with the reason if there is one.
     End(String),
 }
 
@@ -84,7 +84,7 @@ impl Outbox {
         Self { waiting: Mutex::new(waiting), filled: Condvar::new() }
     }
 
-    /// Something that may not get lost.
+    /// Queues a frame that must not be dropped.
     pub fn push(&self, frame: Frame) {
         let mut waiting = lock(&self.waiting);
         if waiting.end.is_some() {
@@ -95,24 +95,24 @@ impl Outbox {
         if waiting.urgent_bytes > waiting.most_urgent_bytes {
             waiting.urgent.clear();
             waiting.lanes.clear();
-            waiting.end = Some("too much waits for this client".to_owned());
+            waiting.end = Some("the send queue of this client is full".to_owned());
         }
         drop(waiting);
         self.filled.notify_one();
     }
 
-    /// The time; a newer one takes its place.
+    /// Queues the time; it replaces an older one.
     pub(crate) fn tell_time(&self, time_ns: i64) {
         lock(&self.waiting).time_ns = Some(time_ns);
         self.filled.notify_one();
     }
 
-    /// A subscription begins.
+    /// Opens the queue of a subscription.
     pub(crate) fn open(&self, subscription_id: u32) {
         lock(&self.waiting).lanes.insert(subscription_id, Lane::default());
     }
 
-    /// What is new in the map that a subscription hears goes to another one from now on.
+    /// Redirects the updates of a map to the subscription `updates`.
     pub(crate) fn pair(&self, subscription_id: u32, updates: Option<u32>) {
         if let Some(lane) = lock(&self.waiting).lanes.get_mut(&subscription_id)
             && lane.updates != updates
@@ -122,12 +122,12 @@ impl Outbox {
         }
     }
 
-    /// A subscription ends: what waits for it is let fall.
+    /// Closes the queue of a subscription and drops its messages.
     pub(crate) fn shut(&self, subscription_id: u32) {
         lock(&self.waiting).lanes.remove(&subscription_id);
     }
 
-    /// A message for a subscription.
+    /// Queues a message for a subscription.
     pub(crate) fn offer(&self, subscription_id: u32, sample: &Sample, rule: Rule) {
         let mut waiting = lock(&self.waiting);
         let Some(lane) = waiting.lanes.get_mut(&subscription_id) else { return };
@@ -136,19 +136,19 @@ impl Outbox {
         self.filled.notify_one();
     }
 
-    /// Nothing more is to be sent, and why.
+    /// Closes the outbox with a reason.
     pub fn end(&self, why: &str) {
         lock(&self.waiting).end.get_or_insert_with(|| why.to_owned());
         self.filled.notify_all();
     }
 
-    /// How many messages were let fall.
+    /// Number of dropped messages.
     #[must_use]
     pub fn dropped(&self) -> u64 {
         lock(&self.waiting).lanes.values().map(|lane| lane.dropped).sum()
     }
 
-    /// What is to be sent next, when it comes within `patience`.
+    /// Takes the next frame, waiting at most for `patience`.
     #[must_use]
     pub fn take(&self, patience: Duration) -> Taken {
         let waiting = lock(&self.waiting);
@@ -169,7 +169,7 @@ impl Outbox {
         let lane = waiting.lanes.get_mut(&id);
         let (updates, told) = lane.map_or((None, None), |lane| (lane.updates, lane.told.take()));
         drop(waiting);
-        // Not under the lock: this may be the one who encodes it.
+        // Not under the lock: this may encode the message.
         if let Some(updates) = updates
             && let Ok(map) = sample.message::<OccupancyGrid>()
         {
@@ -207,7 +207,7 @@ impl Waiting {
             || self.lanes.values().any(|lane| !lane.samples.is_empty())
     }
 
-    /// The oldest message of the subscription whose turn it is.
+    /// Takes the oldest message of the next subscription in turn.
     fn next_sample(&mut self) -> Option<(u32, Sample)> {
         let has = |(id, lane): (&u32, &Lane)| (!lane.samples.is_empty()).then_some(*id);
         let after = self.lanes.range(self.served.saturating_add(1)..).find_map(has);

@@ -1,4 +1,4 @@
-//! The way of one publisher's messages to all clients that hear them.
+//! Send path of a publisher to its clients.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
@@ -13,11 +13,11 @@ use crate::foxglove::outbox::{Outbox, Rule};
 use crate::foxglove::protocol;
 use crate::foxglove::recent_frames::RecentFrames;
 
-/// The topic of moving frames. Its newest transforms are kept for clients that come later: without
-/// them a client that comes while time stands still could not draw anything.
+/// The topic of dynamic transforms. The newest ones are kept for late clients, which could draw
+/// nothing while time is paused without them.
 const TRANSFORMS: &str = "/tf";
 
-/// The way of one publisher's messages to all clients that hear them.
+/// Send path of a publisher to its clients.
 pub(crate) struct Outgoing {
     rule: Rule,
     hearers: Mutex<Hearers>,
@@ -26,13 +26,13 @@ pub(crate) struct Outgoing {
 #[derive(Default)]
 struct Hearers {
     of: Vec<Hearer>,
-    /// For clients that come later, while the topic is listened to.
+    /// Messages retained for late clients while the topic is tapped.
     kept: VecDeque<Sample>,
-    /// The newest transforms, on the topic of moving frames.
+    /// The newest transforms, for `/tf`.
     frames: Option<RecentFrames>,
 }
 
-/// A subscription of a client.
+/// A client's subscription.
 #[derive(Clone)]
 pub(crate) struct Hearer {
     pub(crate) client: u64,
@@ -50,7 +50,7 @@ impl Outgoing {
         Self { rule: Rule { depth, is_latched }, hearers }
     }
 
-    /// Another one hears; it gets what is kept.
+    /// Adds a subscription; it gets the retained messages.
     pub(crate) fn add(&self, hearer: Hearer) {
         let mut hearers = lock(&self.hearers);
         for sample in &hearers.kept {
@@ -69,12 +69,12 @@ impl Outgoing {
         hearers.of.push(hearer);
     }
 
-    /// It no longer hears.
+    /// Removes a subscription.
     pub(crate) fn remove(&self, client: u64, subscription_id: u32) {
         let mut hearers = lock(&self.hearers);
         hearers.of.retain(|one| (one.client, one.subscription_id) != (client, subscription_id));
         if hearers.of.is_empty() {
-            // Nobody listens from now on; who comes next gets all of it from the graph.
+            // The tap ends; the next subscriber gets the retained messages from the graph.
             hearers.kept.clear();
         }
     }

@@ -1,4 +1,4 @@
-//! What clients and servers say to each other. Plain data in and out, no state.
+//! Messages of the protocol as plain data, without state.
 
 mod client;
 mod server;
@@ -11,6 +11,6 @@ pub use server::{
     time, unadvertise, unadvertise_services,
 };
 
-/// The names of the protocol that a WebSocket may ask for, the best first: that of the protocol's
-/// document, and that of Foxglove's SDK, which is the same.
+/// WebSocket subprotocols in order of preference: the name in the protocol's document, and that of
+/// Foxglove's SDK, which is the same protocol.
 pub const SUBPROTOCOLS: [&str; 2] = ["foxglove.websocket.v1", "foxglove.sdk.v1"];

@@ -1,4 +1,4 @@
-//! The newest transforms, for clients that come while time stands still.
+//! The newest transforms, for clients that connect while time is paused.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -6,14 +6,15 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::TransformStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
 
-/// Transforms that are older than the newest by more than this are not kept: tf2's cache \[ns\].
+/// Age relative to the newest transform at which transforms are dropped, the cache time of tf2
+/// \[ns\].
 const KEPT_NS: i64 = 10_000_000_000;
 
-/// Of each frame so much time is kept before the newest of all: publishers take turns, and a
-/// transform between two frames needs a time that both have \[ns\].
+/// Time before the newest transform of all that is kept for each frame: publishers alternate, and a
+/// lookup between two frames needs a common time \[ns\].
 const SPAN_NS: i64 = 1_000_000_000;
 
-/// Transforms of one frame that are kept at most.
+/// Maximum number of transforms kept per frame.
 const MAX_OF_ONE: usize = 128;
 
 /// The newest transforms of each frame on a topic.
@@ -29,14 +30,15 @@ impl RecentFrames {
             let now_ns = stamp_ns(one);
             let own = self.by_child.entry(one.child_frame_id.clone()).or_default();
             if own.back().is_some_and(|before| stamp_ns(before) > now_ns) {
-                // The run was reset: what is newer belongs to the time before.
+                // The run was reset: newer transforms belong to the time before.
                 for kept in self.by_child.values_mut() {
                     kept.retain(|one| stamp_ns(one) <= now_ns);
                 }
             }
             let own = self.by_child.entry(one.child_frame_id.clone()).or_default();
             own.push_back(one.clone());
-            // The last before the span stays, so that all of the span is known.
+            // The last transform before the span is kept, so that the whole span can be
+            // interpolated.
             while own.len() > MAX_OF_ONE
                 || own.get(1).is_some_and(|second| now_ns - stamp_ns(second) >= SPAN_NS)
             {
@@ -45,7 +47,7 @@ impl RecentFrames {
         }
     }
 
-    /// The newest transforms as one message, oldest first, unless there are none.
+    /// Returns the newest transforms as one message, oldest first; none if there are none.
     pub(crate) fn message(&self) -> Option<TFMessage> {
         let newest = |own: &VecDeque<TransformStamped>| own.back().map(stamp_ns);
         let newest_ns = self.by_child.values().filter_map(newest).max()?;

@@ -1,4 +1,4 @@
-//! One client, as the hub sees it.
+//! A connected client.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,14 +12,14 @@ use crate::foxglove::hub::Shared;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, ClientBinary, ClientChannel, ClientText, Level, Malformed};
 
-/// One client. It leaves when this is dropped.
+/// A connected client. It is removed when this is dropped.
 pub struct Session {
     id: u64,
     shared: Arc<Shared>,
     outbox: Arc<Outbox>,
-    /// What it publishes, by its own numbers.
+    /// Publishers of its channels, by the client's channel id.
     publishing: BTreeMap<u32, RawPublisher>,
-    /// Calls that wait for their answers.
+    /// Number of pending calls.
     calls: Arc<AtomicUsize>,
 }
 
@@ -28,13 +28,13 @@ impl Session {
         Self { id, shared, outbox, publishing: BTreeMap::new(), calls: Arc::default() }
     }
 
-    /// What waits for this client.
+    /// Send queue of this client.
     #[must_use]
     pub fn outbox(&self) -> &Arc<Outbox> {
         &self.outbox
     }
 
-    /// It says something in JSON. What is wrong with it is told to it.
+    /// Processes a JSON message. Errors are sent to the client.
     pub fn text(&mut self, text: &str) {
         match ClientText::read(text) {
             Ok(said) => self.hear(said),
@@ -42,7 +42,7 @@ impl Session {
         }
     }
 
-    /// It says something in bytes. What is wrong with it is told to it.
+    /// Processes a binary message. Errors are sent to the client.
     pub fn binary(&mut self, bytes: &[u8]) {
         match ClientBinary::read(bytes) {
             Ok(ClientBinary::Message { channel_id, payload }) => self.publish(channel_id, payload),
@@ -112,7 +112,7 @@ impl Session {
         let ClientChannel { id, topic, encoding, schema_name } = channel;
         if encoding != "cdr" {
             return self.refuse(&format!(
-                "messages for `{topic}` would come as {encoding}; only cdr is understood"
+                "`{topic}` is advertised with encoding {encoding}; only cdr is supported"
             ));
         }
         if self.publishing.contains_key(id) {
@@ -136,17 +136,17 @@ impl Session {
     fn publish(&self, channel_id: u32, payload: &[u8]) {
         match self.publishing.get(&channel_id) {
             Some(publisher) => publisher.publish(payload.to_vec()),
-            None => self.refuse(&format!("channel {channel_id} was not announced")),
+            None => self.refuse(&format!("channel {channel_id} was not advertised")),
         }
     }
 
     fn call(&self, service_id: u32, call_id: u32, encoding: &str, payload: &[u8]) {
         let fail = |why: &str| self.say(protocol::service_failure(service_id, call_id, why));
         if encoding != "cdr" {
-            return fail(&format!("the question comes as {encoding}; only cdr is understood"));
+            return fail(&format!("the request has encoding {encoding}; only cdr is supported"));
         }
         if self.calls.load(Ordering::Relaxed) >= self.shared.settings.limits.entries {
-            return fail("too many calls wait for their answers");
+            return fail("too many calls are pending");
         }
         let mut state = lock(&self.shared.state);
         let Some(name) = state.service(service_id) else {
@@ -168,7 +168,7 @@ impl Session {
         let assets = lock(&self.shared.assets).clone();
         let answer = match assets {
             Some(assets) => assets(uri),
-            None => Err("there are no files here".to_owned()),
+            None => Err("this server has no files".to_owned()),
         };
         self.say(protocol::asset(request_id, &answer));
     }
@@ -187,7 +187,7 @@ impl std::fmt::Debug for Session {
     }
 }
 
-/// `pkg/msg/T` for the short form `pkg/T`.
+/// Returns `pkg/msg/T` for the short form `pkg/T`.
 fn full_type(name: &str) -> String {
     match name.split('/').collect::<Vec<_>>().as_slice() {
         [package, name] => format!("{package}/msg/{name}"),

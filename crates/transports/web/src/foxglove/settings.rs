@@ -1,36 +1,37 @@
-//! What a hub is told.
+//! Settings of a hub.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// What a hub says of itself, and how much it lets clients do.
+/// Identity of the server, and limits for clients.
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
-    /// Its name, as clients show it.
+    /// Name shown by clients.
     pub name: String,
-    /// Tells runs apart: a client that finds another one after a break forgets what it had.
+    /// Id of the run: a client that reconnects to another run discards its data.
     pub session_id: String,
-    /// More about the server, for whoever knows the keys.
+    /// Additional information about the server.
     pub metadata: BTreeMap<String, String>,
-    /// How much clients may do.
+    /// Limits for clients.
     pub limits: Limits,
 }
 
-/// How much clients may do. Each bound is far above what a person with a viewer needs, and far below
-/// what would hurt the run.
+/// Limits for clients. Each is far above the needs of a viewer, and far below values that would
+/// slow the run down.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Clients at one time.
+    /// Maximum number of clients.
     pub clients: usize,
-    /// Largest message of a client \[bytes\]: a map of 4000 by 4000 cells fits.
+    /// Maximum size of a client's message \[bytes\]: a map of 4000 by 4000 cells fits.
     pub message: usize,
-    /// Subscriptions, own channels and waiting calls of one client, each.
+    /// Maximum numbers of subscriptions, of client channels and of pending calls per client.
     pub entries: usize,
-    /// Answers and announcements that wait for one client \[bytes\]; who has more is sent away.
+    /// Maximum size of queued responses and announcements per client \[bytes\]; a client that
+    /// exceeds it is disconnected.
     pub waiting: usize,
-    /// Messages of one client per second, in the long run.
+    /// Maximum sustained rate of messages from a client \[Hz\].
     pub rate_hz: f64,
-    /// A client that reads nothing for this long is disconnected.
+    /// Time after which a client that reads nothing is disconnected.
     pub stalled: Duration,
 }
 

@@ -1,4 +1,4 @@
-//! Who may come in.
+//! Admission of WebSocket clients.
 
 use std::fmt;
 
@@ -6,45 +6,45 @@ use crate::server::authority::{is_own_origin, is_this_machine};
 use crate::server::http::Head;
 use crate::server::token;
 
-/// Who may open a WebSocket.
+/// Admission rule for WebSocket clients.
 ///
-/// Any page in a browser can ask for one, at any address that the browser's machine reaches, and the
-/// browser tells from which page (`Origin`). So a page from elsewhere is refused, also one whose name
-/// was made to lead to this machine (`Host`). Who has the token comes in from anywhere; where the
-/// server is reached from other machines, nobody comes in without.
+/// Any page in a browser can open a WebSocket to any address that the browser's machine reaches,
+/// and the browser sends the page's `Origin`. A foreign page is therefore rejected, also if its
+/// host name resolves to this machine (`Host`). A client with the token is always admitted; if
+/// other machines can reach the server, the token is required.
 #[derive(Clone, Debug)]
 pub struct Door {
-    /// Whether only this machine reaches the server.
+    /// True if only this machine can reach the server.
     pub is_loopback: bool,
-    /// What opens it to all others; without one only this machine comes in.
+    /// Token that admits any client; without one only this machine is admitted.
     pub token: Option<String>,
 }
 
-/// Why somebody may not come in.
+/// Reason for a rejection.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refused {
-    /// The token is another.
+    /// The token is wrong.
     WrongToken,
-    /// There is none, and one is needed.
+    /// The token is missing.
     NoToken,
-    /// The page is from elsewhere.
+    /// The page is from another host.
     ForeignOrigin(String),
-    /// The server is called by a name that is not this machine's.
+    /// The `Host` header is not a name of this machine.
     ForeignHost(String),
 }
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::WrongToken => f.write_str("the token in `?token=` is not that of this server"),
+            Self::WrongToken => f.write_str("the token in `?token=` is not the token of this server"),
             Self::NoToken => f.write_str(
-                "this server is reached from other machines, so it wants a token: take the address \
-                 that it printed when it began, with `?token=` in it",
+                "this server is reachable from other machines and requires a token: use the address \
+                 that it printed at start, with `?token=` in it",
             ),
             Self::ForeignOrigin(origin) => write!(
                 f,
                 "the page `{origin}` is not from this machine; add `?token=` with the server's token \
-                 to the address, or open the page of the server itself"
+                 to the address, or open the server's own page"
             ),
             Self::ForeignHost(host) => write!(
                 f,
@@ -56,10 +56,10 @@ impl fmt::Display for Refused {
 }
 
 impl Door {
-    /// Whether who asks like this comes in.
+    /// Checks if a request is admitted.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason of the rejection.
     pub fn admit(&self, head: &Head) -> Result<(), Refused> {
         if let Some(given) = head.query("token") {
             let given = token::decoded(given);
@@ -71,7 +71,8 @@ impl Door {
         if !self.is_loopback {
             return Err(Refused::NoToken);
         }
-        // Of several, each has to be this machine's: which one counts is not for a client to choose.
+        // If there are several, each must name this machine: the client must not choose which one
+        // counts.
         if let Some(host) = head.headers("host").find(|host| !is_this_machine(host)) {
             return Err(Refused::ForeignHost(host.to_owned()));
         }

@@ -1,11 +1,11 @@
-//! Hosts in `Host` and `Origin`, read strictly: text that a lenient reader takes for this machine must
-//! not open the server.
+//! Strict parsing of the hosts in `Host` and `Origin`: text that only a lenient parser takes for
+//! this machine must not admit a client.
 //!
 //! Source: RFC 3986, section 3.2.2; RFC 6454, section 7.1.
 
 use std::net::{IpAddr, Ipv6Addr};
 
-/// Whether `host[:port]` names this machine and nothing else.
+/// True if `host[:port]` names this machine and nothing else.
 pub(crate) fn is_this_machine(authority: &str) -> bool {
     let Some(host) = host_of(authority) else { return false };
     match host {
@@ -14,8 +14,8 @@ pub(crate) fn is_this_machine(authority: &str) -> bool {
     }
 }
 
-/// Whether an origin is a page of this machine, or of a program on it: these send `file://`, while
-/// a file in a browser sends `null`, as any page in a sandbox does.
+/// True if an origin is a page of this machine, or of a local program: these send `file://`, while
+/// a local file in a browser sends `null`, as any sandboxed page does.
 pub(crate) fn is_own_origin(origin: &str) -> bool {
     let authority = origin.strip_prefix("http://").or_else(|| origin.strip_prefix("https://"));
     origin == "file://" || authority.is_some_and(is_this_machine)
@@ -26,7 +26,7 @@ enum Host<'a> {
     Name(&'a str),
 }
 
-/// The host of `host[:port]`; none of anything that has more or less in it.
+/// Host of `host[:port]`; none if the text has any other form.
 fn host_of(authority: &str) -> Option<Host<'_>> {
     if let Some(rest) = authority.strip_prefix('[') {
         let (address, port) = rest.split_once(']')?;

@@ -1,17 +1,17 @@
-//! Frames of WebSocket as servers send them (RFC 6455, section 5.2): one for each message, unmasked.
+//! WebSocket frames of servers (RFC 6455, section 5.2): one per message, unmasked.
 
 const TEXT: u8 = 1;
 const BINARY: u8 = 2;
 const CLOSE: u8 = 8;
 const PING: u8 = 9;
 
-/// What stands before a message of so many bytes.
+/// Header of a message of this length \[bytes\].
 pub(crate) fn header(is_text: bool, length: usize) -> Vec<u8> {
     head(if is_text { TEXT } else { BINARY }, length)
 }
 
 fn head(opcode: u8, length: usize) -> Vec<u8> {
-    // The highest bit: the message ends with this frame.
+    // The FIN bit: the message ends with this frame.
     let mut bytes = vec![0x80 | opcode];
     match (u8::try_from(length), u16::try_from(length)) {
         (Ok(length @ 0..=125), _) => bytes.push(length),
@@ -27,9 +27,9 @@ fn head(opcode: u8, length: usize) -> Vec<u8> {
     bytes
 }
 
-/// The last frame: why no more will come.
+/// Close frame with a code and reason.
 pub(crate) fn close(code: u16, why: &str) -> Vec<u8> {
-    // A control frame has 125 bytes at most, two of which are the code.
+    // A control frame has at most 125 bytes, two of which are the code.
     let mut end = why.len().min(123);
     while !why.is_char_boundary(end) {
         end -= 1;
@@ -40,7 +40,7 @@ pub(crate) fn close(code: u16, why: &str) -> Vec<u8> {
     bytes
 }
 
-/// A question whether the other one still lives.
+/// Ping frame.
 pub(crate) fn ping() -> Vec<u8> {
     head(PING, 0)
 }

@@ -1,4 +1,4 @@
-//! A limit on wrong tokens.
+//! Rate limit on wrong tokens.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
@@ -6,13 +6,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use periplus_os::Stopwatch;
 
-/// Wrong tokens that one address may send at once.
+/// Burst of wrong tokens allowed per address.
 const MAX_WRONG_TOKENS: f64 = 10.0;
 
-/// Wrong tokens that one address may send in the long run \[1/s\].
+/// Sustained rate of wrong tokens allowed per address \[1/s\].
 const WRONG_TOKENS_PER_S: f64 = 0.1;
 
-/// Addresses that are remembered.
+/// Maximum number of addresses stored.
 const MAX_ADDRESSES: usize = 4096;
 
 /// Wrong tokens by address.
@@ -28,7 +28,7 @@ struct Wrong {
 }
 
 impl Wrong {
-    /// Tokens that count against the address now.
+    /// Current count of the address.
     fn now(&self) -> f64 {
         (self.count - self.since.elapsed().as_secs_f64() * WRONG_TOKENS_PER_S).max(0.0)
     }
@@ -39,20 +39,20 @@ impl Guesses {
         self.by_address.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether the address has sent too many wrong tokens to be allowed another one.
+    /// True if the address has sent too many wrong tokens to try another one.
     pub(crate) fn are_too_many(&self, address: IpAddr) -> bool {
         let known = self.known();
         known.get(&address).is_some_and(|wrong| wrong.now() > MAX_WRONG_TOKENS - 1.0)
     }
 
-    /// A wrong token came from the address.
+    /// Counts a wrong token of the address.
     pub(crate) fn add(&self, address: IpAddr) {
         let mut known = self.known();
         if known.len() >= MAX_ADDRESSES {
             known.retain(|_, wrong| wrong.now() > 0.0);
         }
         if known.len() >= MAX_ADDRESSES {
-            // Many machines at once: the one with the fewest wrong tokens is forgotten.
+            // An attack from many machines: the address with the fewest wrong tokens is dropped.
             let fewest = known.iter().min_by(|a, b| a.1.now().total_cmp(&b.1.now()));
             if let Some(fewest) = fewest.map(|(address, _)| *address) {
                 known.remove(&fewest);

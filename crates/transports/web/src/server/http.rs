@@ -1,30 +1,30 @@
-//! As much of HTTP as a page needs.
+//! Minimal HTTP server for the viewer page.
 
 use std::fmt;
 
-/// Longest head of a request \[bytes\]; browsers send below 2 kB.
+/// Maximum size of a request head \[bytes\]; browsers send less than 2 kB.
 pub const LONGEST_HEAD: usize = 16 << 10;
 
-/// Most headers of a request.
+/// Maximum number of headers of a request.
 const MOST_HEADERS: usize = 100;
 
-/// The head of a request.
+/// Head of a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Head {
-    /// What is asked for: `GET`.
+    /// Method, such as `GET`.
     pub method: String,
-    /// Of what, with what follows a question mark.
+    /// Target with query.
     pub target: String,
-    /// Names in small letters, with values.
+    /// Header names in lower case, with values.
     headers: Vec<(String, String)>,
 }
 
-/// Why a request is none.
+/// Reason for which a request head is invalid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HeadError {
-    /// It is too long.
+    /// The head is too long.
     TooLong,
-    /// It is not HTTP.
+    /// The head is not HTTP.
     Malformed(String),
 }
 
@@ -40,10 +40,10 @@ impl fmt::Display for HeadError {
 impl std::error::Error for HeadError {}
 
 impl Head {
-    /// Reads a head, and tells how long it is; none as long as it is not whole.
+    /// Parses a head and returns its length; none if it is incomplete.
     ///
     /// # Errors
-    /// When it is none.
+    /// When it is not a valid head.
     pub fn read(bytes: &[u8]) -> Result<Option<(Self, usize)>, HeadError> {
         let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
         let mut request = httparse::Request::new(&mut headers);
@@ -68,24 +68,24 @@ impl Head {
         Ok(Some((head, length)))
     }
 
-    /// The path without what follows a question mark.
+    /// Path without the query.
     #[must_use]
     pub fn path(&self) -> &str {
         self.target.split('?').next().unwrap_or_default()
     }
 
-    /// A header, by its name in small letters.
+    /// Value of a header, by its name in lower case.
     #[must_use]
     pub fn header(&self, name: &str) -> Option<&str> {
         self.headers.iter().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
     }
 
-    /// All headers of a name in small letters.
+    /// All values of a header, by its name in lower case.
     pub fn headers(&self, name: &str) -> impl Iterator<Item = &str> {
         self.headers.iter().filter(move |(own, _)| own == name).map(|(_, value)| value.as_str())
     }
 
-    /// Whether a header that lists words has one.
+    /// True if a list header contains a word.
     #[must_use]
     pub fn lists(&self, name: &str, word: &str) -> bool {
         let values = self.headers.iter().filter(|(own, _)| own == name);
@@ -93,21 +93,21 @@ impl Head {
         words.any(|one| one.split(';').next().unwrap_or_default().trim().eq_ignore_ascii_case(word))
     }
 
-    /// What follows `name=` in the target, as it is written.
+    /// Value of a query parameter, not decoded.
     #[must_use]
     pub fn query(&self, name: &str) -> Option<&str> {
         let (_, query) = self.target.split_once('?')?;
         query.split('&').find_map(|part| part.strip_prefix(name)?.strip_prefix('='))
     }
 
-    /// Whether it asks for a WebSocket.
+    /// True if the request asks for a WebSocket upgrade.
     #[must_use]
     pub fn is_upgrade(&self) -> bool {
         self.lists("upgrade", "websocket") && self.lists("connection", "upgrade")
     }
 }
 
-/// An answer.
+/// A response.
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     pub(crate) status: &'static str,
@@ -116,13 +116,13 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// Words for a person.
+    /// Plain-text response.
     pub(crate) fn words(status: &'static str, words: &str) -> Self {
         let kind = ("Content-Type", "text/plain; charset=utf-8".to_owned());
         Self { status, headers: vec![kind], body: format!("{words}\n").into_bytes() }
     }
 
-    /// As it goes onto the socket. The answer to `HEAD` has no body, but says how long it would be.
+    /// Encodes the response. The response to `HEAD` has no body but its length.
     pub(crate) fn bytes(&self, is_head: bool, stays: bool) -> Vec<u8> {
         let mut text = format!("HTTP/1.1 {}\r\n", self.status);
         for (name, value) in &self.headers {

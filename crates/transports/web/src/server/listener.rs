@@ -1,4 +1,4 @@
-//! The port.
+//! The listening server.
 
 use std::io;
 use std::net::{Ipv6Addr, SocketAddr, TcpListener, TcpStream};
@@ -14,19 +14,19 @@ use crate::server::guesses::Guesses;
 use crate::server::socket;
 use crate::server::token::{MIN_TOKEN_CHARACTERS, encoded};
 
-/// Connections at one time: each has a thread.
+/// Maximum number of connections; each has a thread.
 const MOST_CONNECTIONS: usize = 256;
 
-/// What a server is told.
+/// Settings of the server.
 #[derive(Clone, Debug)]
 pub struct ServerSettings {
-    /// Where it listens; port 0 is any that is free.
+    /// Address to listen on; port 0 is any free port.
     pub address: SocketAddr,
-    /// What opens it to others. Where others reach it, it needs one.
+    /// Token for other machines; required if they can reach the server.
     pub token: Option<String>,
 }
 
-/// A port with the page and the socket behind it, open as long as this is there.
+/// The HTTP and WebSocket server, open until this is dropped.
 #[derive(Debug)]
 pub struct Server {
     address: SocketAddr,
@@ -35,7 +35,7 @@ pub struct Server {
     thread: Option<JoinHandle<()>>,
 }
 
-/// What all connections have in common.
+/// State shared by all connections.
 #[derive(Debug)]
 pub(crate) struct Room {
     pub(crate) hub: Arc<Hub>,
@@ -46,21 +46,21 @@ pub(crate) struct Room {
 }
 
 impl Server {
-    /// Begins to listen.
+    /// Starts listening.
     ///
     /// # Errors
-    /// When the port is taken, or the address is one that others reach and there is no token, or one
-    /// that could be guessed.
+    /// When the port is in use, or the address is reachable from other machines and the
+    /// token is missing or too short.
     pub fn open(hub: Arc<Hub>, settings: ServerSettings) -> io::Result<Self> {
         let ServerSettings { address, token } = settings;
         let is_loopback = address.ip().is_loopback();
         if !is_loopback && token.as_ref().is_none_or(String::is_empty) {
-            let why = format!("{address} is reached from other machines, which needs a token");
+            let why = format!("{address} is reachable from other machines, which requires a token");
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
         if !is_loopback && token.as_ref().is_some_and(|token| is_short(token)) {
             let why = format!(
-                "the token is too short for {address}, which other machines reach: it needs \
+                "the token is too short for {address}, which other machines can reach: it needs \
                  {MIN_TOKEN_CHARACTERS} characters or more; without `--token` one is made"
             );
             return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
@@ -81,13 +81,13 @@ impl Server {
         Ok(Self { address, token, room, thread: Some(thread) })
     }
 
-    /// Where it listens.
+    /// Address of the listener.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// What to type into a browser.
+    /// URL for a browser.
     #[must_use]
     pub fn url(&self) -> String {
         let (ip, port) = (self.address.ip(), self.address.port());
@@ -108,7 +108,7 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.room.is_closing.store(true, Ordering::Release);
-        // Somebody comes, so that the one who waits for somebody looks up.
+        // A connection wakes the accepting thread.
         let own = match self.address {
             SocketAddr::V4(_) => SocketAddr::from(([127, 0, 0, 1], self.address.port())),
             SocketAddr::V6(_) => SocketAddr::from((Ipv6Addr::LOCALHOST, self.address.port())),
@@ -125,7 +125,7 @@ fn is_short(token: &str) -> bool {
     token.chars().count() < MIN_TOKEN_CHARACTERS
 }
 
-/// Who is let in counts as long as this is there.
+/// A counted connection, until this is dropped.
 struct Place(Arc<Room>);
 
 impl Drop for Place {
@@ -141,7 +141,7 @@ fn accept(listener: &TcpListener, room: &Arc<Room>) {
             return;
         }
         let Ok((stream, _)) = came else {
-            // Too many files are open, or the caller went away again.
+            // Too many open files, or the client has left.
             periplus_os::sleep(Duration::from_millis(20));
             continue;
         };

@@ -1,4 +1,4 @@
-//! The files of the page, as they are in the program.
+//! Files of the viewer page, included in the program.
 
 use std::io::Read as _;
 
@@ -6,11 +6,11 @@ use sha2::{Digest as _, Sha256};
 
 use crate::server::http::{Answer, Head};
 
-/// Every file of `page/`, by its path. One that ends in `.br` is packed, and is had under its name
-/// without that.
+/// Every file of `page/` by its path. A file that ends in `.br` is compressed, and is requested
+/// without that suffix.
 const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
-/// What stands there before anybody has built a page.
+/// Page shown if the viewer was not built.
 const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>Periplus</title>\
     <body style=\"font:16px/1.5 system-ui;max-width:40em;margin:4em auto;padding:0 1em\">\
     <h1>This Periplus has no page in it</h1>\
@@ -18,12 +18,13 @@ const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>Periplus</title
     build again. What the page would show is here all the same: attach Lichtblick or Foxglove to \
     <code>ws://127.0.0.1:8765</code>.";
 
-/// What a page may do: only what comes from this server, and pictures and workers that it makes.
+/// Content security policy: only content from this server, and images and workers created by the
+/// page.
 const POLICY: &str = "default-src 'self'; connect-src 'self' blob: data:; \
     img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; font-src 'self' data:; \
     script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; frame-ancestors 'self'";
 
-/// What is to be answered to somebody who asks for a file.
+/// Response to a request for a file.
 pub(crate) fn answer(head: &Head) -> Answer {
     answer_from(FILES, head)
 }
@@ -54,7 +55,7 @@ fn answer_from(files: &[(&str, &[u8])], head: &Head) -> Answer {
     };
     answer.headers.push(("ETag", format!("\"{tag}\"")));
     answer.headers.push(("Vary", "Accept-Encoding".to_owned()));
-    // Files below `assets` have the sum of their content in their names.
+    // Files below `assets` have the hash of their content in their names.
     let keep = if path.starts_with("assets/") { "max-age=31536000, immutable" } else { "no-cache" };
     answer.headers.push(("Cache-Control", keep.to_owned()));
     answer
@@ -70,7 +71,7 @@ fn page(body: Vec<u8>, path: &str) -> Answer {
     Answer { status: "200 OK", headers, body }
 }
 
-/// For browsers that do not take it packed: they take it so only from this machine or by TLS.
+/// For clients without Brotli: browsers accept it from this machine or over TLS only.
 fn unpack(bytes: &[u8]) -> Vec<u8> {
     let mut unpacked = Vec::new();
     let _ = brotli_decompressor::Decompressor::new(bytes, 4096).read_to_end(&mut unpacked);
@@ -103,7 +104,7 @@ fn kind_of(path: &str) -> &'static str {
 mod tests {
     use super::*;
 
-    /// "periplus\n" in one block that is not packed.
+    /// "periplus\n" in one uncompressed block.
     const PACKED: &[u8] =
         &[0x0b, 0x04, 0x80, b'p', b'e', b'r', b'i', b'p', b'l', b'u', b's', b'\n', 0x03];
 

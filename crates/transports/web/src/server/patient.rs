@@ -1,4 +1,4 @@
-//! Writes that give up on a client that reads nothing.
+//! Writes with a timeout for clients that read nothing.
 
 use std::io::{self, IoSlice, Write};
 use std::net::TcpStream;
@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use periplus_os::Stopwatch;
 
-/// One call of the system waits at most this long. It is short, because a call that has put a part of
-/// the bytes into a buffer reports success only after its whole wait.
+/// Maximum wait of one system call. It is short because a call that has written a part of the bytes
+/// returns only after its full wait.
 const CALL_WAIT: Duration = Duration::from_millis(250);
 
-/// A stream whose writes fail once the client has taken nothing for a while.
+/// A stream whose writes fail once the client has read nothing for a while.
 pub(crate) struct Patient<'a> {
     stream: &'a TcpStream,
     patience: Duration,

@@ -1,4 +1,4 @@
-//! One connection: requests for files, or a WebSocket.
+//! A connection: file requests, or a WebSocket.
 
 use std::io::{self, IoSlice, Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -20,16 +20,16 @@ use crate::server::listener::Room;
 use crate::server::page;
 use crate::server::patient::Patient;
 
-/// How long a request may take to come, and a connection stay open without one.
+/// Timeout of a request, and idle time of a connection.
 const PATIENCE: Duration = Duration::from_secs(15);
 
-/// A client that hears nothing is asked so often whether it still lives.
+/// Ping period for a client without traffic.
 const PING: Duration = Duration::from_secs(15);
 
-/// How often one who writes looks whether all is over.
+/// Period at which the writer checks for shutdown.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// Requests on one connection.
+/// Maximum number of requests per connection.
 const MOST_REQUESTS: usize = 1000;
 
 /// Serves a connection until it ends.
@@ -54,7 +54,7 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
         let answer = if is_head || head.method == "GET" {
             page::answer(&head)
         } else {
-            Answer::words("405 Method Not Allowed", "only GET and HEAD are known here")
+            Answer::words("405 Method Not Allowed", "only GET and HEAD are supported")
         };
         patient(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
         if !stays {
@@ -68,12 +68,12 @@ fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<Patient<'a>> {
     Patient::new(stream, room.hub.settings().limits.stalled)
 }
 
-/// Nobody here wants one; what follows it could not be told from it.
+/// Bodies are not needed, and could not be separated from the next request.
 fn has_body(head: &Head) -> bool {
     head.header("content-length").is_some() || head.header("transfer-encoding").is_some()
 }
 
-/// The next request; none where no more comes. What came after it stays in `came`.
+/// Reads the next request; none at the end. Bytes after it stay in `came`.
 fn next_head(
     stream: &mut TcpStream,
     came: &mut Vec<u8>,
@@ -101,7 +101,7 @@ fn next_head(
     }
 }
 
-/// From here on it is a WebSocket, if who asks may have one.
+/// Upgrades the connection to a WebSocket if the client is admitted.
 fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
     let refuse = |status, why: &str| {
         patient(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
@@ -120,7 +120,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
     let known = |name: &&&str| head.lists("sec-websocket-protocol", name);
     let Some(subprotocol) = protocol::SUBPROTOCOLS.iter().find(known) else {
         let why = format!(
-            "a WebSocket here speaks the subprotocol {}",
+            "this WebSocket requires the subprotocol {}",
             protocol::SUBPROTOCOLS.join(" or ")
         );
         return refuse("400 Bad Request", &why);
@@ -129,10 +129,10 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
     let (Some(key), Some("13"), "GET") =
         (head.header("sec-websocket-key"), version, head.method.as_str())
     else {
-        return refuse("426 Upgrade Required", "a WebSocket here is one of version 13");
+        return refuse("426 Upgrade Required", "this server requires WebSocket version 13");
     };
     let Some(session) = room.hub.join() else {
-        return refuse("503 Service Unavailable", "too many viewers are here already");
+        return refuse("503 Service Unavailable", "too many viewers are connected");
     };
     let key = derive_accept_key(key.as_bytes());
     let answer = format!(
@@ -148,7 +148,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
         let outlet = outbox.clone();
         let writer = builder.spawn_scoped(scope, move || {
             let _ = write(&writing, &outlet, room);
-            // Whoever reads is woken.
+            // Wakes the reading thread.
             let _ = writing.shutdown(Shutdown::Both);
         })?;
         hear(stream, came, session, room);
@@ -157,7 +157,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
     })
 }
 
-/// Hears a client until it goes.
+/// Receives from a client until it leaves.
 fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
     let outbox = session.outbox().clone();
     let limits = room.hub.settings().limits;
@@ -179,7 +179,7 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
     let close = match why {
         Error::ConnectionClosed | Error::AlreadyClosed | Error::Io(_) => None,
         Error::Capacity(error) => Some((1009, error.to_string())),
-        Error::Utf8(_) => Some((1007, "a text is not UTF-8".to_owned())),
+        Error::Utf8(_) => Some((1007, "a text message is not UTF-8".to_owned())),
         other => Some((1002, other.to_string())),
     };
     if let Some((code, why)) = close {
@@ -189,13 +189,13 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
     drop(session);
 }
 
-/// Sends what waits for a client until there is no more.
+/// Sends the outbox of a client until it is closed.
 fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
     let mut stream = patient(stream, room)?;
     let mut idle = Stopwatch::start();
     loop {
         if room.is_closing.load(Ordering::Acquire) {
-            outbox.end("the server goes away");
+            outbox.end("the server shuts down");
         }
         match outbox.take(LOOK) {
             Taken::Frame(frame) => {
@@ -208,7 +208,7 @@ fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
             }
             Taken::Nothing => {}
             Taken::End(why) => {
-                // Who went by itself is told nothing.
+                // No close frame to a client that has left.
                 return if why.is_empty() {
                     Ok(())
                 } else {
@@ -219,7 +219,7 @@ fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
     }
 }
 
-/// Sends a message without putting its parts together first.
+/// Sends a message without concatenating its parts.
 fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
     use crate::foxglove::Kind;
     let [head, body] = frame.parts();
@@ -241,8 +241,8 @@ fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
     Ok(())
 }
 
-/// The socket as who hears sees it: what the WebSocket says by itself while it reads, answers to pings
-/// and the last word, goes the way of all that is sent, so that nothing comes between two parts of it.
+/// The socket as seen by the reader: frames that the WebSocket library sends while reading (pongs,
+/// close) go through the outbox, so that they do not interleave with a message.
 struct Line {
     stream: TcpStream,
     outbox: Arc<Outbox>,
@@ -265,8 +265,8 @@ impl Write for Line {
     }
 }
 
-/// How much a client may say: so many messages per second in the long run, and twice as many at once.
-/// Who says more is not heard until it may.
+/// Rate limit for a client: a sustained rate of messages, and twice that number at once. The
+/// connection is not read while the limit is exceeded.
 struct Allowance {
     rate_hz: f64,
     left: f64,

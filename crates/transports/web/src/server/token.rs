@@ -1,29 +1,30 @@
-//! Tokens: what opens a server to others.
+//! Access tokens of the server.
 
 use sha2::{Digest as _, Sha256};
 
-/// Shortest token that opens a server to other machines \[characters\]: fewer can be guessed.
+/// Minimum length of a token for access from other machines \[characters\], so that it cannot be
+/// guessed.
 pub const MIN_TOKEN_CHARACTERS: usize = 16;
 
-/// A new one, that nobody can guess: 128 bits as 32 hexadecimal digits.
+/// Generates a random token: 128 bits as 32 hexadecimal digits.
 ///
 /// # Errors
 /// When the system has no random numbers.
 pub fn token() -> Result<String, String> {
     let mut bytes = [0_u8; 16];
-    getrandom::fill(&mut bytes).map_err(|error| format!("no random numbers: {error}"))?;
+    getrandom::fill(&mut bytes)
+        .map_err(|error| format!("the system has no random numbers: {error}"))?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// Whether two are the same. Sums of equal length are compared, all of them, so that the time tells
-/// neither where they differ nor how long the token is.
+/// Compares two tokens in constant time by their hashes, so that the time reveals neither a
+/// difference nor the length.
 pub(crate) fn same(one: &[u8], other: &[u8]) -> bool {
     let (one, other) = (Sha256::digest(one), Sha256::digest(other));
     one.iter().zip(&other).fold(0, |sum, (a, b)| sum | (a ^ b)) == 0
 }
 
-/// A token as it is written in an address: all but letters, digits and `-._~` percent-encoded
-/// (RFC 3986, section 2.1).
+/// Percent-encodes a token for a URL: all but letters, digits and `-._~` (RFC 3986, section 2.1).
 pub(crate) fn encoded(token: &str) -> String {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~".contains(&byte);
     let written = token.bytes().map(|byte| {
@@ -32,7 +33,7 @@ pub(crate) fn encoded(token: &str) -> String {
     written.collect()
 }
 
-/// The bytes that a percent-encoded text stands for. A `%` without two digits stands for itself.
+/// Decodes percent-encoded text. A `%` without two digits is kept.
 pub(crate) fn decoded(text: &str) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();

@@ -1,4 +1,4 @@
-//! Messages read ahead by a thread, so that a slow disk does not show in the times of what is played.
+//! Read-ahead thread, so that a slow disk does not delay playback.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -6,22 +6,22 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use crate::files::BagError;
 use crate::files::stream::BagMessages;
 
-/// A message that waits to be played.
+/// A message in the queue.
 pub(super) struct Waiting {
     pub(super) topic: usize,
     pub(super) time_ns: i64,
     pub(super) data: Vec<u8>,
 }
 
-/// The queue between the thread that reads and the one that plays.
+/// Queue between the reading thread and the player.
 pub(super) struct Ahead(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
     queue: Mutex<Queue>,
-    /// Something came or the end.
+    /// Notified on a new message and at the end.
     filled: Condvar,
-    /// Something went, or nobody wants more.
+    /// Notified when there is space or the player is dropped.
     drained: Condvar,
 }
 
@@ -34,7 +34,7 @@ struct Queue {
     error: Option<BagError>,
 }
 
-/// More is not read ahead \[bytes\], whatever their number.
+/// Maximum size of messages read ahead \[bytes\].
 const MOST_BYTES: usize = 256 << 20;
 
 impl Shared {
@@ -42,7 +42,7 @@ impl Shared {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Reads until the end, or until nobody wants more.
+    /// Reads until the end or until the player is dropped.
     fn feed(&self, mut messages: BagMessages, most: usize) {
         loop {
             let next = match messages.next() {
@@ -75,7 +75,7 @@ impl Shared {
         }
     }
 
-    /// The queue with at least one message, unless it has ended.
+    /// Waits until the queue has a message or has ended.
     fn wait(&self) -> Result<MutexGuard<'_, Queue>, BagError> {
         let mut queue = self.lock();
         while queue.messages.is_empty() && !queue.is_ended {
@@ -104,7 +104,7 @@ impl Ahead {
         Ok(self.0.wait()?.messages.front().map(|message| message.time_ns))
     }
 
-    /// The next message.
+    /// Removes and returns the next message.
     pub(super) fn next(&self) -> Result<Option<Waiting>, BagError> {
         let mut queue = self.0.wait()?;
         let message = queue.messages.pop_front();

@@ -1,4 +1,4 @@
-//! Reading a database, whoever wrote it.
+//! Reader of databases of any schema version.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
@@ -12,18 +12,18 @@ use crate::files::BagError;
 use crate::files::part::Part;
 use crate::files::write::Storage;
 
-/// How many messages each topic has, and the time of the first and the last \[ns\].
+/// Number of messages of each topic, and the times of the first and last \[ns\].
 type Sum = (Vec<u64>, Option<(i64, i64)>);
 
 /// An open database.
 pub(crate) struct Database {
     path: PathBuf,
     connection: Connection,
-    /// Numbers of the topics, in the order of [`Part::topics`].
+    /// Row ids of the topics, in the order of [`Part::topics`].
     ids: Vec<i64>,
     topics: Vec<BagTopic>,
     ros_distro: String,
-    /// Whether times have an index, so that the next ones are found without sorting all.
+    /// True if times are indexed, so that no sorting is needed.
     is_indexed: bool,
 }
 
@@ -104,10 +104,10 @@ impl Database {
         Ok(())
     }
 
-    /// What is in it.
+    /// Reads the content.
     pub(crate) fn look(self) -> Result<Part, BagError> {
         let summed = self.sum();
-        // What cannot be counted is damaged; its topics are known all the same.
+        // Counting fails in a damaged database; its topics are known all the same.
         let (counts, span_ns, faults) = match summed {
             Ok((counts, span_ns)) => (counts, span_ns, Vec::new()),
             Err(error) => (vec![0; self.ids.len()], None, vec![error.to_string()]),
@@ -145,7 +145,7 @@ impl Database {
         Ok((counts, span))
     }
 
-    /// Its messages, in the order of their times.
+    /// Reads the messages in the order of time.
     pub(crate) fn read(self, selection: &Selection) -> Result<Rows, BagError> {
         let is_wanted = |topic: &BagTopic| {
             selection.topics.as_ref().is_none_or(|names| names.contains(&topic.name))
@@ -168,7 +168,7 @@ impl Database {
         };
         let mut is_sorted = self.is_indexed;
         if !self.is_indexed {
-            // Sorted once, in a file of its own.
+            // Sorted once, into a temporary table.
             let make = format!(
                 "CREATE TEMP TABLE periplus_times(timestamp, id, topic_id, PRIMARY KEY(timestamp, \
                  id)) WITHOUT ROWID; INSERT OR IGNORE INTO periplus_times SELECT timestamp, id, \
@@ -187,7 +187,7 @@ impl Database {
             is_sorted,
             next_rescued: next(rescue::TABLE),
             wanted,
-            // Ids may be negative; nothing is before the first of them.
+            // Ids may be negative; the minimum precedes all of them.
             after: (from_ns, i64::MIN),
             is_done: ids.is_empty() || from_ns > to_ns,
             ahead: VecDeque::new(),
@@ -198,36 +198,36 @@ impl Database {
     }
 }
 
-/// So many times are read at once.
+/// Number of rows read at once.
 const BATCH: usize = 4096;
 
-/// The messages of a database.
+/// Messages of a database.
 pub(crate) struct Rows {
     connection: Connection,
     next: String,
-    /// The same, of what was rescued from a damaged database.
+    /// Query for rows rescued from a damaged database.
     next_rescued: String,
-    /// Which topic an id is.
+    /// Topic index by row id.
     wanted: BTreeMap<i64, usize>,
-    /// Time and id of the last one that is known.
+    /// Time and id of the last known row.
     after: (i64, i64),
     is_done: bool,
-    /// Time, id and topic of those to come.
+    /// Time, id and topic of the next rows.
     ahead: VecDeque<(i64, i64, usize)>,
     data: Vec<u8>,
-    /// Whether times are there to be asked in their order.
+    /// True if rows can be queried in the order of time.
     is_sorted: bool,
     is_rescued: bool,
     faults: Vec<String>,
 }
 
 impl Rows {
-    /// What was damaged, as far as it was read.
+    /// Damage found so far.
     pub(crate) fn faults(&self) -> &[String] {
         &self.faults
     }
 
-    /// Looks for the next ones. In a damaged database those that can be found without its index.
+    /// Reads the next rows; in a damaged database those that can be found without its index.
     fn fill(&mut self) -> rusqlite::Result<()> {
         if !self.ahead.is_empty() || self.is_done {
             return Ok(());
@@ -244,7 +244,7 @@ impl Rows {
         ));
         (self.is_rescued, self.is_sorted) = (true, true);
         self.next = std::mem::take(&mut self.next_rescued);
-        // Those that were found before it went wrong come first.
+        // Rows found before the failure come first.
         if self.ahead.is_empty() { self.look_ahead() } else { Ok(()) }
     }
 
@@ -254,7 +254,7 @@ impl Rows {
         let mut count = 0;
         while let Some(row) = rows.next()? {
             let (time, id): (i64, i64) = (row.get(0)?, row.get(1)?);
-            // A damaged index leads back, perhaps for ever.
+            // A damaged index may lead back, without end.
             if (time, id) <= self.after {
                 let corrupt = rusqlite::ffi::Error::new(rusqlite::ffi::SQLITE_CORRUPT);
                 let what = "the index of times is damaged: it is not in order".to_owned();
@@ -310,10 +310,10 @@ impl Rows {
     }
 }
 
-/// More lost messages are not told one by one.
+/// Maximum number of lost messages reported individually.
 const MOST_FAULTS: usize = 20;
 
-/// Whether a database is damaged.
+/// True if the error means a damaged database.
 pub(super) fn is_corrupt(error: &rusqlite::Error) -> bool {
     matches!(
         error.sqlite_error_code(),
@@ -321,21 +321,21 @@ pub(super) fn is_corrupt(error: &rusqlite::Error) -> bool {
     )
 }
 
-/// Reads only; what somebody put into the file is not run.
+/// Opens a database read-only, without running its triggers or views.
 fn connect(path: &Path) -> rusqlite::Result<Connection> {
     let open = |path: &str, flags| {
         let connection = Connection::open_with_flags(path, flags)?;
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
         connection.execute_batch("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0;")?;
-        // The first look shows whether a log of a crash can be followed.
+        // The first query shows if a write-ahead log can be read.
         connection.query_row("SELECT count(*) FROM sqlite_master", [], |_| Ok(()))?;
         Ok(connection)
     };
     let plain = path.to_string_lossy();
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     open(&plain, flags).or_else(|error: rusqlite::Error| {
-        // In a folder where nothing may be written, a log stays unread.
+        // In a read-only folder the write-ahead log is not read.
         let escaped = plain.replace('%', "%25").replace('?', "%3f").replace('#', "%23");
         let uri = format!("file:{escaped}?immutable=1");
         let flags = flags | OpenFlags::SQLITE_OPEN_URI;
@@ -344,8 +344,8 @@ fn connect(path: &Path) -> rusqlite::Result<Connection> {
     })
 }
 
-/// Opens a database whose file is shorter than it says. SQLite does so only for those who may change
-/// the schema; as nothing can be written, nobody can.
+/// Opens a truncated database. SQLite allows it only with a writable schema; the connection is
+/// read-only all the same.
 fn open_cut(uri: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
     let connection = Connection::open_with_flags(uri, flags)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
@@ -356,7 +356,7 @@ fn open_cut(uri: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
     Ok(connection)
 }
 
-/// The columns of the tables; views are none.
+/// Columns of the tables; views are ignored.
 fn tables(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Vec<String>>> {
     let mut tables = BTreeMap::new();
     for name in ["schema", "topics", "messages", "message_definitions"] {
@@ -373,7 +373,7 @@ fn tables(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Vec<Stri
     Ok(tables)
 }
 
-/// A text, whatever the column holds.
+/// Text of a column of any type.
 fn text(row: &rusqlite::Row<'_>, at: usize) -> rusqlite::Result<String> {
     let value = row.get_ref(at)?;
     Ok(String::from_utf8_lossy(value.as_bytes().unwrap_or_default()).into_owned())

@@ -1,27 +1,27 @@
-//! What can still be found in a damaged database.
+//! Rescue of messages from a damaged database.
 
 use rusqlite::Connection;
 
 use super::read::is_corrupt;
 
-/// Where it is put: times, ids and topics.
+/// Table of the rescued rows: times, ids and topics.
 pub(super) const TABLE: &str = "periplus_rescued";
 
-/// Puts times, ids and topics of all messages that can be found into [`TABLE`], and gives how many. The
-/// table of messages is walked in the order of ids; where it is damaged the walk goes on behind.
+/// Collects times, ids and topics of all readable messages in [`TABLE`] and returns their number.
+/// The message table is scanned in the order of ids; damaged pages are skipped.
 pub(super) fn rescue(connection: &Connection) -> rusqlite::Result<usize> {
     connection.execute_batch(&format!(
         "CREATE TEMP TABLE {TABLE}(timestamp, id, topic_id, PRIMARY KEY(timestamp, id)) WITHOUT ROWID"
     ))?;
     let mut found = 0;
     let mut from = i64::MIN;
-    // How far was leapt over what is damaged: twice as far each time, so that it ends.
+    // Size of the skip over damaged ids, doubled each time so that the scan ends.
     let mut leapt: i64 = 0;
     loop {
         let up = walk(connection, from, i64::MAX, Order::Up)?;
         found += up.found;
         if leapt > 0 && (up.last.is_some() || !up.is_broken) {
-            // Perhaps too far: what was leapt over, backwards from where it ended.
+            // The skip may be too far: scan the skipped ids backwards.
             found += walk(connection, from.saturating_sub(leapt), from, Order::Down)?.found;
         }
         if !up.is_broken {
@@ -30,7 +30,7 @@ pub(super) fn rescue(connection: &Connection) -> rusqlite::Result<usize> {
         if let Some(last) = up.last {
             (from, leapt) = (last, 0);
         } else if from == i64::MIN {
-            // Ids are counted from 1.
+            // Ids start at 1.
             from = 0;
         }
         leapt = (2 * leapt).max(1);
@@ -41,7 +41,7 @@ pub(super) fn rescue(connection: &Connection) -> rusqlite::Result<usize> {
     }
 }
 
-/// No recording has as many messages.
+/// Upper limit of ids, far above any bag.
 const FURTHEST: i64 = 1 << 48;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -50,15 +50,15 @@ enum Order {
     Down,
 }
 
-/// How a walk ended.
+/// Result of a scan.
 struct Walk {
     found: usize,
-    /// The last id that was found.
+    /// Id of the last row found.
     last: Option<i64>,
     is_broken: bool,
 }
 
-/// Takes all messages from one id to before another, as far as they can be read.
+/// Collects the readable rows of a range of ids.
 fn walk(connection: &Connection, from: i64, to: i64, order: Order) -> rusqlite::Result<Walk> {
     let word = if order == Order::Up { "ASC" } else { "DESC" };
     let mut statement = connection.prepare_cached(&format!(
@@ -79,7 +79,7 @@ fn walk(connection: &Connection, from: i64, to: i64, order: Order) -> rusqlite::
             Err(error) => return Err(error),
         };
         let id: i64 = row.get(0)?;
-        // A damaged tree leads back, perhaps for ever.
+        // A damaged tree may lead back, without end.
         let goes_on =
             walk.last.is_none_or(|last| (id > last) == (order == Order::Up) && id != last);
         if !goes_on {
@@ -87,7 +87,7 @@ fn walk(connection: &Connection, from: i64, to: i64, order: Order) -> rusqlite::
             return Ok(walk);
         }
         walk.last = Some(id);
-        // A row whose time is no number is no message.
+        // A row whose time is not a number is not a message.
         if let (Ok(time), Ok(topic)) = (row.get::<_, i64>(1), row.get::<_, i64>(2)) {
             walk.found += insert.execute([time, id, topic])?;
         }

@@ -1,5 +1,5 @@
-//! Writing a database as `rosbag2_storage_sqlite3` of ROS 2 Jazzy does (schema 4). Older ones read
-//! it: they look for the columns that they know.
+//! Writer of databases with the schema of `rosbag2_storage_sqlite3` in ROS 2 Jazzy (version 4).
+//! Older versions read it: they query the columns that they know.
 
 use std::path::{Path, PathBuf};
 
@@ -16,13 +16,13 @@ pub(crate) struct SqliteWriter {
     style: Style,
     topics: Vec<TopicInfo>,
     span_ns: Option<(i64, i64)>,
-    /// When the open transaction began, by the times of messages \[ns\].
+    /// Message time at which the open transaction started \[ns\].
     since_ns: Option<i64>,
     pending_bytes: usize,
     bytes: u64,
 }
 
-/// A transaction ends before its messages span this time \[ns\], or hold so many bytes.
+/// Limits of a transaction: time span of its messages \[ns\] and size \[bytes\].
 const SPAN_NS: i64 = 1_000_000_000;
 const MOST_PENDING: usize = 16 << 20;
 
@@ -42,8 +42,8 @@ const TABLES: &str = "
 ";
 
 impl SqliteWriter {
-    /// Begins a file. A live one survives the end of the program at any time, but for what its last
-    /// second brought; one that is not is faster.
+    /// Creates a file. With `is_live` the file survives a crash at any time, except for the last
+    /// second; without, writing is faster.
     pub(crate) fn create(
         path: &Path,
         style: Style,
@@ -143,12 +143,12 @@ impl SqliteWriter {
         if self.pending_bytes >= MOST_PENDING { self.flush() } else { Ok(()) }
     }
 
-    /// About how large the file is \[bytes\].
+    /// Approximate size of the file \[bytes\].
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Ends the open transaction when it has lasted long enough by then.
+    /// Commits the open transaction if it has lasted long enough.
     pub(crate) fn advance_to(&mut self, time_ns: i64) -> Result<(), BagError> {
         let is_over = |since_ns: i64| time_ns.saturating_sub(since_ns) >= SPAN_NS;
         if self.since_ns.is_some_and(is_over) { self.flush() } else { Ok(()) }
@@ -162,7 +162,7 @@ impl SqliteWriter {
         Ok(())
     }
 
-    /// Ends the file.
+    /// Completes the file.
     pub(crate) fn finish(mut self, stored: &Stored) -> Result<BagInfo, BagError> {
         self.flush()?;
         let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -175,7 +175,7 @@ impl SqliteWriter {
                 "INSERT INTO metadata(metadata_version, metadata) VALUES (?1, ?2)",
                 (self.style.version(), text),
             )?;
-            // The log goes into the file, which is then all there is.
+            // Merges the write-ahead log into the file.
             self.connection.execute_batch("PRAGMA journal_mode = DELETE;")
         };
         end().map_err(BagError::database(&self.path))?;
@@ -183,7 +183,7 @@ impl SqliteWriter {
     }
 }
 
-/// Topics are counted from 1 there.
+/// Topic ids start at 1.
 fn row_id(topic: usize) -> i64 {
     i64::try_from(topic).unwrap_or(i64::MAX - 1) + 1
 }

@@ -1,4 +1,4 @@
-//! One file of any storage.
+//! A file of any storage format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -15,14 +15,14 @@ use super::{ChunkPacking, Storage, WriteSettings};
 use crate::files::BagError;
 use crate::files::sqlite::SqliteWriter;
 
-/// One file that grows.
+/// A file that is being written.
 pub(super) enum FileWriter {
     Mcap { path: PathBuf, writer: Box<Writer<Counted>>, ids: Vec<TopicId>, bytes: Arc<AtomicU64> },
     Sqlite(Box<SqliteWriter>),
     Ros1 { path: PathBuf, writer: Box<Ros1Writer<BufWriter<Counted>>>, bytes: Arc<AtomicU64> },
 }
 
-/// A file that tells how long it is.
+/// A file that counts its bytes.
 pub(super) struct Counted {
     file: File,
     bytes: Arc<AtomicU64>,
@@ -125,7 +125,7 @@ impl FileWriter {
         }
     }
 
-    /// How long the file is \[bytes\]; what is on its way to it does not count.
+    /// Size of the file \[bytes\], without buffered data.
     pub(super) fn bytes(&self) -> u64 {
         match self {
             Self::Mcap { bytes, .. } | Self::Ros1 { bytes, .. } => bytes.load(Ordering::Relaxed),

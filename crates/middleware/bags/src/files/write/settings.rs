@@ -1,4 +1,4 @@
-//! How a recording is written.
+//! Settings of bag writers.
 
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -7,19 +7,19 @@ use crate::Style;
 
 use crate::files::BagError;
 
-/// How files are stored.
+/// Storage format of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// MCAP.
     Mcap,
-    /// A database of sqlite3.
+    /// A sqlite3 database.
     Sqlite,
-    /// A bag of ROS 1.
+    /// A ROS 1 bag.
     Ros1,
 }
 
 impl Storage {
-    /// The name that `ros2 bag` has for it; `rosbag` for ROS 1.
+    /// Storage identifier of `ros2 bag`; `rosbag` for ROS 1.
     #[must_use]
     pub fn identifier(self) -> &'static str {
         match self {
@@ -29,7 +29,7 @@ impl Storage {
         }
     }
 
-    /// The ending of its files.
+    /// File extension.
     #[must_use]
     pub fn ending(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl Storage {
         }
     }
 
-    /// By the ending of a path.
+    /// Storage by the extension of a path.
     #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
@@ -47,21 +47,21 @@ impl Storage {
     }
 }
 
-/// How bytes are packed, besides the storage's own way.
+/// Compression on top of the storage format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Packing {
-    /// Zstandard, the one that comes with `ros2 bag`.
+    /// Zstandard, included in `ros2 bag`.
     #[default]
     Zstd,
     /// LZ4, for which `ros2 bag` needs a plugin.
     Lz4,
 }
 
-/// The level of Zstandard, as in chunks.
+/// Zstandard level, as for chunks.
 const LEVEL: i32 = 1;
 
 impl Packing {
-    /// Its name in `metadata.yaml`.
+    /// Name in `metadata.yaml`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -70,7 +70,7 @@ impl Packing {
         }
     }
 
-    /// The first bytes of what is packed.
+    /// Magic number of compressed data.
     pub(crate) fn magic(self) -> [u8; 4] {
         match self {
             Self::Zstd => [0x28, 0xb5, 0x2f, 0xfd],
@@ -78,7 +78,7 @@ impl Packing {
         }
     }
 
-    /// Packs one message.
+    /// Compresses a message.
     pub(crate) fn pack(self, data: &[u8], packed: &mut Vec<u8>) -> io::Result<()> {
         packed.clear();
         match self {
@@ -96,7 +96,7 @@ impl Packing {
         Ok(())
     }
 
-    /// Packs a whole file.
+    /// Compresses a file.
     pub(crate) fn pack_all<W: Write>(self, mut plain: impl Read, target: W) -> io::Result<W> {
         match self {
             Self::Zstd => {
@@ -113,20 +113,20 @@ impl Packing {
     }
 }
 
-/// What is packed, besides the storage's own way.
+/// Unit of compression on top of the storage format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PackingMode {
-    /// Nothing.
+    /// No compression.
     #[default]
     None,
-    /// Every file when it is complete.
+    /// Each file when it is complete.
     File,
-    /// Every message.
+    /// Each message.
     Message,
 }
 
 impl PackingMode {
-    /// Its name in `metadata.yaml`.
+    /// Name in `metadata.yaml`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -137,47 +137,47 @@ impl PackingMode {
     }
 }
 
-/// How the storage itself packs its chunks.
+/// Compression of chunks by the storage format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChunkPacking {
-    /// Not.
+    /// No compression.
     None,
-    /// LZ4, in MCAP and bags of ROS 1.
+    /// LZ4, in MCAP and ROS 1 bags.
     Lz4,
     /// Zstandard, in MCAP.
     Zstd,
-    /// bzip2, in bags of ROS 1.
+    /// bzip2, in ROS 1 bags.
     Bz2,
 }
 
-/// How a recording is written.
+/// Settings of a bag writer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WriteSettings {
-    /// How files are stored.
+    /// Storage format.
     pub storage: Storage,
-    /// How their chunks are packed.
+    /// Compression of chunks.
     pub chunks: ChunkPacking,
-    /// What is packed besides.
+    /// Unit of additional compression.
     pub mode: PackingMode,
-    /// How.
+    /// Format of additional compression.
     pub packing: Packing,
-    /// A new file begins when one has so many bytes.
+    /// Maximum size of a file before a new one is started \[bytes\].
     pub max_bytes: Option<u64>,
-    /// A new file begins when one would span this time \[ns\].
+    /// Maximum time span of a file before a new one is started \[ns\].
     pub max_span_ns: Option<i64>,
-    /// For which readers the metadata is written.
+    /// Version of the metadata.
     pub style: Style,
-    /// How many threads pack the chunks of MCAP; the bytes are the same.
+    /// Number of compression threads for MCAP; the bytes are the same.
     pub threads: usize,
-    /// The name of the ROS distribution; may be empty.
+    /// Name of the ROS distribution; may be empty.
     pub ros_distro: String,
-    /// Whether it must survive the end of the program at any time: what is recorded, in contrast to
-    /// what can be converted again.
+    /// True if the bag must survive a crash at any time: for recordings, in contrast to
+    /// conversions, which can be repeated.
     pub is_live: bool,
 }
 
 impl WriteSettings {
-    /// Files of a storage, their chunks packed as usual: MCAP with Zstandard, others not.
+    /// Default settings of a storage format: MCAP with Zstandard, others uncompressed.
     #[must_use]
     pub fn new(storage: Storage) -> Self {
         let chunks = if storage == Storage::Mcap { ChunkPacking::Zstd } else { ChunkPacking::None };
@@ -204,7 +204,10 @@ impl WriteSettings {
         let name = self.storage.identifier();
         let of_path = Storage::of_path(path);
         if of_path.is_some_and(|storage| storage != self.storage) {
-            return wrong(format!("`{}` is no name for the storage {name}", path.display()));
+            return wrong(format!(
+                "`{}` does not have the extension of the storage {name}",
+                path.display()
+            ));
         }
         let can = match self.chunks {
             ChunkPacking::None => true,
@@ -213,14 +216,17 @@ impl WriteSettings {
             ChunkPacking::Bz2 => self.storage == Storage::Ros1,
         };
         if !can {
-            return wrong(format!("the storage {name} cannot pack chunks with {:?}", self.chunks));
+            return wrong(format!(
+                "the storage {name} does not support chunk compression with {:?}",
+                self.chunks
+            ));
         }
         let is_packed = self.mode != PackingMode::None;
         if is_packed && (of_path.is_some() || self.storage == Storage::Ros1) {
-            return wrong("files and messages are packed in folders of `ros2 bag` only".into());
+            return wrong("compression of files and messages requires a `ros2 bag` folder".into());
         }
         if self.is_split() && of_path.is_some() && self.storage != Storage::Ros1 {
-            return wrong("a single file is not split; name a folder".into());
+            return wrong("a single file cannot be split; use a folder".into());
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Calls of services, some of which are answered elsewhere and need a moment to be found.
+//! Service calls, some of which go to remote servers that have to be discovered first.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,13 +8,13 @@ use periplus_transport::Since;
 
 use super::{Shared, State};
 
-/// So long who answers is waited for.
+/// Time to wait for the server.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// Gets the answer, as CDR or as words. It must not touch the hub.
+/// Callback for the response: CDR or an error text. It must not use the hub.
 pub(crate) type Answered = Box<dyn FnOnce(Result<&[u8], String>) + Send>;
 
-/// A call that waits for who answers it.
+/// A call that waits for its server.
 pub(super) struct Waiting {
     client: Arc<RawClient>,
     cdr: Vec<u8>,
@@ -23,7 +23,7 @@ pub(super) struct Waiting {
 }
 
 impl State {
-    /// Calls a service, at once or as soon as who answers it is found.
+    /// Calls a service, now or once its server is found.
     pub(crate) fn call(&mut self, shared: &Shared, name: &str, cdr: Vec<u8>, answered: Answered) {
         let client = match self.client_of(shared, name) {
             Ok(client) => client,
@@ -36,7 +36,7 @@ impl State {
         }
     }
 
-    /// Calls what can be called by now.
+    /// Sends the calls whose servers have been found.
     pub(super) fn go_on_calling(&mut self) {
         for one in std::mem::take(&mut self.waiting) {
             if one.client.is_ready() || one.since.elapsed() > PATIENCE {

@@ -9,21 +9,21 @@ use super::{Shared, State};
 use crate::foxglove::outgoing::{Hearer, Outgoing};
 use crate::foxglove::protocol::{self, ChannelText};
 
-/// Maps, of which updates are made where nobody publishes any.
+/// Message type of maps; the hub makes their updates if no node publishes any.
 const MAP: &str = "nav_msgs/msg/OccupancyGrid";
 const UPDATE: &str = "map_msgs/msg/OccupancyGridUpdate";
 
-/// A topic as clients see it.
+/// A topic as announced to clients.
 pub(super) struct Channel {
     id: u32,
     published: Published,
 }
 
-/// What is published on a topic.
+/// A published topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Published {
     type_name: String,
-    /// The map of which these updates are made here.
+    /// For updates made by the hub: the topic of the map.
     of: Option<String>,
 }
 
@@ -41,18 +41,18 @@ impl Channel {
 }
 
 impl State {
-    /// All channels, as they are announced.
+    /// All channels in the form in which they are announced.
     pub(super) fn channel_texts(&self) -> Vec<ChannelText<'_>> {
         self.channels.iter().map(|(topic, channel)| channel.announce(topic)).collect()
     }
 
-    /// The topic of a channel.
+    /// Topic of a channel.
     pub(super) fn topic_of(&self, channel_id: u32) -> Option<String> {
         let mut channels = self.channels.iter();
         channels.find(|(_, channel)| channel.id == channel_id).map(|(topic, _)| topic.clone())
     }
 
-    /// Channels and publishers as the graph has them, and as others have them.
+    /// Updates channels and publishers from the graph and the remote endpoints.
     pub(super) fn look_at_topics(&mut self, shared: &Shared) {
         let topics = shared.graph.topics();
         let published = self.published(&topics);
@@ -73,7 +73,7 @@ impl State {
         self.listen(&shared.graph);
     }
 
-    /// Each topic that somebody publishes, with its type.
+    /// Published topics with their types.
     fn published(&self, topics: &[TopicInfo]) -> BTreeMap<String, Published> {
         let far = self.far.topics.iter().filter(|topic| !topic.publishers.is_empty());
         let far = far.map(|topic| (&topic.name, &topic.type_name));
@@ -128,14 +128,14 @@ impl State {
         self.tell_all(&protocol::advertise(&texts));
     }
 
-    /// The topic of the updates that are made here of a map.
+    /// Topic of the updates that the hub makes for a map.
     pub(super) fn updates_of(&self, map: &str) -> Option<String> {
         let name = format!("{map}_updates");
         let of = self.channels.get(&name)?.published.of.as_deref();
         (of == Some(map)).then_some(name)
     }
 
-    /// Lets the network bring those topics of others that somebody hears.
+    /// Subscribes the graph to the remote topics that clients use.
     pub(super) fn hear_far(&mut self, shared: &Shared) {
         let hears = |topic: &str| {
             let mut clients = self.clients.values();
@@ -147,7 +147,7 @@ impl State {
         for topic in wanted {
             let (hash, qos) = (topic.type_hash.as_deref(), topic.wanted());
             let mailbox = match self.heard.remove(&topic.name) {
-                // Who publishes now may offer less, or more.
+                // The offers may have changed.
                 Some(mailbox) => {
                     if mailbox.qos() != qos {
                         shared.graph.set_qos(mailbox.id(), qos);

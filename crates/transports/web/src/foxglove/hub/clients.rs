@@ -1,4 +1,4 @@
-//! Clients: who they are and what they hear.
+//! Clients and their subscriptions.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,14 +12,14 @@ use crate::foxglove::protocol::{self, Subscription};
 /// A client.
 pub(crate) struct Client {
     pub(super) outbox: Arc<Outbox>,
-    /// The topic of each subscription.
+    /// Topic of each subscription.
     pub(super) subscriptions: BTreeMap<u32, String>,
     pub(super) wants_connections: bool,
     pub(super) followed: Followed,
 }
 
 impl State {
-    /// A client comes: it is told who is here and what there is.
+    /// Adds a client and sends it the server info and all announcements.
     pub(super) fn join(&mut self, shared: &Shared, outbox: &Arc<Outbox>) -> Option<u64> {
         let settings = &shared.settings;
         if self.clients.len() >= settings.limits.clients {
@@ -44,7 +44,7 @@ impl State {
         Some(id)
     }
 
-    /// A client goes.
+    /// Removes a client.
     pub(crate) fn leave(&mut self, shared: &Shared, id: u64) {
         let Some(client) = self.clients.remove(&id) else { return };
         for (subscription_id, topic) in &client.subscriptions {
@@ -55,7 +55,7 @@ impl State {
         self.listen(&shared.graph);
     }
 
-    /// A client wants to hear channels. What cannot be is told.
+    /// Subscribes a client to channels. Failures are sent to the client.
     pub(crate) fn subscribe(
         &mut self,
         shared: &Shared,
@@ -92,7 +92,7 @@ impl State {
         refused
     }
 
-    /// A client no longer wants to.
+    /// Ends subscriptions of a client.
     pub(crate) fn unsubscribe(&mut self, shared: &Shared, client: u64, ids: &[u32]) {
         for id in ids {
             let Some(known) = self.clients.get_mut(&client) else { return };
@@ -113,7 +113,7 @@ impl State {
         }
     }
 
-    /// Who hears a map and its updates gets the map once, and then what is new in it.
+    /// A client that subscribes to a map and its updates gets the map once, then only updates.
     fn pair(&self, client: u64) {
         let Some(client) = self.clients.get(&client) else { return };
         for (id, topic) in &client.subscriptions {
@@ -124,7 +124,7 @@ impl State {
         }
     }
 
-    /// A topic is gone, and with it all subscriptions to it.
+    /// Removes a topic with all its subscriptions.
     pub(super) fn forget_topic(&mut self, topic: &str) {
         for client in self.clients.values_mut() {
             let outbox = &client.outbox;

@@ -1,4 +1,4 @@
-//! Who publishes, subscribes and serves what, for clients that want to know.
+//! Connection graph: publishers, subscribers and servers, for clients that subscribe to it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::foxglove::protocol::{self, ConnectionGraph};
 
 type Names = BTreeMap<String, BTreeSet<String>>;
 
-/// Who uses what, by node.
+/// Topics and services by node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Connections {
     published: Names,
@@ -51,14 +51,14 @@ impl Connections {
             all.served.entry(service.name.clone()).or_default().extend(service.servers.clone());
         }
         for names in [&mut all.published, &mut all.subscribed, &mut all.served] {
-            // What stands in the graph for others is not one of them.
+            // Nodes that represent remote programs are left out.
             names.values_mut().for_each(|nodes| nodes.retain(|node| !node.starts_with("/_wire")));
             names.retain(|_, nodes| !nodes.is_empty());
         }
         all
     }
 
-    /// What is new or other since then, and what is gone; all where nothing was told before.
+    /// Changes since `before`; everything if there is none.
     fn since(&self, before: Option<&Self>) -> Frame {
         let is_first = before.is_none();
         let nothing = Self::default();
@@ -99,7 +99,7 @@ impl Connections {
 }
 
 impl State {
-    /// A client wants to know, or no longer does.
+    /// Subscribes a client to the connection graph, or ends that.
     pub(crate) fn want_connections(&mut self, shared: &Shared, client: u64, wants: bool) {
         self.look_at_connections(shared);
         let is_first = !self.clients.values().any(|one| one.wants_connections);
@@ -113,7 +113,7 @@ impl State {
         client.wants_connections = wants;
     }
 
-    /// Tells what has changed to who wants to know.
+    /// Sends changes to the subscribed clients.
     pub(super) fn look_at_connections(&mut self, shared: &Shared) {
         if !self.clients.values().any(|client| client.wants_connections) {
             return;

@@ -1,8 +1,8 @@
-//! Ends of topics that do not fit, in the graph and beyond it, and how they are made to.
+//! Incompatible endpoints, local and remote, and the repair of their QoS.
 
 use std::collections::BTreeMap;
 
-use periplus_graph::{EndpointId, Policy, Qos, TopicInfo, Unfit};
+use periplus_graph::{EndpointId, IncompatiblePolicy, Policy, Qos, TopicInfo};
 
 use super::{Shared, State};
 use crate::foxglove::far::Far;
@@ -10,23 +10,23 @@ use crate::foxglove::protocol::{MismatchText, PartyText, PolicyText};
 
 pub(super) type Mismatch = MismatchText;
 
-/// One end of a topic.
+/// An endpoint of a topic.
 #[derive(Clone, Copy)]
 struct End<'a> {
     node: &'a str,
     qos: Qos,
-    /// Which of the graph it is, if it is one.
+    /// Id in the graph, for local endpoints.
     own: Option<EndpointId>,
 }
 
-/// All ends of a topic.
+/// Endpoints of a topic.
 #[derive(Default)]
 struct Ends<'a> {
     publishers: Vec<End<'a>>,
     subscriptions: Vec<End<'a>>,
 }
 
-/// The ends of each topic, by its name and type: between two types nothing flows anyway.
+/// Endpoints of each topic by name and type; endpoints of different types are not compared.
 fn ends<'a>(topics: &'a [TopicInfo], far: &'a Far) -> BTreeMap<(&'a str, &'a str), Ends<'a>> {
     let mut all: BTreeMap<(&str, &str), Ends<'_>> = BTreeMap::new();
     for topic in topics {
@@ -36,7 +36,8 @@ fn ends<'a>(topics: &'a [TopicInfo], far: &'a Far) -> BTreeMap<(&'a str, &'a str
             (&mut of.subscriptions, &topic.subscriptions),
         ];
         for (side, ends) in sides {
-            // What stands in the graph for others is counted where they are.
+            // Nodes that represent remote programs are left out: the remote endpoints are listed
+            // themselves.
             let own = ends.iter().filter(|end| !end.node.starts_with("/_wire"));
             side.extend(own.map(|end| End { node: &end.node, qos: end.qos, own: Some(end.id) }));
         }
@@ -54,15 +55,15 @@ fn ends<'a>(topics: &'a [TopicInfo], far: &'a Far) -> BTreeMap<(&'a str, &'a str
     all
 }
 
-/// Two nodes with ends that do not fit.
+/// Two nodes with incompatible endpoints.
 struct Found {
     text: Mismatch,
-    /// What happens to an end of ours when they are made to fit, and what is then said of it.
+    /// QoS change of a local endpoint that repairs the pair, and the message for the client.
     change: Option<(EndpointId, Qos)>,
     done: String,
 }
 
-/// All ends that do not fit, by topic, publisher and subscription.
+/// Incompatible pairs by topic, publisher and subscription.
 pub(super) fn mismatches(topics: &[TopicInfo], far: &Far) -> Vec<Mismatch> {
     find(topics, far).into_iter().map(|found| found.text).collect()
 }
@@ -72,11 +73,11 @@ fn find(topics: &[TopicInfo], far: &Far) -> Vec<Found> {
     for ((topic, _), ends) in ends(topics, far) {
         for publisher in &ends.publishers {
             for subscription in &ends.subscriptions {
-                let unfit = Unfit::between(&publisher.qos, &subscription.qos);
+                let unfit = IncompatiblePolicy::between(&publisher.qos, &subscription.qos);
                 if unfit.is_empty() {
                     continue;
                 }
-                // Of several between the same two nodes the first is told.
+                // The first of several pairs between the same two nodes is reported.
                 let key = (topic, publisher.node, subscription.node);
                 all.entry(key).or_insert_with(|| describe(topic, publisher, subscription, &unfit));
             }
@@ -85,14 +86,19 @@ fn find(topics: &[TopicInfo], far: &Far) -> Vec<Found> {
     all.into_values().collect()
 }
 
-fn describe(topic: &str, publisher: &End<'_>, subscription: &End<'_>, unfit: &[Unfit]) -> Found {
+fn describe(
+    topic: &str,
+    publisher: &End<'_>,
+    subscription: &End<'_>,
+    unfit: &[IncompatiblePolicy],
+) -> Found {
     let party = |end: &End<'_>| PartyText { node: end.node.to_owned(), is_ours: end.own.is_some() };
     let policies = unfit.iter().map(|one| PolicyText {
         policy: one.policy.to_string(),
         offered: one.offered.clone(),
         asked: one.asked.clone(),
     });
-    let list = |value: fn(&Unfit) -> &str| {
+    let list = |value: fn(&IncompatiblePolicy) -> &str| {
         let values = unfit.iter().map(|one| format!("{} {}", one.policy, value(one)));
         values.collect::<Vec<_>>().join(" and ")
     };
@@ -101,23 +107,23 @@ fn describe(topic: &str, publisher: &End<'_>, subscription: &End<'_>, unfit: &[U
     let (repair, change, advice, done) = match which(publisher, subscription, unfit) {
         Some(Side::Publisher) => {
             let is_late = unfit.iter().any(|one| one.policy == Policy::Durability);
-            let late = if is_late { "; what it published before was not kept" } else { "" };
+            let late = if is_late { "; earlier messages were not retained" } else { "" };
             (
                 Some("publisher"),
-                publisher.own.map(|id| (id, publisher.qos.offering(&subscription.qos))),
-                format!("let `{publishes}` offer {offer}"),
+                publisher.own.map(|id| (id, publisher.qos.strengthened_for(&subscription.qos))),
+                format!("make `{publishes}` offer {offer}"),
                 format!("`{publishes}` now offers {offer}{late}"),
             )
         }
         Some(Side::Subscription) => (
             Some("subscription"),
-            subscription.own.map(|id| (id, subscription.qos.asking(&publisher.qos))),
-            format!("let `{subscribes}` ask for {ask}"),
-            format!("`{subscribes}` now asks for {ask}"),
+            subscription.own.map(|id| (id, subscription.qos.weakened_for(&publisher.qos))),
+            format!("make `{subscribes}` request {ask}"),
+            format!("`{subscribes}` now requests {ask}"),
         ),
         None => {
             let advice =
-                format!("in `{subscribes}`, ask for {ask}; or in `{publishes}`, offer {offer}");
+                format!("in `{subscribes}`, request {ask}; or in `{publishes}`, offer {offer}");
             (None, None, advice, String::new())
         }
     };
@@ -132,16 +138,21 @@ fn describe(topic: &str, publisher: &End<'_>, subscription: &End<'_>, unfit: &[U
     Found { text, change, done }
 }
 
-/// The end that gives way.
+/// Side of a pair.
 enum Side {
     Publisher,
     Subscription,
 }
 
-/// Which end of ours gives way. Of two the publisher, which takes nothing from anybody; but a promise
-/// to publish, or to show that it lives, in time is not ours to give.
-fn which(publisher: &End<'_>, subscription: &End<'_>, unfit: &[Unfit]) -> Option<Side> {
-    let is_kept = |one: &Unfit| matches!(one.policy, Policy::Reliability | Policy::Durability);
+/// Local side to change, preferably the publisher: that affects no other pair. Deadlines and
+/// liveliness of a publisher are not changed, since it may not be able to keep them.
+fn which(
+    publisher: &End<'_>,
+    subscription: &End<'_>,
+    unfit: &[IncompatiblePolicy],
+) -> Option<Side> {
+    let is_kept =
+        |one: &IncompatiblePolicy| matches!(one.policy, Policy::Reliability | Policy::Durability);
     match (publisher.own, subscription.own) {
         (Some(_), Some(_)) if unfit.iter().all(is_kept) => Some(Side::Publisher),
         (_, Some(_)) => Some(Side::Subscription),
@@ -151,7 +162,7 @@ fn which(publisher: &End<'_>, subscription: &End<'_>, unfit: &[Unfit]) -> Option
 }
 
 impl State {
-    /// Makes two ends fit; what was done, or why nothing.
+    /// Repairs an incompatible pair; returns the change made, or the reason for making none.
     pub(crate) fn repair(
         &mut self,
         shared: &Shared,
@@ -168,13 +179,13 @@ impl State {
         };
         let Some(first) = next() else {
             return Err(format!(
-                "`{publisher}` and `{subscription}` fit on `{topic}`, or one of them is gone"
+                "`{publisher}` and `{subscription}` are compatible on `{topic}`, or one of them was removed"
             ));
         };
         if first.change.is_none() {
             return Err(format!("neither end is part of this program: {}", first.text.advice));
         }
-        // A node may have several ends on one topic; each has its turn.
+        // A node may have several endpoints on one topic; all of them are changed.
         let changes = std::iter::from_fn(|| next().and_then(|found| found.change));
         for (id, qos) in changes.take(MOST_ENDS) {
             shared.graph.set_qos(id, qos);
@@ -184,5 +195,5 @@ impl State {
     }
 }
 
-/// No node has more ends on one topic that are made to fit at once.
+/// Maximum number of endpoints of a node on one topic that are repaired at once.
 const MOST_ENDS: usize = 64;

@@ -1,4 +1,4 @@
-//! Parameters of nodes, by way of the services that every node of ROS 2 has for them: `/node.name`.
+//! Parameters of nodes as `/node.name`, accessed through the ROS 2 parameter services.
 
 mod convert;
 mod job;
@@ -16,10 +16,10 @@ use crate::foxglove::protocol::{self, ParameterText};
 use convert::{Named, to_json};
 pub(super) use job::{Jobs, News};
 
-/// What a client wants to hear of parameters.
+/// Parameters that a client subscribes to.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Followed {
-    /// All of them.
+    /// True for all parameters.
     all: bool,
     names: BTreeSet<String>,
 }
@@ -34,13 +34,13 @@ impl Followed {
     }
 }
 
-/// The node and the parameter of a name.
+/// Splits a name into node and parameter.
 fn split(name: &str) -> Option<(String, String)> {
     let (node, parameter) = name.split_once('.')?;
     Some((node.to_owned(), parameter.to_owned()))
 }
 
-/// Names by node; those that have none are left out.
+/// Groups names by node; invalid names are left out.
 fn by_node<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<String, Vec<String>> {
     let mut nodes: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (node, parameter) in names.filter_map(|name| split(name)) {
@@ -50,7 +50,7 @@ fn by_node<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<String, Vec<
 }
 
 impl State {
-    /// A client asks for values.
+    /// A client requests values.
     pub(crate) fn get_parameters(
         &mut self,
         shared: &Shared,
@@ -93,7 +93,7 @@ impl State {
                 }
                 None => outbox.push(protocol::status(
                     protocol::Level::Error,
-                    &format!("`{}` is no parameter: one is called `/node.name`", one.name),
+                    &format!("`{}` is not a parameter name; the form is `/node.name`", one.name),
                     None,
                 )),
             }
@@ -104,7 +104,7 @@ impl State {
         self.jobs.end_idle(job);
     }
 
-    /// A client wants to hear of changes.
+    /// A client subscribes to parameter updates.
     pub(crate) fn follow_parameters(&mut self, shared: &Shared, client: u64, names: Vec<String>) {
         let most = shared.settings.limits.entries;
         let Some(client) = self.clients.get_mut(&client) else { return };
@@ -120,7 +120,7 @@ impl State {
         }
     }
 
-    /// A client no longer wants to.
+    /// A client ends its subscription.
     pub(crate) fn unfollow_parameters(&mut self, client: u64, names: &[String]) {
         if let Some(client) = self.clients.get_mut(&client) {
             if names.is_empty() {
@@ -131,14 +131,14 @@ impl State {
         self.forget_events();
     }
 
-    /// Without anybody who wants to hear of changes, nobody listens for them.
+    /// Drops the subscription to parameter events when no client needs it.
     pub(super) fn forget_events(&mut self) {
         if self.clients.values().all(|client| client.followed.is_empty()) {
             self.events = None;
         }
     }
 
-    /// Tells changes, and goes on with what was asked.
+    /// Sends parameter events to clients and advances pending requests.
     pub(super) fn go_on_with_parameters(&mut self, shared: &Shared) {
         let events = self.events.as_ref().map(Mailbox::drain).unwrap_or_default();
         for event in events {
@@ -160,7 +160,7 @@ impl State {
                 Some((named(&one.name), value, kind))
             })
             .collect();
-        // One that is gone has no value.
+        // A deleted parameter has no value.
         let gone = event.deleted_parameters.iter();
         values.extend(gone.map(|one| (named(&one.name), serde_json::Value::Null, None)));
         for client in self.clients.values() {
@@ -172,7 +172,7 @@ impl State {
         }
     }
 
-    /// Asks one of a node's services for a job; `read` makes news of the answer.
+    /// Calls a node's service for a job; `read` decodes the response.
     fn ask<Q: Message>(
         &mut self,
         shared: &Shared,

@@ -8,18 +8,18 @@ use periplus_graph::RawClient;
 use super::{Shared, State};
 use crate::foxglove::protocol::{self, ServiceText};
 
-/// A service that somebody answers.
+/// An advertised service.
 pub(super) struct Offered {
     id: u32,
     type_name: String,
     type_hash: Option<String>,
-    /// Whether it is answered beyond the graph.
+    /// True if the server is remote.
     is_far: bool,
-    /// Made with the first call.
+    /// Created by the first call.
     client: Option<Arc<RawClient>>,
 }
 
-/// What there is under a name.
+/// A service found under a name.
 struct Found {
     type_name: String,
     type_hash: Option<String>,
@@ -27,7 +27,7 @@ struct Found {
 }
 
 impl State {
-    /// All services, as they are announced.
+    /// All services in the form in which they are announced.
     pub(super) fn service_texts(&self) -> Vec<ServiceText<'_>> {
         let services = self.services.iter();
         services
@@ -41,7 +41,7 @@ impl State {
         services.map(|(name, _)| name.clone()).collect()
     }
 
-    /// Services as the graph has them, and as others have them.
+    /// Updates services from the graph and the remote endpoints.
     pub(super) fn look_at_services(&mut self, shared: &Shared) {
         let served = self.found_services(shared);
         let mut gone = Vec::new();
@@ -82,7 +82,7 @@ impl State {
         let mut found: BTreeMap<String, Found> = far.collect();
         for one in shared.graph.services() {
             let Some(server) = one.server else { continue };
-            // What a wire answers for others is theirs.
+            // A service that a transport represents belongs to its remote server.
             let is_far = server.starts_with("/_wire") && found.contains_key(&one.name);
             let own = Found { type_name: one.type_name, type_hash: one.type_hash, is_far };
             found.insert(one.name, own);
@@ -90,24 +90,24 @@ impl State {
         found
     }
 
-    /// Whether a service is answered beyond the graph.
+    /// True if the server is remote.
     pub(super) fn is_far(&self, name: &str) -> bool {
         self.services.get(name).is_some_and(|one| one.is_far)
     }
 
-    /// The name of a service.
+    /// Name of a service.
     pub(crate) fn service(&self, id: u32) -> Option<String> {
         self.services.iter().find(|(_, one)| one.id == id).map(|(name, _)| name.clone())
     }
 
-    /// What calls a service.
+    /// Returns the client of a service.
     pub(super) fn client_of(
         &mut self,
         shared: &Shared,
         name: &str,
     ) -> Result<Arc<RawClient>, String> {
         let Some(one) = self.services.get_mut(name) else {
-            return Err(format!("nobody answers the service `{name}`"));
+            return Err(format!("no server for the service `{name}`"));
         };
         if let Some(client) = &one.client {
             return Ok(client.clone());

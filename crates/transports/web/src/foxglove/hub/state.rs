@@ -1,4 +1,4 @@
-//! What a hub knows.
+//! State of a hub.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,37 +18,38 @@ use crate::foxglove::far::Far;
 use crate::foxglove::frame::Frame;
 use crate::foxglove::outgoing::Outgoing;
 
-/// What a hub knows.
+/// State of a hub.
 #[derive(Default)]
 pub(crate) struct State {
     next_id: u32,
     next_client: u64,
     generation: Option<u64>,
     told_ns: Option<i64>,
-    /// By topic.
+    /// Channels by topic.
     pub(super) channels: BTreeMap<String, Channel>,
-    /// The way of each publisher, with its topic.
+    /// Send path of each publisher, with its topic.
     pub(super) ways: BTreeMap<EndpointId, (String, Arc<Outgoing>)>,
     pub(super) taps: Taps<Outgoing>,
-    /// By name.
+    /// Services by name.
     pub(super) services: BTreeMap<String, Offered>,
     pub(super) clients: BTreeMap<u64, Client>,
-    /// Calls that wait for who answers them.
+    /// Calls that wait for their servers.
     pub(super) waiting: Vec<Waiting>,
-    /// What who wants to know was told last.
+    /// Connection graph as last sent.
     pub(super) connections: Connections,
-    /// Wishes about parameters.
+    /// Pending parameter requests.
     pub(super) jobs: Jobs,
-    /// Changes of parameters, while somebody wants to hear of them.
+    /// Subscription to parameter events, while a client needs it.
     pub(super) events: Option<Mailbox<ParameterEvent>>,
-    /// What others have on a network.
+    /// Remote endpoints.
     pub(super) far: Far,
-    /// Topics of others that somebody hears: what makes the network bring them.
+    /// Subscriptions to remote topics that clients use; they make the transport receive these
+    /// topics.
     pub(super) heard: BTreeMap<String, RawMailbox>,
 }
 
 impl State {
-    /// A number that was never used.
+    /// Returns an id that was never used.
     pub(super) fn number(&mut self) -> u32 {
         self.next_id += 1;
         self.next_id
@@ -59,7 +60,7 @@ impl State {
         self.next_client
     }
 
-    /// Looks what came and went in the graph.
+    /// Updates everything from the graph.
     pub(super) fn look(&mut self, shared: &Shared) {
         let generation = shared.graph.generation();
         if self.generation.replace(generation) == Some(generation) {
@@ -70,7 +71,7 @@ impl State {
         self.look_at_connections(shared);
     }
 
-    /// What others have is other than it was.
+    /// Replaces the remote endpoints.
     pub(super) fn set_far(&mut self, shared: &Shared, far: Far) {
         if self.far != far {
             self.far = far;
@@ -79,11 +80,11 @@ impl State {
         }
     }
 
-    /// Goes on with what clients asked for.
+    /// Advances pending requests.
     pub(super) fn go_on(&mut self, shared: &Shared) {
         self.go_on_calling();
         self.go_on_with_parameters(shared);
-        // Nobody reads them here: the tap has what they bring.
+        // The tap receives the messages; the mailboxes are only emptied.
         self.heard.values().for_each(|mailbox| drop(mailbox.drain()));
     }
 
@@ -93,7 +94,7 @@ impl State {
         }
     }
 
-    /// Tells the time where it is another.
+    /// Sends the time if it has changed.
     pub(super) fn tell_time(&mut self, now_ns: i64) {
         if self.told_ns.replace(now_ns) == Some(now_ns) {
             return;
@@ -103,13 +104,13 @@ impl State {
         }
     }
 
-    /// Listens to what clients hear, and to nothing else.
+    /// Taps exactly the topics that clients subscribe to.
     pub(super) fn listen(&mut self, graph: &Graph) {
         let ways = self.ways.iter().map(|(id, (topic, way))| (topic.as_str(), *id, way));
         self.taps.listen(graph, ways);
     }
 
-    /// All is over.
+    /// Disconnects all clients.
     pub(super) fn end(&mut self, graph: &Graph) {
         for client in self.clients.values() {
             client.outbox.end("the run is over");

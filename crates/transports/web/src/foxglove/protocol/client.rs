@@ -1,92 +1,92 @@
-//! What clients say.
+//! Messages from clients.
 
 use std::fmt;
 
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A client's message in JSON.
+/// A JSON message from a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "camelCase", rename_all_fields = "camelCase")]
 pub enum ClientText {
-    /// It wants to hear channels.
+    /// Subscribes to channels.
     Subscribe {
-        /// Which, and under which numbers of its own.
+        /// Channels with the client's subscription ids.
         subscriptions: Vec<Subscription>,
     },
-    /// It no longer wants to.
+    /// Ends subscriptions.
     Unsubscribe {
-        /// Its own numbers.
+        /// Subscription ids.
         subscription_ids: Vec<u32>,
     },
-    /// It is going to publish.
+    /// Advertises client channels.
     Advertise {
-        /// Where.
+        /// Channels.
         channels: Vec<ClientChannel>,
     },
-    /// It no longer publishes.
+    /// Ends client channels.
     Unadvertise {
-        /// Its own numbers of the channels.
+        /// Channel ids of the client.
         channel_ids: Vec<u32>,
     },
-    /// It asks for values of parameters.
+    /// Requests parameter values.
     GetParameters {
-        /// Of which; all if there are none.
+        /// Names; empty for all.
         parameter_names: Vec<String>,
-        /// What the answer is to be called.
+        /// Id of the response.
         #[serde(default)]
         id: Option<String>,
     },
-    /// It sets parameters.
+    /// Sets parameters.
     SetParameters {
-        /// To what.
+        /// New values.
         parameters: Vec<ParameterText>,
-        /// What the answer is to be called; without it none is wanted.
+        /// Id of the response; none for no response.
         #[serde(default)]
         id: Option<String>,
     },
-    /// It wants to hear of changes of parameters.
+    /// Subscribes to parameter updates.
     SubscribeParameterUpdates {
-        /// Of which; of all if there are none.
+        /// Names; empty for all.
         parameter_names: Vec<String>,
     },
-    /// It no longer wants to.
+    /// Ends the subscription to parameter updates.
     UnsubscribeParameterUpdates {
-        /// Of which.
+        /// Names.
         parameter_names: Vec<String>,
     },
-    /// It wants to know who publishes, subscribes and serves what.
+    /// Subscribes to the connection graph.
     SubscribeConnectionGraph,
-    /// It no longer wants to.
+    /// Ends the subscription to the connection graph.
     UnsubscribeConnectionGraph,
-    /// It wants two ends to be made to fit, by making that of this program anew. Not part of
+    /// Makes an incompatible pair compatible by changing the local endpoint. Extension of
     /// Foxglove's protocol.
     RepairQos {
-        /// What the answer is to be called.
+        /// Id of the response.
         id: u32,
-        /// The topic.
+        /// Name of the topic.
         topic: String,
-        /// Full name of the node that publishes.
+        /// Full name of the publishing node.
         publisher: String,
-        /// Full name of the node that subscribes.
+        /// Full name of the subscribing node.
         subscription: String,
     },
-    /// It wants a file.
+    /// Requests a file.
     FetchAsset {
-        /// Where it is.
+        /// URI of the file.
         uri: String,
-        /// What the answer is to be called.
+        /// Id of the response.
         request_id: u32,
     },
 }
 
-/// A channel that a client wants to hear.
+/// A subscription to a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Subscription {
-    /// The client's own number for it.
+    /// Subscription id of the client.
     pub id: u32,
-    /// The server's number of the channel.
+    /// Channel id of the server.
     pub channel_id: u32,
 }
 
@@ -94,53 +94,53 @@ pub struct Subscription {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ClientChannel {
-    /// The client's own number for it.
+    /// Channel id of the client.
     pub id: u32,
-    /// The topic.
+    /// Topic.
     pub topic: String,
-    /// How messages are coded.
+    /// Message encoding.
     pub encoding: String,
-    /// The type of messages.
+    /// Message type.
     pub schema_name: String,
 }
 
-/// A parameter and its value.
+/// A parameter with its value.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct ParameterText {
     /// Its name.
     pub name: String,
-    /// Its value; none deletes it.
+    /// Value; none deletes the parameter.
     #[serde(default)]
     pub value: Option<Value>,
-    /// What JSON cannot tell: `byte_array`, `float64`, `float64_array`.
+    /// Type where JSON is ambiguous: `byte_array`, `float64`, `float64_array`.
     #[serde(default, rename = "type")]
     pub kind: Option<String>,
 }
 
-/// A client's message in bytes.
+/// A binary message from a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClientBinary<'a> {
-    /// A message on a channel of its own.
+    /// A message on a client channel.
     Message {
-        /// Its own number of the channel.
+        /// Channel id of the client.
         channel_id: u32,
         /// The message.
         payload: &'a [u8],
     },
-    /// A call of a service.
+    /// A service call.
     Call {
-        /// The server's number of the service.
+        /// Service id of the server.
         service_id: u32,
-        /// What the answer is to be called.
+        /// Id of the response.
         call_id: u32,
-        /// How the question is coded.
+        /// Encoding of the request.
         encoding: &'a str,
-        /// The question.
+        /// The request.
         payload: &'a [u8],
     },
 }
 
-/// A message that is none.
+/// A malformed message, with the cause.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Malformed(pub String);
 
@@ -153,22 +153,23 @@ impl fmt::Display for Malformed {
 impl std::error::Error for Malformed {}
 
 impl ClientText {
-    /// Reads a message.
+    /// Parses a message.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The cause, when the message is malformed.
     pub fn read(text: &str) -> Result<Self, Malformed> {
-        serde_json::from_str(text).map_err(|error| Malformed(format!("a message is none: {error}")))
+        serde_json::from_str(text)
+            .map_err(|error| Malformed(format!("a message is malformed: {error}")))
     }
 }
 
 impl<'a> ClientBinary<'a> {
-    /// Reads a message.
+    /// Parses a message.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The cause, when the message is malformed.
     pub fn read(bytes: &'a [u8]) -> Result<Self, Malformed> {
-        let short = || Malformed("a message in bytes ends too early".to_owned());
+        let short = || Malformed("a binary message is too short".to_owned());
         let (op, mut rest) = bytes.split_first().ok_or_else(short)?;
         let mut number = || {
             let (four, after) = rest.split_first_chunk::<4>()?;
@@ -186,12 +187,10 @@ impl<'a> ClientBinary<'a> {
                 let length = number().ok_or_else(short)? as usize;
                 let (encoding, payload) = rest.split_at_checked(length).ok_or_else(short)?;
                 let encoding = std::str::from_utf8(encoding)
-                    .map_err(|_| Malformed("the name of an encoding is no text".to_owned()))?;
+                    .map_err(|_| Malformed("the name of an encoding is not UTF-8".to_owned()))?;
                 Ok(Self::Call { service_id, call_id, encoding, payload })
             }
-            _ => Err(Malformed(format!(
-                "nothing is known of messages in bytes that begin with {op}"
-            ))),
+            _ => Err(Malformed(format!("unknown opcode {op} of a binary message"))),
         }
     }
 }

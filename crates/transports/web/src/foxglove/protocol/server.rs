@@ -1,4 +1,4 @@
-//! What servers say.
+//! Messages to clients.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::foxglove::frame::Frame;
 
-/// What is done here beyond channels.
+/// Capabilities beyond channels.
 const CAPABILITIES: [&str; 7] = [
     "clientPublish",
     "parameters",
@@ -19,39 +19,39 @@ const CAPABILITIES: [&str; 7] = [
     "connectionGraph",
 ];
 
-/// How bad something is.
+/// Severity of a status message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// It is not.
+    /// Information.
     Info = 0,
-    /// Something may not be as wanted.
+    /// Something may be wrong.
     Warning = 1,
-    /// Something was not done.
+    /// A request failed.
     Error = 2,
 }
 
-/// A channel, as it is announced.
+/// An announced channel.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ChannelText<'a> {
-    /// Its number.
+    /// Channel id.
     pub id: u32,
     /// The topic.
     pub topic: &'a str,
-    /// How messages are coded.
+    /// Message encoding.
     pub encoding: &'static str,
-    /// The type of messages.
+    /// Message type.
     pub schema_name: &'a str,
-    /// The text of the type, with all that it refers to.
+    /// Definition of the type with all types that it refers to.
     pub schema: &'a str,
-    /// Which kind of text that is.
+    /// Encoding of the schema.
     pub schema_encoding: &'static str,
 }
 
-/// A service, as it is announced.
+/// An announced service.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceText<'a> {
-    /// Its number.
+    /// Service id.
     pub id: u32,
     /// Its name.
     pub name: &'a str,
@@ -59,7 +59,7 @@ pub struct ServiceText<'a> {
     pub type_name: &'a str,
 }
 
-/// The text of a message's type with all that it refers to; empty where it is not known.
+/// Definition of a message type with all types that it refers to; empty if unknown.
 #[must_use]
 pub fn schema_of(type_name: &str) -> &'static str {
     TypeRegistry::builtin().schema_text(type_name).unwrap_or_default()
@@ -69,7 +69,7 @@ fn text(value: &Value) -> Frame {
     Frame::text(value.to_string())
 }
 
-/// The first message: who speaks.
+/// The first message: name and capabilities of the server.
 #[must_use]
 pub fn server_info(name: &str, session_id: &str, metadata: &BTreeMap<String, String>) -> Frame {
     text(&json!({
@@ -82,7 +82,7 @@ pub fn server_info(name: &str, session_id: &str, metadata: &BTreeMap<String, Str
     }))
 }
 
-/// Something for a person to read. `id` names it, to be taken back.
+/// A status message for the user. `id` allows removing it.
 #[must_use]
 pub fn status(level: Level, message: &str, id: Option<&str>) -> Frame {
     let mut value = json!({"op": "status", "level": level as u8, "message": message});
@@ -92,25 +92,25 @@ pub fn status(level: Level, message: &str, id: Option<&str>) -> Frame {
     text(&value)
 }
 
-/// That something which was said no longer holds.
+/// Removes status messages.
 #[must_use]
 pub fn remove_status(ids: &[&str]) -> Frame {
     text(&json!({"op": "removeStatus", "statusIds": ids}))
 }
 
-/// New channels.
+/// Announces channels.
 #[must_use]
 pub fn advertise(channels: &[ChannelText<'_>]) -> Frame {
     text(&json!({"op": "advertise", "channels": channels}))
 }
 
-/// Channels that are gone.
+/// Removes channels.
 #[must_use]
 pub fn unadvertise(ids: &[u32]) -> Frame {
     text(&json!({"op": "unadvertise", "channelIds": ids}))
 }
 
-/// New services. The texts of questions and answers come in the form of today and in that of old
+/// Announces services, with request and response schemas in the current form and in that of old
 /// clients.
 #[must_use]
 pub fn advertise_services(services: &[ServiceText<'_>]) -> Frame {
@@ -139,13 +139,13 @@ pub fn advertise_services(services: &[ServiceText<'_>]) -> Frame {
     text(&json!({"op": "advertiseServices", "services": services}))
 }
 
-/// Services that are gone.
+/// Removes services.
 #[must_use]
 pub fn unadvertise_services(ids: &[u32]) -> Frame {
     text(&json!({"op": "unadvertiseServices", "serviceIds": ids}))
 }
 
-/// Values of parameters: name, value, and what JSON cannot tell of its type.
+/// Parameter values: name, value, and the type where JSON is ambiguous.
 #[must_use]
 pub fn parameters(values: &[(String, Value, Option<&'static str>)], id: Option<&str>) -> Frame {
     let one = |(name, value, kind): &(String, Value, Option<&'static str>)| {
@@ -163,64 +163,63 @@ pub fn parameters(values: &[(String, Value, Option<&'static str>)], id: Option<&
     text(&value)
 }
 
-/// Who publishes, subscribes and serves, by name of the topic or service: what is new or other, and
-/// what is gone.
+/// Changes of the connection graph: publishers, subscribers and servers by topic or service.
 #[derive(Clone, Copy, Debug)]
 pub struct ConnectionGraph<'a> {
     /// Nodes that publish a topic.
     pub published: &'a BTreeMap<String, BTreeSet<String>>,
     /// Nodes that subscribe to a topic.
     pub subscribed: &'a BTreeMap<String, BTreeSet<String>>,
-    /// Nodes that answer a service.
+    /// Nodes that serve a service.
     pub served: &'a BTreeMap<String, BTreeSet<String>>,
-    /// Topics that are gone.
+    /// Removed topics.
     pub gone_topics: &'a [String],
-    /// Services that are gone.
+    /// Removed services.
     pub gone_services: &'a [String],
-    /// All ends that do not fit, where they are others than before. Not part of Foxglove's protocol.
+    /// All incompatible pairs, if they have changed. Extension of Foxglove's protocol.
     pub mismatches: Option<&'a Vec<MismatchText>>,
 }
 
-/// Two ends of a topic between which nothing flows.
+/// Two endpoints of a topic with incompatible QoS.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct MismatchText {
     /// The topic.
     pub topic: String,
-    /// Who publishes.
+    /// The publisher.
     pub publisher: PartyText,
-    /// Who subscribes.
+    /// The subscription.
     pub subscription: PartyText,
-    /// Where the offer is too weak.
+    /// Policies in which the offer is too weak.
     pub policies: Vec<PolicyText>,
-    /// Which end can be made anew here: `publisher` or `subscription`.
+    /// Endpoint that can be repaired here: `publisher` or `subscription`.
     pub repair: Option<&'static str>,
-    /// What to change, in words.
+    /// The change to make, as text.
     pub advice: String,
 }
 
-/// A node with an end that does not fit.
+/// A node with an incompatible endpoint.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PartyText {
-    /// Its full name.
+    /// Full name.
     pub node: String,
-    /// Whether it is part of this program.
+    /// True if it is part of this program.
     pub is_ours: bool,
 }
 
-/// A policy in which an offer is too weak, as ROS spells it.
+/// A policy in which an offer is too weak, in the spelling of ROS.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PolicyText {
-    /// Which.
+    /// The policy.
     pub policy: String,
-    /// What the publisher offers.
+    /// The offered value.
     pub offered: String,
-    /// What the subscription asks for.
+    /// The requested value.
     pub asked: String,
 }
 
-/// Who publishes, subscribes and serves.
+/// Encodes the connection graph.
 #[must_use]
 pub fn connection_graph(graph: &ConnectionGraph<'_>) -> Frame {
     let list = |map: &BTreeMap<String, BTreeSet<String>>, key: &str| -> Vec<Value> {
@@ -240,8 +239,8 @@ pub fn connection_graph(graph: &ConnectionGraph<'_>) -> Frame {
     text(&value)
 }
 
-/// What became of the wish that two ends be made to fit. Not part of Foxglove's protocol; only who
-/// wishes hears it.
+/// Result of [`ClientText::RepairQos`](super::ClientText::RepairQos), sent to the requesting client
+/// only. Extension of Foxglove's protocol.
 #[must_use]
 pub fn repair_result(id: u32, outcome: &Result<String, String>) -> Frame {
     let (Ok(message) | Err(message)) = outcome;
@@ -251,7 +250,7 @@ pub fn repair_result(id: u32, outcome: &Result<String, String>) -> Frame {
     }))
 }
 
-/// What stands before a message of a channel: to which subscription, and when it was published.
+/// Header of a message on a channel: subscription id and time of publication.
 #[must_use]
 pub fn message_head(subscription_id: u32, time_ns: i64) -> Vec<u8> {
     let mut head = Vec::with_capacity(13);
@@ -269,7 +268,7 @@ pub fn time(time_ns: i64) -> Frame {
     Frame::binary(bytes)
 }
 
-/// The answer of a service.
+/// Response of a service.
 #[must_use]
 pub fn service_answer(service_id: u32, call_id: u32, cdr: &[u8]) -> Frame {
     const ENCODING: &[u8] = b"cdr";
@@ -283,7 +282,7 @@ pub fn service_answer(service_id: u32, call_id: u32, cdr: &[u8]) -> Frame {
     Frame::binary(bytes)
 }
 
-/// That a call has no answer, and why.
+/// Failure of a service call, with the reason.
 #[must_use]
 pub fn service_failure(service_id: u32, call_id: u32, why: &str) -> Frame {
     text(&json!({
@@ -291,10 +290,10 @@ pub fn service_failure(service_id: u32, call_id: u32, why: &str) -> Frame {
     }))
 }
 
-/// What became of a wish for a file.
+/// A file, or the reason for which it cannot be read.
 pub type AssetAnswer = Result<Vec<u8>, String>;
 
-/// A file, or why there is none.
+/// Encodes a file or the reason of failure.
 #[must_use]
 pub fn asset(request_id: u32, answer: &AssetAnswer) -> Frame {
     let (status, why, data) = match answer {

@@ -1,12 +1,12 @@
-//! Values of parameters, as nodes and as clients have them.
+//! Conversion of parameter values between ROS and Foxglove.
 
 use periplus_msgs::rcl_interfaces::{ParameterType, ParameterValue};
 use serde_json::{Value, json};
 
-/// A parameter: its name, its value, and what JSON cannot tell of its type.
+/// A parameter: name, value, and the type where JSON is ambiguous.
 pub(super) type Named = (String, Value, Option<&'static str>);
 
-/// As clients have it; none where it has no value.
+/// Converts a value to JSON; none if it is not set.
 pub(super) fn to_json(value: &ParameterValue) -> Option<(Value, Option<&'static str>)> {
     Some(match value.r#type {
         ParameterType::PARAMETER_BOOL => (json!(value.bool_value), None),
@@ -27,7 +27,7 @@ pub(super) fn to_json(value: &ParameterValue) -> Option<(Value, Option<&'static 
     })
 }
 
-/// JSON has no words for what is no number; other programs understand these.
+/// JSON has no NaN and no infinities; Foxglove accepts these texts.
 fn number(value: f64) -> Value {
     match value {
         _ if value.is_nan() => json!("NaN"),
@@ -37,8 +37,8 @@ fn number(value: f64) -> Value {
     }
 }
 
-/// As a node has it. `declared` is the type that the node gives it, or 0. None where no value of
-/// that type can be made of it.
+/// Converts a value from JSON. `declared` is the type that the node declares, or 0. None if the
+/// value cannot be converted to that type.
 pub(super) fn from_json(
     value: Option<&Value>,
     kind: Option<&str>,
@@ -101,10 +101,10 @@ fn guess(value: &Value, kind: Option<&str>) -> Option<u8> {
     })
 }
 
-/// A whole number, also one that is written `3.0`.
+/// An integer, also in the form `3.0`.
 fn integer(value: &Value) -> Option<i64> {
     let whole = |number: &f64| number.fract() == 0.0 && number.abs() < 9e15;
-    #[expect(clippy::cast_possible_truncation, reason = "it is whole and below 2^53")]
+    #[expect(clippy::cast_possible_truncation, reason = "it is an integer below 2^53")]
     value.as_i64().or_else(|| value.as_f64().filter(whole).map(|number| number as i64))
 }
 

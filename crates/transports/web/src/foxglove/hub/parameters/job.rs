@@ -1,4 +1,4 @@
-//! What a client asked of parameters, while nodes answer.
+//! Pending parameter requests of clients.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,38 +17,38 @@ use super::{Shared, State};
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, Level, ParameterText};
 
-/// So long nodes may take to answer; then the client is told what is there.
+/// Timeout of a request; then the client gets the values received so far.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// Wishes that wait for answers, by number.
+/// Pending requests by id.
 #[derive(Default)]
 pub(in crate::foxglove::hub) struct Jobs {
     last: u64,
     open: BTreeMap<u64, Job>,
 }
 
-/// One wish.
+/// A pending request.
 pub(in crate::foxglove::hub) struct Job {
     outbox: Arc<Outbox>,
     id: Option<String>,
-    /// Whether the values are to be told at the end.
+    /// True if the client gets the values at the end.
     tells: bool,
     pending: usize,
     values: Vec<Named>,
     since: Since,
 }
 
-/// What a node answered.
+/// Response of a node.
 pub(in crate::foxglove::hub) enum News {
-    /// The names of its parameters.
+    /// Names of its parameters.
     Names(String, Vec<String>),
-    /// Their values.
+    /// Values of its parameters.
     Values(Vec<Named>),
-    /// Types of parameters that are to be set.
+    /// Types of parameters to set.
     Types(String, Vec<ParameterText>, Vec<u8>),
-    /// What became of that: names, and why not where it was not done.
+    /// Results of setting, by name.
     Set(String, Vec<(String, Result<(), String>)>),
-    /// Nothing that can be understood.
+    /// A malformed response.
     Nothing,
 }
 
@@ -60,14 +60,14 @@ impl Jobs {
         self.last
     }
 
-    /// One answer more is waited for.
+    /// Adds a pending response.
     pub(super) fn count(&mut self, job: u64) {
         if let Some(job) = self.open.get_mut(&job) {
             job.pending += 1;
         }
     }
 
-    /// Ends a wish for which nothing is waited for any more.
+    /// Finishes a request without pending responses.
     pub(super) fn end_idle(&mut self, job: u64) {
         if self.open.get(&job).is_some_and(|job| job.pending == 0)
             && let Some(job) = self.open.remove(&job)
@@ -76,7 +76,7 @@ impl Jobs {
         }
     }
 
-    /// Ends those that wait too long.
+    /// Finishes the requests that have timed out.
     pub(super) fn end_old(&mut self) {
         let old = self.open.iter().filter(|(_, job)| job.since.elapsed() > PATIENCE);
         let old: Vec<u64> = old.map(|(id, _)| *id).collect();
@@ -156,7 +156,7 @@ impl State {
             match from_json(one.value.as_ref(), one.kind.as_deref(), declared) {
                 Some(value) => parameters.push(Parameter { name: one.name.clone(), value }),
                 None => {
-                    let why = "the value is of another type than the parameter";
+                    let why = "the value has another type than the parameter";
                     self.tell_refused(job, node, &one.name, why);
                 }
             }
@@ -179,7 +179,7 @@ impl State {
         }
     }
 
-    /// A node answered.
+    /// Processes the response of a node.
     pub(super) fn hear_news(&mut self, shared: &Shared, (job, news): (u64, News)) {
         match news {
             News::Names(node, names) if !names.is_empty() => {

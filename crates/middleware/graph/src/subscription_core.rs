@@ -1,4 +1,4 @@
-//! The end of a subscription: the messages that wait for it.
+//! Queue of received messages behind a subscription.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
@@ -6,33 +6,33 @@ use std::sync::{Arc, Mutex};
 use periplus_diagnostics::Diagnostic;
 use periplus_msgs::DecodeError;
 
-use crate::agenda::{Agenda, Event, Key, Rank};
 use crate::common::{Common, lock};
-use crate::outlet::missed;
-use crate::qos::{History, MOST_KEPT, Qos};
-use crate::qos_event::Told;
+use crate::event_queue::{Event, EventQueue, Key, Rank};
+use crate::publisher_core::missed;
+use crate::qos::{History, KEEP_ALL_MAX_MESSAGES, Qos};
+use crate::qos_event::ReportedEvents;
 use crate::sample::{EndpointId, Sample};
 
-pub(crate) struct Inlet {
+pub(crate) struct SubscriptionCore {
     pub(crate) id: EndpointId,
     pub(crate) node: Arc<str>,
     pub(crate) topic: Arc<str>,
     pub(crate) common: Arc<Common>,
-    /// What a message sets off; without it somebody looks from time to time.
+    /// Callback for messages; none if the subscription is polled.
     pub(crate) reaction: Option<Reaction>,
     pub(crate) waiting: Mutex<Waiting>,
-    /// What was told to who asks for events.
-    pub(crate) told: Mutex<Told>,
+    /// QoS events already reported.
+    pub(crate) reported: Mutex<ReportedEvents>,
 }
 
 pub(crate) struct Reaction {
-    pub(crate) agenda: Arc<Agenda>,
-    /// Tells subscriptions of one node to one topic apart.
+    pub(crate) event_queue: Arc<EventQueue>,
+    /// Distinguishes subscriptions of one node to one topic.
     pub(crate) ordinal: u64,
     pub(crate) react: React,
 }
 
-/// What is done with a sample; it may turn out to be no message of its type.
+/// Handles a sample; fails if it cannot be decoded as its type.
 pub(crate) type React = Box<dyn Fn(&Sample) -> Result<(), DecodeError> + Send + Sync>;
 
 #[derive(Default)]
@@ -40,19 +40,19 @@ pub(crate) struct Waiting {
     qos: Qos,
     samples: VecDeque<Sample>,
     last_ns: Option<i64>,
-    pub(crate) counts: InletCounts,
+    pub(crate) counts: SubscriptionCounts,
 }
 
-/// What happened at a subscription.
+/// Message counts of a subscription.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct InletCounts {
-    /// Messages that arrived.
+pub struct SubscriptionCounts {
+    /// Messages received.
     pub received: u64,
-    /// Of these, how many were dropped because newer ones came and the history was full.
+    /// Received messages that were dropped because the history was full.
     pub dropped: u64,
-    /// Of these, how many were too old when somebody looked.
+    /// Received messages that were older than their lifespan when they were read.
     pub stale: u64,
-    /// Of these, how many were no such message.
+    /// Received messages that could not be decoded.
     pub undecodable: u64,
     /// Deadlines that passed without a message.
     pub missed_deadlines: u64,
@@ -64,36 +64,37 @@ impl Waiting {
     }
 }
 
-impl Inlet {
-    /// What it asks for.
+impl SubscriptionCore {
+    /// The requested QoS.
     pub(crate) fn qos(&self) -> Qos {
         lock(&self.waiting).qos
     }
 
-    /// Asks for something else from now on. Whom it hears has to be told again.
+    /// Changes the requested QoS. The caller reconnects the topic.
     pub(crate) fn set_qos(&self, qos: Qos) {
         lock(&self.waiting).qos = qos;
     }
 
-    /// What happened so far; deadlines that pass now count.
-    pub(crate) fn counts(&self) -> InletCounts {
+    /// Counts so far, including deadlines that have passed by now.
+    pub(crate) fn counts(&self) -> SubscriptionCounts {
         let now_ns = self.common.clock.now_ns();
         let waiting = lock(&self.waiting);
         let since =
             waiting.qos.deadline_ns.map(|deadline_ns| missed(waiting.last_ns, now_ns, deadline_ns));
         let missed_deadlines = waiting.counts.missed_deadlines + since.unwrap_or_default();
-        InletCounts { missed_deadlines, ..waiting.counts }
+        SubscriptionCounts { missed_deadlines, ..waiting.counts }
     }
 
-    /// Says the first time that not all could be kept.
+    /// Warns once when a `KEEP_ALL` history overflows.
     fn overflows(&self) {
         let Self { node, topic, .. } = self;
         let message = format!(
-            "`{node}` keeps all messages of the topic `{topic}`, does not look at them, and loses \
-             the oldest: {MOST_KEPT} wait"
+            "`{node}` keeps all messages of the topic `{topic}` but does not read them, and loses \
+             the oldest: {KEEP_ALL_MAX_MESSAGES} wait"
         );
         let finding = Diagnostic::warning("slow-subscription", message);
-        self.common.report(finding.help("look more often, or keep only the last ones"));
+        self.common
+            .report(finding.help("read the messages more often, or use history `KEEP_LAST`"));
     }
 
     pub(crate) fn push(self: &Arc<Self>, sample: &Sample) {
@@ -115,9 +116,9 @@ impl Inlet {
         waiting.samples.push_back(sample.clone());
         if let Some(reaction) = &self.reaction {
             if let Some(oldest) = &oldest {
-                reaction.agenda.remove(&self.key(reaction, oldest));
+                reaction.event_queue.remove(&self.key(reaction, oldest));
             }
-            reaction.agenda.add(self.key(reaction, sample), self.clone());
+            reaction.event_queue.add(self.key(reaction, sample), self.clone());
         }
     }
 
@@ -132,7 +133,7 @@ impl Inlet {
         }
     }
 
-    /// All that wait, oldest first.
+    /// Removes and returns all messages, oldest first.
     pub(crate) fn drain(&self) -> VecDeque<Sample> {
         let now_ns = self.common.clock.now_ns();
         let mut waiting = lock(&self.waiting);
@@ -143,12 +144,12 @@ impl Inlet {
         samples
     }
 
-    /// The one with this number, and none before it.
+    /// Removes and returns the message with this sequence number.
     fn take(&self, sequence: u64) -> Option<Sample> {
         let now_ns = self.common.clock.now_ns();
         let mut waiting = lock(&self.waiting);
-        let place = waiting.samples.iter().position(|sample| sample.sequence == sequence)?;
-        let sample = waiting.samples.remove(place)?;
+        let index = waiting.samples.iter().position(|sample| sample.sequence == sequence)?;
+        let sample = waiting.samples.remove(index)?;
         if sample.is_stale(now_ns) {
             waiting.counts.stale += 1;
             return None;
@@ -156,17 +157,17 @@ impl Inlet {
         Some(sample)
     }
 
-    /// Nothing that waits is wanted any more.
+    /// Discards all messages.
     pub(crate) fn withdraw(&self) {
         let samples = std::mem::take(&mut lock(&self.waiting).samples);
         if let Some(reaction) = &self.reaction {
             for sample in &samples {
-                reaction.agenda.remove(&self.key(reaction, sample));
+                reaction.event_queue.remove(&self.key(reaction, sample));
             }
         }
     }
 
-    /// Counts a message that was none, and says so the first time.
+    /// Counts a message that cannot be decoded and warns the first time.
     pub(crate) fn reject(&self, error: &DecodeError) {
         let mut waiting = lock(&self.waiting);
         waiting.counts.undecodable += 1;
@@ -177,16 +178,16 @@ impl Inlet {
         let Self { node, topic, .. } = self;
         let finding = Diagnostic::warning(
             "undecodable-message",
-            format!("`{node}` cannot read a message of the topic `{topic}`: {error}"),
+            format!("`{node}` cannot decode a message of the topic `{topic}`: {error}"),
         );
         self.common.report(finding.help(
-            "who sends it uses another definition of its type; compare both with \
-             `ros2 interface show`, and see that both come from the same release",
+            "the publisher uses another definition of its type; compare both with \
+             `ros2 interface show`, and check that both come from the same release",
         ));
     }
 }
 
-impl Event for Inlet {
+impl Event for SubscriptionCore {
     fn happen(&self, key: &Key) {
         let (Some(reaction), Some(sample)) = (&self.reaction, self.take(key.sequence)) else {
             return;

@@ -1,4 +1,4 @@
-//! The end of a publisher: to whom its messages go.
+//! Connections of a publisher to its subscribers.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -6,51 +6,51 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::common::Common;
 use crate::info::TopicInfo;
-use crate::inlet::Inlet;
 use crate::payload::Payload;
-use crate::qos_event::Told;
+use crate::qos_event::ReportedEvents;
 use crate::sample::{EndpointId, Sample};
+use crate::subscription_core::SubscriptionCore;
 use crate::tap::Tap;
 use crate::{Durability, Qos};
 
-/// What all ends of one topic share.
+/// State shared by all endpoints of one topic.
 pub(crate) struct Topic {
     pub(crate) name: Arc<str>,
-    /// Number of the last message.
+    /// Sequence number of the last message.
     pub(crate) sequence: AtomicU64,
 }
 
-/// The end of a publisher.
-pub(crate) struct Outlet {
+/// Shared state of a publisher.
+pub(crate) struct PublisherCore {
     pub(crate) id: EndpointId,
     pub(crate) node: Arc<str>,
     pub(crate) topic: Arc<Topic>,
     common: Arc<Common>,
-    /// How many listen.
+    /// Number of subscriptions and taps.
     listeners: AtomicUsize,
-    /// Whether a message must be made into a sample at all.
+    /// False if a message needs not be made into a sample.
     is_busy: AtomicBool,
     pub(crate) published: AtomicU64,
-    /// What was told to who asks for events.
-    pub(crate) told: Mutex<Told>,
+    /// QoS events already reported.
+    pub(crate) reported: Mutex<ReportedEvents>,
     flow: Mutex<Flow>,
 }
 
 #[derive(Default)]
 struct Flow {
     qos: Qos,
-    inlets: Vec<Arc<Inlet>>,
+    subscriptions: Vec<Arc<SubscriptionCore>>,
     taps: Arc<[Arc<Tap>]>,
     info: Arc<TopicInfo>,
-    /// For latecomers.
+    /// Messages retained for late subscribers.
     kept: VecDeque<Sample>,
     last_ns: Option<i64>,
     missed_deadlines: u64,
-    /// When it last said that it lives.
+    /// Time of the last liveliness assertion \[ns\].
     asserted_ns: i64,
 }
 
-impl Outlet {
+impl PublisherCore {
     pub(crate) fn new(
         id: EndpointId,
         node: Arc<str>,
@@ -58,7 +58,7 @@ impl Outlet {
         qos: Qos,
         common: Arc<Common>,
     ) -> Self {
-        let outlet = Self {
+        let publisher = Self {
             id,
             node,
             topic,
@@ -66,24 +66,24 @@ impl Outlet {
             listeners: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
             published: AtomicU64::new(0),
-            told: Mutex::default(),
+            reported: Mutex::default(),
             flow: Mutex::new(Flow { qos, ..Flow::default() }),
         };
-        outlet.assert_liveliness();
-        outlet.is_busy.store(keeps(&qos), Ordering::Relaxed);
-        outlet
+        publisher.assert_liveliness();
+        publisher.is_busy.store(keeps(&qos), Ordering::Relaxed);
+        publisher
     }
 
     fn lock(&self) -> MutexGuard<'_, Flow> {
         self.flow.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What it offers.
+    /// The offered QoS.
     pub(crate) fn qos(&self) -> Qos {
         self.lock().qos
     }
 
-    /// Offers something else from now on. Who listens has to be told again.
+    /// Changes the offered QoS. The caller reconnects the topic.
     pub(crate) fn set_qos(&self, qos: Qos) {
         self.lock().qos = qos;
     }
@@ -99,7 +99,7 @@ impl Outlet {
         flow.missed_deadlines + since.unwrap_or_default()
     }
 
-    /// When it last said that it lives \[ns\].
+    /// Time of the last liveliness assertion \[ns\].
     pub(crate) fn asserted_ns(&self) -> i64 {
         self.lock().asserted_ns
     }
@@ -109,25 +109,25 @@ impl Outlet {
         self.lock().asserted_ns = now_ns;
     }
 
-    /// Who listens from now on. Gives what latecomers get, oldest first.
+    /// Sets the subscribers. Returns the messages retained for late subscribers, oldest first.
     pub(crate) fn connect(
         &self,
-        inlets: Vec<Arc<Inlet>>,
+        subscriptions: Vec<Arc<SubscriptionCore>>,
         taps: Arc<[Arc<Tap>]>,
         info: Arc<TopicInfo>,
     ) -> Vec<Sample> {
         let now_ns = self.common.clock.now_ns();
         let mut flow = self.lock();
-        let listeners = inlets.len() + taps.len();
+        let listeners = subscriptions.len() + taps.len();
         self.listeners.store(listeners, Ordering::Relaxed);
         self.is_busy.store(listeners > 0 || keeps(&flow.qos), Ordering::Release);
-        flow.inlets = inlets;
+        flow.subscriptions = subscriptions;
         flow.taps = taps;
         flow.info = info;
         flow.kept.iter().filter(|sample| !sample.is_stale(now_ns)).cloned().collect()
     }
 
-    /// Publishes what `payload` makes, if it matters to anyone.
+    /// Publishes the result of `payload`, if it is needed.
     #[inline]
     pub(crate) fn publish(&self, payload: impl FnOnce() -> Payload) {
         self.published.fetch_add(1, Ordering::Relaxed);
@@ -149,8 +149,8 @@ impl Outlet {
             flow.missed_deadlines += missed(flow.last_ns, time_ns, deadline_ns);
             flow.last_ns = Some(time_ns);
         }
-        for inlet in &flow.inlets {
-            inlet.push(&sample);
+        for subscription in &flow.subscriptions {
+            subscription.push(&sample);
         }
         for tap in flow.taps.iter() {
             tap.push(&flow.info, &sample);
@@ -169,14 +169,14 @@ impl Outlet {
     }
 }
 
-/// Whether messages matter even if nobody listens.
+/// True if messages have to be kept without subscribers.
 fn keeps(qos: &Qos) -> bool {
     qos.durability == Durability::TransientLocal
         || qos.deadline_ns.is_some()
         || qos.lease_ns.is_some()
 }
 
-/// How many deadlines passed between two messages.
+/// Number of deadlines missed between two messages.
 pub(crate) fn missed(last_ns: Option<i64>, time_ns: i64, deadline_ns: i64) -> u64 {
     let Some(last_ns) = last_ns else { return 0 };
     let gap_ns = time_ns.saturating_sub(last_ns);

@@ -1,10 +1,9 @@
-//! What is to be done, in order.
+//! Queue of events in the order of execution.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// When in the life of its node something happens, at one and the same time: what came from others
-/// before what the node does by itself.
+/// Order of events of one node at the same time: events from other nodes come first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Rank {
     Jump,
@@ -14,9 +13,9 @@ pub(crate) enum Rank {
     Timer,
 }
 
-/// The order of everything that happens: time, then node, then topic, then the number of the
-/// message. The last number tells apart what is equal otherwise: two subscriptions of one node to
-/// one topic, by their age.
+/// Order of all events: time, then node, topic, and sequence number of the message. The ordinal
+/// separates events that are equal otherwise, such as two subscriptions of one node to one topic,
+/// by age.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Key {
     pub(crate) time_ns: i64,
@@ -27,21 +26,21 @@ pub(crate) struct Key {
     pub(crate) ordinal: u64,
 }
 
-/// Something that can happen.
+/// An event in the queue.
 pub(crate) trait Event: Send + Sync {
     fn happen(&self, key: &Key);
 
-    /// When it happens instead, now that the clock jumped to `now_ns`.
+    /// Returns the new time of the event after a jump of the clock to `now_ns`.
     fn time_after_jump(&self, now_ns: i64) -> i64 {
         now_ns
     }
 
-    /// It will not happen after all.
+    /// The event was removed without being executed.
     fn forget(&self, _key: &Key) {}
 }
 
 #[derive(Default)]
-pub(crate) struct Agenda {
+pub(crate) struct EventQueue {
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -52,7 +51,7 @@ struct State {
     is_closed: bool,
 }
 
-impl Agenda {
+impl EventQueue {
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -71,15 +70,16 @@ impl Agenda {
         drop(removed);
     }
 
-    /// The first of what is due.
+    /// Removes and returns the first event that is due.
     pub(crate) fn next_due(&self, now_ns: i64) -> Option<(Key, Arc<dyn Event>)> {
         let mut state = self.lock();
         let first = state.events.first_entry()?;
         (first.key().time_ns <= now_ns).then(|| first.remove_entry())
     }
 
-    /// Waits for what is due, in live; none when the agenda is closed. Messages are always due: one
-    /// published just before the clock jumped back must not wait for the old time.
+    /// Waits for the next event that is due (live mode); none when the queue is closed. Messages
+    /// are always due: one published just before the clock jumped back must not wait for the old
+    /// time.
     pub(crate) fn wait_due(&self, now_ns: impl Fn() -> i64) -> Option<(Key, Arc<dyn Event>)> {
         let mut state = self.lock();
         loop {
@@ -95,13 +95,13 @@ impl Agenda {
         }
     }
 
-    /// Time of the first event \[ns\]; none where nothing is planned.
+    /// Time of the first event \[ns\]; none if the queue is empty.
     pub(crate) fn first_ns(&self) -> Option<i64> {
         self.lock().events.first_key_value().map(|(key, _)| key.time_ns)
     }
 
-    /// Wakes the thread that waits for what is due if something is at this time. Most steps of time
-    /// have nothing for most nodes, and a thread that wakes for nothing costs more than the look.
+    /// Wakes the waiting thread if an event is due. Most steps of time have no event for most
+    /// nodes, and waking a thread costs more than this check.
     pub(crate) fn wake_if_due(&self, now_ns: i64) {
         // A thread that is about to wait has read the old time under the lock.
         if self.first_ns().is_some_and(|first_ns| first_ns <= now_ns) {
@@ -109,7 +109,7 @@ impl Agenda {
         }
     }
 
-    /// Nothing happens any more.
+    /// Closes the queue; no more events are executed.
     pub(crate) fn close(&self) {
         let mut state = self.lock();
         state.is_closed = true;
@@ -119,7 +119,7 @@ impl Agenda {
         drop(events);
     }
 
-    /// Takes a timer out.
+    /// Removes a timer.
     pub(crate) fn remove_timer(&self, node: &str, ordinal: u64) {
         let is_it =
             |key: &Key| key.rank == Rank::Timer && key.ordinal == ordinal && *key.node == *node;
@@ -130,7 +130,7 @@ impl Agenda {
         drop(removed);
     }
 
-    /// Forgets all that is due but timers.
+    /// Removes all events that are due, except timers.
     pub(crate) fn drop_due(&self, now_ns: i64) {
         let mut state = self.lock();
         let all = std::mem::take(&mut state.events);
@@ -143,7 +143,7 @@ impl Agenda {
         }
     }
 
-    /// The clock jumped: timers start anew, all else is due now.
+    /// Reschedules after a jump of the clock: timers restart, everything else is due now.
     pub(crate) fn rebase(&self, now_ns: i64) {
         let mut state = self.lock();
         let all = std::mem::take(&mut state.events);
@@ -169,12 +169,12 @@ mod tests {
         fn happen(&self, _key: &Key) {}
     }
 
-    /// Every step of time, 200 in a second, woke the threads of all nodes: most of the CPU of a live node
-    /// that had little to do.
+    /// Regression test: each step of time (200 per second) woke the threads of all nodes, which was
+    /// most of the CPU load of an idle live node.
     #[test]
     fn steps_of_time_wake_a_thread_only_for_what_is_due() {
         const STEPS: i64 = 50;
-        let agenda = Agenda::default();
+        let event_queue = EventQueue::default();
         let (now_ns, looks) = (AtomicI64::new(0), AtomicU64::new(0));
         let name: Arc<str> = "node".into();
         let key = Key {
@@ -185,23 +185,23 @@ mod tests {
             sequence: 0,
             ordinal: 0,
         };
-        agenda.add(key, Arc::new(Nothing));
+        event_queue.add(key, Arc::new(Nothing));
         let due = std::thread::scope(|scope| {
             let waiting = scope.spawn(|| {
-                agenda.wait_due(|| {
+                event_queue.wait_due(|| {
                     looks.fetch_add(1, Ordering::Relaxed);
                     now_ns.load(Ordering::Acquire)
                 })
             });
             for step in 1..=STEPS {
                 now_ns.store(step, Ordering::Release);
-                agenda.wake_if_due(step);
+                event_queue.wake_if_due(step);
                 std::thread::sleep(Duration::from_millis(2));
             }
             waiting.join().unwrap()
         });
         assert_eq!(due.map(|(key, _)| key.time_ns), Some(STEPS));
-        // Once at the beginning, once when it is due; systems may wake a thread by themselves.
+        // One wake-up at the start and one when the event is due; the system may add spurious ones.
         assert!(looks.load(Ordering::Relaxed) <= 10, "{looks:?} looks");
     }
 }
