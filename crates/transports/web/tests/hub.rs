@@ -486,7 +486,10 @@ fn ends_that_do_not_fit_are_told_and_made_to() {
     client.say(&wish);
     let done = client.hears("repairQosResult");
     assert_eq!(done["isRepaired"], false);
-    assert!(done["message"].as_str().expect("words").contains("are compatible on `/scan`"), "{done}");
+    assert!(
+        done["message"].as_str().expect("words").contains("are compatible on `/scan`"),
+        "{done}"
+    );
 }
 
 #[test]

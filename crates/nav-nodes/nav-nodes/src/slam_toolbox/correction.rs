@@ -3,8 +3,7 @@
 use periplus_geometry::Pose2;
 use periplus_slam::{CorrectedInput, MountingCorrection};
 
-/// A pose from which odometry tells where the robot is in the map: that of the first scan, or the last
-/// one that a client set.
+/// Pose from which odometry continues in the map: that of the first scan, or the last one set by a client.
 pub(crate) struct Anchor {
     map_from_base: Pose2,
     odom_from_base: Pose2,

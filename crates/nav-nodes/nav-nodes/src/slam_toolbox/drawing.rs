@@ -1,4 +1,4 @@
-//! Drawing of maps: at once in lockstep; in live beside the scans, on a thread of its own.
+//! Rasterization of maps: at once in lockstep, on a separate thread when live.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -17,7 +17,7 @@ impl Drawer {
         Self { is_beside, drawn: None }
     }
 
-    /// Whether a map is being drawn.
+    /// True while a map is being rasterized.
     pub(crate) fn is_busy(&self) -> bool {
         self.drawn.is_some()
     }
@@ -31,7 +31,7 @@ impl Drawer {
                 Drawing::MapSnapshot(snapshot) => snapshot.draw(),
                 Drawing::Map(map) => map,
             };
-            // Whoever asked may be gone.
+            // The receiver may be gone.
             let _ = give.send(map);
         };
         if self.is_beside {
@@ -58,7 +58,7 @@ impl Drawer {
         }
     }
 
-    /// What is being drawn is not wanted any more.
+    /// Drops the map that is being rasterized.
     pub(crate) fn forget(&mut self) {
         self.drawn = None;
     }

@@ -12,34 +12,34 @@ use periplus_slam::{
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::values::{integer, is_given};
 
-/// Scans of its own that a robot on a stored graph remembers, when nobody says.
+/// Default number of own scans kept in localization mode.
 const OWN_SCANS: usize = 3;
 
-/// What makes the map, or finds the robot on one.
+/// Mapping or localization engine of the node.
 pub(crate) enum Engine {
     Graph(Box<Slam>),
     Localizer(Box<Localizer>),
     Particles(Box<Gmapping>),
 }
 
-/// Where a robot begins on a stored graph.
+/// Start pose on a stored graph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Start {
-    /// Where the graph began.
+    /// Origin of the graph.
     First,
     /// At a pose in the map.
     At(Pose2),
 }
 
-/// What comes of a map that is to be drawn.
+/// A map to be rasterized.
 pub(crate) enum Drawing {
-    /// It can be drawn elsewhere.
+    /// Rasterized on another thread.
     MapSnapshot(MapSnapshot),
-    /// It is drawn; none when it would be too large.
+    /// Rasterized already; `None` if it would be too large.
     Map(Option<OccupancyGrid>),
 }
 
-/// How sure people are of where they start: variances \[m², rad²\].
+/// Covariance of a start pose: variances \[m², rad²\].
 pub(crate) const SURE: Symmetric3 = Symmetric3::diagonal(0.25, 0.25, 0.07);
 
 /// The settings of the graph for a program of `slam_toolbox`.
@@ -54,7 +54,7 @@ pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize
     }
 }
 
-/// Particles have nobody who does their work between scans.
+/// Minimum number of slices per scan for particles, which have no background work.
 const LEAST_SLICES: usize = 4;
 
 /// The settings of the particles for a node, which may run for weeks.
@@ -100,7 +100,7 @@ impl Engine {
         Ok(engine)
     }
 
-    /// Scans of its own that a robot on a stored graph remembers.
+    /// Number of own scans kept in localization mode.
     pub(crate) fn own_scans(values: &Values) -> usize {
         let asked =
             integer(values, "scan_buffer_size").filter(|_| is_given(values, "scan_buffer_size"));
@@ -141,7 +141,7 @@ impl Engine {
         }
     }
 
-    /// Somebody says where the robot is; false when the engine cannot be told.
+    /// Sets the pose of the robot; false if the engine does not support it.
     pub(crate) fn place(&mut self, map_from_base: Pose2, covariance: Symmetric3) -> bool {
         match self {
             Self::Graph(slam) => slam.place(map_from_base, covariance),
@@ -151,7 +151,7 @@ impl Engine {
         true
     }
 
-    /// How uncertain the place of the robot is, along the axes of the map.
+    /// Covariance of the pose, along the axes of the map.
     pub(crate) fn covariance(&self) -> Symmetric3 {
         match self {
             Self::Graph(slam) => slam.covariance(),
@@ -160,7 +160,7 @@ impl Engine {
         }
     }
 
-    /// How spread belief is over particles, if there are some.
+    /// Entropy of the particle weights, for the particle filter.
     pub(crate) fn entropy(&self) -> Option<f64> {
         match self {
             Self::Particles(particles) => Some(particles.entropy()),
@@ -168,7 +168,7 @@ impl Engine {
         }
     }
 
-    /// What changes when the map does.
+    /// Version of the map: changes with it.
     pub(crate) fn version(&self) -> (usize, usize) {
         match self {
             Self::Graph(slam) => (slam.counts().kept, slam.map_revision()),

@@ -19,16 +19,16 @@ const NODES: [(&str, Option<Method>); 5] = [
     ("slam", None),
 ];
 
-/// A parameter as somebody wrote it.
+/// A parameter as written in a file.
 #[derive(Clone, Debug)]
 pub struct Written {
     /// Its name, with dots.
     pub name: String,
-    /// What it is to be; the values of a list side by side.
+    /// Value; for a list, its values joined.
     pub text: String,
-    /// Where the name is.
+    /// Location of the name in the file.
     pub name_origin: Origin,
-    /// Where the value is.
+    /// Location of the value in the file.
     pub origin: Origin,
 }
 
@@ -45,7 +45,7 @@ impl Written {
     }
 }
 
-/// What a file has for a mapper.
+/// Parameters of a file for a mapper.
 #[derive(Clone, Debug, Default)]
 pub struct InFile {
     /// The method that the name of its node stands for.
@@ -54,9 +54,9 @@ pub struct InFile {
     pub written: Vec<Written>,
 }
 
-/// Finds the parameters for a mapper in a file; with `wanted` only those for that method. They stand
-/// below `slam_toolbox: ros__parameters:`, below `/**:`, in files of ROS 1 below `slam_gmapping:`, or
-/// are the whole file when there is no such section. It is told when all are for other nodes.
+/// Finds the parameters for a mapper in a file; with `wanted` only those for that method. They are below
+/// `slam_toolbox: ros__parameters:`, below `/**:`, in files of ROS 1 below `slam_gmapping:`, or are the
+/// whole file if there is no such section. Reports if all are for other nodes.
 #[must_use]
 pub fn in_file(file: &Node, wanted: Option<Method>, diagnostics: &mut Diagnostics) -> InFile {
     let fits = |method: Option<Method>| wanted.is_none() || method.is_none() || method == wanted;
@@ -96,9 +96,8 @@ pub fn in_file(file: &Node, wanted: Option<Method>, diagnostics: &mut Diagnostic
     InFile { method, written }
 }
 
-/// Reads a file for a mapper: for the program that is asked for, or the one that the file is for by
-/// the names of its nodes and parameters, see [`in_file`]. What is wrong is told, and the default
-/// stands in for it.
+/// Reads a file for a mapper: for the requested program, or the one given by the names of its nodes and
+/// parameters, see [`in_file`]. Reports faults, and uses the defaults in their place.
 #[must_use]
 pub fn read(
     file: &Node,
@@ -121,12 +120,12 @@ pub fn read(
     (program, values)
 }
 
-/// What stands below `ros__parameters`.
+/// Content below `ros__parameters`.
 #[derive(Default)]
 struct Sections<'a> {
     /// For the node, and for all.
     found: Vec<&'a Node>,
-    /// Whether one is for the node by its name.
+    /// True if a section is for the node by its name.
     is_named: bool,
     /// Names of other nodes.
     others: Vec<String>,

@@ -11,7 +11,7 @@ use crate::slam_toolbox::node::State;
 
 /// Period of publication \[ns\].
 pub(crate) const EVERY_NS: i64 = 1_000_000_000;
-/// Contradictions with values of their own, the worst first.
+/// Maximum number of contradictions listed with values, worst first.
 const MOST_PLACES: usize = 20;
 /// Weight of the newest scan in the share of scans that fit nothing, and the share from which a map is
 /// not to be relied on: a dozen scans in a row.
@@ -29,7 +29,7 @@ enum Part {
 }
 
 impl Part {
-    /// Those that an engine knows of.
+    /// Checks available for an engine.
     const fn of_engine(engine: &Engine) -> &'static [Self] {
         match engine {
             Engine::Graph(_) => {
@@ -83,7 +83,7 @@ impl Part {
             Self::Odometry => "odometry and scans agree",
             Self::Mounting => "nothing is wrong with the scanner's mounting and odometry's axes",
             Self::Pieces => "the map is one piece",
-            Self::Contradictions => "all passes through the same place agree",
+            Self::Contradictions => "all passes through the same area agree",
         }
     }
 }
@@ -128,7 +128,7 @@ impl SlamHealth {
         self.lost_ratio += NEWEST * (lost - self.lost_ratio);
     }
 
-    /// Whether a contradiction was not logged before; then it is from now on.
+    /// Returns true if a contradiction is new, and records it.
     fn is_new(&mut self, found: &MapContradiction) -> bool {
         let (from_ns, to_ns) = found.times_ns;
         let is_same = |it: &&mut (i64, i64)| it.0 <= to_ns && from_ns <= it.1;
@@ -239,8 +239,8 @@ impl State {
         };
         let others = match found.len() - 1 {
             0 => String::new(),
-            1 => "; another place is like it".to_owned(),
-            more => format!("; {more} more places are like it"),
+            1 => "; there is one more".to_owned(),
+            more => format!("; there are {more} more"),
         };
         let message = format!("{}; {}; {ADVICE}{others}", worst.remark(), self.passes(worst));
         let span =

@@ -12,14 +12,14 @@ use periplus_tf_ros::{Frames, Places, Robot, places};
 
 use crate::slam_toolbox::values::integer;
 
-/// A scan whose transforms do not come is dropped after so long \[ns\].
+/// Maximum wait for the transforms of a scan \[ns\].
 const PATIENCE_NS: i64 = 1_000_000_000;
 /// Scans that wait for their turn.
 const QUEUE: usize = 200;
 /// Scans that wait for transforms where the newest one counts: transforms come a little later than the
 /// scans they are for, and a queue of one would be full for ever.
 const FEW: usize = 10;
-/// No scan for so long is told \[ns\].
+/// Time without scans before a warning \[ns\].
 const SILENCE_NS: i64 = 2_000_000_000;
 
 /// The topic of scans, and those that wait.
@@ -28,7 +28,7 @@ pub(crate) struct Inputs {
     /// When they came \[ns\], oldest first.
     waiting: VecDeque<(i64, Arc<LaserScan>)>,
     most: usize,
-    /// Whether the newest scan that can be used counts, and older ones are left out.
+    /// True if the newest usable scan counts and older ones are skipped.
     is_newest_first: bool,
     last_scan_ns: i64,
     /// Scans that were left out for a newer one, and that never got their transforms.
@@ -81,7 +81,7 @@ impl Inputs {
         })
     }
 
-    /// What waits counts no longer.
+    /// Drops the queued scans.
     pub(crate) fn forget(&mut self, now_ns: i64) {
         let _ = self.scans.drain();
         self.waiting.clear();
@@ -100,7 +100,7 @@ impl Inputs {
         }
     }
 
-    /// The next scan whose transforms are there. Those that waited too long are dropped; why is told.
+    /// Returns the next scan with available transforms. Drops those that waited too long, with the reason.
     pub(crate) fn next(
         &mut self,
         frames: &Frames,
@@ -119,7 +119,7 @@ impl Inputs {
             waiting.find_map(ready)
         };
         if let Some((at, placed)) = found {
-            // Transforms come in order: who is passed over never gets its own.
+            // Transforms arrive in order: a skipped scan never gets its own.
             *(if self.is_newest_first { &mut self.left_out } else { &mut self.dropped }) +=
                 at as u64;
             self.waiting.drain(..=at);
@@ -137,7 +137,7 @@ impl Inputs {
         None
     }
 
-    /// What to say when no scans come.
+    /// Returns the diagnostic for missing scans.
     pub(crate) fn silence(&self, node: &Node) -> Option<Diagnostic> {
         let silent_ns = node.now_ns() - self.last_scan_ns;
         if silent_ns < SILENCE_NS {
@@ -153,12 +153,12 @@ impl Inputs {
                 format!("there are scans on `{topics}`: set `scan_topic` to one of these")
             }
             Some(info) if info.publishers.is_empty() => {
-                format!("nobody publishes `{topic}`: start the scanner, or set `scan_topic`")
+                format!("no node publishes `{topic}`: start the scanner, or set `scan_topic`")
             }
             Some(info) if info.mismatches.iter().any(|it| it.subscription == own) => {
-                format!("the QoS of who publishes `{topic}` does not fit")
+                format!("the QoS of the publishers of `{topic}` is incompatible")
             }
-            _ => format!("who publishes `{topic}` is silent"),
+            _ => format!("the publishers of `{topic}` send nothing"),
         };
         let silent_s = silent_ns as f64 * 1e-9;
         let words = format!("no scan has come on `{topic}` for {silent_s:.0} s");

@@ -23,7 +23,7 @@ const REFUSED: [f32; 3] = [0.8, 0.2, 0.8];
 const CONTRADICTION: [f32; 3] = [1.0, 0.0, 0.0];
 const RING_M: f64 = 1.5;
 const RING_CORNERS: u32 = 32;
-/// So many of the newest closures tell their reasons.
+/// Number of newest closures labelled with their reasons.
 const TOLD: usize = 30;
 
 /// The graph: a sphere for each kept scan, lines between those that hold each other, and what became
@@ -87,8 +87,8 @@ pub(crate) fn graph(
     MarkerArray { markers }
 }
 
-/// Contradictions: a ring around each place, the stretch of path, and a text with the share that agrees
-/// and the times of both passes. Without one, all markers of before are deleted.
+/// Contradictions: a ring around each position, the stretch of path, and a text with the agreement and the
+/// times of both passes. Without one, all earlier markers are deleted.
 pub(crate) fn contradictions(
     found: &[MapContradiction],
     times: &[String],
@@ -161,14 +161,14 @@ fn nothing((frame, time_ns): (&str, i64)) -> Marker {
     }
 }
 
-/// The kept scans as handles that can be dragged over the ground and turned, by their numbers.
+/// Keyframes as handles that can be dragged in the plane and rotated, by their numbers.
 pub(crate) fn handles(
     slam: &Slam,
     moved: &BTreeMap<usize, Pose2>,
     frame: &str,
     time_ns: i64,
 ) -> Vec<InteractiveMarker> {
-    // A control acts in the plane across its x axis: here the ground.
+    // A control acts in the plane perpendicular to its x axis: here the floor.
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let orientation = Quaternion { x: 0.0, y: half, z: 0.0, w: half };
     let handle = |(key, place): (usize, &Pose2)| {

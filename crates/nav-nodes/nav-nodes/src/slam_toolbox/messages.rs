@@ -10,13 +10,13 @@ use periplus_scan_matching::Symmetric3;
 use periplus_slam::Scan;
 use periplus_tf_ros::pose;
 
-/// How far the length of a quaternion may be from 1: what is off further was not meant as one.
+/// Maximum deviation of the norm of a quaternion from 1.
 const OFF: f64 = 0.01;
-/// How sure people are who do not say: one standard deviation \[m, rad\], as `RViz` sends it.
+/// Default standard deviations of an initial pose \[m, rad\], as RViz sends them.
 const USUAL: [f64; 2] = [0.5, 0.26];
 
-/// A scan of a message, with where its scanner is on the robot. A scanner that hangs upside down is
-/// one whose axis points down, or one that is said to be.
+/// Converts a message, with the pose of its scanner on the robot. A scanner is mounted upside down if its
+/// axis points down, or if declared so.
 pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool) -> Scan {
     let ahead = base_from_laser.rotation * DVec3::X;
     let up = base_from_laser.rotation * DVec3::Z;
@@ -38,8 +38,8 @@ pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool
 /// against it.
 const WALL: i8 = 50;
 
-/// A map as `slam_toolbox` and `slam_gmapping` publish it: walls, free ground and what nobody has seen.
-/// Nav2's static layer takes only a cell of 100 for a wall, unless told otherwise.
+/// Converts a map as `slam_toolbox` and `slam_gmapping` publish it: occupied, free and unknown cells.
+/// Nav2's static layer takes only cells of 100 as occupied by default.
 pub(crate) fn published(map: &OccupancyGrid) -> OccupancyGrid {
     map.map(|&cell| match cell {
         UNKNOWN => UNKNOWN,
@@ -48,7 +48,7 @@ pub(crate) fn published(map: &OccupancyGrid) -> OccupancyGrid {
     })
 }
 
-/// The pose on the ground of a message; in words why it is none.
+/// Returns the planar pose of a message, or the reason for which there is none.
 pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     let geometry_msgs::Pose { position, orientation: q } = pose;
     let rotation = DQuat::from_xyzw(q.x, q.y, q.z, q.w);
@@ -57,7 +57,7 @@ pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     let is_rotation = (length - 1.0).abs() < OFF;
     if !is_rotation || !position.x.is_finite() || !position.y.is_finite() {
         return Err(format!(
-            "its place ({}, {}) has to be finite, and its orientation ({}, {}, {}, {}) a quaternion \
+            "its position ({}, {}) must be finite, and its orientation ({}, {}, {}, {}) a quaternion \
              of length one; this one has {length:.3}",
             position.x, position.y, q.x, q.y, q.z, q.w
         ));
@@ -96,7 +96,7 @@ pub(crate) fn pose_with_covariance(
     }
 }
 
-/// How sure a message is; what it leaves open, or is none, is what people usually mean.
+/// Covariance of a message; missing or invalid values are replaced by the defaults.
 pub(crate) fn covariance(rows: &[f64; 36]) -> Symmetric3 {
     let variance = |at: usize, usual: f64| {
         let given = rows[at];

@@ -34,23 +34,23 @@ use crate::slam_toolbox::outputs::Outputs;
 use crate::slam_toolbox::services;
 use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text};
 
-/// How often it is looked for what waits \[ns\]; transforms that come are a reason, too.
+/// Period of checking the queue \[ns\]; new transforms trigger it too.
 const LOOK_NS: i64 = 20_000_000;
 /// Variances of the position \[m²\] and the heading \[rad²\] that are expected after a jump of the clock
 /// back: what odometry has drifted until then.
 const AFTER_RESET_VARIANCES: (f64, f64) = (0.25, 0.03);
-/// How often a slice of work in the background is done in live \[ns\]. A slice takes some
-/// milliseconds, and a scan waits for one at most.
+/// Period of a background slice when live \[ns\]. A slice takes some milliseconds; a scan waits for at most
+/// one.
 const SLICE_NS: i64 = 4_000_000;
-/// Names of the robot's own frame, the most telling first.
+/// Default names of the base frame, preferred first.
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
-/// How long transforms are remembered \[s\].
+/// Parameter for the length of the transform buffer \[s\].
 const BUFFER: &str = "tf_buffer_duration";
 /// Slices of work after each scan where a run is to keep a pace.
 const FEW_SLICES: usize = 4;
 
-/// How the work that follows a scan is divided in lockstep. In live it is done between the scans, on
-/// the node's own thread, whatever this says.
+/// Distribution of the background work in lockstep. When live it runs between scans on the node's own
+/// thread, whatever this setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pace {
     /// All of it before the next scan: what comes of it is what `periplus slam` makes of a log.
@@ -66,12 +66,12 @@ pub struct SlamNode {
     life: Lifecycle,
 }
 
-/// What a mapper has come to, for those who look.
+/// State of a mapper for observers.
 #[derive(Clone, Debug)]
 pub struct SlamStatus {
     /// The node.
     pub node: String,
-    /// Whose part it plays.
+    /// The ROS program that it replaces.
     pub program: Program,
     /// Counts of what happened to scans.
     pub counts: Counts,
@@ -81,13 +81,13 @@ pub struct SlamStatus {
     pub dropped: u64,
     /// Scans of the graph, and what is known between them.
     pub graph: (usize, usize),
-    /// What became of closures of loops.
+    /// Loop closure candidates with the decision on each.
     pub closures: Vec<Closure>,
-    /// Where the robot is.
+    /// Pose of the robot.
     pub map_from_base: Pose2,
     /// Bytes that the map holds, about.
     pub size: usize,
-    /// What keeps it from its work.
+    /// Current problem, if any.
     pub trouble: Option<String>,
     /// The fault of the data that is corrected.
     pub correction: Option<MountingCorrection>,
@@ -115,22 +115,22 @@ pub(crate) struct State {
     /// Number of the last news of handles.
     pub(crate) handled: u64,
     scans: u64,
-    /// Remarks of the engine that have been told.
+    /// Number of engine remarks logged.
     remarked: usize,
     /// A fault of the data that is undone before the engine gets it.
     pub(crate) correction: Option<Correction>,
-    /// Whether the map continues a stored one.
+    /// True if the map continues a stored one.
     pub(crate) is_continued: bool,
-    /// Whether it was logged that a fault stays.
+    /// True if it was logged that a fault remains.
     is_refused: bool,
-    /// From where odometry tells the pose in the map.
+    /// Pose from which odometry continues in the map.
     anchor: Option<Anchor>,
     /// A pose that a client set, for the next scan.
     said: Option<Pose2>,
     /// Stamp of the first scan of this map \[ns\].
     pub(crate) began_ns: Option<i64>,
     last: Option<Last>,
-    /// Whether the clock has gone back since the last scan.
+    /// True if the clock has gone back since the last scan.
     is_back_in_time: bool,
     drawer: Drawer,
     /// The map as it was drawn last.
@@ -272,7 +272,7 @@ impl SlamNode {
                 io.node().log(Level::Warn, words);
             }
         });
-        // `slam_gmapping` does not listen to it; whoever tells it a pose should hear why that does nothing.
+        // `slam_gmapping` does not subscribe to it; a client that publishes one gets the reason in the log.
         actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
             state.set_pose(&message, io.node());
         })?;
@@ -315,7 +315,7 @@ impl SlamNode {
         self.actor.with(|state| state.engine.as_ref().and_then(|engine| engine.mapper().map()))
     }
 
-    /// What it has come to.
+    /// Returns the current state.
     #[must_use]
     pub fn status(&self) -> SlamStatus {
         let node = self.node().full_name().to_owned();
@@ -440,7 +440,7 @@ impl State {
     pub(crate) fn names(&self) -> Names {
         let text = |name: &str| plain(&text(&self.values, name).unwrap_or_default()).to_owned();
         let (odom, told) = (text("odom_frame"), text("base_frame"));
-        // Where nobody says, it is the one of the usual frames to which odometry leads.
+        // By default the frame among the usual ones that is connected to odometry.
         let leads = |base: &str| self.frames.at(&odom, base, 0).is_ok();
         let base = if is_given(&self.values, "base_frame") || leads(&told) {
             told
@@ -473,7 +473,7 @@ impl State {
         {
             self.take(&placed, &names, node);
             if self.is_live {
-                // Others may have something to say in between.
+                // Other nodes run in between.
                 break;
             }
         }
@@ -492,7 +492,7 @@ impl State {
             return;
         }
         let time_ns = placed.message.header.stamp.ns();
-        // Only what somebody asked for: by itself the engine is the better for every scan.
+        // Only if set: by default the engine benefits from every scan.
         let interval_ns = number(&self.values, "minimum_time_interval")
             .filter(|_| is_given(&self.values, "minimum_time_interval"))
             .map_or(0, seconds_ns);
@@ -518,15 +518,14 @@ impl State {
         let covariance = engine.covariance();
         match update.outcome {
             ScanOutcome::Rejected(reason) => {
-                let words = format!("scans are left out: {reason}");
+                let words = format!("scans are rejected: {reason}");
                 self.told.tell(&Diagnostic::error("bad-scan", words), node);
                 return;
             }
             ScanOutcome::NoMatch => {
-                let words = "a scan does not fit what was seen before; odometry alone tells where \
-                             the robot is";
-                let help = "when this goes on, the robot was carried or the wheels slip: say where \
-                            it is with `initialpose`";
+                let words = "a scan does not match the map; the pose is that of odometry";
+                let help = "if this continues, the robot was carried or the wheels slip: set its \
+                            pose with `initialpose`";
                 self.told.tell(&Diagnostic::warning("lost-scan", words).help(help), node);
             }
             ScanOutcome::Inserted | ScanOutcome::BelowMotionThreshold => self.told.fine(),
@@ -674,7 +673,7 @@ impl State {
             let delay_s = number("tf_delay").or_else(|| number("transform_publish_period"));
             now_ns.saturating_add(seconds_ns(delay_s.unwrap_or(0.05)))
         };
-        // The map may have been bent since the scan came.
+        // The map may have been revised since the scan arrived.
         let map_from_odom =
             (engine.mapper().map_from_base() * last.odom_from_base.inverse()).normalized();
         let names = self.names();
@@ -744,14 +743,14 @@ impl State {
         })
     }
 
-    /// Somebody says where the robot is.
+    /// Handles an initial pose.
     fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
         if !self.program.is_toolbox() {
             node.log(
                 Level::Warn,
-                "the initial pose is not taken: each particle draws a map of its own around where \
-                 it is, and none of them could be moved on it; to say where the robot is on a map \
-                 that is there, localize on it, or run `slam_toolbox`",
+                "the initial pose is ignored: each particle has its own map around its own pose, \
+                 and cannot be moved on it; to set the pose on an existing map, localize on it, or \
+                 run `slam_toolbox`",
             );
             return;
         }
@@ -761,8 +760,8 @@ impl State {
             node.log(
                 Level::Warn,
                 format!(
-                    "the initial pose is in `{frame}`, and it has to be in `{}`: it is not taken; \
-                     choose that frame where you set it",
+                    "the initial pose is in `{frame}`, but must be in `{}`: it is ignored; select \
+                     that frame where you set it",
                     names.map
                 ),
             );
@@ -777,10 +776,11 @@ impl State {
                 let said = format!("({:.2}, {:.2}, {:.2})", pose.x_m, pose.y_m, pose.yaw_rad);
                 if is_placed {
                     self.said = Some(pose);
-                    let words = format!("the robot is said to be at {said}; the next scan tells");
+                    let words =
+                        format!("the initial pose is {said}; the next scan is matched around it");
                     node.log(Level::Info, words);
                 } else {
-                    let words = format!("there is no map yet on which the robot can be at {said}");
+                    let words = format!("there is no map yet for the initial pose {said}");
                     node.log(Level::Warn, words);
                 }
             }
@@ -788,7 +788,7 @@ impl State {
         }
     }
 
-    /// Somebody drags a kept scan.
+    /// Handles a dragged keyframe.
     fn drag(&mut self, message: &InteractiveMarkerFeedback, node: &Node) {
         let is_move = [InteractiveMarkerFeedback::POSE_UPDATE, InteractiveMarkerFeedback::MOUSE_UP]
             .contains(&message.event_type);

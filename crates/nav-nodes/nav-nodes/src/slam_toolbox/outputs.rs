@@ -1,4 +1,4 @@
-//! Who is told of the map and of the robot.
+//! Publishers of the map and the pose.
 
 use std::sync::Arc;
 
@@ -27,11 +27,11 @@ pub(crate) struct Outputs {
     metadata: Publisher<MapMetaData>,
     tf: Publisher<TFMessage>,
     toolbox: Option<Toolbox>,
-    /// What only `slam_gmapping` publishes: how far its particles are from agreeing.
+    /// Entropy of the particle weights, published by `slam_gmapping` only.
     entropy: Option<Publisher<Float64>>,
 }
 
-/// What only `slam_toolbox` publishes.
+/// Publishers of `slam_toolbox` only.
 struct Toolbox {
     pose: Publisher<PoseWithCovarianceStamped>,
     graph: Publisher<MarkerArray>,
@@ -98,7 +98,7 @@ impl Outputs {
         }
     }
 
-    /// The graph, if anybody looks at it.
+    /// Publishes the graph if it has subscribers.
     pub(crate) fn publish_graph(&self, draw: impl FnOnce() -> MarkerArray) {
         if let Some(toolbox) = self.toolbox.as_ref().filter(|it| it.graph.is_heard()) {
             toolbox.graph.publish(draw());
@@ -112,7 +112,7 @@ impl Outputs {
         }
     }
 
-    /// Handles to be dragged, if anybody sees them, as their server numbers its news.
+    /// Publishes the handles if they have subscribers, with the sequence number of their server.
     pub(crate) fn publish_handles(
         &self,
         number: u64,

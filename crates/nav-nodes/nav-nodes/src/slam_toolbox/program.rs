@@ -57,13 +57,13 @@ impl Program {
         if self.is_toolbox() { "slam_toolbox" } else { "slam_gmapping" }
     }
 
-    /// Whether it belongs to `slam_toolbox`.
+    /// True for the programs of `slam_toolbox`.
     #[must_use]
     pub const fn is_toolbox(self) -> bool {
         !matches!(self, Self::Gmapping)
     }
 
-    /// How it makes maps.
+    /// Returns its mapping method.
     #[must_use]
     pub const fn method(self) -> Method {
         if self.is_toolbox() { Method::Graph } else { Method::Gmapping }

@@ -24,7 +24,7 @@ use crate::slam_toolbox::messages::published;
 use crate::slam_toolbox::node::State;
 use crate::slam_toolbox::values::{flag, text};
 
-/// What files of sessions end in.
+/// Extension of session files.
 const ENDING: &str = "session";
 
 pub(crate) fn serve(
@@ -107,7 +107,7 @@ impl State {
         let now = Time::of_ns(node.now_ns());
         let map = self.map.as_ref().map(|map| to_message(&published(map), &frame, now));
         if map.is_none() {
-            node.log(Level::Warn, "somebody asks for the map, and there is none yet");
+            node.log(Level::Warn, "a client requests the map, and there is none yet");
         }
         GetMapResponse { map: map.unwrap_or_default() }
     }

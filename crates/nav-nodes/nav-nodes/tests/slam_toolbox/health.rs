@@ -250,7 +250,7 @@ fn a_scanner_upside_down_is_corrected_and_the_map_begins_again() {
     assert!(off(found, end) < 0.1, "{found:?} {end:?}");
     assert!(right_walls(&it.stage) > 0.95, "{}", right_walls(&it.stage));
 
-    // Who does not want it gets the map of the data as it is, and is told.
+    // With the correction disabled the map is that of the uncorrected data, with a warning.
     let mut it = Monitored::new(Program::Sync, &[("correct_mounting", "false")]);
     it.stage.is_upside_down = true;
     it.drive(&rounds());

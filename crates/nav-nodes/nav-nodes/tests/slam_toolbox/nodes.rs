@@ -24,7 +24,7 @@ use periplus_msgs::visualization_msgs::{
 use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_slam::{ConstraintKind, Slam};
 
-/// What is where in the room, in the map: it begins at the start.
+/// Pose in the map of a pose in the room: the map begins at the start.
 fn in_map(room: Pose2) -> Pose2 {
     START.inverse() * room
 }
@@ -155,7 +155,7 @@ fn maps_and_sessions_are_saved_and_gone_on_with() {
     assert_eq!(serialize(&stage, "/maps/room"), 0);
     let before = stage.poses();
 
-    // Another day, from another place: it goes on with the map.
+    // Another day, from another pose: the map continues.
     let mut stage = Stage::with_files(Program::Sync, &[], files);
     let load = |stage: &Stage, filename: &str, match_type: i8, pose: Pose2| {
         let mut request = DeserializePoseGraphRequest {
@@ -199,7 +199,7 @@ fn a_robot_is_found_on_a_stored_graph() {
     let mut stage = Stage::with_files(Program::Localization, &given, files);
     stage.advance(100);
     assert!(stage.maps.latest().is_some(), "the stored map is there before any scan");
-    // It is elsewhere than where the graph began; somebody says so, not quite right.
+    // The robot is not at the origin of the graph; a client sets an inexact pose.
     let initial = stage.user.publisher("initialpose", Qos::reliable(10)).unwrap();
     let mut said = PoseWithCovarianceStamped::default();
     said.header.frame_id = "odom".into();
@@ -361,9 +361,9 @@ fn a_life_is_lived_and_ros_1_is_heard() {
     assert!(stage.transform().unwrap().0 > stage.now_ns, "`tf_delay` is in the future");
     let map = stage.ask::<GetMap>("/dynamic_map", GetMapRequest::default());
     assert!(!map.map.data.is_empty());
-    // Nobody moves its particles, and it says why.
+    // The particles do not support it, and the reason is logged.
     let initial = stage.user.publisher("initialpose", Qos::reliable(10)).unwrap();
     initial.publish(PoseWithCovarianceStamped::default());
     stage.advance(10);
-    assert!(stage.said().contains("the initial pose is not taken: each particle"));
+    assert!(stage.said().contains("the initial pose is ignored: each particle"));
 }

@@ -35,10 +35,10 @@ pub(crate) const WALLS: [[f64; 4]; 10] = [
 ];
 pub(crate) const BEAMS: usize = 180;
 pub(crate) const BASE_FROM_LASER: Pose2 = Pose2::new(0.1, 0.0, 0.0);
-/// Where odometry began in the room.
+/// Odometry origin in the room.
 pub(crate) const START: Pose2 = Pose2::new(0.2, 0.1, 0.3);
 
-/// What a scanner sees.
+/// Returns a scan of the walls.
 pub(crate) fn look(walls: &[[f64; 4]], room_from_laser: Pose2) -> Vec<f32> {
     let range = |beam: usize| {
         let angle = room_from_laser.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
@@ -125,12 +125,12 @@ pub(crate) struct Stage {
     transforms: Mailbox<TFMessage>,
     logs: Mailbox<Log>,
     pub(crate) now_ns: i64,
-    /// What the scanner sees.
+    /// Walls of the room.
     pub(crate) walls: Vec<[f64; 4]>,
-    /// Where the robot began, and odometry for a pose since then: its wheels are too large.
+    /// Start pose; odometry relative to it has too large wheels.
     pub(crate) start: Pose2,
     pub(crate) odometry: fn(Pose2) -> Pose2,
-    /// Whether the scanner hangs upside down, and its transform does not say so.
+    /// True if the scanner is mounted upside down without a roll in its transform.
     pub(crate) is_upside_down: bool,
 }
 
