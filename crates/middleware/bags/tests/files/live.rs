@@ -163,7 +163,7 @@ fn a_killed_recording_loses_a_second_at_most() {
     for name in ["folder", "one.mcap", "one.db3", "one.bag"] {
         let path = folder.path(name);
         let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "child_that_records_until_it_is_killed", "--nocapture"])
+            .args(["--exact", "live::child_that_records_until_it_is_killed", "--nocapture"])
             .env("PERIPLUS_KILLED_RECORDING", &path)
             .stdout(Stdio::piped())
             .spawn()
