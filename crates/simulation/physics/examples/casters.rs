@@ -22,7 +22,7 @@ use std::process::{Command, ExitCode, Stdio};
 
 /// How much too low the casters are [mm].
 const DROPS_MM: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0];
-const FRICTIONS: [f64; 3] = [0.001, 0.2, 0.5];
+const FRICTION_RATIO: [f64; 3] = [0.001, 0.2, 0.5];
 const SECTION: [&str; 2] =
     ["<!-- casters: written by `cargo xtask bench casters` -->\n", "<!-- end of casters -->\n"];
 
@@ -50,7 +50,7 @@ fn main() -> ExitCode {
                 continue;
             }
         };
-        for (mu, ways) in FRICTIONS.iter().zip(ways.chunks(DROPS_MM.len())) {
+        for (mu, ways) in FRICTION_RATIO.iter().zip(ways.chunks(DROPS_MM.len())) {
             table += &format!("| {name} | {mu} |");
             for way_m in ways {
                 // Not -0.00.
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
 }
 
 fn jobs() -> impl Iterator<Item = (f64, f64)> {
-    FRICTIONS.into_iter().flat_map(|mu| DROPS_MM.into_iter().map(move |drop_mm| (drop_mm, mu)))
+    FRICTION_RATIO.into_iter().flat_map(|mu| DROPS_MM.into_iter().map(move |drop_mm| (drop_mm, mu)))
 }
 
 /// Runs a program that answers each line `DROP_M FRICTION` with a way [m].

@@ -13,7 +13,7 @@ mod common;
 use std::time::Instant;
 
 use common::*;
-use periplus_physics::{Mode, Twist, World};
+use periplus_physics::{PhysicsMode, PhysicsWorld, Twist};
 use periplus_scene::{DVec3, Pose};
 
 fn main() {
@@ -37,7 +37,7 @@ fn main() {
         let bits = pose.translation.to_array().map(f64::to_bits);
         println!("{boxes} sleeping boxes: {:.1} us/step, ends at {bits:x?}", best * 1e6);
     }
-    let mut world = World::empty(DOWN, Mode::Kinematic);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Kinematic);
     put(&mut world, &ground(), Pose::IDENTITY);
     let robot = put(&mut world, &two_wheels(), Pose::IDENTITY);
     let wheels = Wheels::of(&world);

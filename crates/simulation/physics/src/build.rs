@@ -1,23 +1,23 @@
-//! From a model as plain data to the records of a world.
+//! Conversion of models to the records of a world.
 
-mod between;
+mod anisotropic_friction;
 mod bodies;
 mod collisions;
 mod gears;
-mod grain;
 mod joints;
-mod steady;
+mod stability;
 mod surface;
+mod world_joints;
 
-pub(crate) use between::join;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_scene::Model;
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::parry::mass_properties::MassProperties;
+pub(crate) use world_joints::add_world_joint;
 
+use crate::flat_model::FlatModel;
 use crate::limits::{MAX_POSITION_M, is_pose};
-use crate::places::Flat;
 use crate::records::{ModelRecord, Records};
 use crate::shapes::Meshes;
 
@@ -29,7 +29,7 @@ pub(crate) fn scene_pose(pose: &RapierPose) -> Pose {
     Pose { translation: pose.translation, rotation: pose.rotation }
 }
 
-/// Appends a model to the records; on an error nothing is appended.
+/// Appends a model to the records; an error appends nothing.
 pub(crate) fn append(
     records: &mut Records,
     model: &Model,
@@ -39,7 +39,7 @@ pub(crate) fn append(
 ) {
     let number = records.models.len() as u32;
     let before = records.mark();
-    let flat = Flat::new(model);
+    let flat = FlatModel::new(model);
     let mut builder = Builder {
         records,
         number,
@@ -50,7 +50,7 @@ pub(crate) fn append(
         diagnostics,
     };
     if builder.run(model, meshes).is_none() {
-        records.back_to(before);
+        records.truncate(before);
         return;
     }
     let canonical = model.canonical_link.as_deref();
@@ -74,24 +74,24 @@ struct Builder<'a, 'b> {
     number: u32,
     first_link: usize,
     world_from_model: Pose,
-    flat: Flat<'b>,
-    /// Bodies with a link whose inertia is assumed, which is reported already.
+    flat: FlatModel<'b>,
+    /// Bodies with a link whose inertia is assumed, after the report of it.
     without_inertia: Vec<usize>,
     diagnostics: &'a mut Diagnostics,
 }
 
 impl Builder<'_, '_> {
-    /// None where the model cannot be simulated at all.
+    /// Returns `None` for a model that cannot be simulated.
     fn run(&mut self, model: &Model, meshes: &dyn Meshes) -> Option<()> {
         let poses = self.flat.links.iter().map(|(_, _, pose)| pose);
         if !is_pose(self.world_from_model) || poses.into_iter().any(|pose| !is_pose(*pose)) {
             self.diagnostics.push(
                 Diagnostic::error(
                     "pose-out-of-range",
-                    format!("the pose of `{}` or of a link in it is no number, or beyond {MAX_POSITION_M} m", model.name),
+                    format!("the pose of `{}` or of one of its links is not finite, or beyond {MAX_POSITION_M} m", model.name),
                 )
                 .at(model.origin)
-                .help("give poses in metres and radians; the model is left out"),
+                .help("use poses in metres and radians; the model is omitted"),
             );
             return None;
         }
@@ -104,14 +104,14 @@ impl Builder<'_, '_> {
             self.joint(&scope, joint)?;
         }
         self.mimics();
-        self.steady_inertias(before.bodies, before.axes);
-        self.steady_joints(before.bodies, before.axes);
-        self.warn_of_steep_masses();
+        self.stabilize_inertias(before.bodies, before.axes);
+        self.stabilize_joints(before.bodies, before.axes);
+        self.warn_of_mass_ratios();
         Some(())
     }
 }
 
-/// A part of a body's mass, placed elsewhere.
+/// Returns a fraction of a body's mass with another centre of mass.
 pub(crate) fn split(mass: &MassProperties, share: f64, com: Vector) -> MassProperties {
     MassProperties::with_principal_inertia_frame(
         com,

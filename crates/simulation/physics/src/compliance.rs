@@ -1,44 +1,44 @@
-//! Stiffness of contacts: a load is shared by all points that carry it.
+//! Contact stiffness: distributes load over all contact points.
 //!
-//! The solver gives a contact a stiffness in proportion to the mass of the two bodies that touch,
-//! seen from the contact point. A caster fixed to a heavy deck is then fifty times as stiff as a
-//! light wheel beside it, carries everything, and the wheels spin. Here each contact of a model
-//! with joints has one stiffness [N/m], whatever its link weighs. Gazebo reaches the same with
-//! ODE's surface layer, in which contacts are not corrected, and with `kp`.
+//! The solver makes a contact's stiffness proportional to the effective mass of the two bodies at
+//! the contact point. A caster fixed to a heavy base is then fifty times as stiff as a light wheel
+//! beside it and carries all load, so the wheels spin. Here all contacts of a model with joints have
+//! the same stiffness [N/m], independent of the link's mass. Gazebo achieves the same with ODE's
+//! surface layer, in which contacts are not corrected, and with `kp`.
 
 use rapier3d_f64::dynamics::{IntegrationParameters, RigidBody, SpringCoefficients};
 use rapier3d_f64::math::Vector;
 
-/// Gravity that the depth under load refers to, in every world [m/s²].
+/// Gravity that defines the depth under load, in every world [m/s²].
 const REFERENCE_GRAVITY_M_S2: f64 = 9.81;
-/// Number of contacts over which the weight of a model is assumed to be spread.
-const SUPPORTS: f64 = 4.0;
-/// Depth of each of these contacts [m]. With 0.6 mm a wheel between two casters that are 1 mm too
-/// low still presses on the floor, and one between casters 1.5 mm too low does not, as with ODE
-/// in Gazebo, whose surface layer is 1 mm (`casters` in `benches/RESULTS.md`).
+/// Number of contacts that share the weight of a model.
+const SUPPORT_COUNT: f64 = 4.0;
+/// Penetration depth of each of these contacts [m]. With 0.6 mm a wheel between two casters that are
+/// 1 mm too low still presses on the floor, and one between casters 1.5 mm too low does not, as with
+/// ODE in Gazebo, whose surface layer is 1 mm (`casters` in `benches/RESULTS.md`).
 const DEPTH_M: f64 = 0.6e-3;
-/// ODE's surface layer in Gazebo, to which [`DEPTH_M`] belongs [m]. A larger `min_depth` gives a
-/// proportionally larger depth.
+/// ODE's surface layer in Gazebo, corresponding to [`DEPTH_M`] [m]. A larger `min_depth` increases
+/// the depth proportionally.
 const SURFACE_LAYER_M: f64 = 1e-3;
-/// Largest `min_depth` that counts [m].
+/// Maximum effective `min_depth` [m].
 const MAX_LAYER_M: f64 = 5e-3;
-/// Depth of the same contacts with the softest `kp` that counts [m]; with a softer one, models would
+/// Depth of the same contacts with the softest effective `kp` [m]; with a softer one, models would
 /// sink into the floor.
 const MAX_DEPTH_M: f64 = 0.02;
-/// Largest part of a depth that is corrected in one step; more would overshoot.
+/// Maximum fraction of a depth that is corrected per step; more would overshoot.
 const MAX_CORRECTION_PER_STEP: f64 = 0.2;
-/// A stiffer contact reports at most this depth to the solver [m], or its own.
+/// Maximum depth that a stiffer contact reports to the solver [m], unless its own is larger.
 const MAX_RAISED_DEPTH_M: f64 = 2e-3;
 
-/// Stiffness of the contacts of one collision [N/m]; none where the solver's own is to be used.
-/// `is_jointed` tells models of several bodies from single ones.
+/// Returns the stiffness of the contacts of a collision [N/m]; `None` for the solver's own.
+/// `is_jointed` is true for models of several bodies.
 pub(crate) fn stiffness(
     model_mass_kg: f64,
     is_jointed: bool,
     kp: f64,
     min_depth_m: f64,
 ) -> Option<f64> {
-    let share_n = model_mass_kg * REFERENCE_GRAVITY_M_S2 / SUPPORTS;
+    let share_n = model_mass_kg * REFERENCE_GRAVITY_M_S2 / SUPPORT_COUNT;
     if !(share_n.is_finite() && share_n > 0.0) {
         return None;
     }
@@ -46,11 +46,11 @@ pub(crate) fn stiffness(
     let usual = share_n / (DEPTH_M * layer_m / SURFACE_LAYER_M);
     let softest = share_n / MAX_DEPTH_M;
     let given = if kp > 0.0 { kp.max(softest) } else { f64::INFINITY };
-    // A single body has one stiffness at all its contacts already.
+    // All contacts of a single body have the same stiffness already.
     (is_jointed || given < usual).then_some(given.min(usual))
 }
 
-/// Stiffness of two springs, one behind the other [N/m].
+/// Returns the stiffness of two springs in series [N/m].
 pub(crate) fn in_series(one: Option<f64>, two: Option<f64>) -> Option<f64> {
     match (one, two) {
         (Some(one), Some(two)) => Some(1.0 / (1.0 / one + 1.0 / two)),
@@ -58,8 +58,8 @@ pub(crate) fn in_series(one: Option<f64>, two: Option<f64>) -> Option<f64> {
     }
 }
 
-/// A depth as the solver is to see it [m], for a contact of a stiffness [N/m] between bodies of
-/// the effective mass [kg] that [`effective_mass`] gives.
+/// Returns the depth that is passed to the solver [m], for a contact of a stiffness [N/m] between
+/// bodies of an [`effective_mass`] [kg].
 pub(crate) fn seen_depth(
     depth_m: f64,
     stiffness_n_m: f64,
@@ -79,10 +79,10 @@ pub(crate) fn seen_depth(
     }
 }
 
-/// Mass that an impulse along a direction at a point sets in motion [kg]; infinite for two bodies
-/// that nothing moves.
+/// Returns the effective mass of two bodies for an impulse along a direction at a point [kg];
+/// infinite for two immovable bodies.
 pub(crate) fn effective_mass(bodies: [Option<&RigidBody>; 2], at_m: Vector, along: Vector) -> f64 {
-    let moved: f64 = bodies
+    let advanced: f64 = bodies
         .into_iter()
         .flatten()
         .filter(|body| body.is_dynamic())
@@ -93,7 +93,7 @@ pub(crate) fn effective_mass(bodies: [Option<&RigidBody>; 2], at_m: Vector, alon
                 + lever.dot(mass.effective_world_inv_inertia * lever)
         })
         .sum();
-    1.0 / moved
+    1.0 / advanced
 }
 
 #[cfg(test)]
@@ -109,7 +109,7 @@ mod tests {
         let layered = stiffness(mass_kg, true, 1e12, 0.002).unwrap_or_default();
         assert!((layered - 2000.0).abs() < 1e-6, "{layered}");
         assert_eq!(stiffness(mass_kg, true, 1000.0, 0.0), Some(1000.0));
-        // 2.4 N / 20 mm, however soft.
+        // 2.4 N / 20 mm, the minimum stiffness.
         let soft = stiffness(mass_kg, true, 1e-3, 0.0).unwrap_or_default();
         assert!((soft - 120.0).abs() < 1e-6, "{soft}");
     }

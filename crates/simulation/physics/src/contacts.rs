@@ -1,43 +1,43 @@
-//! What touches what.
+//! Contacts.
 
 use periplus_geometry::DVec3;
 use rapier3d_f64::geometry::PairContacts;
 
 use crate::build::scene_pose;
 use crate::engine::Engine;
-use crate::hooks::Tag;
+use crate::hooks::ColliderTag;
 use crate::state::LinkId;
-use crate::world::World;
+use crate::world::PhysicsWorld;
 
 /// A collision of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Touching {
+pub struct CollisionId {
     /// The link.
     pub link: LinkId,
-    /// Which of its collisions, in the order of the file.
+    /// Index of the collision, in the order of the file.
     pub collision: usize,
 }
 
-/// Two collisions that touch, at the end of the last step.
+/// Two collisions in contact at the end of the last step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
-    /// One of them.
-    pub one: Touching,
-    /// The other.
-    pub two: Touching,
-    /// From one to the other, in the world, unit length.
+pub struct PhysicsContact {
+    /// First collision.
+    pub one: CollisionId,
+    /// Second collision.
+    pub two: CollisionId,
+    /// Unit normal from the first to the second, in the world.
     pub normal: DVec3,
-    /// Where, in the world [m], and how deep [m].
+    /// Points in the world [m] with their depths [m].
     pub points: Vec<(DVec3, f64)>,
-    /// What pushes the second along the normal [N].
+    /// Normal force on the second collision [N].
     pub force_n: f64,
 }
 
-impl World {
-    /// What touches, in a fixed order. Shapes that only come near are not told; in
-    /// [`Mode::Kinematic`](crate::Mode) nothing ever touches.
+impl PhysicsWorld {
+    /// Returns all contacts, in a fixed order. Shapes without overlap are not included. In
+    /// [`PhysicsMode::Kinematic`](crate::Mode) there are no contacts.
     #[must_use]
-    pub fn contacts(&self) -> Vec<Contact> {
+    pub fn contacts(&self) -> Vec<PhysicsContact> {
         let mut contacts = Vec::new();
         let Engine::Rigid(rigid) = &self.engine else { return contacts };
         let solver = &rigid.solver;
@@ -46,11 +46,11 @@ impl World {
             let PairContacts::Rigid(rigid) = &pair.contacts else { continue };
             let (one, two) = (&solver.colliders[pair.collider1], &solver.colliders[pair.collider2]);
             let touching = |bits: u128| {
-                let tag = Tag::unpack(bits);
-                Touching { link: LinkId(tag.link), collision: usize::from(tag.collision) }
+                let tag = ColliderTag::unpack(bits);
+                CollisionId { link: LinkId(tag.link), collision: usize::from(tag.collision) }
             };
             for manifold in rigid.solver_manifolds() {
-                // The tread and core of a wheel drop what is not theirs.
+                // Tread and core of a wheel discard contacts of the other part.
                 if manifold.data.solver_contacts.is_empty() {
                     continue;
                 }
@@ -64,7 +64,7 @@ impl World {
                 if points.is_empty() {
                     continue;
                 }
-                contacts.push(Contact {
+                contacts.push(PhysicsContact {
                     one: touching(one.user_data),
                     two: touching(two.user_data),
                     normal: manifold.data.normal,

@@ -1,13 +1,12 @@
-//! The laws of the drive plugins: numbers in, numbers out.
+//! Control laws of the drive plugins.
 //!
-//! A drive knows nothing of a [`World`](crate::World): it is given what was commanded and what the
-//! wheels do, and answers what the wheels should do. Defaults are those of the plugin that each is
-//! named after.
+//! A drive is independent of a [`PhysicsWorld`](crate::World): its inputs are the command and the wheel
+//! states, its outputs the wheel commands. Defaults are those of the plugin of the same name.
 
 mod ackermann;
-mod classic;
 mod classic_ackermann;
-mod harmonic;
+mod classic_diff_drive;
+mod gz_diff_drive;
 mod limits;
 mod mecanum;
 mod odometry;
@@ -15,11 +14,11 @@ mod planar;
 mod tricycle;
 
 pub use ackermann::{Ackermann, AckermannCommand};
-pub use classic::{ClassicDiffDrive, ClassicDrive, WheelPair};
 pub use classic_ackermann::{ClassicAckermann, ClassicAckermannTarget};
-pub use harmonic::{HarmonicDiffDrive, HarmonicDrive};
-pub use limits::Limits;
+pub use classic_diff_drive::{ClassicDiffDrive, ClassicDrive, WheelPair};
+pub use gz_diff_drive::{GzDiffDrive, GzDiffDriveState};
+pub use limits::SpeedLimits;
 pub use mecanum::{Mecanum, MecanumWheels};
-pub use odometry::{Odometry, truth};
+pub use odometry::{Odometry, true_twist};
 pub use planar::planar_velocity;
 pub use tricycle::{Steering, Tricycle};

@@ -1,4 +1,4 @@
-//! What moves the records: physics, or exact motion.
+//! Engines that move the records: physics, or exact motion.
 
 use periplus_geometry::{DVec3, Pose};
 
@@ -6,11 +6,11 @@ use crate::exact::Exact;
 use crate::records::{Mark, Records};
 use crate::rigid::Rigid;
 
-/// Where a body is and how it moves.
+/// Pose and velocity of a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BodyMotion {
     pub(crate) world_from_body: Pose,
-    /// Of the body's origin [m/s].
+    /// Velocity of the body's origin [m/s].
     pub(crate) linear_m_s: DVec3,
     pub(crate) angular_rad_s: DVec3,
 }
@@ -20,7 +20,7 @@ impl BodyMotion {
         Self { world_from_body, ..Self::default() }
     }
 
-    /// Velocity of the point of the body that is now at a point of the world [m/s].
+    /// Returns the velocity of the body's point that is at a position in the world [m/s].
     pub(crate) fn velocity_at(&self, point_m: DVec3) -> DVec3 {
         let arm_m = point_m - self.world_from_body.translation;
         self.linear_m_s + self.angular_rad_s.cross(arm_m)
@@ -33,7 +33,7 @@ pub(crate) enum Engine {
 }
 
 impl Engine {
-    /// Takes on the records after a mark.
+    /// Adds the records after a mark.
     pub(crate) fn insert(&mut self, records: &Records, after: Mark) {
         match self {
             Self::Rigid(rigid) => rigid.insert(records, after),
@@ -48,7 +48,7 @@ impl Engine {
         }
     }
 
-    /// None if the body is gone.
+    /// Returns `None` for a removed body.
     pub(crate) fn body(&self, records: &Records, body: usize) -> Option<BodyMotion> {
         match self {
             Self::Rigid(rigid) => rigid.body(body),
@@ -56,7 +56,7 @@ impl Engine {
         }
     }
 
-    /// Puts some bodies of a model elsewhere, at rest.
+    /// Sets the poses of some bodies of a model, at rest.
     pub(crate) fn place(&mut self, records: &Records, model: u32, places: &[(usize, Pose)]) {
         match self {
             Self::Rigid(rigid) => rigid.place(places),

@@ -1,5 +1,5 @@
-//! Motion without physics: bases follow what they are told exactly, joints follow their commands,
-//! and links hang on both. Nothing touches, falls or slips, so a step may be of any length.
+//! Motion without physics: bases follow their commands exactly, joints follow theirs, and child
+//! links follow both. There are no contacts, gravity or slip, so a step may be of any length.
 
 mod axes;
 mod base;
@@ -8,20 +8,20 @@ mod tree;
 use periplus_geometry::{DVec3, Pose};
 
 use crate::engine::BodyMotion;
-use crate::exact::base::{Base, Going};
+use crate::exact::base::{Base, BaseMotion};
 use crate::exact::tree::Tree;
 use crate::kinematic::Twist;
 use crate::records::Records;
 
-/// Where all bodies are, by their numbers.
+/// Motions of all bodies, by their indices.
 #[derive(Default)]
 pub(crate) struct Exact {
     motions: Vec<BodyMotion>,
-    /// Which bodies are not as they were at the end of the last step.
+    /// Bodies that changed since the end of the last step.
     changed: Vec<bool>,
-    /// What hangs on what; none after models came or went.
+    /// Kinematic tree; `None` after models were added or removed.
     tree: Option<Tree>,
-    /// Models that were told to go somewhere, by their numbers.
+    /// Moving models, by their indices.
     bases: Vec<Base>,
 }
 
@@ -43,16 +43,17 @@ impl Exact {
         (!records.bodies[body].removed).then_some(*motion)
     }
 
-    /// Puts bodies elsewhere. Those that hang on others come back to them in the next step.
+    /// Sets the poses of bodies. Child bodies return to their parents in the next step.
     pub(crate) fn place(&mut self, records: &Records, model: u32, places: &[(usize, Pose)]) {
         for &(body, world_from_body) in places {
             self.motions[body] = BodyMotion::resting(world_from_body);
             self.changed[body] = true;
         }
-        self.go(records, model, DVec3::ZERO, Going::Nowhere);
+        self.move_base(records, model, DVec3::ZERO, BaseMotion::Nowhere);
     }
 
-    /// Sends a model along an arc on flat ground about a point of its frame; false if it cannot go.
+    /// Starts motion of a model along an arc in the plane about a point of its frame; returns false
+    /// if it cannot move.
     pub(crate) fn follow(
         &mut self,
         records: &Records,
@@ -65,19 +66,19 @@ impl Exact {
         {
             return true;
         }
-        self.go(records, model, centre_in_model_m, Going::along(twist))
+        self.move_base(records, model, centre_in_model_m, BaseMotion::along(twist))
     }
 
-    /// Gives a model a velocity of its frame in world axes; false if it cannot go.
-    pub(crate) fn fly(
+    /// Sets the velocity of a model's frame in world axes; returns false if it cannot move.
+    pub(crate) fn set_velocity(
         &mut self,
         records: &Records,
         model: u32,
         linear_m_s: DVec3,
         angular_rad_s: DVec3,
     ) -> bool {
-        let going = Going::Flying { linear_m_s, angular_rad_s };
-        self.go(records, model, DVec3::ZERO, going)
+        let going = BaseMotion::Flying { linear_m_s, angular_rad_s };
+        self.move_base(records, model, DVec3::ZERO, going)
     }
 
     fn base_of(&mut self, model: u32) -> Option<&mut Base> {
@@ -85,12 +86,12 @@ impl Exact {
         Some(&mut self.bases[found])
     }
 
-    fn go(
+    fn move_base(
         &mut self,
         records: &Records,
         model: u32,
         centre_in_model_m: DVec3,
-        going: Going,
+        going: BaseMotion,
     ) -> bool {
         let Some((body, body_from_model)) = records.canonical(model) else { return false };
         let world_from_model = self.motions[body].world_from_body * body_from_model;
@@ -111,7 +112,7 @@ impl Exact {
         true
     }
 
-    /// Moves on by a time [s].
+    /// Advances by a time [s].
     pub(crate) fn step(&mut self, records: &mut Records, dt_s: f64) {
         if self.tree.is_none() {
             self.tree = Some(Tree::of(records));
@@ -121,8 +122,8 @@ impl Exact {
         }
         let Some(tree) = &self.tree else { return };
         axes::advance(&mut records.axes, &tree.followers, dt_s);
-        for limb in &tree.limbs {
-            limb.hang(&records.axes, &mut self.motions, &mut self.changed);
+        for limb in &tree.children {
+            limb.follow_parent(&records.axes, &mut self.motions, &mut self.changed);
         }
         self.changed.fill(false);
     }

@@ -1,4 +1,4 @@
-//! Which shapes touch, beyond what bit masks can say.
+//! Contact filters beyond bit masks.
 
 use rapier3d_f64::dynamics::{IntegrationParameters, RigidBody};
 use rapier3d_f64::geometry::SolverFlags;
@@ -9,88 +9,90 @@ use rapier3d_f64::prelude::ColliderHandle;
 use crate::compliance::{effective_mass, in_series, seen_depth};
 use crate::records::LinkRecord;
 
-/// What a collider knows of itself, packed into its 128 bits of user data.
+/// Data of a collider, packed into its 128 bits of user data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tag {
+pub(crate) struct ColliderTag {
     pub(crate) link: u32,
-    /// Which of the link's collisions.
+    /// Index of the link's collision.
     pub(crate) collision: u16,
     pub(crate) self_collide: bool,
-    /// It reports contacts and does not push.
-    pub(crate) only_reports: bool,
-    pub(crate) part: Part,
+    /// True for a sensor: reports contacts without forces.
+    pub(crate) is_sensor: bool,
+    pub(crate) part: WheelPart,
 }
 
-/// Which part of a wheel a collider is.
+/// Part of a wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Part {
-    /// None: an ordinary shape.
+pub(crate) enum WheelPart {
+    /// An ordinary shape.
     Whole,
-    /// The ball; its contacts count within this distance of the wheel's plane [m].
+    /// Tread, a ball; its contacts count within this distance of the wheel's plane [m].
     Tread(f64),
-    /// The core; its contacts count where they point along the axle.
+    /// Core; its contacts count if they point along the axle.
     Core,
 }
 
-const SELF_COLLIDE: u128 = 1 << 48;
-const ONLY_REPORTS: u128 = 1 << 49;
-const TREAD: u128 = 1 << 50;
-const CORE: u128 = 1 << 51;
+const SELF_COLLIDE_MASK: u128 = 1 << 48;
+const SENSOR_MASK: u128 = 1 << 49;
+const TREAD_MASK: u128 = 1 << 50;
+const CORE_MASK: u128 = 1 << 51;
 
-impl Tag {
+impl ColliderTag {
     pub(crate) fn pack(self) -> u128 {
         let mut bits = u128::from(self.link) | u128::from(self.collision) << 32;
         if self.self_collide {
-            bits |= SELF_COLLIDE;
+            bits |= SELF_COLLIDE_MASK;
         }
-        if self.only_reports {
-            bits |= ONLY_REPORTS;
+        if self.is_sensor {
+            bits |= SENSOR_MASK;
         }
         match self.part {
-            Part::Whole => bits,
-            Part::Tread(half_width_m) => bits | TREAD | u128::from(half_width_m.to_bits()) << 64,
-            Part::Core => bits | CORE,
+            WheelPart::Whole => bits,
+            WheelPart::Tread(half_width_m) => {
+                bits | TREAD_MASK | u128::from(half_width_m.to_bits()) << 64
+            }
+            WheelPart::Core => bits | CORE_MASK,
         }
     }
 
     pub(crate) fn unpack(bits: u128) -> Self {
-        let part = if bits & TREAD != 0 {
-            Part::Tread(f64::from_bits((bits >> 64) as u64))
-        } else if bits & CORE != 0 {
-            Part::Core
+        let part = if bits & TREAD_MASK != 0 {
+            WheelPart::Tread(f64::from_bits((bits >> 64) as u64))
+        } else if bits & CORE_MASK != 0 {
+            WheelPart::Core
         } else {
-            Part::Whole
+            WheelPart::Whole
         };
         Self {
             link: bits as u32,
             collision: (bits >> 32) as u16,
-            self_collide: bits & SELF_COLLIDE != 0,
-            only_reports: bits & ONLY_REPORTS != 0,
+            self_collide: bits & SELF_COLLIDE_MASK != 0,
+            is_sensor: bits & SENSOR_MASK != 0,
             part,
         }
     }
 }
 
-/// The questions that rapier asks about each pair.
+/// Contact filter and modifier for rapier.
 pub(crate) struct Hooks<'a> {
     /// The model of each link.
     pub(crate) model_of_link: &'a [u32],
     /// The links, for the stiffness of their contacts.
     pub(crate) links: &'a [LinkRecord],
-    /// The settings of the step.
+    /// Integration parameters of the step.
     pub(crate) parameters: IntegrationParameters,
 }
 
 impl Hooks<'_> {
-    /// Stiffness of the contacts of a collision [N/m].
-    fn stiffness(&self, tag: Tag) -> Option<f64> {
+    /// Returns the stiffness of the contacts of a collision [N/m].
+    fn stiffness(&self, tag: ColliderTag) -> Option<f64> {
         let link = self.links.get(tag.link as usize)?;
         link.stiffness_n_m.get(usize::from(tag.collision)).copied().flatten()
     }
 
-    /// Lets penetrating contacts push by their stiffness.
+    /// Scales penetrating contacts by their stiffness.
     fn soften(&self, context: &mut ContactModificationContext<'_>) {
-        let tag = |handle: ColliderHandle| Tag::unpack(context.colliders[handle].user_data);
+        let tag = |handle: ColliderHandle| ColliderTag::unpack(context.colliders[handle].user_data);
         let (one, two) = (tag(context.collider1), tag(context.collider2));
         let Some(stiffness_n_m) = in_series(self.stiffness(one), self.stiffness(two)) else {
             return;
@@ -116,13 +118,13 @@ impl Hooks<'_> {
 
 impl PhysicsHooks for Hooks<'_> {
     fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
-        let tag = |handle: ColliderHandle| Tag::unpack(context.colliders[handle].user_data);
+        let tag = |handle: ColliderHandle| ColliderTag::unpack(context.colliders[handle].user_data);
         let (a, b) = (tag(context.collider1), tag(context.collider2));
-        let model = |tag: Tag| self.model_of_link.get(tag.link as usize);
+        let model = |tag: ColliderTag| self.model_of_link.get(tag.link as usize);
         if model(a) == model(b) && !(a.self_collide && b.self_collide) {
             return None;
         }
-        let pushes = !(a.only_reports || b.only_reports);
+        let pushes = !(a.is_sensor || b.is_sensor);
         Some(if pushes { SolverFlags::COMPUTE_RIGID_IMPULSES } else { SolverFlags::empty() })
     }
 
@@ -134,9 +136,10 @@ impl PhysicsHooks for Hooks<'_> {
         let colliders = context.colliders;
         let keeps = |handle: ColliderHandle| {
             let collider = &colliders[handle];
-            let part = Tag::unpack(collider.user_data).part;
-            // The ball keeps the frame of the collision; the solver's cylinders stand along y.
-            let along = if part == Part::Core { Vector::Y } else { Vector::Z };
+            let part = ColliderTag::unpack(collider.user_data).part;
+            // The ball keeps the frame of the collision; the solver's cylinders have their axis
+            // along y.
+            let along = if part == WheelPart::Core { Vector::Y } else { Vector::Z };
             let axle = collider.rotation() * along;
             let reach = collider.shape().as_ball().map_or(0.0, |ball| ball.radius);
             touches(part, normal.dot(axle).abs(), reach)
@@ -151,15 +154,15 @@ impl PhysicsHooks for Hooks<'_> {
     }
 }
 
-/// Whether a contact of a part of a wheel counts, by the sine of the angle between its normal and
-/// the wheel's plane.
-fn touches(part: Part, sine: f64, ball_radius_m: f64) -> bool {
+/// Returns true if a contact of a part of a wheel counts, by the sine of the angle between its
+/// normal and the wheel's plane.
+fn touches(part: WheelPart, sine: f64, ball_radius_m: f64) -> bool {
     match part {
-        Part::Whole => true,
-        // The point where a ball touches lies `radius * sine` beside the wheel's plane.
-        Part::Tread(half_width_m) => ball_radius_m * sine <= half_width_m,
+        WheelPart::Whole => true,
+        // The contact point of a ball is `radius * sine` beside the wheel's plane.
+        WheelPart::Tread(half_width_m) => ball_radius_m * sine <= half_width_m,
         // More along the axle than across.
-        Part::Core => sine > std::f64::consts::FRAC_1_SQRT_2,
+        WheelPart::Core => sine > std::f64::consts::FRAC_1_SQRT_2,
     }
 }
 
@@ -169,19 +172,24 @@ mod tests {
 
     #[test]
     fn tags_come_back() {
-        for part in [Part::Whole, Part::Tread(0.02), Part::Core] {
-            let tag =
-                Tag { link: u32::MAX, collision: 7, self_collide: true, only_reports: false, part };
-            assert_eq!(Tag::unpack(tag.pack()), tag);
+        for part in [WheelPart::Whole, WheelPart::Tread(0.02), WheelPart::Core] {
+            let tag = ColliderTag {
+                link: u32::MAX,
+                collision: 7,
+                self_collide: true,
+                is_sensor: false,
+                part,
+            };
+            assert_eq!(ColliderTag::unpack(tag.pack()), tag);
         }
     }
 
     #[test]
     fn a_tread_of_four_centimetres() {
-        // A wheel of 10 cm radius leaning by 0.1 rad touches 1 cm beside its middle.
-        assert!(touches(Part::Tread(0.02), 0.1, 0.1));
-        // A wall beside it is the core's.
-        assert!(!touches(Part::Tread(0.02), 1.0, 0.1));
-        assert!(touches(Part::Core, 1.0, 0.0) && !touches(Part::Core, 0.1, 0.0));
+        // A wheel of 10 cm radius leaning by 0.1 rad has its contact 1 cm beside its middle.
+        assert!(touches(WheelPart::Tread(0.02), 0.1, 0.1));
+        // A wall beside it is in contact with the core.
+        assert!(!touches(WheelPart::Tread(0.02), 1.0, 0.1));
+        assert!(touches(WheelPart::Core, 1.0, 0.0) && !touches(WheelPart::Core, 0.1, 0.0));
     }
 }

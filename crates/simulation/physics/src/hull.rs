@@ -1,40 +1,40 @@
-//! Convex hulls of meshes that move, from a bounded number of points.
+//! Convex hulls of movable meshes, from a bounded number of points.
 //!
-//! The time and memory of a hull grow with the square of the number of its corners: the 8,192
-//! points of a smooth mesh took 4 s and 2.4 GB. Of a larger mesh only the points count that are
-//! furthest out in one of [`DIRECTIONS`] directions, spread evenly over the sphere.
+//! Time and memory of a hull grow with the square of the number of its corners: the 8,192 points of
+//! a smooth mesh took 4 s and 2.4 GB. Larger meshes are reduced to the extreme points in
+//! [`DIRECTIONS`] directions, spread evenly over the sphere.
 
 use periplus_geometry::DVec3;
 use rapier3d_f64::geometry::SharedShape;
 
 use crate::shapes::Triangles;
 
-/// Largest number of points that a hull is made of as they are.
+/// Maximum number of points that are used without reduction.
 const MAX_POINTS: usize = 1_000;
-/// Number of directions in which a larger mesh keeps its furthest points. Neighbours are 6.4 degrees
+/// Number of directions in which a larger mesh keeps its extreme points. Neighbours are 6.4 degrees
 /// apart, so a sphere is approximated to 0.2 % of its radius.
 const DIRECTIONS: u32 = 1_000;
-/// Every so many-th direction of a finer set is used to measure what was cut off.
+/// Number of directions for measuring the error of the reduction.
 const CHECKED_DIRECTIONS: u32 = 500;
 
-/// A hull, and what its simplification costs.
+/// A hull, and the error of its reduction.
 pub(crate) struct Hull {
     pub(crate) shape: SharedShape,
     pub(crate) simplified: Option<Simplified>,
 }
 
-/// Accuracy of a hull that was made of a part of the points.
+/// Accuracy of a hull of reduced points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Simplified {
     pub(crate) points_before: usize,
     pub(crate) points_after: usize,
-    /// Largest distance by which the mesh sticks out, in the directions that were tried [m].
+    /// Maximum distance of the mesh from the hull, over the tested directions [m].
     pub(crate) cut_off_m: f64,
-    /// Volume of the hull over that of the mesh, minus one; none for a mesh that is not closed.
+    /// Relative error of the volume; `None` for an open mesh.
     pub(crate) volume_error: Option<f64>,
 }
 
-/// The convex hull of a mesh; none for one that is flat.
+/// Returns the convex hull of a mesh; `None` for a flat one.
 pub(crate) fn hull_of(mesh: &Triangles) -> Option<Hull> {
     let points = used_points(mesh);
     if points.len() <= MAX_POINTS {
@@ -61,7 +61,7 @@ pub(crate) fn hull_of(mesh: &Triangles) -> Option<Hull> {
     Some(Hull { shape, simplified: Some(simplified) })
 }
 
-/// The points that triangles use, each position once, in a fixed order.
+/// Returns the points that triangles use, each position once, in a fixed order.
 fn used_points(mesh: &Triangles) -> Vec<DVec3> {
     if mesh.points_m.len() <= MAX_POINTS {
         return mesh.points_m.clone();
@@ -75,7 +75,7 @@ fn used_points(mesh: &Triangles) -> Vec<DVec3> {
     points
 }
 
-/// Number and distance of the point that is furthest along a direction; the first of equal ones.
+/// Returns index and distance of the extreme point along a direction; the first of equal ones.
 fn furthest(points: &[DVec3], along: DVec3) -> (usize, f64) {
     let mut found = (0, f64::NEG_INFINITY);
     for (index, point) in points.iter().enumerate() {
@@ -87,8 +87,8 @@ fn furthest(points: &[DVec3], along: DVec3) -> (usize, f64) {
     found
 }
 
-/// One of evenly spread directions: points on a spiral from pole to pole, turned by the golden angle
-/// each (a Fibonacci lattice).
+/// Returns one of evenly spread directions: a spiral from pole to pole with the golden angle between
+/// neighbours (a Fibonacci lattice).
 fn direction(index: u32, count: u32) -> DVec3 {
     let golden_angle = std::f64::consts::PI * (3.0 - libm::sqrt(5.0));
     let z = 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count);
@@ -97,7 +97,8 @@ fn direction(index: u32, count: u32) -> DVec3 {
     DVec3::new(radius * cosine, radius * sine, z)
 }
 
-/// Volume inside a closed mesh [m³], whichever way its triangles turn; none where edges are open.
+/// Returns the volume of a closed mesh [m³], for either orientation of its triangles; `None` for an
+/// open mesh.
 fn volume(mesh: &Triangles) -> Option<f64> {
     let corner = |index: u32| mesh.points_m[index as usize];
     let (mut six_volumes, mut open) = (0.0, DVec3::ZERO);
@@ -109,7 +110,7 @@ fn volume(mesh: &Triangles) -> Option<f64> {
         open += normal;
         area += normal.length();
     }
-    // The areas of a closed surface, as vectors, add up to nothing.
+    // The area vectors of a closed surface sum to zero.
     let is_closed = open.length() <= 1e-6 * area;
     (is_closed && six_volumes != 0.0).then(|| six_volumes.abs() / 6.0)
 }

@@ -1,4 +1,4 @@
-//! Mass and inertia, and what cannot be one.
+//! Mass and inertia of links.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::DQuat;
@@ -8,11 +8,11 @@ use rapier3d_f64::parry::mass_properties::MassProperties;
 
 use crate::limits::{MAX_INERTIA_KG_M2, MAX_MASS_KG, is_pose};
 
-/// Radius of gyration that a body without inertia is given [m].
-const SMALLEST_GYRATION_M: f64 = 0.01;
+/// Default radius of gyration of a body without inertia [m].
+const DEFAULT_GYRATION_M: f64 = 0.01;
 
-/// The mass properties of a link about its own frame, nothing at all for one without mass; none
-/// (and an error) where they are impossible.
+/// Returns the mass properties of a link about its own frame, zero for a massless link; reports an
+/// error and returns `None` for invalid ones.
 pub(crate) fn mass_properties(
     link: &Link,
     name: &str,
@@ -27,12 +27,12 @@ pub(crate) fn mass_properties(
             Diagnostic::error(
                 "inertia-out-of-range",
                 format!(
-                    "mass or inertia of `{name}` is no number, or beyond {MAX_MASS_KG:e} kg or \
+                    "mass or inertia of `{name}` is not finite, or beyond {MAX_MASS_KG:e} kg or \
                      {MAX_INERTIA_KG_M2:e} kg m²"
                 ),
             )
             .at(link.origin)
-            .help("give mass [kg] and inertia [kg m²] as finite numbers"),
+            .help("set mass [kg] and inertia [kg m²] to finite numbers"),
         );
         return None;
     }
@@ -41,7 +41,7 @@ pub(crate) fn mass_properties(
         return None;
     }
     if *mass_kg == 0.0 {
-        // Whether that matters depends on what it is fixed to.
+        // A problem only if the body has no other mass.
         return Some(MassProperties::default());
     }
     let [xx, xy, xz, yy, yz, zz] = *inertia_kg_m2;
@@ -53,7 +53,7 @@ pub(crate) fn mass_properties(
     let mut mass =
         MassProperties::with_inertia_matrix(link_from_inertial.translation, *mass_kg, about_com);
     let principal = mass.principal_inertia();
-    let smallest = mass_kg * SMALLEST_GYRATION_M * SMALLEST_GYRATION_M * 1e-6;
+    let smallest = mass_kg * DEFAULT_GYRATION_M * DEFAULT_GYRATION_M * 1e-6;
     if principal.min_element() <= smallest {
         diagnostics.push(
             Diagnostic::warning(
@@ -61,10 +61,10 @@ pub(crate) fn mass_properties(
                 format!("the inertia of `{name}` is not positive about every axis"),
             )
             .at(link.origin)
-            .note("a ball of 1 cm radius of gyration, or as much as its joints and shapes need, is assumed about such an axis")
-            .help("give the inertia of its shape: for a box of sides a, b, c that is m (b² + c²) / 12 about a"),
+            .note("a radius of gyration of 1 cm about such an axis is assumed, or more as its joints and shapes require")
+            .help("use the inertia of its shape: a box of sides a, b, c has m (b² + c²) / 12 about a"),
         );
-        let least = Vector::splat(mass_kg * SMALLEST_GYRATION_M * SMALLEST_GYRATION_M);
+        let least = Vector::splat(mass_kg * DEFAULT_GYRATION_M * DEFAULT_GYRATION_M);
         let raised = Vector::select(principal.cmple(Vector::splat(smallest)), least, principal);
         mass = MassProperties::with_principal_inertia_frame(
             mass.local_com,
@@ -76,7 +76,7 @@ pub(crate) fn mass_properties(
     Some(mass)
 }
 
-/// What to say of a link that nothing can move.
+/// Returns the warning for a body without mass.
 pub(crate) fn no_mass(link: &Link, name: &str) -> Diagnostic {
     let mass_kg = link.inertial.mass_kg;
     Diagnostic::error(
@@ -85,11 +85,11 @@ pub(crate) fn no_mass(link: &Link, name: &str) -> Diagnostic {
     )
     .at(link.origin)
     .help(
-        "give it an <inertial> with a positive mass, fix it to another link, or make its model static",
+        "add an <inertial> with a positive mass, fix it to another link, or make its model static",
     )
 }
 
-/// Mass properties told in another frame.
-pub(crate) fn moved(mass: MassProperties, body_from_link: &RapierPose) -> MassProperties {
+/// Transforms mass properties to another frame.
+pub(crate) fn transformed(mass: MassProperties, body_from_link: &RapierPose) -> MassProperties {
     mass.transform_by(body_from_link)
 }

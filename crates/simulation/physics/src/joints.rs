@@ -1,4 +1,4 @@
-//! Joints: what they hold, what drives them, and where they are.
+//! Joints: constraints, commands and state.
 
 mod drive;
 mod make;
@@ -8,50 +8,50 @@ use rapier3d_f64::dynamics::GenericJoint;
 
 pub(crate) use make::{Axes, axes_of};
 
-/// How fast a position command closes its error [1/s].
-pub(crate) const POSITION_GAIN: f64 = 50.0;
+/// Proportional gain of position commands [1/s].
+pub(crate) const POSITION_GAIN_PER_S: f64 = 50.0;
 
-/// What an axis is told to do, until told otherwise. Newtons and metres along a sliding axis,
-/// newton metres and radians about a turning one.
+/// Command of an axis, valid until the next one. Newtons and metres for a prismatic axis, newton
+/// metres and radians for a revolute one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Command {
-    /// Nothing: only its damping, friction and spring act.
+pub enum JointCommand {
+    /// No command: only damping, friction and spring act.
     #[default]
     Free,
-    /// To keep a speed.
+    /// Holds a speed.
     Velocity {
-        /// The speed [m/s or rad/s], held to the axis' own limit.
+        /// Speed [m/s or rad/s], clamped to the axis' own limit.
         target: f64,
-        /// Greatest effort [N or N m], beside the axis' own limit.
+        /// Maximum effort [N or N m], besides the axis' own limit.
         max_effort: f64,
     },
-    /// To go to a position and hold it: its speed is 50 times the way that is left, within limits.
+    /// Moves to a position and holds it: the speed is 50 times the error, within limits.
     Position {
-        /// The position [m or rad], held to the axis' own limits.
+        /// Position [m or rad], clamped to the axis' own limits.
         target: f64,
-        /// Greatest speed [m/s or rad/s], beside the axis' own limit.
+        /// Maximum speed [m/s or rad/s], besides the axis' own limit.
         max_speed: f64,
-        /// Greatest effort [N or N m], beside the axis' own limit.
+        /// Maximum effort [N or N m], besides the axis' own limit.
         max_effort: f64,
     },
-    /// To push with an effort [N or N m], held to the axis' own limit.
+    /// Applies an effort [N or N m], clamped to the axis' own limit.
     Effort(f64),
 }
 
-/// Where an axis is and what drives it.
+/// State of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisState {
-    /// Way from where the file put it; turns are counted, not folded [m or rad].
+    /// Displacement from the pose in the file; full turns are counted [m or rad].
     pub position: f64,
     /// Speed [m/s or rad/s].
     pub velocity: f64,
-    /// What the motor (or the commanded effort) gave in the last step [N or N m].
+    /// Effort of the motor (or the command) in the last step [N or N m].
     pub effort: f64,
 }
 
 /// `position = multiplier * leader + offset`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Follow {
+pub(crate) struct MimicCoupling {
     pub(crate) leader: usize,
     pub(crate) multiplier: f64,
     pub(crate) offset: f64,
@@ -69,17 +69,17 @@ pub(crate) struct AxisRecord {
     pub(crate) upper: f64,
     pub(crate) effort: f64,
     pub(crate) velocity: f64,
-    pub(crate) follows: Option<Follow>,
+    pub(crate) mimics: Option<MimicCoupling>,
     pub(crate) data: GenericJoint,
-    pub(crate) command: Command,
+    pub(crate) command: JointCommand,
     pub(crate) state: AxisState,
-    /// Whether the last exact step moved it.
+    /// True if the last exact step moved it.
     pub(crate) changed: bool,
 }
 
-/// A constraint that nobody commands.
+/// A constraint without commands.
 #[derive(Clone, Debug)]
-pub(crate) struct Hold {
+pub(crate) struct Constraint {
     pub(crate) body1: usize,
     pub(crate) body2: usize,
     pub(crate) data: GenericJoint,

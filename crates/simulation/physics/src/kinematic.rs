@@ -1,4 +1,4 @@
-//! Motion on flat ground without physics.
+//! Planar motion without physics.
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 
@@ -9,34 +9,34 @@ pub struct Twist {
     pub x_m_s: f64,
     /// To the left [m/s].
     pub y_m_s: f64,
-    /// Turning left [rad/s].
+    /// Yaw rate, counterclockwise [rad/s].
     pub yaw_rad_s: f64,
 }
 
-/// A robot that does exactly as it is told on flat ground: it follows the arc of its twist, however
-/// long the step. A differential drive never moves sideways (`y_m_s` = 0); an omnidirectional one
-/// may.
+/// Planar pose of a robot that executes its commands exactly: it follows the arc of its twist for
+/// any step length. A differential drive never moves sideways (`y_m_s` = 0); an omnidirectional one
+/// can.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Kinematic {
     /// Position along the plane's x [m].
     pub x_m: f64,
     /// Position along the plane's y [m].
     pub y_m: f64,
-    /// Heading, not folded: it counts full turns [rad].
+    /// Heading, unwrapped: full turns are counted [rad].
     pub yaw_rad: f64,
 }
 
 impl Kinematic {
-    /// Moves on by a constant twist over a time [s].
+    /// Advances by a constant twist over a time [s].
     ///
-    /// The position moves by the integral of the turning velocity, `V(a) (x, y) dt` with `a` the
-    /// angle turned and `V(a) = [[sin a, cos a - 1], [1 - cos a, sin a]] / a` (the exponential map
-    /// of plane motions; Lynch & Park, "Modern Robotics", section 3.3).
+    /// The position moves by the integral of the rotating velocity, `V(a) (x, y) dt` with the turned
+    /// angle `a` and `V(a) = [[sin a, cos a - 1], [1 - cos a, sin a]] / a` (the exponential map of
+    /// planar motions; Lynch & Park, "Modern Robotics", section 3.3).
     #[must_use]
-    pub fn moved(self, twist: Twist, dt_s: f64) -> Self {
+    pub fn advanced(self, twist: Twist, dt_s: f64) -> Self {
         let angle = twist.yaw_rad_s * dt_s;
         let (sine_by_angle, one_less_cosine_by_angle) = if angle.abs() < 1e-4 {
-            // Beyond the second term of the series nothing is left in a double.
+            // Terms beyond the second are below the precision of a double.
             (1.0 - angle * angle / 6.0, angle / 2.0 - angle * angle * angle / 24.0)
         } else {
             let half = libm::sin(angle / 2.0);
@@ -53,7 +53,7 @@ impl Kinematic {
         }
     }
 
-    /// The robot's frame in the plane's, at height zero.
+    /// Returns the robot's pose at height zero.
     #[must_use]
     pub fn pose(self) -> Pose {
         let (sine, cosine) = libm::sincos(self.yaw_rad / 2.0);
@@ -81,14 +81,14 @@ mod tests {
     #[test]
     fn a_quarter_circle_of_one_metre() {
         let twist = Twist { x_m_s: FRAC_PI_2, yaw_rad_s: FRAC_PI_2, ..Twist::default() };
-        let end = Kinematic::default().moved(twist, 1.0);
+        let end = Kinematic::default().advanced(twist, 1.0);
         assert!(near(end, Kinematic { x_m: 1.0, y_m: 1.0, yaw_rad: FRAC_PI_2 }), "{end:?}");
     }
 
     #[test]
     fn a_full_circle_ends_where_it_began() {
         let twist = Twist { x_m_s: 0.3, y_m_s: -0.2, yaw_rad_s: 2.0 * PI };
-        let end = Kinematic::default().moved(twist, 1.0);
+        let end = Kinematic::default().advanced(twist, 1.0);
         assert!(near(end, Kinematic { yaw_rad: 2.0 * PI, ..Kinematic::default() }), "{end:?}");
     }
 
@@ -96,8 +96,8 @@ mod tests {
         #[test]
         fn one_long_step_is_many_short_ones(x in -1.0..1.0f64, y in -1.0..1.0f64, w in -2.0..2.0f64) {
             let twist = Twist { x_m_s: x, y_m_s: y, yaw_rad_s: w };
-            let long = Kinematic::default().moved(twist, 1.0);
-            let short = (0..1000).fold(Kinematic::default(), |at, _| at.moved(twist, 0.001));
+            let long = Kinematic::default().advanced(twist, 1.0);
+            let short = (0..1000).fold(Kinematic::default(), |at, _| at.advanced(twist, 0.001));
             prop_assert!(near(long, short), "{long:?} {short:?}");
         }
     }

@@ -1,25 +1,25 @@
-//! Largest numbers that a world accepts. Larger ones are refused as NaN is: their squares and
-//! products overflow, or no distance of a millimetre is left beside them.
+//! Limits of accepted values. Larger values are rejected like NaN: their squares and products
+//! overflow, or a millimetre is below their resolution.
 
 use periplus_geometry::{DVec3, Pose};
 
-/// Largest coordinate of a position [m]; beside it, a double still resolves 2 nm.
+/// Maximum coordinate of a position [m]; a double still resolves 2 nm there.
 pub const MAX_POSITION_M: f64 = 1e7;
-/// Largest speed [m/s]. A body that exceeds it in the course of a run counts as diverged.
+/// Maximum speed [m/s]. A body that exceeds it during a run has diverged.
 pub const MAX_SPEED_M_S: f64 = 1e4;
-/// Largest angular speed that can be set [rad/s].
+/// Maximum angular speed that can be set [rad/s].
 pub const MAX_ANGULAR_SPEED_RAD_S: f64 = 1e5;
-/// Largest gravity [m/s²]; that of the Sun's surface is 274.
+/// Maximum gravity [m/s²]; that of the Sun's surface is 274.
 pub const MAX_GRAVITY_M_S2: f64 = 1e4;
-/// Largest mass of a link [kg].
+/// Maximum mass of a link [kg].
 pub const MAX_MASS_KG: f64 = 1e12;
-/// Largest moment or product of inertia of a link [kg m²].
+/// Maximum moment or product of inertia of a link [kg m²].
 pub const MAX_INERTIA_KG_M2: f64 = 1e18;
-/// Largest extent of a shape [m].
+/// Maximum extent of a shape [m].
 pub const MAX_SIZE_M: f64 = 1e7;
-/// Largest force [N] and torque [N m].
+/// Maximum force [N] and torque [N m].
 pub const MAX_FORCE_N: f64 = 1e15;
-/// Shortest and longest step [s].
+/// Minimum and maximum step [s].
 pub const STEP_RANGE_S: [f64; 2] = [1e-6, 1.0];
 
 /// True for a pose with a unit rotation, within [`MAX_POSITION_M`] of the origin on each axis.

@@ -1,19 +1,19 @@
-//! Prisms over outlines, as the convex pieces that a solver wants.
+//! Prisms over polylines, as convex pieces for the solver.
 
 use periplus_geometry::DVec3;
 use periplus_scene::{Polyline, Trapezoid, edges, trapezoids};
 
-/// More corners than this in one shape are refused: the pieces are as many as their square, at worst.
-const MOST_CORNERS: usize = 256;
+/// Maximum number of corners in a shape: in the worst case the number of pieces is quadratic.
+const MAX_CORNERS: usize = 256;
 
-/// The corners of convex pieces that fill the area inside an odd number of the outlines, from 0 to the
-/// height of the first along z. An outline closes by itself.
+/// Returns the corners of convex pieces that fill the area inside an odd number of the outlines,
+/// from z = 0 to the height of the first outline. Outlines are closed implicitly.
 ///
 /// # Errors
-/// What is wrong, to be read after the shape's name.
+/// The problem, as a clause that follows the shape's name.
 pub(crate) fn pieces(outlines: &[Polyline]) -> Result<Vec<[DVec3; 8]>, String> {
     let height_m = outlines.first().map_or(0.0, |first| first.height_m);
-    let pieces: Vec<[DVec3; 8]> = trapezoids(&edges(outlines, MOST_CORNERS)?)
+    let pieces: Vec<[DVec3; 8]> = trapezoids(&edges(outlines, MAX_CORNERS)?)
         .iter()
         .map(|piece| piece_over(piece, height_m))
         .collect();

@@ -1,4 +1,4 @@
-//! What a world is made of, as it was added. What moves is the engine's.
+//! Records of a world in the order of insertion. The engine holds the motion.
 
 use std::ops::Range;
 
@@ -6,11 +6,11 @@ use periplus_geometry::Pose;
 use rapier3d_f64::geometry::ColliderBuilder;
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
-use crate::grain::Grain;
-use crate::joints::{AxisRecord, Hold};
+use crate::anisotropic_friction::AnisotropicFriction;
+use crate::joints::{AxisRecord, Constraint};
 
-/// The body that joints to the world hold on to.
-pub(crate) const WORLD_BODY: usize = 0;
+/// The body of the world, to which joints can be attached.
+pub(crate) const WORLD_BODY_INDEX: usize = 0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BodyKind {
@@ -19,26 +19,26 @@ pub(crate) enum BodyKind {
     Dynamic,
 }
 
-/// A rigid body: one link, or several on fixed joints. Its frame is that of the first.
+/// A rigid body: one link, or several on fixed joints. Its frame is that of the first link.
 #[derive(Clone)]
 pub(crate) struct Body {
     pub(crate) name: String,
     pub(crate) kind: BodyKind,
     pub(crate) world_from_body: Pose,
     pub(crate) mass: MassProperties,
-    /// The mass that gravity pulls [kg].
+    /// Mass that gravity acts on [kg].
     pub(crate) weight_share: f64,
     pub(crate) damping: [f64; 2],
     pub(crate) can_sleep: bool,
     pub(crate) colliders: Vec<ColliderBuilder>,
-    /// Which of the colliders are rougher one way.
-    pub(crate) grains: Vec<(usize, Grain)>,
-    /// Its model was taken out.
+    /// Colliders with anisotropic friction.
+    pub(crate) anisotropic_colliders: Vec<(usize, AnisotropicFriction)>,
+    /// True after the removal of its model.
     pub(crate) removed: bool,
 }
 
 impl Body {
-    /// What everything fixed to the world hangs on.
+    /// Returns the body of the world.
     fn world() -> Self {
         Self {
             name: "world".into(),
@@ -49,7 +49,7 @@ impl Body {
             damping: [0.0; 2],
             can_sleep: true,
             colliders: Vec::new(),
-            grains: Vec::new(),
+            anisotropic_colliders: Vec::new(),
             removed: false,
         }
     }
@@ -61,7 +61,7 @@ pub(crate) struct LinkRecord {
     pub(crate) body: usize,
     pub(crate) body_from_link: Pose,
     pub(crate) collisions: Vec<String>,
-    /// Stiffness of the contacts of each collision [N/m]; none for the solver's own.
+    /// Stiffness of the contacts of each collision [N/m]; `None` for the solver's own.
     pub(crate) stiffness_n_m: Vec<Option<f64>>,
 }
 
@@ -81,20 +81,20 @@ pub(crate) struct ModelRecord {
     pub(crate) removed: bool,
 }
 
-/// All that a reset starts from again. Nothing is ever taken out, so numbers stay valid.
+/// All records, from which a reset starts. Records are never deleted, so indices stay valid.
 pub(crate) struct Records {
     pub(crate) models: Vec<ModelRecord>,
     pub(crate) bodies: Vec<Body>,
     pub(crate) links: Vec<LinkRecord>,
     pub(crate) joints: Vec<JointRecord>,
     pub(crate) axes: Vec<AxisRecord>,
-    pub(crate) holds: Vec<Hold>,
-    /// The model of each link, for the questions of the solver.
+    pub(crate) constraints: Vec<Constraint>,
+    /// Model of each link, for the contact filter.
     pub(crate) model_of_link: Vec<u32>,
 }
 
 impl Records {
-    /// The world itself, and nothing in it.
+    /// Returns the records of an empty world.
     pub(crate) fn new() -> Self {
         Self {
             models: Vec::new(),
@@ -102,7 +102,7 @@ impl Records {
             links: Vec::new(),
             joints: Vec::new(),
             axes: Vec::new(),
-            holds: Vec::new(),
+            constraints: Vec::new(),
             model_of_link: Vec::new(),
         }
     }
@@ -111,7 +111,7 @@ impl Records {
         self.models.get(model as usize).filter(|model| !model.removed)
     }
 
-    /// The body that carries a model's frame, and the frame in it.
+    /// Returns the body that carries a model's frame, and the frame in it.
     pub(crate) fn canonical(&self, model: u32) -> Option<(usize, Pose)> {
         let record = self.present(model)?;
         let body = self.links.get(record.canonical as usize)?.body;
@@ -119,35 +119,35 @@ impl Records {
         Some((body, body_from_world * record.world_from_model))
     }
 
-    /// The numbers of the bodies of a model that is there.
+    /// Returns the indices of the bodies of a present model.
     pub(crate) fn bodies_of(&self, model: u32) -> Range<usize> {
         self.present(model)
             .map_or(0..0, |model| model.bodies.start as usize..model.bodies.end as usize)
     }
 
-    /// The model that a body is a part of; none for the world's, and for what is removed.
+    /// Returns the model of a body; `None` for the world's body and for removed models.
     pub(crate) fn model_of_body(&self, body: usize) -> Option<u32> {
         (0..self.models.len() as u32).find(|&model| self.bodies_of(model).contains(&body))
     }
 
-    /// How much there is, to come back to.
+    /// Returns the current counts, for [`Self::truncate`].
     pub(crate) fn mark(&self) -> Mark {
         Mark {
             bodies: self.bodies.len(),
             links: self.links.len(),
             joints: self.joints.len(),
             axes: self.axes.len(),
-            holds: self.holds.len(),
+            constraints: self.constraints.len(),
         }
     }
 
-    /// Forgets what came after a mark.
-    pub(crate) fn back_to(&mut self, mark: Mark) {
+    /// Truncates the records to a mark.
+    pub(crate) fn truncate(&mut self, mark: Mark) {
         self.bodies.truncate(mark.bodies);
         self.links.truncate(mark.links);
         self.joints.truncate(mark.joints);
         self.axes.truncate(mark.axes);
-        self.holds.truncate(mark.holds);
+        self.constraints.truncate(mark.constraints);
     }
 }
 
@@ -158,5 +158,5 @@ pub(crate) struct Mark {
     pub(crate) links: usize,
     pub(crate) joints: usize,
     pub(crate) axes: usize,
-    pub(crate) holds: usize,
+    pub(crate) constraints: usize,
 }

@@ -1,11 +1,11 @@
-//! Physics: rapier, as this house sets it up.
+//! Physics by rapier, with its settings.
 
-mod grain;
+mod anisotropic_friction;
 mod step;
 
 use std::ops::Range;
 
-pub(crate) use step::Lost;
+pub(crate) use step::DivergedBody;
 
 use periplus_geometry::{DVec3, Pose};
 use rapier3d_f64::dynamics::{
@@ -13,35 +13,37 @@ use rapier3d_f64::dynamics::{
 };
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 
+use crate::anisotropic_friction::AnisotropicFriction;
 use crate::build::{rapier_pose, scene_pose};
 use crate::engine::BodyMotion;
-use crate::grain::Grain;
 use crate::records::{Body, BodyKind, Mark, Records};
 
-/// Steps of the solver in one of ours.
+/// Number of solver steps per simulation step.
 const SUBSTEPS: usize = 4;
-/// How deep bodies may lie in each other without being pushed apart [m].
+/// Penetration that is not corrected [m].
 const SLOP_M: f64 = 1e-4;
 
-/// Damping ratio of contacts with what is fixed. The solver's own 10 lets a softened contact (see
-/// [`crate::compliance`]) sink by 0.9 mm/s at most, this one by 1.6 mm/s.
+/// Damping ratio of contacts with fixed bodies. The solver's default of 10 lets a softened contact
+/// (see [`crate::compliance`]) sink by 0.9 mm/s at most, this one by 1.6 mm/s.
 const CONTACT_DAMPING_RATIO: f64 = 3.0;
 
-/// What is slower than this for a second, with all that touches it, is at rest and stays so until
-/// something pushes it. The solver's own 0.05 m/s would stop what slides slowly.
+/// Linear velocity below which a body, with all its contacts, falls asleep after
+/// [`ASLEEP_AFTER_S`] until a force acts on it. The solver's default of 0.05 m/s would stop slow
+/// sliding.
 const ASLEEP_M_S: f64 = 1e-3;
-/// The same for what has no shape.
+/// Angular velocity for the same, for bodies without a shape.
 const ASLEEP_RAD_S: f64 = 1e-3;
 const ASLEEP_AFTER_S: f64 = 1.0;
 
-/// The solver, and its names for our records. A body or joint without a name is gone.
+/// The solver, with handles of our records. A missing handle means that the body or joint was
+/// removed.
 pub(crate) struct Rigid {
     pub(crate) solver: PhysicsWorld,
     pub(crate) bodies: Vec<Option<RigidBodyHandle>>,
     pub(crate) axes: Vec<Option<ImpulseJointHandle>>,
-    /// What is rougher one way.
-    pub(crate) grains: Vec<(ColliderHandle, Grain)>,
-    pub(crate) pushed: bool,
+    /// Colliders with anisotropic friction.
+    pub(crate) anisotropic_colliders: Vec<(ColliderHandle, AnisotropicFriction)>,
+    pub(crate) has_external_forces: bool,
 }
 
 impl Rigid {
@@ -53,12 +55,18 @@ impl Rigid {
         parameters.friction_model = FrictionModel::Simplified;
         parameters.normalized_allowed_linear_error = SLOP_M;
         parameters.static_contact_softness.damping_ratio = CONTACT_DAMPING_RATIO;
-        // A body that flies off is told, not slowed down.
+        // A body that diverges is reported, not slowed down.
         parameters.normalized_max_linear_velocity = f64::MAX;
-        Self { solver, bodies: Vec::new(), axes: Vec::new(), grains: Vec::new(), pushed: false }
+        Self {
+            solver,
+            bodies: Vec::new(),
+            axes: Vec::new(),
+            anisotropic_colliders: Vec::new(),
+            has_external_forces: false,
+        }
     }
 
-    /// Changes gravity, which wakes all that rests.
+    /// Changes gravity and wakes all bodies.
     pub(crate) fn set_gravity(&mut self, gravity_m_s2: DVec3) {
         self.solver.gravity = gravity_m_s2;
         for handle in self.bodies.iter().flatten() {
@@ -70,11 +78,15 @@ impl Rigid {
         for (number, body) in records.bodies.iter().enumerate().skip(after.bodies) {
             let handle = (!body.removed).then(|| {
                 let handle = self.solver.insert_body(built(body, number));
-                let mut grains = body.grains.iter().peekable();
+                let mut anisotropic_colliders = body.anisotropic_colliders.iter().peekable();
                 for (index, collider) in body.colliders.iter().enumerate() {
                     let placed = self.solver.insert_collider(collider.clone(), Some(handle));
-                    let grain = grains.next_if(|(of, _)| *of == index);
-                    self.grains.extend(grain.map(|&(_, grain)| (placed, grain)));
+                    let anisotropic_friction =
+                        anisotropic_colliders.next_if(|(of, _)| *of == index);
+                    self.anisotropic_colliders.extend(
+                        anisotropic_friction
+                            .map(|&(_, anisotropic_friction)| (placed, anisotropic_friction)),
+                    );
                 }
                 handle
             });
@@ -90,7 +102,7 @@ impl Rigid {
             };
             self.axes.push(handle);
         }
-        for hold in &records.holds[after.holds..] {
+        for hold in &records.constraints[after.constraints..] {
             if let (Some(one), Some(two)) = (self.bodies[hold.body1], self.bodies[hold.body2]) {
                 self.solver.impulse_joints.insert(one, two, hold.data, true);
             }
@@ -103,7 +115,8 @@ impl Rigid {
                 self.solver.remove_body(handle);
             }
         }
-        self.grains.retain(|(collider, _)| self.solver.colliders.contains(*collider));
+        self.anisotropic_colliders
+            .retain(|(collider, _)| self.solver.colliders.contains(*collider));
     }
 
     pub(crate) fn body(&self, number: usize) -> Option<BodyMotion> {
@@ -126,7 +139,7 @@ impl Rigid {
         }
     }
 
-    /// Gives bodies the velocity of one piece that moves with a point of it.
+    /// Sets the velocities of bodies to those of one rigid piece moving with a point of it.
     pub(crate) fn move_as_one(
         &mut self,
         records: &Records,
@@ -144,8 +157,8 @@ impl Rigid {
         }
     }
 
-    /// Pushes a body in the next step; false if nothing can move it.
-    pub(crate) fn push(
+    /// Applies a force to a body in the next step; returns false for an immovable body.
+    pub(crate) fn apply_force(
         &mut self,
         records: &Records,
         number: usize,
@@ -157,22 +170,22 @@ impl Rigid {
         if !body.is_dynamic() {
             return false;
         }
-        push_body(body, records.bodies[number].mass.local_com, at_m, force_n);
+        apply_force_at(body, records.bodies[number].mass.local_com, at_m, force_n);
         body.add_torque(torque_n_m, true);
-        self.pushed = true;
+        self.has_external_forces = true;
         true
     }
 
-    /// Keeps a body from falling asleep; it is told to move.
+    /// Keeps a commanded body awake.
     pub(crate) fn keep_awake(&mut self, handle: RigidBodyHandle) {
         let body = &self.solver.bodies[handle];
-        // Asking for a body to be changed costs more than looking.
+        // Mutable access to a body costs more than reading it.
         if body.is_dynamic() && body.activation().time_since_can_sleep > ASLEEP_AFTER_S / 2.0 {
             self.solver.bodies[handle].wake_up(true);
         }
     }
 
-    /// The solver's own step [s], of which it makes several in one of ours.
+    /// Returns the solver's own step [s], a fraction of the simulation step.
     pub(crate) fn substep_s(&self) -> f64 {
         self.solver.integration_parameters.dt / SUBSTEPS as f64
     }
@@ -203,9 +216,14 @@ fn built(body: &Body, number: usize) -> RigidBody {
     built
 }
 
-/// Pushes a body at a point of the world. The solver's own way would trust a centre of mass that
-/// it only knows after its first step.
-pub(crate) fn push_body(body: &mut RigidBody, com_in_body: DVec3, at_m: DVec3, force_n: DVec3) {
+/// Applies a force to a body at a point of the world. The solver's own function would use a centre
+/// of mass that it only knows after its first step.
+pub(crate) fn apply_force_at(
+    body: &mut RigidBody,
+    com_in_body: DVec3,
+    at_m: DVec3,
+    force_n: DVec3,
+) {
     let com = scene_pose(body.position()).transform_point(com_in_body);
     body.add_force(force_n, true);
     body.add_torque((at_m - com).cross(force_n), true);

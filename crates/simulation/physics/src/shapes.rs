@@ -1,4 +1,4 @@
-//! Shapes that touch.
+//! Collision shapes.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{DQuat, DVec3, Pose};
@@ -17,32 +17,32 @@ use crate::outline::pieces;
 pub struct Triangles {
     /// Corners [m].
     pub points_m: Vec<DVec3>,
-    /// Three corners each, seen from outside against the clock.
+    /// Three corner indices each, counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Heights of a ground over a rectangle centred on the shape's frame.
+/// Terrain heights over a rectangle centred on the shape's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Heights {
-    /// Points along x, at least two.
+    /// Samples along x, at least two.
     pub columns: usize,
-    /// Points along y, at least two.
+    /// Samples along y, at least two.
     pub rows: usize,
-    /// Heights [m]: `columns` numbers of the lowest y, and so on.
+    /// Heights [m], row by row from the lowest y.
     pub heights_m: Vec<f64>,
     /// Lengths of the rectangle along x and y [m].
     pub size_m: [f64; 2],
 }
 
-/// Where shapes from files come from: whoever reads files has read them before.
+/// Provides meshes and heightmaps of files to code that must not read files.
 pub trait Meshes {
-    /// The triangles of a mesh, submesh and scale applied; none if it could not be read.
+    /// Returns the triangles of a mesh, submesh and scale applied; `None` if it could not be read.
     fn triangles(&self, mesh: &Mesh) -> Option<Triangles>;
-    /// The ground of a heightmap; none if it could not be read.
+    /// Returns the heights of a heightmap; `None` if it could not be read.
     fn heights(&self, heightmap: &Heightmap) -> Option<Heights>;
 }
 
-/// No files at all.
+/// A provider without files.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoMeshes;
 
@@ -57,23 +57,23 @@ impl Meshes for NoMeshes {
 }
 
 /// A solver's shape and its frame in the collision's.
-pub(crate) type Placed = (Pose, SharedShape);
+pub(crate) type PlacedShape = (Pose, SharedShape);
 
-/// The solver's shape of a collision; none where there is nothing to touch, which is said.
+/// Returns the solver's shape of a collision; reports a problem and returns `None` without one.
 pub(crate) fn shape(
     collision: &Collision,
     name: &str,
     moves: bool,
     meshes: &dyn Meshes,
     diagnostics: &mut Diagnostics,
-) -> Option<Placed> {
+) -> Option<PlacedShape> {
     let mut hints = Vec::new();
     let made = make(&collision.shape, moves, meshes, &mut hints);
     for hint in hints {
         diagnostics.push(
             Diagnostic::hint("mesh-simplified", format!("collision `{name}` {hint}"))
                 .at(collision.origin)
-                .help("give a simpler mesh, or boxes, cylinders and spheres, for collisions"),
+                .help("use a simpler mesh, or boxes, cylinders and spheres, for collisions"),
         );
     }
     let (severity, message) = match made {
@@ -81,30 +81,30 @@ pub(crate) fn shape(
         Err(problem) => problem,
     };
     let diagnostic = match severity {
-        Broken => Diagnostic::error("shape-impossible", format!("collision `{name}` {message}")),
+        Invalid => Diagnostic::error("shape-impossible", format!("collision `{name}` {message}")),
         Unsupported => Diagnostic::warning(
             "shape-not-simulated",
-            format!("collision `{name}` {message}; nothing will touch it"),
+            format!("collision `{name}` {message}; it has no contacts"),
         ),
     };
     diagnostics.push(diagnostic.at(collision.origin));
     None
 }
 
-enum Kind {
-    Broken,
+enum ShapeIssue {
+    Invalid,
     Unsupported,
 }
-use Kind::{Broken, Unsupported};
+use ShapeIssue::{Invalid, Unsupported};
 
 fn make(
     shape: &Shape,
     moves: bool,
     meshes: &dyn Meshes,
     hints: &mut Vec<String>,
-) -> Result<Option<Placed>, (Kind, String)> {
+) -> Result<Option<PlacedShape>, (ShapeIssue, String)> {
     let here = |shape| Ok(Some((Pose::IDENTITY, shape)));
-    // parry's cylinders and cones stand along y.
+    // parry's cylinders and cones have their axis along y.
     let upright = |shape| {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let z_from_y = DQuat::from_xyzw(half, 0.0, 0.0, half);
@@ -136,11 +136,11 @@ fn make(
         }
         Shape::Plane { normal, .. } => {
             if moves {
-                return Err((Unsupported, "is an endless plane on a body that moves".into()));
+                return Err((Unsupported, "is an infinite plane on a movable body".into()));
             }
             let length = normal.length();
             if !(length.is_finite() && length > 0.0) {
-                return Err((Broken, "is a plane without a normal".into()));
+                return Err((Invalid, "is a plane without a normal".into()));
             }
             here(SharedShape::halfspace(*normal / length))
         }
@@ -157,7 +157,7 @@ fn make(
             let Some(heights) = meshes.heights(map) else {
                 return Err((
                     Unsupported,
-                    format!("has a ground (`{}`) that was not read", map.uri),
+                    format!("has a heightmap (`{}`) that was not read", map.uri),
                 ));
             };
             ground(&heights)
@@ -170,14 +170,14 @@ fn make(
     }
 }
 
-fn positive(size: DVec3) -> Result<DVec3, (Kind, String)> {
+fn positive(size: DVec3) -> Result<DVec3, (ShapeIssue, String)> {
     if is_within(size, MAX_SIZE_M) && size.min_element() > 0.0 {
         return Ok(size);
     }
-    Err((Broken, format!("has a size that is not positive, or more than {MAX_SIZE_M} m")))
+    Err((Invalid, format!("has a size that is not positive, or more than {MAX_SIZE_M} m")))
 }
 
-fn positive_1(size: f64) -> Result<f64, (Kind, String)> {
+fn positive_1(size: f64) -> Result<f64, (ShapeIssue, String)> {
     positive(DVec3::splat(size)).map(|size| size.x)
 }
 
@@ -185,47 +185,47 @@ fn mesh_shape(
     mesh: Triangles,
     moves: bool,
     hints: &mut Vec<String>,
-) -> Result<Option<Placed>, (Kind, String)> {
+) -> Result<Option<PlacedShape>, (ShapeIssue, String)> {
     let Triangles { points_m, triangles } = &mesh;
     let count = points_m.len();
     let sound = points_m.iter().all(|&point| is_within(point, MAX_SIZE_M))
         && triangles.iter().flatten().all(|&corner| (corner as usize) < count);
     if !sound || triangles.is_empty() {
-        return Err((Broken, "has a mesh without triangles, or with broken ones".into()));
+        return Err((Invalid, "has a mesh without triangles, or with broken ones".into()));
     }
     if moves {
-        let Some(hull) = hull_of(&mesh) else { return Err((Broken, FLAT.into())) };
+        let Some(hull) = hull_of(&mesh) else { return Err((Invalid, FLAT.into())) };
         hints.extend(hull.simplified.map(|found| simplification(mesh.triangles.len(), found)));
         return Ok(Some((Pose::IDENTITY, hull.shape)));
     }
     let Triangles { points_m, triangles } = mesh;
     match SharedShape::trimesh(points_m, triangles) {
         Ok(shape) => Ok(Some((Pose::IDENTITY, shape))),
-        Err(error) => Err((Broken, format!("has a mesh that cannot be used: {error}"))),
+        Err(error) => Err((Invalid, format!("has a mesh that cannot be used: {error}"))),
     }
 }
 
-fn prism(outlines: &[Polyline]) -> Result<Option<Placed>, (Kind, String)> {
-    let pieces = pieces(outlines).map_err(|why| (Broken, why))?;
-    // A piece without volume, between corners that nearly agree, touches nothing.
+fn prism(outlines: &[Polyline]) -> Result<Option<PlacedShape>, (ShapeIssue, String)> {
+    let pieces = pieces(outlines).map_err(|why| (Invalid, why))?;
+    // A piece without volume, between nearly equal corners, has no contacts.
     let hulls = pieces.iter().filter_map(|corners| SharedShape::convex_hull(corners));
     let parts: Vec<_> = hulls.map(|hull| (rapier_pose(Pose::IDENTITY), hull)).collect();
     if parts.is_empty() {
-        return Err((Broken, "encloses nothing".into()));
+        return Err((Invalid, "encloses nothing".into()));
     }
     Ok(Some((Pose::IDENTITY, SharedShape::compound(parts))))
 }
 
-fn hull(points: &[Vector]) -> Result<Option<Placed>, (Kind, String)> {
+fn hull(points: &[Vector]) -> Result<Option<PlacedShape>, (ShapeIssue, String)> {
     match SharedShape::convex_hull(points) {
         Some(shape) => Ok(Some((Pose::IDENTITY, shape))),
-        None => Err((Broken, FLAT.into())),
+        None => Err((Invalid, FLAT.into())),
     }
 }
 
 const FLAT: &str = "is flat: it has no convex hull";
 
-/// Description of a simplified hull.
+/// Describes a simplified hull.
 fn simplification(triangles: usize, found: Simplified) -> String {
     let Simplified { points_before, points_after, cut_off_m, volume_error } = found;
     let volume = volume_error
@@ -239,17 +239,17 @@ fn simplification(triangles: usize, found: Simplified) -> String {
     )
 }
 
-fn ground(heights: &Heights) -> Result<Option<Placed>, (Kind, String)> {
+fn ground(heights: &Heights) -> Result<Option<PlacedShape>, (ShapeIssue, String)> {
     let Heights { columns, rows, heights_m, size_m: [x, y] } = heights;
     let sound = *columns >= 2
         && *rows >= 2
         && columns.checked_mul(*rows) == Some(heights_m.len())
         && heights_m.iter().all(|height| height.abs() <= MAX_SIZE_M);
     if !sound {
-        return Err((Broken, "has a ground of fewer than two by two finite heights".into()));
+        return Err((Invalid, "has a heightmap of fewer than two by two finite heights".into()));
     }
     let size = positive(DVec3::new(*x, *y, 1.0))?;
-    // parry's ground lies in x and z with y up: its z is our -y.
+    // parry's height field is over x and z with y up: its z is our -y.
     let mut ordered = Vec::with_capacity(heights_m.len());
     for column in 0..*columns {
         ordered.extend((0..*rows).rev().map(|row| heights_m[row * columns + column]));

@@ -1,8 +1,8 @@
-//! Names for what is in a world, and what can be asked of it.
+//! Ids and states of a world's parts.
 
 use periplus_geometry::{DVec3, Pose};
 
-/// A model in a world. Numbers follow the order of adding and are never used twice.
+/// A model in a world. Ids count in the order of adding and are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ModelId(pub(crate) u32);
 
@@ -14,10 +14,10 @@ pub struct LinkId(pub(crate) u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct JointId(pub(crate) u32);
 
-/// Where a link is and how it moves.
+/// Pose and velocity of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkState {
-    /// Its frame in the world.
+    /// Pose of its frame in the world.
     pub world_from_link: Pose,
     /// Velocity of the frame's origin, in world axes [m/s].
     pub linear_m_s: DVec3,
@@ -25,16 +25,16 @@ pub struct LinkState {
     pub angular_rad_s: DVec3,
 }
 
-/// A step whose outcome is no longer a motion.
+/// Error of a step with a diverged motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {
-    /// The model of this body.
+    /// Model of the body.
     pub model: Option<ModelId>,
-    /// The first body concerned, as `model::link`.
+    /// First diverged body, as `model::link`.
     pub link: String,
     /// Simulated time of the step [ns].
     pub time_ns: i64,
-    /// Its speed [m/s]; none if it is not a number.
+    /// Its speed [m/s]; `None` if it is not finite.
     pub speed_m_s: Option<f64>,
 }
 
@@ -45,7 +45,7 @@ impl std::fmt::Display for Diverged {
         write!(out, "the simulation diverged at {time_s:.3} s: `{link}` ")?;
         match speed_m_s {
             Some(speed) => write!(out, "moves at {speed:.0} m/s")?,
-            None => write!(out, "has no finite pose any more")?,
+            None => write!(out, "has no finite pose")?,
         }
         write!(out, "; a smaller step, or masses and inertias closer to each other, may help")
     }

@@ -1,40 +1,40 @@
-//! A world that moves.
+//! A simulated world.
 
+mod commands;
 mod motion;
 mod names;
-mod told;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{DVec3, Pose};
 use periplus_scene::Model;
 
-use crate::build::{append, join};
+use crate::build::{add_world_joint, append};
 use crate::engine::Engine;
 use crate::exact::Exact;
 use crate::limits::{MAX_GRAVITY_M_S2, is_within};
 use crate::records::{Mark, Records};
-use crate::rigid::{Lost, Rigid};
+use crate::rigid::{DivergedBody, Rigid};
 use crate::shapes::Meshes;
 use crate::state::{Diverged, ModelId};
 
-/// How a world moves.
+/// Kind of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// By physics: masses, forces, contacts. Steps of a millisecond or two.
+pub enum PhysicsMode {
+    /// Physics: masses, forces, contacts. Steps of one or two milliseconds.
     #[default]
     Rigid,
-    /// Exactly as told, without forces and contacts: robots on flat ground follow the arcs of their
-    /// twists ([`World::follow`]), joints their commands; all else stays where it is. Steps of any
+    /// Exactly as commanded, without forces and contacts: robots follow the arcs of their twists in
+    /// the plane ([`PhysicsWorld::follow`]), joints their commands; everything else stays. Steps of any
     /// length.
     Kinematic,
 }
 
-/// What became of a model.
+/// Result of adding a model.
 #[derive(Debug)]
-pub struct Added {
-    /// Its number; none if it cannot be simulated at all.
+pub struct AddOutcome {
+    /// Id of the model; `None` if it cannot be simulated.
     pub model: Option<ModelId>,
-    /// What is wrong with it.
+    /// Problems of the model.
     pub diagnostics: Diagnostics,
 }
 
@@ -42,12 +42,12 @@ pub struct Added {
 ///
 /// # Wheels
 ///
-/// A cylinder that rests on its side touches the ground along a line, and a line scrubs: in place it
-/// turns up to 20 % less than told, more or less by the solver's mood. A cylinder whose link turns
-/// about the cylinder's own axis therefore touches by a ball of its radius, whose contacts count
-/// only within the width of the tread; a core of 0.9 of the radius touches with its flat sides what
-/// stands beside the wheel. Turning in place then agrees with the commanded angle to 0.5 %.
-pub struct World {
+/// A cylinder on its side has a line contact with the floor, which scrubs: the robot turns in place
+/// up to 20 % less than commanded, with erratic solver results. A cylinder whose link turns about
+/// the cylinder's own axis is therefore replaced by a ball of its radius, whose contacts count only
+/// within the width of the tread, and a core of 0.9 of the radius, whose flat sides collide with
+/// objects beside the wheel. Turning in place then agrees with the commanded angle to 0.5 %.
+pub struct PhysicsWorld {
     pub(crate) records: Records,
     pub(crate) engine: Engine,
     time_ns: i64,
@@ -55,13 +55,13 @@ pub struct World {
     gravity_m_s2: DVec3,
 }
 
-impl World {
-    /// A world of a file with its models. Models that cannot be simulated are left out, each with
-    /// an error.
+impl PhysicsWorld {
+    /// Creates the world of a file with its models. Models that cannot be simulated are omitted,
+    /// each with an error.
     #[must_use]
     pub fn new(
         world: &periplus_scene::World,
-        mode: Mode,
+        mode: PhysicsMode,
         meshes: &dyn Meshes,
     ) -> (Self, Diagnostics) {
         let mut diagnostics = Diagnostics::new();
@@ -71,7 +71,7 @@ impl World {
                 Diagnostic::error(
                     "gravity-out-of-range",
                     format!(
-                        "gravity is no number, or more than {MAX_GRAVITY_M_S2} m/s²; there is none"
+                        "gravity is not finite, or more than {MAX_GRAVITY_M_S2} m/s²; it is set to zero"
                     ),
                 )
                 .at(world.origin),
@@ -84,18 +84,18 @@ impl World {
         }
         let before = made.records.mark();
         for joint in &world.joints {
-            join(&mut made.records, joint, &mut diagnostics);
+            add_world_joint(&mut made.records, joint, &mut diagnostics);
         }
         made.engine.insert(&made.records, before);
         (made, diagnostics)
     }
 
-    /// A world with nothing in it, and gravity in its frame [m/s²].
+    /// Creates an empty world with gravity in its frame [m/s²].
     #[must_use]
-    pub fn empty(gravity_m_s2: DVec3, mode: Mode) -> Self {
+    pub fn empty(gravity_m_s2: DVec3, mode: PhysicsMode) -> Self {
         let engine = match mode {
-            Mode::Rigid => Engine::Rigid(Box::new(Rigid::new(gravity_m_s2))),
-            Mode::Kinematic => Engine::Exact(Exact::default()),
+            PhysicsMode::Rigid => Engine::Rigid(Box::new(Rigid::new(gravity_m_s2))),
+            PhysicsMode::Kinematic => Engine::Exact(Exact::default()),
         };
         let mut world =
             Self { records: Records::new(), engine, time_ns: 0, diverged: None, gravity_m_s2 };
@@ -103,28 +103,33 @@ impl World {
         world
     }
 
-    /// How it moves.
+    /// Returns the kind of motion.
     #[must_use]
-    pub fn mode(&self) -> Mode {
+    pub fn mode(&self) -> PhysicsMode {
         match self.engine {
-            Engine::Rigid(_) => Mode::Rigid,
-            Engine::Exact(_) => Mode::Kinematic,
+            Engine::Rigid(_) => PhysicsMode::Rigid,
+            Engine::Exact(_) => PhysicsMode::Kinematic,
         }
     }
 
-    /// Adds a model with its frame somewhere in the world.
-    pub fn add(&mut self, model: &Model, world_from_model: Pose, meshes: &dyn Meshes) -> Added {
+    /// Adds a model at a pose in the world.
+    pub fn add(
+        &mut self,
+        model: &Model,
+        world_from_model: Pose,
+        meshes: &dyn Meshes,
+    ) -> AddOutcome {
         let mut diagnostics = Diagnostics::new();
         let (before, number) = (self.records.mark(), self.records.models.len());
         append(&mut self.records, model, world_from_model, meshes, &mut diagnostics);
         if self.records.models.len() == number {
-            return Added { model: None, diagnostics };
+            return AddOutcome { model: None, diagnostics };
         }
         self.engine.insert(&self.records, before);
-        Added { model: Some(ModelId(number as u32)), diagnostics }
+        AddOutcome { model: Some(ModelId(number as u32)), diagnostics }
     }
 
-    /// Takes a model out. Its numbers become void: questions about it are answered with none.
+    /// Removes a model. Its ids become invalid: queries return `None`.
     pub fn remove(&mut self, model: ModelId) {
         self.engine.remove(&self.records, model.0);
         for body in self.records.bodies_of(model.0) {
@@ -138,8 +143,8 @@ impl World {
         }
     }
 
-    /// Everything back to where it was added, at rest and without commands. The same steps then
-    /// give the same bits as in a new world. Removed models stay away.
+    /// Resets all models to the poses at which they were added, at rest and without commands. The
+    /// same steps then give the same bits as in a new world. Removed models stay removed.
     pub fn reset(&mut self) {
         for axis in &mut self.records.axes {
             (axis.command, axis.state, axis.changed) = Default::default();
@@ -148,23 +153,23 @@ impl World {
         self.time_ns = 0;
         self.diverged = None;
         self.engine = empty.engine;
-        // The body of the world is there already.
+        // The body of the world exists already.
         self.engine.insert(&self.records, Mark { bodies: 1, ..Mark::default() });
     }
 
-    /// Simulated time since the start or the last reset [ns].
+    /// Returns the simulated time since the start or the last reset [ns].
     #[must_use]
     pub fn time_ns(&self) -> i64 {
         self.time_ns
     }
 
-    /// Gravity in the world's frame [m/s²].
+    /// Returns gravity in the world's frame [m/s²].
     #[must_use]
     pub fn gravity_m_s2(&self) -> DVec3 {
         self.gravity_m_s2
     }
 
-    /// Changes gravity [m/s²], for good. One beyond [`MAX_GRAVITY_M_S2`] changes nothing.
+    /// Changes gravity permanently [m/s²]. A value beyond [`MAX_GRAVITY_M_S2`] is ignored.
     pub fn set_gravity(&mut self, gravity_m_s2: DVec3) {
         if is_within(gravity_m_s2, MAX_GRAVITY_M_S2) {
             self.gravity_m_s2 = gravity_m_s2;
@@ -174,13 +179,13 @@ impl World {
         }
     }
 
-    /// Moves everything on by a time [ns]. In [`Mode::Rigid`] use the same step throughout: 1 ms is
-    /// what worlds ask for and what the tests hold. A step that is not positive does nothing.
+    /// Advances the world by a time [ns]. In [`PhysicsMode::Rigid`] use a constant step: worlds and the
+    /// tests use 1 ms. A step that is not positive does nothing.
     ///
     /// # Errors
     /// When a body's motion is no longer finite, or faster than
-    /// [`MAX_SPEED_M_S`](crate::limits::MAX_SPEED_M_S). The world then stands still, and each further
-    /// step gives the same answer, until its model is [removed](Self::remove) or the world is
+    /// [`MAX_SPEED_M_S`](crate::limits::MAX_SPEED_M_S). The world then stops, and each further step
+    /// returns the same error, until its model is [removed](Self::remove) or the world is
     /// [reset](Self::reset).
     pub fn step(&mut self, step_ns: i64) -> Result<(), Diverged> {
         if let Some(diverged) = &self.diverged {
@@ -201,7 +206,7 @@ impl World {
         outcome.map_err(|lost| {
             let link = self.records.bodies[lost.body].name.clone();
             let model = self.records.model_of_body(lost.body).map(ModelId);
-            let Lost { speed_m_s, .. } = lost;
+            let DivergedBody { speed_m_s, .. } = lost;
             let diverged = Diverged { model, link, time_ns: self.time_ns, speed_m_s };
             self.diverged = Some(diverged.clone());
             diverged

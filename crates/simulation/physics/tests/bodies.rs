@@ -4,12 +4,12 @@
 mod common;
 
 use common::*;
-use periplus_physics::{Mode, NoMeshes, World};
+use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_scene::{Collision, DVec3, Link, Pose, Shape};
 
 #[test]
 fn a_second_of_free_fall_is_4_9_metres() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     put(&mut world, &model("stone", vec![solid_ball("ball", 1.0, 0.1)], vec![]), Pose::IDENTITY);
     run(&mut world, 1.0);
     let state = state(&world, "stone", "ball");
@@ -106,7 +106,7 @@ fn what_only_reports_contacts_falls_through_and_is_told() {
 
 #[test]
 fn links_without_weight_float() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     let light = Link { gravity: false, ..solid_ball("balloon", 1.0, 0.1) };
     put(&mut world, &model("balloon", vec![light], vec![]), Pose::IDENTITY);
     run(&mut world, 1.0);
@@ -196,7 +196,7 @@ fn put_down_taken_away_and_put_back() {
 #[test]
 fn a_bounce_keeps_its_share_of_speed() {
     let height_after = |restitution: f64| {
-        let mut world = World::empty(DVec3::new(0.0, 0.0, -10.0), Mode::Rigid);
+        let mut world = PhysicsWorld::empty(DVec3::new(0.0, 0.0, -10.0), PhysicsMode::Rigid);
         let bouncy = |mut model: periplus_scene::Model| {
             let contact = &mut model.links[0].collisions[0].surface.contact;
             (contact.restitution, contact.bounce_threshold_m_s) = (restitution, 0.1);

@@ -11,7 +11,7 @@ use std::time::Instant;
 use periplus_diagnostics::Severity;
 use periplus_loader::{Setting, load, read_mesh};
 use periplus_os::Machine;
-use periplus_physics::{Heights, Meshes, Mode, Triangles, World};
+use periplus_physics::{Heights, Meshes, PhysicsMode, PhysicsWorld, Triangles};
 use periplus_resources::{Host as _, Resolver};
 use periplus_scene::{DVec3, Heightmap, Link, Mesh, Model, Pose, Scene, Shape};
 
@@ -58,7 +58,7 @@ fn floor() -> Model {
 }
 
 /// The worlds of a scene; its robots each alone on a floor, half a metre up.
-fn worlds(scene: &Scene, mode: Mode, files: &Files) -> (Vec<World>, Vec<String>) {
+fn worlds(scene: &Scene, mode: PhysicsMode, files: &Files) -> (Vec<PhysicsWorld>, Vec<String>) {
     let mut made = Vec::new();
     let mut refused = Vec::new();
     let mut told = |diagnostics: &periplus_diagnostics::Diagnostics| {
@@ -66,12 +66,12 @@ fn worlds(scene: &Scene, mode: Mode, files: &Files) -> (Vec<World>, Vec<String>)
         refused.extend(errors.map(|error| format!("{}: {}", error.code, error.message)));
     };
     for world in &scene.worlds {
-        let (world, diagnostics) = World::new(world, mode, files);
+        let (world, diagnostics) = PhysicsWorld::new(world, mode, files);
         told(&diagnostics);
         made.push(world);
     }
     for model in &scene.models {
-        let mut world = World::empty(DVec3::new(0.0, 0.0, -9.8), mode);
+        let mut world = PhysicsWorld::empty(DVec3::new(0.0, 0.0, -9.8), mode);
         world.add(&floor(), Pose::IDENTITY, files);
         told(&world.add(model, Pose::from_xyz(0.0, 0.0, 0.5), files).diagnostics);
         made.push(world);
@@ -108,7 +108,7 @@ fn every_robot_and_world_stands_and_moves() {
         let loaded = load(path, &setting);
         let Some(scene) = &loaded.scene else { continue };
         loaded_files += 1;
-        for mode in [Mode::Rigid, Mode::Kinematic] {
+        for mode in [PhysicsMode::Rigid, PhysicsMode::Kinematic] {
             let started = Instant::now();
             let (worlds, refused) = worlds(scene, mode, &files);
             for why in refused {

@@ -8,11 +8,11 @@ use std::path::Path;
 
 use common::*;
 use periplus_loader::{Setting, load_bytes};
-use periplus_physics::{Command, Mode, NoMeshes, World};
+use periplus_physics::{JointCommand, NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_scene::{Axis, DVec3, Element, Joint, JointKind, Model, Pose};
 
-const MODES: [Mode; 2] = [Mode::Rigid, Mode::Kinematic];
+const MODES: [PhysicsMode; 2] = [PhysicsMode::Rigid, PhysicsMode::Kinematic];
 
 fn x_axis() -> Axis {
     Axis { direction_in_joint: DVec3::X, ..Axis::default() }
@@ -24,19 +24,19 @@ fn a_screw_slides_by_its_pitch_for_each_turn_and_carries_its_load() {
         let mut screw = joint("screw", JointKind::Screw, "world", "nut", Axis::default());
         screw.thread_pitch_m = Some(0.02);
         let nut = solid_box("nut", 2.0, DVec3::splat(0.1));
-        let mut world = World::empty(DOWN, mode);
+        let mut world = PhysicsWorld::empty(DOWN, mode);
         let id =
             put(&mut world, &model("m", vec![nut], vec![screw]), Pose::from_xyz(0.0, 0.0, 1.0));
         let screw = world.find_joint(id, "screw").unwrap();
         // Two turns a second for five seconds: 0.2 m up.
-        world.command(screw, Command::Velocity { target: 2.0 * TAU, max_effort: 1e3 });
+        world.command(screw, JointCommand::Velocity { target: 2.0 * TAU, max_effort: 1e3 });
         run(&mut world, 5.0);
         let up = state(&world, "m", "nut").world_from_link.translation.z - 1.0;
         let turned = world.axis_state(screw).unwrap().position;
         assert!((turned - 10.0 * TAU).abs() < 0.01 * turned, "{mode:?} {turned}");
         assert!((up - 0.02 * turned / TAU).abs() < 1e-3, "{mode:?} {up}");
         assert_eq!(world.joint_state(screw).len(), 2);
-        world.command(screw, Command::Velocity { target: 0.0, max_effort: 1e3 });
+        world.command(screw, JointCommand::Velocity { target: 0.0, max_effort: 1e3 });
         run(&mut world, 2.0);
         let held = state(&world, "m", "nut").world_from_link.translation.z - 1.0;
         assert!((held - up).abs() < 2e-3, "{mode:?} {up} {held}");
@@ -73,10 +73,10 @@ fn gears(ratio: &str, second: DVec3) -> Model {
 fn a_gearbox_turns_the_second_by_its_ratio_the_other_way() {
     for mode in MODES {
         for (second, expected) in [(DVec3::X, -8.0), (DVec3::NEG_X, 8.0)] {
-            let mut world = World::empty(DVec3::ZERO, mode);
+            let mut world = PhysicsWorld::empty(DVec3::ZERO, mode);
             put(&mut world, &gears("2", second), Pose::IDENTITY);
             let first = find_joint(&world, "m", "first");
-            world.command(first, Command::Velocity { target: 2.0, max_effort: 100.0 });
+            world.command(first, JointCommand::Velocity { target: 2.0, max_effort: 100.0 });
             run(&mut world, 2.0);
             let turned = world.axis_state(find_joint(&world, "m", "second")).unwrap().position;
             assert!((turned - expected).abs() < 0.1, "{mode:?} {second:?}: {turned}");
@@ -88,7 +88,8 @@ fn a_gearbox_turns_the_second_by_its_ratio_the_other_way() {
 fn a_gearbox_without_its_body_binds_nothing_and_says_so() {
     let mut broken = gears("2", DVec3::X);
     broken.joints[3].extra.pop();
-    let added = World::empty(DOWN, Mode::Rigid).add(&broken, Pose::IDENTITY, &NoMeshes);
+    let added =
+        PhysicsWorld::empty(DOWN, PhysicsMode::Rigid).add(&broken, Pose::IDENTITY, &NoMeshes);
     assert!(added.model.is_some());
     assert_eq!(added.diagnostics.iter().next().unwrap().code, "joint-not-simulated");
 }
@@ -123,10 +124,10 @@ fn joints_between_models_hold() {
     arm.child_from_joint = Pose::from_xyz(-1.0, 0.0, 0.0);
     for mode in MODES {
         let scene = two_boxes(vec![hold.clone(), arm.clone()]);
-        let (mut world, diagnostics) = World::new(&scene, mode, &NoMeshes);
+        let (mut world, diagnostics) = PhysicsWorld::new(&scene, mode, &NoMeshes);
         assert!(diagnostics.is_empty(), "{diagnostics:?}");
         let joint = world.find_world_joint("arm").unwrap();
-        world.command(joint, Command::Velocity { target: 1.0, max_effort: 1e3 });
+        world.command(joint, JointCommand::Velocity { target: 1.0, max_effort: 1e3 });
         run(&mut world, 1.0);
         let turned = world.axis_state(joint).unwrap().position;
         assert!((turned - 1.0).abs() < 0.05, "{mode:?} {turned}");
@@ -142,7 +143,8 @@ fn joints_between_models_hold() {
 #[test]
 fn a_joint_to_a_model_that_is_not_there_is_an_error_and_the_rest_runs() {
     let wrong = Joint::new("hold", JointKind::Fixed, "world", "c::link");
-    let (mut world, diagnostics) = World::new(&two_boxes(vec![wrong]), Mode::Rigid, &NoMeshes);
+    let (mut world, diagnostics) =
+        PhysicsWorld::new(&two_boxes(vec![wrong]), PhysicsMode::Rigid, &NoMeshes);
     assert_eq!(diagnostics.iter().next().unwrap().code, "joint-end-unknown");
     run(&mut world, 0.1);
     assert_eq!(world.models().count(), 2);

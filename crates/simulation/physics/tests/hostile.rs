@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use periplus_diagnostics::{Origin, Severity, SourceMap};
-use periplus_physics::{Mode, NoMeshes, World};
+use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_scene::{Axis, DVec3, Friction, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
 use proptest::prelude::*;
 
@@ -130,8 +130,8 @@ fn a_motion_that_is_none_is_told_with_the_bodys_name() {
         Pose::from_xyz(0.0, 0.0, 1.0),
     );
     let rocket = link(&world, "m", "rocket");
-    assert!(!world.push(rocket, DVec3::ZERO, DVec3::splat(f64::NAN), DVec3::ZERO));
-    world.push(rocket, DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
+    assert!(!world.apply_force(rocket, DVec3::ZERO, DVec3::splat(f64::NAN), DVec3::ZERO));
+    world.apply_force(rocket, DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
     let diverged = world.step(STEP_NS).unwrap_err();
     assert_eq!(diverged.link, "m::rocket");
     assert!(diverged.to_string().contains("`m::rocket` moves at "), "{diverged}");
@@ -142,16 +142,19 @@ fn a_motion_that_is_none_is_told_with_the_bodys_name() {
 
 #[test]
 fn commands_that_are_none_are_refused() {
-    use periplus_physics::Command;
+    use periplus_physics::JointCommand;
     let mut world = flat_world();
     put(&mut world, &two_wheels(), Pose::IDENTITY);
     let wheels = Wheels::of(&world);
-    assert!(!world.command(wheels.left, Command::Effort(f64::NAN)));
+    assert!(!world.command(wheels.left, JointCommand::Effort(f64::NAN)));
     assert!(
-        !world.command(wheels.left, Command::Velocity { target: f64::INFINITY, max_effort: 1.0 })
+        !world.command(
+            wheels.left,
+            JointCommand::Velocity { target: f64::INFINITY, max_effort: 1.0 }
+        )
     );
     let fixed = find_joint(&world, "robot", "caster_joint");
-    assert!(!world.command(fixed, Command::Effort(1.0)));
+    assert!(!world.command(fixed, JointCommand::Effort(1.0)));
     assert_eq!(world.joint_state(fixed), vec![]);
 }
 
@@ -180,7 +183,7 @@ proptest! {
 
 #[test]
 fn world_of_nan_gravity() {
-    let world = World::empty(DVec3::ZERO, Mode::Rigid);
+    let world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     assert_eq!(world.gravity_m_s2(), DVec3::ZERO);
 }
 
@@ -223,9 +226,9 @@ fn absurd_numbers_are_refused_as_nan_is() {
     assert!(!world.set_link_pose(a, Pose::from_xyz(1e300, 0.0, 0.0)));
     assert!(!world.set_model_velocity(id, beyond, DVec3::ZERO));
     assert!(!world.set_model_velocity(id, DVec3::ZERO, beyond));
-    assert!(!world.push(a, DVec3::Z, beyond, DVec3::ZERO));
-    assert!(!world.push(a, DVec3::Z, DVec3::ZERO, beyond));
-    assert!(!world.push(a, beyond, DVec3::Z, DVec3::ZERO));
+    assert!(!world.apply_force(a, DVec3::Z, beyond, DVec3::ZERO));
+    assert!(!world.apply_force(a, DVec3::Z, DVec3::ZERO, beyond));
+    assert!(!world.apply_force(a, beyond, DVec3::Z, DVec3::ZERO));
     run(&mut world, 0.5);
 }
 
@@ -236,7 +239,12 @@ fn the_rest_goes_on_when_a_diverged_model_is_removed() {
     let rocket = model("m", vec![solid_ball("rocket", 1.0, 0.1)], vec![]);
     let rocket = put(&mut world, &rocket, at_height(0.0));
     put(&mut world, &model("n", vec![solid_ball("ball", 1.0, 0.1)], vec![]), at_height(1.0));
-    world.push(link(&world, "m", "rocket"), DVec3::Z, DVec3::new(0.0, 0.0, 1e9), DVec3::ZERO);
+    world.apply_force(
+        link(&world, "m", "rocket"),
+        DVec3::Z,
+        DVec3::new(0.0, 0.0, 1e9),
+        DVec3::ZERO,
+    );
     let diverged = world.step(STEP_NS).unwrap_err();
     assert_eq!(diverged.model, Some(rocket));
     world.remove(rocket);

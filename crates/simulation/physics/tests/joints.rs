@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::*;
-use periplus_physics::{Command, Mode, World};
+use periplus_physics::{JointCommand, PhysicsMode, PhysicsWorld};
 use periplus_scene::{Axis, DVec3, Joint, JointKind, Mimic, Model, Pose};
 
 /// A weight of 1 kg and 0.1 kg m², 1 m from a hinge along y through the origin of the world.
@@ -19,7 +19,7 @@ fn pendulum(direction: DVec3) -> Model {
 
 #[test]
 fn a_pendulum_of_one_metre_swings_in_two_seconds() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     let (sine, cosine) = libm::sincos(0.1);
     put(&mut world, &pendulum(DVec3::new(sine, 0.0, -cosine)), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
@@ -41,22 +41,22 @@ fn a_pendulum_of_one_metre_swings_in_two_seconds() {
 
 #[test]
 fn holding_a_pendulum_out_takes_its_weight_times_its_arm() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     put(&mut world, &pendulum(DVec3::X), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
-    let hold = Command::Position { target: 0.0, max_speed: 1.0, max_effort: 100.0 };
+    let hold = JointCommand::Position { target: 0.0, max_speed: 1.0, max_effort: 100.0 };
     assert!(world.command(hinge, hold));
     run(&mut world, 1.0);
     let held = world.axis_state(hinge).unwrap();
     assert!(held.position.abs() < 1e-3 && (held.effort + 9.8).abs() < 0.05, "{held:?}");
     // With less it falls.
-    world.command(hinge, Command::Position { target: 0.0, max_speed: 1.0, max_effort: 5.0 });
+    world.command(hinge, JointCommand::Position { target: 0.0, max_speed: 1.0, max_effort: 5.0 });
     run(&mut world, 0.5);
     assert!(world.axis_state(hinge).unwrap().position > 0.3);
 }
 
-fn slider(axis: Axis) -> (World, periplus_physics::JointId) {
-    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
+fn slider(axis: Axis) -> (PhysicsWorld, periplus_physics::JointId) {
+    let mut world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     let axis = Axis { direction_in_joint: DVec3::X, ..axis };
     let slide = joint("slide", JointKind::Prismatic, "world", "cart", axis);
     put(
@@ -71,8 +71,8 @@ fn slider(axis: Axis) -> (World, periplus_physics::JointId) {
 #[test]
 fn a_slide_ends_at_its_limits() {
     let (mut world, slide) = slider(Axis { lower: -0.1, upper: 0.3, ..Axis::default() });
-    for (push, end) in [(10.0, 0.3), (-10.0, -0.1)] {
-        world.command(slide, Command::Effort(push));
+    for (apply_force, end) in [(10.0, 0.3), (-10.0, -0.1)] {
+        world.command(slide, JointCommand::Effort(apply_force));
         run(&mut world, 1.5);
         let state = world.axis_state(slide).unwrap();
         assert!((state.position - end).abs() < 2e-4 && state.velocity.abs() < 1e-3, "{state:?}");
@@ -82,7 +82,7 @@ fn a_slide_ends_at_its_limits() {
 #[test]
 fn an_effort_is_mass_times_acceleration() {
     let (mut world, slide) = slider(Axis::default());
-    world.command(slide, Command::Effort(4.0));
+    world.command(slide, JointCommand::Effort(4.0));
     run(&mut world, 1.0);
     // 4 N on 2 kg: 2 m/s and 1 m after a second.
     let state = world.axis_state(slide).unwrap();
@@ -91,7 +91,7 @@ fn an_effort_is_mass_times_acceleration() {
         "{state:?}"
     );
     assert_eq!(state.effort, 4.0);
-    world.command(slide, Command::Free);
+    world.command(slide, JointCommand::Free);
     run(&mut world, 1.0);
     assert!((world.axis_state(slide).unwrap().velocity - 2.0).abs() < 1e-6);
 }
@@ -99,7 +99,7 @@ fn an_effort_is_mass_times_acceleration() {
 #[test]
 fn damping_ends_at_force_by_coefficient() {
     let (mut world, slide) = slider(Axis { damping: 4.0, ..Axis::default() });
-    world.command(slide, Command::Effort(2.0));
+    world.command(slide, JointCommand::Effort(2.0));
     run(&mut world, 6.0);
     assert!((world.axis_state(slide).unwrap().velocity - 0.5).abs() < 1e-4);
 }
@@ -109,7 +109,7 @@ fn a_spring_rests_at_force_by_stiffness() {
     let axis =
         Axis { spring_stiffness: 100.0, spring_reference: 0.1, damping: 20.0, ..Axis::default() };
     let (mut world, slide) = slider(axis);
-    world.command(slide, Command::Effort(10.0));
+    world.command(slide, JointCommand::Effort(10.0));
     run(&mut world, 5.0);
     // 10 N / 100 N/m beyond 0.1 m.
     let position = world.axis_state(slide).unwrap().position;
@@ -119,18 +119,18 @@ fn a_spring_rests_at_force_by_stiffness() {
 #[test]
 fn dry_friction_holds_up_to_its_force() {
     let (mut world, slide) = slider(Axis { friction: 3.0, ..Axis::default() });
-    world.command(slide, Command::Effort(2.9));
+    world.command(slide, JointCommand::Effort(2.9));
     run(&mut world, 1.0);
     assert!(world.axis_state(slide).unwrap().position < 1e-4);
-    world.command(slide, Command::Effort(5.0));
+    world.command(slide, JointCommand::Effort(5.0));
     run(&mut world, 1.0);
     // 2 N are left for 2 kg.
     assert!((world.axis_state(slide).unwrap().velocity - 1.0).abs() < 0.01);
 }
 
 /// A disc of 0.1 kg m² on an axle along z.
-fn disc(axis: Axis, kind: JointKind) -> (World, periplus_physics::JointId) {
-    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
+fn disc(axis: Axis, kind: JointKind) -> (PhysicsWorld, periplus_physics::JointId) {
+    let mut world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     let mut wheel = solid_ball("disc", 1.0, 0.5);
     wheel.collisions.clear();
     let axle = joint("axle", kind, "world", "disc", axis);
@@ -142,7 +142,7 @@ fn disc(axis: Axis, kind: JointKind) -> (World, periplus_physics::JointId) {
 #[test]
 fn a_motor_reaches_its_speed_as_fast_as_its_torque_allows() {
     let (mut world, axle) = disc(Axis::default(), JointKind::Continuous);
-    world.command(axle, Command::Velocity { target: 10.0, max_effort: 0.5 });
+    world.command(axle, JointCommand::Velocity { target: 10.0, max_effort: 0.5 });
     run(&mut world, 1.0);
     // 0.5 N m on 0.1 kg m²: 5 rad/s after one second, 10 after two.
     assert!((world.axis_state(axle).unwrap().velocity - 5.0).abs() < 1e-3);
@@ -154,7 +154,7 @@ fn a_motor_reaches_its_speed_as_fast_as_its_torque_allows() {
 fn a_joint_keeps_to_its_own_speed_and_effort() {
     let axis = Axis { velocity: 3.0, effort: 0.1, ..Axis::default() };
     let (mut world, axle) = disc(axis, JointKind::Continuous);
-    world.command(axle, Command::Velocity { target: 10.0, max_effort: f64::INFINITY });
+    world.command(axle, JointCommand::Velocity { target: 10.0, max_effort: f64::INFINITY });
     run(&mut world, 1.0);
     assert!((world.axis_state(axle).unwrap().velocity - 1.0).abs() < 1e-3);
     run(&mut world, 3.0);
@@ -165,7 +165,7 @@ fn a_joint_keeps_to_its_own_speed_and_effort() {
 fn turns_are_counted() {
     let (mut world, axle) = disc(Axis::default(), JointKind::Continuous);
     let target = 6.0 * PI;
-    world.command(axle, Command::Position { target, max_speed: 10.0, max_effort: 100.0 });
+    world.command(axle, JointCommand::Position { target, max_speed: 10.0, max_effort: 100.0 });
     run(&mut world, 3.0);
     assert!((world.axis_state(axle).unwrap().position - target).abs() < 1e-6);
 }
@@ -175,8 +175,8 @@ fn turning_limits_hold_narrow_wide_and_beyond_a_turn() {
     for (lower, upper) in [(-0.5, 1.0), (0.0, 3.0), (-3.1, 3.1), (-7.0, 10.0)] {
         let axis = Axis { lower, upper, ..Axis::default() };
         let (mut world, axle) = disc(axis, JointKind::Revolute);
-        for (push, end) in [(0.5, upper), (-0.5, lower)] {
-            world.command(axle, Command::Effort(push));
+        for (apply_force, end) in [(0.5, upper), (-0.5, lower)] {
+            world.command(axle, JointCommand::Effort(apply_force));
             run(&mut world, 4.0);
             let state = world.axis_state(axle).unwrap();
             assert!((state.position - end).abs() < 2e-3, "{lower} {upper}: {state:?}");
@@ -186,7 +186,7 @@ fn turning_limits_hold_narrow_wide_and_beyond_a_turn() {
 
 #[test]
 fn a_follower_follows() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     let finger = |name: &str, y: f64| at(0.0, y, 0.0, solid_box(name, 0.2, DVec3::splat(0.05)));
     let slide = |name: &str, child: &str, mimic| {
         joint(
@@ -211,7 +211,7 @@ fn a_follower_follows() {
     );
     put(&mut world, &hand, Pose::IDENTITY);
     let one = find_joint(&world, "hand", "one");
-    world.command(one, Command::Position { target: 0.2, max_speed: 1.0, max_effort: 10.0 });
+    world.command(one, JointCommand::Position { target: 0.2, max_speed: 1.0, max_effort: 10.0 });
     run(&mut world, 2.0);
     let two = world.axis_state(find_joint(&world, "hand", "two")).unwrap();
     assert!((two.position + 0.39).abs() < 1e-4, "{two:?}");
@@ -219,7 +219,7 @@ fn a_follower_follows() {
 
 #[test]
 fn links_on_fixed_joints_are_one_body() {
-    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     let weld = Joint::new("weld", JointKind::Fixed, "a", "b");
     let bar = model(
         "bar",
@@ -229,7 +229,7 @@ fn links_on_fixed_joints_are_one_body() {
     put(&mut world, &bar, Pose::IDENTITY);
     // Pushed at one end across: the middle goes F/m, and it turns about z.
     let a = link(&world, "bar", "a");
-    world.push(a, DVec3::ZERO, DVec3::new(0.0, 2000.0, 0.0), DVec3::ZERO);
+    world.apply_force(a, DVec3::ZERO, DVec3::new(0.0, 2000.0, 0.0), DVec3::ZERO);
     run(&mut world, 0.001);
     let (a, b) = (state(&world, "bar", "a"), state(&world, "bar", "b"));
     // 2 N s on 2 kg: 1 m/s; 2 N m s on 2 kg m² (and 0.008 of the balls): -1 rad/s.
@@ -243,7 +243,7 @@ fn links_on_fixed_joints_are_one_body() {
 
 #[test]
 fn a_ball_joint_lets_turn_and_holds_its_place() {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     let mut ball = Joint::new("ball", JointKind::Ball, "world", "bob");
     ball.child_from_joint = Pose::from_xyz(-1.0, 0.0, 0.0);
     put(
@@ -258,7 +258,7 @@ fn a_ball_joint_lets_turn_and_holds_its_place() {
 
 #[test]
 fn a_universal_joint_turns_about_both_axes_and_no_third() {
-    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     let mut cross = joint(
         "cross",
         JointKind::Universal,
@@ -277,7 +277,7 @@ fn a_universal_joint_turns_about_both_axes_and_no_third() {
         world.command_axis(
             cross,
             axis,
-            Command::Position { target, max_speed: 2.0, max_effort: 10.0 },
+            JointCommand::Position { target, max_speed: 2.0, max_effort: 10.0 },
         );
     }
     run(&mut world, 2.0);
@@ -295,10 +295,13 @@ fn a_universal_joint_turns_about_both_axes_and_no_third() {
 
 #[test]
 fn a_quarter_turn_carries_the_link_along() {
-    let mut world = World::empty(DVec3::ZERO, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Rigid);
     put(&mut world, &pendulum(DVec3::X), Pose::IDENTITY);
     let hinge = find_joint(&world, "pendulum", "hinge");
-    world.command(hinge, Command::Position { target: FRAC_PI_2, max_speed: 5.0, max_effort: 1e3 });
+    world.command(
+        hinge,
+        JointCommand::Position { target: FRAC_PI_2, max_speed: 5.0, max_effort: 1e3 },
+    );
     run(&mut world, 2.0);
     // About y from x to -z.
     let at = state(&world, "pendulum", "bob").world_from_link.translation;

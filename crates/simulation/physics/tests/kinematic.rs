@@ -6,12 +6,12 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use common::*;
-use periplus_physics::{Command, Mode, Twist, World};
+use periplus_physics::{JointCommand, PhysicsMode, PhysicsWorld, Twist};
 use periplus_scene::{Axis, DVec3, JointKind, Link, Model, Pose};
 use proptest::prelude::*;
 
-fn world_with(model: &Model, pose: Pose) -> World {
-    let mut world = World::empty(DOWN, Mode::Kinematic);
+fn world_with(model: &Model, pose: Pose) -> PhysicsWorld {
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Kinematic);
     put(&mut world, &ground(), Pose::IDENTITY);
     put(&mut world, model, pose);
     world
@@ -113,9 +113,9 @@ fn joints_follow_their_commands_and_links_follow_joints() {
     let mut world = world_with(&arm, Pose::IDENTITY);
     let shoulder = find_joint(&world, "robot", "shoulder");
     let hand = find_joint(&world, "robot", "hand_joint");
-    world.command(shoulder, Command::Velocity { target: 0.5, max_effort: 1.0 });
+    world.command(shoulder, JointCommand::Velocity { target: 0.5, max_effort: 1.0 });
     let (target, max_speed) = (0.3, 10.0);
-    world.command(hand, Command::Position { target, max_speed, max_effort: 1.0 });
+    world.command(hand, JointCommand::Position { target, max_speed, max_effort: 1.0 });
     world.step(SECOND_NS).unwrap();
     // The arm turns about its own origin; the hand slides out of it.
     let expected = at_yaw(1.0, 0.0, 0.0, 0.5) * Pose::from_xyz(1.3, 0.0, 0.0);
@@ -129,7 +129,7 @@ fn joints_follow_their_commands_and_links_follow_joints() {
     let held = world.axis_state(shoulder).unwrap();
     assert_eq!((held.position, held.velocity), (1.0, 0.0));
     // An effort moves nothing here.
-    world.command(shoulder, Command::Effort(-10.0));
+    world.command(shoulder, JointCommand::Effort(-10.0));
     world.step(SECOND_NS).unwrap();
     assert_eq!(world.axis_state(shoulder).unwrap().position, 1.0);
     // A limb that is put elsewhere comes back to its joint.
@@ -152,7 +152,7 @@ fn a_robot_whose_wheel_is_the_parent_stays_whole() {
     let robot = world.find_model("robot").unwrap();
     world.command(
         find_joint(&world, "robot", "left_joint"),
-        Command::Velocity { target: 1.0, max_effort: 1.0 },
+        JointCommand::Velocity { target: 1.0, max_effort: 1.0 },
     );
     assert!(world.follow(robot, Twist { x_m_s: 1.0, ..Twist::default() }));
     world.step(SECOND_NS).unwrap();

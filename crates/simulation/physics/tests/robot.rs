@@ -6,10 +6,10 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use common::*;
-use periplus_physics::World;
+use periplus_physics::PhysicsWorld;
 use periplus_scene::{Collision, DVec3, Link, Model, Pose, Shape};
 
-fn settled() -> (World, Wheels) {
+fn settled() -> (PhysicsWorld, Wheels) {
     let mut world = flat_world();
     put(&mut world, &two_wheels(), Pose::IDENTITY);
     let wheels = Wheels::of(&world);
@@ -19,7 +19,7 @@ fn settled() -> (World, Wheels) {
     (world, wheels)
 }
 
-fn base(world: &World) -> Pose {
+fn base(world: &PhysicsWorld) -> Pose {
     state(world, "robot", "base").world_from_link
 }
 
@@ -27,7 +27,8 @@ fn base(world: &World) -> Pose {
 fn straight_ahead() {
     let (mut world, wheels) = settled();
     let start = base(&world);
-    let angle = |world: &World, wheels: &Wheels| world.axis_state(wheels.left).unwrap().position;
+    let angle =
+        |world: &PhysicsWorld, wheels: &Wheels| world.axis_state(wheels.left).unwrap().position;
     let before = angle(&world, &wheels);
     wheels.turn(&mut world, 5.0, 5.0);
     run(&mut world, 10.0);
@@ -152,7 +153,7 @@ fn a_wheel_touches_a_wall_beside_it_where_its_face_is() {
     run(&mut world, 4.0);
     let pose = base(&world);
     assert!(pose.translation.x > 1.9 && pose.translation.y.abs() < 0.005, "{pose:?}");
-    let touched = |world: &World| {
+    let touched = |world: &PhysicsWorld| {
         let contacts = world.contacts();
         contacts.iter().any(|contact| contact.normal.y.abs() > 0.5)
     };
@@ -163,7 +164,7 @@ fn a_wheel_touches_a_wall_beside_it_where_its_face_is() {
     for _ in 0..1000 {
         let DVec3 { x, y, .. } = base(&world).translation;
         let low = DVec3::new(x - 0.12, y, 0.02);
-        world.push(left, low, DVec3::new(0.0, 250.0, 0.0), DVec3::ZERO);
+        world.apply_force(left, low, DVec3::new(0.0, 250.0, 0.0), DVec3::ZERO);
         world.step(STEP_NS).unwrap();
     }
     let face = world.link_state(left).unwrap().world_from_link.translation.y + 0.02;

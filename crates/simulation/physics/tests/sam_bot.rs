@@ -9,8 +9,8 @@ use std::path::Path;
 use common::*;
 use periplus_loader::{Setting, load};
 use periplus_os::Machine;
-use periplus_physics::drives::{ClassicDiffDrive, ClassicDrive, Odometry, WheelPair, truth};
-use periplus_physics::{Command, Kinematic, Twist, World};
+use periplus_physics::drives::{ClassicDiffDrive, ClassicDrive, Odometry, WheelPair, true_twist};
+use periplus_physics::{JointCommand, Kinematic, PhysicsWorld, Twist};
 use periplus_resources::Resolver;
 use periplus_scene::{Collision, DVec3, Link, Model, Pose, Shape};
 
@@ -32,7 +32,7 @@ fn sam_bot() -> Model {
 
 /// The robot on a plane, its plugin updated at 100 Hz.
 struct Drive {
-    world: World,
+    world: PhysicsWorld,
     plugin: ClassicDrive,
     law: ClassicDiffDrive,
     joints: [periplus_physics::JointId; 2],
@@ -64,7 +64,7 @@ impl Drive {
             let wanted = self.plugin.update(&self.law, twist, &[now], 0.01);
             for (joint, target) in self.joints.into_iter().zip(wanted[0]) {
                 let max_effort = self.law.max_wheel_torque_n_m;
-                self.world.command(joint, Command::Velocity { target, max_effort });
+                self.world.command(joint, JointCommand::Velocity { target, max_effort });
             }
             run(&mut self.world, 0.01);
         }
@@ -82,7 +82,7 @@ fn a_minute_straight_at_half_a_metre_per_second_then_a_minute_at_rest() {
     drive.go(Twist { x_m_s: 0.5, ..Twist::default() }, 60.0);
     let way = start.inverse() * drive.pose();
     let state = drive.world.link_state(drive.base).unwrap();
-    let seen = truth(state.world_from_link, state.linear_m_s, state.angular_rad_s);
+    let seen = true_twist(state.world_from_link, state.linear_m_s, state.angular_rad_s);
     println!("sam_bot straight: {:?}, odometry {:?}", way.translation, drive.plugin.odometry.pose);
     // Half a second of acceleration costs 0.125 m.
     assert!((way.translation.x - 29.875).abs() < 0.15, "{way:?}");
@@ -158,7 +158,7 @@ fn an_arc_agrees_with_the_exact_one() {
     drive.go(twist, 5.0);
     let way = start.inverse() * drive.pose();
     // The robot turns about the middle of its axle, 0.12 m behind the body's centre.
-    let arc = Kinematic::default().moved(twist, 5.0).pose();
+    let arc = Kinematic::default().advanced(twist, 5.0).pose();
     let expected = Pose::from_xyz(-0.12, 0.0, 0.0) * arc * Pose::from_xyz(0.12, 0.0, 0.0);
     let (metres, radians) = way.distance_to(expected);
     println!("sam_bot arc: {metres} m, {radians} rad off after 2 m");

@@ -4,7 +4,9 @@
 mod common;
 
 use common::*;
-use periplus_physics::{Added, Heights, Meshes, Mode, NoMeshes, Triangles, World};
+use periplus_physics::{
+    AddOutcome, Heights, Meshes, NoMeshes, PhysicsMode, PhysicsWorld, Triangles,
+};
 use periplus_scene::{
     Axis, Collision, DVec3, Heightmap, JointKind, Link, Mesh, Model, Polyline, Pose, Shape,
 };
@@ -51,14 +53,14 @@ fn fixed(shape: Shape) -> Model {
     Model { is_static: true, ..model("fixed", vec![link], vec![]) }
 }
 
-fn add(world: &mut World, model: &Model, pose: Pose) {
-    let Added { model, diagnostics } = world.add(model, pose, &Files);
+fn add(world: &mut PhysicsWorld, model: &Model, pose: Pose) {
+    let AddOutcome { model, diagnostics } = world.add(model, pose, &Files);
     assert!(model.is_some() && diagnostics.is_empty(), "{diagnostics:?}");
 }
 
 /// How high a ball of 2 cm that slides down a plumb line comes to rest on a shape.
 fn rest(shape: Shape, x: f64, y: f64) -> f64 {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     add(&mut world, &fixed(shape), Pose::IDENTITY);
     let plumb = joint("plumb", JointKind::Prismatic, "world", "ball", Axis::default());
     let ball = model("ball", vec![solid_ball("ball", 1.0, 0.02)], vec![plumb]);
@@ -136,7 +138,11 @@ fn outlines_are_solid_and_their_holes_are_open() {
 
 #[test]
 fn files_that_were_not_read_are_a_warning() {
-    let added = World::empty(DOWN, Mode::Rigid).add(&fixed(mesh()), Pose::IDENTITY, &NoMeshes);
+    let added = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid).add(
+        &fixed(mesh()),
+        Pose::IDENTITY,
+        &NoMeshes,
+    );
     assert!(added.model.is_some());
     assert_eq!(added.diagnostics.iter().next().unwrap().code, "shape-not-simulated");
 }

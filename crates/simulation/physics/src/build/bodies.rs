@@ -1,22 +1,22 @@
-//! Which links are one body.
+//! Grouping of links into rigid bodies.
 
 use periplus_diagnostics::Severity;
 use periplus_scene::{JointKind, Model};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
 use super::{Builder, rapier_pose};
-use crate::inertia::{mass_properties, moved, no_mass};
-use crate::places::End;
+use crate::flat_model::JointEnd;
+use crate::inertia::{mass_properties, no_mass, transformed};
 use crate::records::{Body, BodyKind, LinkRecord};
 
 impl Builder<'_, '_> {
-    /// For each link, the lowest link on the same rigid body; `None` in the world's.
+    /// Returns for each link the lowest link of the same rigid body; `None` for the world's body.
     pub(super) fn groups(&mut self, is_static: bool) -> Vec<Option<usize>> {
         let count = self.flat.links.len();
         if is_static {
             return vec![None; count];
         }
-        // Union-find in which the world is the number after the last link.
+        // Union-find in which the world has the number after the last link.
         let mut above: Vec<usize> = (0..=count).collect();
         fn find(above: &mut [usize], mut member: usize) -> usize {
             while above[member] != member {
@@ -27,9 +27,9 @@ impl Builder<'_, '_> {
         }
         for (scope, joint) in &self.flat.joints {
             let rigid = joint.kind == JointKind::Fixed;
-            let number = |end: Option<End>| match end {
-                Some(End::World) => Some(count),
-                Some(End::Link(link, _)) => Some(link),
+            let number = |end: Option<JointEnd>| match end {
+                Some(JointEnd::PhysicsWorld) => Some(count),
+                Some(JointEnd::Link(link, _)) => Some(link),
                 None => None,
             };
             let ends = (
@@ -38,7 +38,7 @@ impl Builder<'_, '_> {
             );
             if let (true, (Some(a), Some(b))) = (rigid, ends) {
                 let (a, b) = (find(&mut above, a), find(&mut above, b));
-                // The world is the root of its own group, otherwise the lowest link is.
+                // The world is the root of its own group; otherwise the lowest link is the root.
                 let (low, high) = if a == count || (b != count && a < b) { (a, b) } else { (b, a) };
                 above[high] = low;
             }
@@ -70,7 +70,7 @@ impl Builder<'_, '_> {
                         damping: link.velocity_decay,
                         can_sleep: model.allow_auto_disable,
                         colliders: Vec::new(),
-                        grains: Vec::new(),
+                        anisotropic_colliders: Vec::new(),
                         removed: false,
                     });
                     self.records.bodies.len() - 1
@@ -82,14 +82,14 @@ impl Builder<'_, '_> {
             if record.kind == BodyKind::Dynamic {
                 let warnings = self.diagnostics.count(Severity::Warning);
                 let Some(mass) = mass_properties(link, name, self.diagnostics) else {
-                    // The others may be worth a word too.
+                    // Continue, so that problems of the other links are reported too.
                     refused = true;
                     continue;
                 };
                 if self.diagnostics.count(Severity::Warning) > warnings {
                     self.without_inertia.push(body);
                 }
-                record.mass += moved(mass, &rapier_pose(body_from_link));
+                record.mass += transformed(mass, &rapier_pose(body_from_link));
                 if link.gravity {
                     record.weight_share += link.inertial.mass_kg;
                 }

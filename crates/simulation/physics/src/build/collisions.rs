@@ -1,4 +1,4 @@
-//! What of a model touches.
+//! Collision shapes of a model.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
@@ -8,20 +8,20 @@ use rapier3d_f64::geometry::SharedShape;
 use super::Builder;
 use super::surface::Surface;
 use crate::compliance::stiffness;
-use crate::hooks::{Part, Tag};
+use crate::flat_model::JointEnd;
+use crate::hooks::{ColliderTag, WheelPart};
 use crate::limits::{MAX_POSITION_M, is_pose};
-use crate::places::End;
 use crate::records::BodyKind;
 use crate::shapes::{Meshes, shape};
 use crate::wheels::wheel;
 
-/// The core of a wheel ends this far below its tread, so that it never carries the robot.
-const CORE_SHARE: f64 = 0.9;
+/// Radius of a wheel's core relative to its tread, so that the core never carries load.
+const CORE_RADIUS_RATIO: f64 = 0.9;
 
 impl Builder<'_, '_> {
     pub(super) fn collisions(&mut self, model: &Model, meshes: &dyn Meshes) {
         let first = self.first_link;
-        // A hook costs time at each step: only models of several bodies need to know their own.
+        // A hook costs time in every step: only models of several bodies need self-collision data.
         let bodies: std::collections::BTreeSet<usize> =
             self.records.links[first..].iter().map(|link| link.body).collect();
         let several = bodies.len() > 1;
@@ -44,7 +44,7 @@ impl Builder<'_, '_> {
                         Diagnostic::warning(
                             "too-many-collisions",
                             format!(
-                                "`{name}` has more than 65536 collisions; the rest will not touch"
+                                "`{name}` has more than 65536 collisions; the others are ignored"
                             ),
                         )
                         .at(link.origin),
@@ -58,7 +58,7 @@ impl Builder<'_, '_> {
                     self.diagnostics.push(
                         Diagnostic::error(
                             "collision-out-of-range",
-                            format!("the pose or friction of collision `{scoped}` is no number, or beyond {MAX_POSITION_M} m"),
+                            format!("the pose or friction of collision `{scoped}` is not finite, or beyond {MAX_POSITION_M} m"),
                         )
                         .at(collision.origin),
                     );
@@ -70,11 +70,11 @@ impl Builder<'_, '_> {
                     continue;
                 };
                 let body_from_collision = body_from_link * collision.link_from_collision;
-                let tag = |part| Tag {
+                let tag = |part| ColliderTag {
                     link: link_number as u32,
                     collision: index,
                     self_collide: link.self_collide || model.self_collide,
-                    only_reports: collision.surface.contact.collide_without_contact,
+                    is_sensor: collision.surface.contact.collide_without_contact,
                     part,
                 };
                 let contact = &collision.surface.contact;
@@ -87,42 +87,55 @@ impl Builder<'_, '_> {
                 }
                 let surface = Surface::of(collision, &scoped, moves, self.diagnostics)
                     .softened(stiffness.is_some());
-                let grain = self.grain(number, collision, &scoped);
-                let grain = grain.unwrap_or_else(|missing| {
+                let anisotropic_friction = self.anisotropic_friction(number, collision, &scoped);
+                let anisotropic_friction = anisotropic_friction.unwrap_or_else(|missing| {
                     self.diagnostics.push(*missing);
                     None
                 });
-                let mut push = |solid: SharedShape, pose: Pose, tag: Tag| {
-                    let collider = surface.collider(solid, pose, tag, several);
-                    let body = &mut self.records.bodies[body];
-                    body.grains.extend(grain.map(|grain| (body.colliders.len(), grain)));
-                    body.colliders.push(collider);
-                };
+                let mut push =
+                    |solid: SharedShape, pose: Pose, tag: ColliderTag| {
+                        let collider = surface.collider(solid, pose, tag, several);
+                        let body = &mut self.records.bodies[body];
+                        body.anisotropic_colliders.extend(anisotropic_friction.map(
+                            |anisotropic_friction| (body.colliders.len(), anisotropic_friction),
+                        ));
+                        body.colliders.push(collider);
+                    };
                 let found = axle
                     .and_then(|axle| wheel(&collision.shape, collision.link_from_collision, axle));
                 match found {
                     Some(wheel) => {
                         let tread = SharedShape::ball(wheel.radius_m);
-                        push(tread, body_from_collision, tag(Part::Tread(wheel.half_width_m)));
-                        let core =
-                            SharedShape::cylinder(wheel.half_width_m, wheel.radius_m * CORE_SHARE);
-                        push(core, body_from_collision * collision_from_shape, tag(Part::Core));
+                        push(tread, body_from_collision, tag(WheelPart::Tread(wheel.half_width_m)));
+                        let core = SharedShape::cylinder(
+                            wheel.half_width_m,
+                            wheel.radius_m * CORE_RADIUS_RATIO,
+                        );
+                        push(
+                            core,
+                            body_from_collision * collision_from_shape,
+                            tag(WheelPart::Core),
+                        );
                     }
                     None => {
-                        push(solid, body_from_collision * collision_from_shape, tag(Part::Whole));
+                        push(
+                            solid,
+                            body_from_collision * collision_from_shape,
+                            tag(WheelPart::Whole),
+                        );
                     }
                 }
             }
         }
     }
 
-    /// For each link that turns on exactly one hinge above it: a point of the axis and its
-    /// direction, in the link's frame.
+    /// Returns for each link with exactly one parent hinge a point and the direction of the hinge
+    /// axis, in the link's frame.
     fn axles(&self) -> Vec<Option<(DVec3, DVec3)>> {
         let mut axles = vec![None; self.flat.links.len()];
         for (scope, joint) in &self.flat.joints {
             let turns = matches!(joint.kind, JointKind::Revolute | JointKind::Continuous);
-            let (Some(End::Link(link, model_from_child)), Some(axis), true) =
+            let (Some(JointEnd::Link(link, model_from_child)), Some(axis), true) =
                 (self.flat.end(scope, &joint.child), &joint.axis, turns)
             else {
                 continue;

@@ -1,15 +1,15 @@
-//! Axes that follow other axes: mimics and gearboxes.
+//! Coupled axes: mimic joints and gearboxes.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_scene::{Axis, DVec3, Joint, JointKind};
 
 use super::Builder;
-use crate::joints::Follow;
-use crate::places::End;
+use crate::flat_model::JointEnd;
+use crate::joints::MimicCoupling;
 use crate::records::JointRecord;
 
 impl Builder<'_, '_> {
-    /// Binds followers to what they follow.
+    /// Couples mimic axes to their leaders.
     pub(super) fn mimics(&mut self) {
         for number in 0..self.flat.joints.len() {
             let (scope, joint) = self.flat.joints[number].clone();
@@ -34,7 +34,7 @@ impl Builder<'_, '_> {
             self.record_of(scope, &joint.name).and_then(|record| record.axes.clone().nth(which));
         match (leader, follower) {
             (Some(leader), Some(follower)) if leader != follower => {
-                self.records.axes[follower].follows = Some(Follow {
+                self.records.axes[follower].mimics = Some(MimicCoupling {
                     leader,
                     multiplier: mimic.multiplier,
                     offset: mimic.offset - mimic.multiplier * mimic.reference,
@@ -44,7 +44,7 @@ impl Builder<'_, '_> {
                 Diagnostic::warning(
                     "mimic-of-nothing",
                     format!(
-                        "joint `{}` follows `{}`, which does not move here; it moves freely",
+                        "joint `{}` mimics `{}`, which is not a movable joint; it moves freely",
                         joint.name, mimic.joint
                     ),
                 )
@@ -59,7 +59,7 @@ impl Builder<'_, '_> {
         records.find(|record| record.model == self.number && record.name == scoped)
     }
 
-    /// `angle 2 = -ratio * angle 1` of the child and the parent against the reference body, each
+    /// Couples `angle 2 = -ratio * angle 1` of child and parent relative to the reference body, each
     /// about its axis (SDF, `<gearbox_ratio>`). The child's hinge follows the parent's.
     fn gearbox(&mut self, scope: &str, joint: &Joint) {
         let text = |name: &str| {
@@ -81,31 +81,31 @@ impl Builder<'_, '_> {
         match found {
             Some((ratio, (leader, one), (follower, two))) if leader != follower => {
                 let multiplier = -ratio * one * two;
-                self.records.axes[follower].follows =
-                    Some(Follow { leader, multiplier, offset: 0.0 });
+                self.records.axes[follower].mimics =
+                    Some(MimicCoupling { leader, multiplier, offset: 0.0 });
             }
             _ => self.diagnostics.push(
                 Diagnostic::warning(
                     "joint-not-simulated",
-                    format!("gearbox `{}` binds nothing", joint.name),
+                    format!("gearbox `{}` has no effect", joint.name),
                 )
                 .at(joint.origin)
-                .help("its parent and its child each need a hinge to the <gearbox_reference_body>"),
+                .help("connect its parent and its child each by a hinge to the <gearbox_reference_body>"),
             ),
         }
     }
 
     fn direction_in_model(&self, scope: &str, joint: &Joint, axis: &Axis) -> DVec3 {
         match self.flat.end(scope, &joint.child) {
-            Some(End::Link(_, model_from_child)) => {
+            Some(JointEnd::Link(_, model_from_child)) => {
                 (model_from_child * joint.child_from_joint).rotation * axis.direction_in_joint
             }
             _ => axis.direction_in_joint,
         }
     }
 
-    /// The axis of the hinge between two bodies, and 1 if it counts the turn of the second against
-    /// the first about this direction, otherwise -1.
+    /// Returns the axis of the hinge between two bodies, and the sign of the second body's rotation
+    /// relative to the first about this direction.
     fn hinge(
         &self,
         scope: &str,
@@ -114,8 +114,8 @@ impl Builder<'_, '_> {
         direction_in_model: DVec3,
     ) -> Option<(usize, f64)> {
         let body = |name: &str| match self.flat.end(scope, name)? {
-            End::World => Some(crate::records::WORLD_BODY),
-            End::Link(link, _) => Some(self.records.links[self.first_link + link].body),
+            JointEnd::PhysicsWorld => Some(crate::records::WORLD_BODY_INDEX),
+            JointEnd::Link(link, _) => Some(self.records.links[self.first_link + link].body),
         };
         let named = Some(reference).filter(|name| !name.is_empty())?;
         let (reference, other) = (body(named)?, body(other)?);

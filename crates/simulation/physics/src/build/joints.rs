@@ -1,29 +1,29 @@
-//! What joins the bodies of a model.
+//! Joints between the bodies of a model.
 
 use periplus_diagnostics::{Diagnostic, closest};
 use periplus_scene::{Joint, JointKind};
 
 use super::Builder;
+use crate::flat_model::JointEnd;
 use crate::joints::{Axes, axes_of};
 use crate::limits::is_pose;
-use crate::places::End;
-use crate::records::{JointRecord, WORLD_BODY};
+use crate::records::{JointRecord, WORLD_BODY_INDEX};
 
-/// A mass this many times another one across a joint is worth a warning: impulses reach the far
-/// side of such a joint only in part.
-const STEEP_RATIO: f64 = 1000.0;
+/// Mass ratio across a joint that is reported: impulses only partly reach the far side of such a
+/// joint.
+const MAX_MASS_RATIO: f64 = 1000.0;
 
 impl Builder<'_, '_> {
-    /// None where the joint makes the model impossible.
+    /// Returns `None` for a joint that makes the model invalid.
     pub(super) fn joint(&mut self, scope: &str, joint: &Joint) -> Option<()> {
         let name = format!("{scope}{}", joint.name);
         let ends = (self.flat.end(scope, &joint.parent), self.flat.end(scope, &joint.child));
-        let body_of = |end: End| match end {
-            End::World => WORLD_BODY,
-            End::Link(link, _) => self.records.links[self.first_link + link].body,
+        let body_of = |end: JointEnd| match end {
+            JointEnd::PhysicsWorld => WORLD_BODY_INDEX,
+            JointEnd::Link(link, _) => self.records.links[self.first_link + link].body,
         };
         let (parent, child, model_from_child) = match ends {
-            (Some(parent), Some(child @ End::Link(_, pose))) => {
+            (Some(parent), Some(child @ JointEnd::Link(_, pose))) => {
                 (body_of(parent), body_of(child), pose)
             }
             (parent, _) => {
@@ -33,11 +33,11 @@ impl Builder<'_, '_> {
                 let mut found = Diagnostic::error(
                     "joint-end-unknown",
                     format!(
-                        "joint `{name}` holds `{missing}`, which is no link, frame or model here"
+                        "joint `{name}` connects `{missing}`, which is not a link, frame or model"
                     ),
                 )
                 .at(joint.origin)
-                .note("the joint is left out");
+                .note("the joint is omitted");
                 if let Some(near) = closest(missing, known) {
                     found = found.help(format!("did you mean `{near}`?"));
                 }
@@ -57,7 +57,7 @@ impl Builder<'_, '_> {
             self.diagnostics.push(
                 Diagnostic::error(
                     "joint-impossible",
-                    format!("the pose of joint `{}` is no number, or too far away", record.name),
+                    format!("the pose of joint `{}` is not finite, or too far away", record.name),
                 )
                 .at(joint.origin),
             );
@@ -68,7 +68,7 @@ impl Builder<'_, '_> {
                 Diagnostic::warning(
                     "joint-inside-a-body",
                     format!(
-                        "joint `{}` moves nothing: both sides are fixed to each other",
+                        "joint `{}` has no effect: both links are fixed to each other",
                         record.name
                     ),
                 )
@@ -83,22 +83,22 @@ impl Builder<'_, '_> {
         Some(())
     }
 
-    pub(super) fn warn_of_steep_masses(&mut self) {
+    pub(super) fn warn_of_mass_ratios(&mut self) {
         let axes = self.records.joints.iter().filter(|joint| joint.model == self.number);
         for joint in axes {
             for axis in &self.records.axes[joint.axes.clone()] {
                 let mass = |body: usize| self.records.bodies[body].mass.mass();
                 let (a, b) = (mass(axis.body1), mass(axis.body2));
-                if a > 0.0 && b > 0.0 && (a / b).max(b / a) > STEEP_RATIO {
+                if a > 0.0 && b > 0.0 && (a / b).max(b / a) > MAX_MASS_RATIO {
                     self.diagnostics.push(
                         Diagnostic::warning(
                             "steep-masses",
                             format!(
-                                "joint `{}` holds {a} kg against {b} kg; it may give way",
+                                "joint `{}` connects {a} kg and {b} kg; it may yield under load",
                                 joint.name
                             ),
                         )
-                        .help("make the lighter link heavier, or fix it to the other"),
+                        .help("increase the mass of the lighter link, or fix it to the other"),
                     );
                 }
             }

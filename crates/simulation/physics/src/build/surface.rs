@@ -1,4 +1,4 @@
-//! Friction and bounce.
+//! Friction and restitution.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{DVec3, Pose};
@@ -10,17 +10,17 @@ use rapier3d_f64::geometry::{
 use rapier3d_f64::pipeline::ActiveHooks;
 
 use super::rapier_pose;
-use crate::hooks::{Part, Tag};
+use crate::hooks::{ColliderTag, WheelPart};
 
-/// Beyond this no slope is too steep, and products stay finite.
-const ROUGHEST: f64 = 1e6;
+/// Maximum coefficient of friction: no slope is steeper, and products stay finite.
+const MAX_FRICTION_RATIO: f64 = 1e6;
 
-/// A coefficient as the solver can use it; ODE takes a negative one for infinite.
+/// Converts a coefficient for the solver; ODE treats a negative one as infinite.
 pub(super) fn coefficient(mu: f64) -> f64 {
-    if mu < 0.0 { ROUGHEST } else { mu.min(ROUGHEST) }
+    if mu < 0.0 { MAX_FRICTION_RATIO } else { mu.min(MAX_FRICTION_RATIO) }
 }
 
-/// Friction and bounce of one collision.
+/// Friction and restitution of a collision.
 pub(super) struct Surface {
     friction: f64,
     restitution: f64,
@@ -38,21 +38,21 @@ impl Surface {
     ) -> Self {
         let (friction, contact) = (&collision.surface.friction, &collision.surface.contact);
         let (mu, mu2) = (coefficient(friction.mu), coefficient(friction.mu2));
-        // The ground of nearly every world says 100 and 50: what stands on it decides.
+        // The floor of many worlds has 100 and 50: the other surface of a contact decides.
         let is_rough_ground = !moves && mu.min(mu2) >= 1.0;
         if mu != mu2 && friction.fdir1 == DVec3::ZERO && !is_rough_ground {
             diagnostics.push(
                 Diagnostic::warning(
                     "friction-one-direction",
-                    format!("collision `{name}` has friction {mu} one way and {mu2} the other"),
+                    format!("collision `{name}` has friction {mu} in one direction and {mu2} in the other"),
                 )
                 .at(collision.origin)
                 .note(
-                    "the smaller one holds in every direction; `<fdir1>` says which way is which",
+                    "the smaller one applies in all directions; set `<fdir1>` to define the first direction",
                 ),
             );
         }
-        // Gazebo bounces only above a threshold, whose default nothing ever reaches.
+        // Gazebo's restitution has a threshold, whose default is never reached.
         let bounces = contact.bounce_threshold_m_s < 1000.0 && !contact.restitution.is_nan();
         let restitution = if bounces { contact.restitution.clamp(0.0, 1.0) } else { 0.0 };
         Self {
@@ -64,7 +64,7 @@ impl Surface {
         }
     }
 
-    /// The same with a stiffness of its own.
+    /// Returns the surface with its own stiffness.
     pub(super) fn softened(self, is_softened: bool) -> Self {
         Self { is_softened, ..self }
     }
@@ -73,7 +73,7 @@ impl Surface {
         &self,
         shape: SharedShape,
         body_from_shape: Pose,
-        tag: Tag,
+        tag: ColliderTag,
         several: bool,
     ) -> ColliderBuilder {
         let mask = Group::from_bits_retain(self.mask);
@@ -81,7 +81,7 @@ impl Surface {
         if several || self.reports {
             hooks |= ActiveHooks::FILTER_CONTACT_PAIRS;
         }
-        if tag.part != Part::Whole || self.is_softened {
+        if tag.part != WheelPart::Whole || self.is_softened {
             hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
         }
         ColliderBuilder::new(shape)
@@ -91,7 +91,7 @@ impl Surface {
             .friction_combine_rule(CoefficientCombineRule::Min)
             .restitution(self.restitution)
             .restitution_combine_rule(CoefficientCombineRule::Min)
-            // Sharing a bit is symmetric, so members and filter are the same mask.
+            // Sharing a bit is symmetric, so memberships and filter are the same mask.
             .collision_groups(InteractionGroups::new(mask, mask, InteractionTestMode::And))
             .active_hooks(hooks)
             .user_data(tag.pack())

@@ -2,10 +2,10 @@
 
 use crate::kinematic::Twist;
 
-/// Slower than this it does not steer: there is no circle to follow [m/s].
-const STANDING_M_S: f64 = 1e-3;
+/// Speed below which the steering angle is zero [m/s].
+const MIN_STEERING_SPEED_M_S: f64 = 1e-3;
 
-/// What the plugin is told.
+/// Parameters of the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ackermann {
     /// Distance between left and right driven wheels [m].
@@ -14,7 +14,7 @@ pub struct Ackermann {
     pub kingpin_width_m: f64,
     /// Distance between the axles [m].
     pub wheel_base_m: f64,
-    /// Greatest angle of steering [rad].
+    /// Maximum steering angle [rad].
     pub steering_limit_rad: f64,
     /// Radius of a wheel [m].
     pub wheel_radius_m: f64,
@@ -32,7 +32,7 @@ impl Default for Ackermann {
     }
 }
 
-/// What the joints should do.
+/// Joint commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AckermannCommand {
     /// Angles of the left and right steered wheels [rad].
@@ -42,13 +42,13 @@ pub struct AckermannCommand {
 }
 
 impl Ackermann {
-    /// The joints for a twist. The middle of the front axle would steer by `atan(w base / v)`, held
-    /// to the limit; each wheel then stands across the line to the one centre of the turn, which
-    /// lies on the rear axle.
+    /// Returns the joint commands of a twist. The steering angle at the middle of the front axle is
+    /// `atan(w base / v)`, clamped to the limit. Each wheel is perpendicular to the line to the
+    /// common centre of the turn on the rear axle.
     #[must_use]
     pub fn command(&self, twist: Twist) -> AckermannCommand {
         let speed = twist.x_m_s;
-        let yaw_rad_s = if speed.abs() < STANDING_M_S { 0.0 } else { twist.yaw_rad_s };
+        let yaw_rad_s = if speed.abs() < MIN_STEERING_SPEED_M_S { 0.0 } else { twist.yaw_rad_s };
         let middle_rad = if yaw_rad_s == 0.0 {
             0.0
         } else {
@@ -56,8 +56,8 @@ impl Ackermann {
             libm::atan(yaw_rad_s * self.wheel_base_m / speed).clamp(-limit, limit)
         };
         let (sine, cosine) = libm::sincos(middle_rad);
-        // The centre is `base cos / sin` to the left; times sine everywhere, so that straight
-        // ahead needs no exception.
+        // The centre is `base cos / sin` to the left; all terms are multiplied by the sine, so that
+        // driving straight needs no special case.
         let wheel_rad = |aside_m: f64| {
             libm::atan2(self.wheel_base_m * sine, self.wheel_base_m * cosine - aside_m * sine)
         };

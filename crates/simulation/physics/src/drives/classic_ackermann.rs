@@ -2,15 +2,15 @@
 
 use crate::kinematic::Twist;
 
-/// What the plugin is told, and what it reads off the model. Its controllers turn the errors into
-/// forces; gains without values are zero, and such a robot does not move.
+/// Parameters of the plugin and dimensions of the model. Its controllers convert errors to efforts;
+/// their default gains are zero, and such a robot does not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClassicAckermann {
-    /// Greatest speed [m/s].
+    /// Maximum speed [m/s].
     pub max_speed_m_s: f64,
-    /// Greatest steering angle of a wheel [rad].
+    /// Maximum steering angle of a wheel [rad].
     pub max_steer_rad: f64,
-    /// Greatest angle of the steering wheel, if there is one [rad].
+    /// Maximum angle of the steering wheel, if any [rad].
     pub max_steering_angle_rad: f64,
     /// Distance between the centres of the front wheels, from the model [m].
     pub wheel_separation_m: f64,
@@ -33,7 +33,7 @@ impl Default for ClassicAckermann {
     }
 }
 
-/// What the joints should reach.
+/// Joint targets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClassicAckermannTarget {
     /// Angles of the left and right steering joints [rad].
@@ -43,11 +43,11 @@ pub struct ClassicAckermannTarget {
 }
 
 impl ClassicAckermann {
-    /// The targets of a command. Its `angular.z` is not a turning speed but the **angle** by which
-    /// to steer; driving backwards reverses it.
+    /// Returns the targets of a command. Its `angular.z` is not a yaw rate but the steering
+    /// **angle**; driving backwards reverses it.
     ///
-    /// Each wheel stands across the line to the centre of the turn, `tan / (1 ∓ s tan / 2 b)` with
-    /// the tangent of the angle, the separation and the base (gazebo_ros_pkgs,
+    /// Each wheel is perpendicular to the line to the centre of the turn, `tan / (1 ∓ s tan / 2 b)`
+    /// with the tangent of the angle, the separation and the base (gazebo_ros_pkgs,
     /// `gazebo_ros_ackermann_drive.cpp`).
     #[must_use]
     pub fn target(&self, command: Twist) -> ClassicAckermannTarget {
@@ -62,14 +62,14 @@ impl ClassicAckermann {
         }
     }
 
-    /// How far the steering wheel turns when the front wheels stand at these angles [rad].
+    /// Returns the angle of the steering wheel at these angles of the front wheels [rad].
     #[must_use]
     pub fn steering_wheel_rad(&self, steering_rad: [f64; 2]) -> f64 {
         let ratio = self.max_steer_rad / self.max_steering_angle_rad;
         (steering_rad[0] + steering_rad[1]) / 2.0 / ratio
     }
 
-    /// The twist of the middle of the rear axle when the wheels do this and nothing slips.
+    /// Returns the twist of the middle of the rear axle without slip.
     #[must_use]
     pub fn twist(&self, steering_rad: [f64; 2], wheels_rad_s: f64) -> Twist {
         let x_m_s = wheels_rad_s * self.wheel_radius_m;

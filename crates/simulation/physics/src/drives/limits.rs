@@ -1,26 +1,26 @@
 //! Limits of a commanded speed.
 
-/// Bounds of a speed and of its first two changes; none by default.
+/// Bounds of a speed, acceleration and jerk; unbounded by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Lowest and highest speed [m/s or rad/s].
+pub struct SpeedLimits {
+    /// Minimum and maximum speed [m/s or rad/s].
     pub velocity: [f64; 2],
-    /// Lowest and highest change of speed [1/s of it].
+    /// Minimum and maximum acceleration [1/s of it].
     pub acceleration: [f64; 2],
-    /// Lowest and highest change of acceleration [1/s² of it].
+    /// Minimum and maximum jerk [1/s² of it].
     pub jerk: [f64; 2],
 }
 
-impl Default for Limits {
+impl Default for SpeedLimits {
     fn default() -> Self {
         let free = [f64::NEG_INFINITY, f64::INFINITY];
         Self { velocity: free, acceleration: free, jerk: free }
     }
 }
 
-impl Limits {
-    /// What becomes of a wanted speed after the last speed and the one before it, each a time
-    /// `dt_s` ago: first the jerk, then the acceleration, then the speed itself is bounded.
+impl SpeedLimits {
+    /// Returns the bounded speed after the last speed and the one before it, `dt_s` apart: first the
+    /// jerk, then the acceleration, then the speed is bounded.
     #[must_use]
     pub fn limited(&self, wanted: f64, last: f64, before_last: f64, dt_s: f64) -> f64 {
         if dt_s <= 0.0 {
@@ -40,20 +40,20 @@ mod tests {
 
     #[test]
     fn none_bounds_nothing() {
-        assert!((Limits::default().limited(3.0, 1.0, 0.0, 0.1) - 3.0).abs() < 1e-12);
+        assert!((SpeedLimits::default().limited(3.0, 1.0, 0.0, 0.1) - 3.0).abs() < 1e-12);
     }
 
     #[test]
     fn speed_acceleration_and_jerk() {
-        let free = Limits::default();
-        let velocity = Limits { velocity: [-1.0, 2.0], ..free };
+        let free = SpeedLimits::default();
+        let velocity = SpeedLimits { velocity: [-1.0, 2.0], ..free };
         assert_eq!(velocity.limited(5.0, 0.0, 0.0, 0.1), 2.0);
         assert_eq!(velocity.limited(-5.0, 0.0, 0.0, 0.1), -1.0);
         // 4 m/s² for 0.1 s.
-        let acceleration = Limits { acceleration: [-4.0, 4.0], ..free };
+        let acceleration = SpeedLimits { acceleration: [-4.0, 4.0], ..free };
         assert!((acceleration.limited(5.0, 1.0, 1.0, 0.1) - 1.4).abs() < 1e-12);
         // 10 m/s³ for 0.1 s is 1 m/s² more than before, for 0.1 s.
-        let jerk = Limits { jerk: [-10.0, 10.0], ..free };
+        let jerk = SpeedLimits { jerk: [-10.0, 10.0], ..free };
         assert!((jerk.limited(5.0, 1.0, 0.8, 0.1) - 1.3).abs() < 1e-12);
     }
 }

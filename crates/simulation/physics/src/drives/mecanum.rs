@@ -2,7 +2,7 @@
 
 use crate::kinematic::Twist;
 
-/// What the plugin is told.
+/// Parameters of the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mecanum {
     /// Distance between front and back axles [m].
@@ -33,9 +33,9 @@ pub struct MecanumWheels {
 }
 
 impl Mecanum {
-    /// The wheel speeds of a twist: each wheel pushes along its rollers' normal, so sideways motion
-    /// counts against the front left and for the front right (Taheri, Qiao, Ghaeminezhad 2015,
-    /// "Kinematic model of a four mecanum wheeled mobile robot", equation 20).
+    /// Returns the wheel speeds of a twist: each wheel pushes along its rollers' normal, so sideways
+    /// motion is subtracted at the front left and added at the front right (Taheri, Qiao,
+    /// Ghaeminezhad 2015, "Kinematic model of a four mecanum wheeled mobile robot", equation 20).
     #[must_use]
     pub fn wheels(&self, twist: Twist) -> MecanumWheels {
         let Twist { x_m_s, y_m_s, yaw_rad_s } = twist;
@@ -49,7 +49,7 @@ impl Mecanum {
         }
     }
 
-    /// The twist that wheel speeds make: the least-squares inverse.
+    /// Returns the twist of wheel speeds: the least-squares inverse.
     #[must_use]
     pub fn twist(&self, wheels: MecanumWheels) -> Twist {
         let MecanumWheels { front_left, front_right, back_left, back_right } = wheels;

@@ -1,23 +1,23 @@
-//! Where a robot believes to be.
+//! Wheel odometry and true odometry.
 
 use periplus_geometry::{DVec3, Pose};
 
 use crate::kinematic::{Kinematic, Twist};
 
-/// Odometry from the ways of two wheels, by the midpoint rule that Gazebo Classic and Harmonic use:
-/// the way is laid along the heading in the middle of the step.
+/// Odometry from the displacements of two wheels, by the midpoint rule of Gazebo Classic and
+/// Harmonic: the displacement is along the heading in the middle of the step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Odometry {
-    /// Where it believes to be, from the zero it started at.
+    /// Estimated pose, from zero at the start.
     pub pose: Kinematic,
-    /// How fast it believes to move.
+    /// Estimated velocity.
     pub twist: Twist,
 }
 
 impl Odometry {
-    /// Moves on by the ways of the left and right wheels [m] over a time [s].
+    /// Advances by the displacements of the left and right wheels [m] over a time [s].
     #[must_use]
-    pub fn moved(self, left_m: f64, right_m: f64, separation_m: f64, dt_s: f64) -> Self {
+    pub fn advanced(self, left_m: f64, right_m: f64, separation_m: f64, dt_s: f64) -> Self {
         let ahead_m = (left_m + right_m) / 2.0;
         let turned_rad = (right_m - left_m) / separation_m;
         let (sine, cosine) = libm::sincos(self.pose.yaw_rad + turned_rad / 2.0);
@@ -35,10 +35,10 @@ impl Odometry {
     }
 }
 
-/// Odometry from the truth: the velocity of a body told in its own heading, as Classic's `WORLD`
-/// source and `planar_move` publish it. The pose they publish is `world_from_base` as it is.
+/// Returns the velocity of a body in its own heading, as Classic's `WORLD` source and `planar_move`
+/// publish it. Their pose is `world_from_base` itself.
 #[must_use]
-pub fn truth(world_from_base: Pose, linear_m_s: DVec3, angular_rad_s: DVec3) -> Twist {
+pub fn true_twist(world_from_base: Pose, linear_m_s: DVec3, angular_rad_s: DVec3) -> Twist {
     let (sine, cosine) = libm::sincos(world_from_base.rpy().yaw);
     Twist {
         x_m_s: cosine * linear_m_s.x + sine * linear_m_s.y,
@@ -61,10 +61,10 @@ mod tests {
         let (left, right) = (0.75 * 2.0 * PI / 100.0, 1.25 * 2.0 * PI / 100.0);
         let mut odometry = Odometry::default();
         for step in 0..100 {
-            odometry = odometry.moved(left, right, separation_m, 0.01);
+            odometry = odometry.advanced(left, right, separation_m, 0.01);
             if step == 49 {
-                // Half way round it is a diameter to the left. The midpoint rule inscribes chords of the
-                // arc's length, so its circle is 1/6000 too large.
+                // After half a circle it is a diameter to the left. The midpoint rule inscribes
+                // chords of the arc's length, so its circle is 1/6000 too large.
                 assert!((odometry.pose.y_m - 2.0).abs() < 1e-3, "{odometry:?}");
             }
         }
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn truth_is_told_in_the_robots_heading() {
         let north = Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch: 0.0, yaw: FRAC_PI_2 });
-        let twist = truth(north, DVec3::new(0.0, 2.0, 0.0), DVec3::new(0.0, 0.0, 0.5));
+        let twist = true_twist(north, DVec3::new(0.0, 2.0, 0.0), DVec3::new(0.0, 0.0, 0.5));
         assert!((twist.x_m_s - 2.0).abs() < 1e-12 && twist.y_m_s.abs() < 1e-12);
         assert_eq!(twist.yaw_rad_s, 0.5);
     }

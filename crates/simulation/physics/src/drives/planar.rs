@@ -1,12 +1,12 @@
-//! `libgazebo_ros_planar_move.so`: a body pushed over the plane as if by hand.
+//! `libgazebo_ros_planar_move.so`: sets the velocity of a body in the plane.
 
 use periplus_geometry::{DVec3, Pose};
 
 use crate::kinematic::Twist;
 
-/// The velocities to give a body at each step so that it follows a twist: along its own heading,
-/// with no vertical speed, as Gazebo's plugin gives it. Between two such commands it falls. Linear [m/s] and angular
-/// [rad/s], in world axes. See [`World::set_model_velocity`](crate::World::set_model_velocity).
+/// Returns the velocities of a body that follow a twist: along its own heading, with no vertical
+/// speed, as in Gazebo's plugin. Between two such commands it falls. Linear [m/s] and angular
+/// [rad/s], in world axes. See [`PhysicsWorld::set_model_velocity`](crate::World::set_model_velocity).
 #[must_use]
 pub fn planar_velocity(world_from_base: Pose, twist: Twist) -> (DVec3, DVec3) {
     let (sine, cosine) = libm::sincos(world_from_base.rpy().yaw);

@@ -4,28 +4,28 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::kinematic::Twist;
 
-/// What the plugin is told.
+/// Parameters of the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tricycle {
     /// Diameter of the driven wheel [m].
     pub actuated_wheel_diameter_m: f64,
-    /// Diameter of the wheels that odometry counts [m].
+    /// Diameter of the encoder wheels [m].
     pub encoder_wheel_diameter_m: f64,
-    /// Distance between them [m].
+    /// Distance between the encoder wheels [m].
     pub encoder_wheel_separation_m: f64,
-    /// How fast the driven wheel speeds up [rad/s²]; 0 is at once.
+    /// Acceleration of the driven wheel [rad/s²]; 0 is unlimited.
     pub wheel_acceleration_rad_s2: f64,
-    /// How fast it slows down [rad/s²].
+    /// Deceleration of the driven wheel [rad/s²].
     pub wheel_deceleration_rad_s2: f64,
-    /// Below this difference the wheel is given its speed at once [rad/s].
+    /// Speed error below which the target speed is set at once [rad/s].
     pub wheel_speed_tolerance_rad_s: f64,
-    /// How fast it steers [rad/s]; 0 is at once.
+    /// Steering speed [rad/s]; 0 is unlimited.
     pub steering_speed_rad_s: f64,
-    /// Below this difference it does not steer [rad].
+    /// Angle error below which the wheel does not steer [rad].
     pub steering_angle_tolerance_rad: f64,
-    /// Greatest torque of both joints [N m].
+    /// Maximum torque of both joints [N m].
     pub wheel_torque_n_m: f64,
-    /// How often it acts [Hz]; 0 is at each step.
+    /// Update rate [Hz]; 0 is every step.
     pub update_rate_hz: f64,
 }
 
@@ -46,22 +46,24 @@ impl Default for Tricycle {
     }
 }
 
-/// How the steering joint is told to move.
+/// Command of the steering joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steering {
-    /// To be at an angle [rad].
+    /// Position [rad].
     At(f64),
-    /// To turn at a speed [rad/s].
+    /// Velocity [rad/s].
     Turning(f64),
 }
 
 impl Tricycle {
-    /// One update: the command, speed [rad/s] and angle [rad] of the front wheel now, and the time
-    /// since the last update [s]. Answers the wheel's speed [rad/s] and how to steer.
+    /// Updates with the command, the current speed [rad/s] and angle [rad] of the front wheel, and
+    /// the time since the last update [s]. Returns the wheel's speed [rad/s] and the steering
+    /// command.
     ///
-    /// The command's `angular.z` is the **angle** to steer by, up to a quarter turn. The original
-    /// compares differences with the target instead of zero, and so speeds up where it should slow
-    /// down; here both go towards the target (gazebo_ros_pkgs, `gazebo_ros_tricycle_drive.cpp`).
+    /// The command's `angular.z` is the steering **angle**, up to a quarter turn. The original
+    /// compares errors with the target instead of zero, and so accelerates where it should
+    /// decelerate; here both converge to the target (gazebo_ros_pkgs,
+    /// `gazebo_ros_tricycle_drive.cpp`).
     #[must_use]
     pub fn update(
         &self,
@@ -94,8 +96,8 @@ impl Tricycle {
         (speed, steering)
     }
 
-    /// The twist of the middle between the rear wheels when the front wheel, this far ahead of it
-    /// [m], does this and nothing slips.
+    /// Returns the twist of the midpoint of the rear wheels without slip, for the front wheel this
+    /// far ahead of it [m].
     #[must_use]
     pub fn twist(&self, wheel_rad_s: f64, steering_rad: f64, wheel_base_m: f64) -> Twist {
         let speed = wheel_rad_s * self.actuated_wheel_diameter_m / 2.0;

@@ -1,33 +1,33 @@
-//! A model that goes where it is told, as one piece.
+//! Motion of a model as one piece.
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 
 use crate::engine::BodyMotion;
 use crate::kinematic::{Kinematic, Twist};
 
-/// How a model goes.
+/// Commanded motion of a model.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Going {
-    /// It stands where it is.
+pub(super) enum BaseMotion {
+    /// No motion.
     Nowhere,
-    /// Along the arc of a twist, on flat ground.
+    /// Along the arc of a twist, in the plane.
     Along { at: Kinematic, twist: Twist },
     /// With a velocity of its frame, in world axes.
     Flying { linear_m_s: DVec3, angular_rad_s: DVec3 },
 }
 
-impl Going {
+impl BaseMotion {
     pub(super) fn along(twist: Twist) -> Self {
         Self::Along { at: Kinematic::default(), twist }
     }
 }
 
-/// A frame that moves as told, and the bodies it takes along.
+/// A moving frame and the bodies that it carries.
 #[derive(Debug)]
 pub(super) struct Base {
     pub(super) model: u32,
     centre_in_model_m: DVec3,
-    going: Going,
+    going: BaseMotion,
     world_from_frame: Pose,
     roots: Vec<(usize, Pose)>,
     moves: bool,
@@ -38,12 +38,13 @@ impl Base {
         model: u32,
         world_from_model: Pose,
         centre_in_model_m: DVec3,
-        mut going: Going,
+        mut going: BaseMotion,
         roots: &[(usize, Pose)],
     ) -> Self {
         let centre_m = world_from_model.transform_point(centre_in_model_m);
-        let world_from_frame = if let Going::Along { at, .. } = &mut going {
-            // Flat at height zero under the centre: what stands above it is the roots' own.
+        let world_from_frame = if let BaseMotion::Along { at, .. } = &mut going {
+            // The plane at height zero under the centre; poses above it are those of the root
+            // bodies.
             *at =
                 Kinematic { x_m: centre_m.x, y_m: centre_m.y, yaw_rad: world_from_model.rpy().yaw };
             at.pose()
@@ -55,10 +56,10 @@ impl Base {
         Self { model, centre_in_model_m, going, world_from_frame, roots, moves: true }
     }
 
-    /// Changes the twist of a base that is on its way about the same centre already.
+    /// Changes the twist of a base that already moves about the same centre.
     pub(super) fn steer(&mut self, centre_in_model_m: DVec3, twist: Twist) -> bool {
         match &mut self.going {
-            Going::Along { twist: now, .. } if self.centre_in_model_m == centre_in_model_m => {
+            BaseMotion::Along { twist: now, .. } if self.centre_in_model_m == centre_in_model_m => {
                 self.moves |= *now != twist;
                 *now = twist;
                 true
@@ -67,15 +68,15 @@ impl Base {
         }
     }
 
-    /// Moves on by a time [s].
+    /// Advances by a time [s].
     pub(super) fn advance(&mut self, dt_s: f64, motions: &mut [BodyMotion], changed: &mut [bool]) {
         if !self.moves {
             return;
         }
         let frame = match &mut self.going {
-            Going::Nowhere => BodyMotion::resting(self.world_from_frame),
-            Going::Along { at, twist } => {
-                *at = at.moved(*twist, dt_s);
+            BaseMotion::Nowhere => BodyMotion::resting(self.world_from_frame),
+            BaseMotion::Along { at, twist } => {
+                *at = at.advanced(*twist, dt_s);
                 let world_from_body = at.pose();
                 BodyMotion {
                     world_from_body,
@@ -84,7 +85,7 @@ impl Base {
                     angular_rad_s: DVec3::new(0.0, 0.0, twist.yaw_rad_s),
                 }
             }
-            Going::Flying { linear_m_s, angular_rad_s } => {
+            BaseMotion::Flying { linear_m_s, angular_rad_s } => {
                 let Pose { translation, rotation } = self.world_from_frame;
                 let world_from_body = Pose {
                     translation: translation + *linear_m_s * dt_s,
@@ -111,7 +112,7 @@ impl Base {
     }
 }
 
-/// The turn about a vector by its length [rad].
+/// Returns the rotation about a vector by its length [rad].
 fn turn(angle_rad: DVec3) -> DQuat {
     let length = angle_rad.length();
     if length == 0.0 {

@@ -1,4 +1,4 @@
-//! What hangs on what.
+//! Kinematic tree.
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 
@@ -6,28 +6,28 @@ use crate::engine::BodyMotion;
 use crate::joints::AxisRecord;
 use crate::records::{BodyKind, Records};
 
-/// A body that hangs on another.
+/// A body with a parent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limb {
+pub(crate) struct ChildBody {
     pub(super) body: usize,
     above: usize,
     above_from_axis: Pose,
     axis_from_body: Pose,
-    /// What turns or slides between them, and 1, or -1 if this body is the joint's parent. None
-    /// where nothing moves.
+    /// Movable axis between them, and 1, or -1 if this body is the joint's parent. `None` for a
+    /// fixed joint.
     axis: Option<(usize, f64)>,
 }
 
-/// Limbs in an order in which what hangs comes after what it hangs on.
+/// Child bodies in topological order, parents first.
 #[derive(Debug, Default)]
 pub(crate) struct Tree {
-    pub(super) limbs: Vec<Limb>,
-    /// Axes that follow others, leaders first.
+    pub(super) children: Vec<ChildBody>,
+    /// Mimic axes, leaders first.
     pub(super) followers: Vec<usize>,
     hangs: Vec<bool>,
 }
 
-/// Two bodies that a joint connects, and its axis if it has one.
+/// Two bodies connected by a joint, and its axis if any.
 #[derive(Clone, Copy)]
 struct Edge {
     one: usize,
@@ -36,8 +36,8 @@ struct Edge {
 }
 
 impl Tree {
-    /// Spans all bodies from what is fixed, then from the canonical link of each model, then from
-    /// what is left. A joint that closes a ring is not part of it.
+    /// Builds the spanning tree of all bodies from the fixed ones, then from the canonical link of
+    /// each model, then from the rest. A joint that closes a loop is not part of it.
     pub(super) fn of(records: &Records) -> Self {
         let count = records.bodies.len();
         let mut edges_of: Vec<Vec<Edge>> = vec![Vec::new(); count];
@@ -46,9 +46,12 @@ impl Tree {
             two: axis.body2,
             axis: Some(number),
         });
-        let holds =
-            records.holds.iter().map(|hold| Edge { one: hold.body1, two: hold.body2, axis: None });
-        for edge in axes.chain(holds) {
+        let constraints = records.constraints.iter().map(|hold| Edge {
+            one: hold.body1,
+            two: hold.body2,
+            axis: None,
+        });
+        for edge in axes.chain(constraints) {
             let gone = |body: usize| records.bodies[body].removed;
             if !gone(edge.one) && !gone(edge.two) {
                 edges_of[edge.one].push(edge);
@@ -77,7 +80,7 @@ impl Tree {
                 for &edge in &edges_of[above] {
                     let body = if edge.one == above { edge.two } else { edge.one };
                     if !std::mem::replace(&mut reached[body], true) {
-                        tree.limbs.push(Limb::of(records, edge, body));
+                        tree.children.push(ChildBody::of(records, edge, body));
                         tree.hangs[body] = true;
                         open.push_back(body);
                     }
@@ -88,20 +91,19 @@ impl Tree {
         tree
     }
 
-    /// Whether a body hangs on nothing and is not fixed.
+    /// Returns true if a body has no parent and is not fixed.
     pub(super) fn is_free_root(&self, records: &Records, body: usize) -> bool {
         records.bodies[body].kind != BodyKind::Fixed && !self.hangs[body]
     }
 }
 
-/// Axes that follow, each after the one it follows. Those that follow each other in a ring come
-/// last, in the order of the file.
+/// Returns mimic axes after their leaders. Cycles of mimic axes come last, in the order of the file.
 fn followers(axes: &[AxisRecord]) -> Vec<usize> {
     let mut waiting: Vec<usize> =
-        (0..axes.len()).filter(|&axis| axes[axis].follows.is_some()).collect();
+        (0..axes.len()).filter(|&axis| axes[axis].mimics.is_some()).collect();
     let mut order = Vec::with_capacity(waiting.len());
     loop {
-        let leads = |axis: usize| axes[axis].follows.is_some_and(|it| waiting.contains(&it.leader));
+        let leads = |axis: usize| axes[axis].mimics.is_some_and(|it| waiting.contains(&it.leader));
         let (later, now): (Vec<usize>, Vec<usize>) =
             waiting.iter().copied().partition(|&axis| leads(axis));
         if now.is_empty() {
@@ -113,7 +115,7 @@ fn followers(axes: &[AxisRecord]) -> Vec<usize> {
     }
 }
 
-impl Limb {
+impl ChildBody {
     fn of(records: &Records, edge: Edge, body: usize) -> Self {
         let down = body == edge.two;
         let above = if down { edge.one } else { edge.two };
@@ -134,17 +136,17 @@ impl Limb {
         }
     }
 
-    /// Puts the body where what it hangs on and its axis say, if one of them changed.
-    pub(super) fn hang(
+    /// Sets the body's pose from its parent and its axis, if one of them changed.
+    pub(super) fn follow_parent(
         &self,
         axes: &[AxisRecord],
         motions: &mut [BodyMotion],
         changed: &mut [bool],
     ) {
         let axis = self.axis.map(|(axis, sign)| (&axes[axis], sign));
-        let moved = axis.is_some_and(|(axis, _)| axis.changed);
-        // A body that was put elsewhere comes back.
-        if !(moved || changed[self.above] || changed[self.body]) {
+        let advanced = axis.is_some_and(|(axis, _)| axis.changed);
+        // A body whose pose was set returns to its parent.
+        if !(advanced || changed[self.above] || changed[self.body]) {
             return;
         }
         changed[self.body] = true;

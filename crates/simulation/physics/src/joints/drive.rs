@@ -1,38 +1,39 @@
-//! What drives an axis in the solver, and where the solver brought it.
+//! Motors of axes in the solver, and their measured state.
 
 use std::f64::consts::{PI, TAU};
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 use rapier3d_f64::dynamics::{ImpulseJointHandle, JointAxesMask, JointAxis};
 
-use super::{AxisRecord, AxisState, Command, POSITION_GAIN};
+use super::{AxisRecord, AxisState, JointCommand, POSITION_GAIN_PER_S};
 use crate::build::{rapier_pose, scene_pose};
 use crate::records::Body;
-use crate::rigid::{Rigid, push_body};
+use crate::rigid::{Rigid, apply_force_at};
 
-/// How hard a velocity motor pulls towards its speed [1/s]: of a difference, one part in
-/// `1 + 1e5 dt` is left after a solver step, 1/26 at 0.25 ms. With 1e3 drives lag visibly.
-pub(super) const MOTOR_STIFFNESS: f64 = 1e5;
-/// How fast a follower closes its error, in parts of it per step.
-const FOLLOW_GAIN: f64 = 0.2;
-/// A turning limit is felt within this of it [rad]; angles in the solver fold at half a turn.
-const LIMIT_REACH: f64 = 2.0;
+/// Gain of a velocity motor [1/s]: a fraction `1 / (1 + 1e5 dt)` of a speed error remains after a
+/// solver step, 1/26 at 0.25 ms. With 1e3 drives lag visibly.
+pub(super) const MOTOR_GAIN_PER_S: f64 = 1e5;
+/// Fraction of its error that a mimic axis corrects per step.
+const MIMIC_CORRECTION_FRACTION: f64 = 0.2;
+/// Distance from a revolute limit within which it is active [rad]; the solver wraps angles at half a
+/// turn.
+const LIMIT_ACTIVE_RAD: f64 = 2.0;
 
-/// Tells the solver of a turning limit. It knows angles within half a turn only, so its zero is
-/// put in the middle of a narrow range, or at the nearer end of a wide one.
+/// Sets a revolute limit in the solver, which represents angles within half a turn only. Its zero is
+/// at the middle of a narrow range, or at the nearer end of a wide one.
 pub(super) fn set_turning_limits(axis: &mut AxisRecord) -> bool {
     if axis.slides || (axis.lower.is_infinite() && axis.upper.is_infinite()) {
         return false;
     }
     let range = axis.upper - axis.lower;
-    let narrow = range < TAU - LIMIT_REACH;
+    let narrow = range < TAU - LIMIT_ACTIVE_RAD;
     let (zero, limits) = if narrow {
         ((axis.lower + axis.upper) / 2.0, Some([-range / 2.0, range / 2.0]))
     } else {
         let position = axis.state.position;
-        if axis.upper - position < LIMIT_REACH {
+        if axis.upper - position < LIMIT_ACTIVE_RAD {
             (axis.upper, Some([-PI, 0.0]))
-        } else if position - axis.lower < LIMIT_REACH {
+        } else if position - axis.lower < LIMIT_ACTIVE_RAD {
             (axis.lower, Some([0.0, PI]))
         } else {
             (0.0, None)
@@ -56,7 +57,7 @@ impl AxisRecord {
         if self.slides { JointAxis::LinX } else { JointAxis::AngX }
     }
 
-    /// Prepares the solver's joint for a step. Efforts are added to the bodies.
+    /// Prepares the solver's joint for a step. Efforts are applied to the bodies.
     pub(crate) fn drive(
         &mut self,
         leader: Option<AxisState>,
@@ -67,31 +68,32 @@ impl AxisRecord {
     ) {
         let along = self.along();
         let moved_limits = set_turning_limits(self);
-        let wanted = match (self.follows, leader) {
+        let wanted = match (self.mimics, leader) {
             (Some(follow), Some(leader)) => {
                 let error =
                     follow.multiplier * leader.position + follow.offset - self.state.position;
-                let speed = follow.multiplier * leader.velocity + error * FOLLOW_GAIN / dt_s;
+                let speed =
+                    follow.multiplier * leader.velocity + error * MIMIC_CORRECTION_FRACTION / dt_s;
                 Some((speed, self.effort))
             }
             _ => match self.command {
-                Command::Free => None,
-                Command::Velocity { target, max_effort } => {
+                JointCommand::Free => None,
+                JointCommand::Velocity { target, max_effort } => {
                     Some((target.clamp(-self.velocity, self.velocity), max_effort.min(self.effort)))
                 }
-                Command::Position { target, max_speed, max_effort } => {
+                JointCommand::Position { target, max_speed, max_effort } => {
                     let most = max_speed.min(self.velocity);
                     let way = target.clamp(self.lower, self.upper) - self.state.position;
-                    let speed = (way * POSITION_GAIN).clamp(-most, most);
+                    let speed = (way * POSITION_GAIN_PER_S).clamp(-most, most);
                     Some((speed, max_effort.min(self.effort)))
                 }
-                Command::Effort(effort) => {
-                    self.push(effort.clamp(-self.effort, self.effort), rigid, records);
+                JointCommand::Effort(effort) => {
+                    self.apply_effort(effort.clamp(-self.effort, self.effort), rigid, records);
                     None
                 }
             },
         };
-        let goes = matches!(self.command, Command::Velocity { target, .. } if target != 0.0);
+        let goes = matches!(self.command, JointCommand::Velocity { target, .. } if target != 0.0);
         if goes {
             let ends = [rigid.bodies[self.body1], rigid.bodies[self.body2]];
             ends.into_iter().flatten().for_each(|end| rigid.keep_awake(end));
@@ -99,7 +101,7 @@ impl AxisRecord {
         let before = self.data;
         match wanted {
             Some((speed, most)) => {
-                self.data.set_motor_velocity(along, speed, MOTOR_STIFFNESS);
+                self.data.set_motor_velocity(along, speed, MOTOR_GAIN_PER_S);
                 self.data.set_motor_max_force(along, most.min(f64::MAX));
             }
             None => self.data.motor_axes -= JointAxesMask::from(along),
@@ -110,13 +112,13 @@ impl AxisRecord {
             if let Some(joint) = joint {
                 let kept = joint.data.motors[along as usize].impulse;
                 joint.data = self.data;
-                // The solver starts from the last step's impulse.
+                // The solver warm-starts from the last step's impulse.
                 joint.data.motors[along as usize].impulse = kept;
             }
         }
     }
 
-    fn push(&mut self, effort: f64, rigid: &mut Rigid, records: &[Body]) {
+    fn apply_effort(&mut self, effort: f64, rigid: &mut Rigid, records: &[Body]) {
         self.state.effort = effort;
         let (Some(one), Some(two)) = (rigid.bodies[self.body1], rigid.bodies[self.body2]) else {
             return;
@@ -131,14 +133,14 @@ impl AxisRecord {
                 continue;
             }
             if self.slides {
-                push_body(body, records[number].mass.local_com, at, pushed);
+                apply_force_at(body, records[number].mass.local_com, at, pushed);
             } else {
                 body.add_torque(pushed, true);
             }
         }
     }
 
-    /// Reads where the axis is after a step.
+    /// Reads the state of the axis after a step.
     pub(crate) fn observe(&mut self, handle: Option<ImpulseJointHandle>, rigid: &Rigid) {
         let (Some(one), Some(two)) = (rigid.bodies[self.body1], rigid.bodies[self.body2]) else {
             return;
@@ -160,12 +162,12 @@ impl AxisRecord {
             state.position += libm::remainder(folded - state.position, TAU);
             state.velocity = (two.angvel() - one.angvel()).dot(axis_in_world);
         }
-        if !matches!(self.command, Command::Effort(_)) || self.follows.is_some() {
+        if !matches!(self.command, JointCommand::Effort(_)) || self.mimics.is_some() {
             let along = if self.slides { JointAxis::LinX } else { JointAxis::AngX };
             let joint = handle.and_then(|handle| rigid.solver.impulse_joints.get(handle));
             let driven = self.data.motor_axes.contains(JointAxesMask::from(along));
             state.effort = match joint {
-                // The solver's impulse is what the child pushes back with.
+                // The solver's impulse is the reaction of the child.
                 Some(joint) if driven => {
                     -joint.data.motors[along as usize].impulse / rigid.substep_s()
                 }

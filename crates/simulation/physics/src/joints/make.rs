@@ -1,4 +1,4 @@
-//! From a joint as plain data to axes and what holds them.
+//! Conversion of joints to axes and constraints.
 
 use std::f64::consts::TAU;
 
@@ -9,17 +9,17 @@ use rapier3d_f64::dynamics::{GenericJoint, JointAxesMask, JointAxis, MotorModel}
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::mass_properties::MassProperties;
 
-use super::drive::{MOTOR_STIFFNESS, set_turning_limits};
-use super::{AxisRecord, AxisState, Command, Follow, Hold};
+use super::drive::{MOTOR_GAIN_PER_S, set_turning_limits};
+use super::{AxisRecord, AxisState, Constraint, JointCommand, MimicCoupling};
 use crate::build::{rapier_pose, split};
 use crate::records::{Body, BodyKind, Records};
 
-/// SDF writes free limits as ±1e16.
+/// Threshold of unlimited axes: SDF writes ±1e16.
 const FREE: f64 = 1e15;
-/// What the cross of a universal joint takes of the child's mass.
-const CROSS_SHARE: f64 = 0.1;
+/// Mass of a universal joint's cross relative to the child's mass.
+const CROSS_MASS_FRACTION: f64 = 0.1;
 
-/// Where a joint sits.
+/// Bodies and frame of a joint.
 #[derive(Clone, Copy)]
 pub(crate) struct Axes {
     pub(crate) parent: usize,
@@ -27,8 +27,8 @@ pub(crate) struct Axes {
     pub(crate) world_from_joint: Pose,
 }
 
-/// Appends what a joint needs: axes, passive elements, the cross of a universal joint. None (and an
-/// error) where it is impossible.
+/// Appends the records of a joint: axes, passive elements, the cross of a universal joint. Reports
+/// an error and returns `None` for an invalid joint.
 pub(crate) fn axes_of(
     joint: &Joint,
     name: &str,
@@ -48,7 +48,9 @@ pub(crate) fn axes_of(
         diagnostics.push(
             Diagnostic::error(
                 "joint-impossible",
-                format!("an axis of joint `{name}` has no direction, or numbers that are none"),
+                format!(
+                    "an axis of joint `{name}` has no direction, or values that are not finite"
+                ),
             )
             .at(joint.origin)
             .help(
@@ -58,7 +60,7 @@ pub(crate) fn axes_of(
         return None;
     }
     let free = match joint.kind {
-        // Only between models: inside one, links on fixed joints are one body.
+        // Only between models: inside a model, links on fixed joints are one body.
         JointKind::Fixed => JointAxesMask::empty(),
         JointKind::Ball => JointAxesMask::ANG_AXES,
         JointKind::Planar => JointAxesMask::LIN_Y | JointAxesMask::LIN_Z | JointAxesMask::ANG_X,
@@ -75,8 +77,8 @@ pub(crate) fn axes_of(
             let way = Axis { direction_in_joint: axis.direction_in_joint, ..Axis::default() };
             hinge(&way, true, Axes { parent: cross, ..place }, records);
             let pitch_m = joint.thread_pitch_m.filter(|pitch| pitch.is_finite()).unwrap_or(1.0);
-            records.axes[turn + 1].follows =
-                Some(Follow { leader: turn, multiplier: pitch_m / TAU, offset: 0.0 });
+            records.axes[turn + 1].mimics =
+                Some(MimicCoupling { leader: turn, multiplier: pitch_m / TAU, offset: 0.0 });
             return Some(());
         }
         kind => {
@@ -91,7 +93,7 @@ pub(crate) fn axes_of(
     data.set_local_frame1(rapier_pose(body1_from_axis));
     data.set_local_frame2(rapier_pose(body2_from_axis));
     data.set_contacts_enabled(false);
-    records.holds.push(Hold { body1: place.parent, body2: place.child, data });
+    records.constraints.push(Constraint { body1: place.parent, body2: place.child, data });
     Some(())
 }
 
@@ -104,7 +106,7 @@ fn sound(axis: &Axis) -> bool {
         && ![axis.lower, axis.upper, axis.effort, axis.velocity].iter().any(|value| value.is_nan())
 }
 
-/// The axis' frame, x along it, in both bodies.
+/// Returns the axis' frame, x along it, in both bodies.
 fn frames(axis: &Axis, place: &Axes, records: &Records) -> (Pose, Pose) {
     let direction = axis.direction_in_joint.normalize_or(DVec3::X);
     let turn = DQuat::from_rotation_arc(DVec3::X, direction);
@@ -138,12 +140,12 @@ fn hinge(axis: &Axis, slides: bool, place: Axes, records: &mut Records) {
         body2_from_axis,
         lower: lower.min(upper),
         upper: upper.max(lower),
-        // A negative limit means none in SDF.
+        // A negative limit means unlimited in SDF.
         effort: if axis.effort < 0.0 { f64::INFINITY } else { axis.effort },
         velocity: if axis.velocity < 0.0 { f64::INFINITY } else { axis.velocity },
-        follows: None,
+        mimics: None,
         data: between(mask),
-        command: Command::Free,
+        command: JointCommand::Free,
         state: AxisState::default(),
         changed: false,
     };
@@ -157,23 +159,24 @@ fn hinge(axis: &Axis, slides: bool, place: Axes, records: &mut Records) {
         data.set_motor_model(along, MotorModel::ForceBased);
         let (k, d) = (axis.spring_stiffness.max(0.0), axis.damping.max(0.0));
         data.set_motor(along, axis.spring_reference, 0.0, k, d);
-        records.holds.push(Hold { body1, body2, data });
+        records.constraints.push(Constraint { body1, body2, data });
     }
     if axis.friction > 0.0 {
         let mut data = between(JointAxesMask::empty());
-        data.set_motor_velocity(along, 0.0, MOTOR_STIFFNESS);
+        data.set_motor_velocity(along, 0.0, MOTOR_GAIN_PER_S);
         data.set_motor_max_force(along, axis.friction);
-        records.holds.push(Hold { body1, body2, data });
+        records.constraints.push(Constraint { body1, body2, data });
     }
     records.axes.push(record);
 }
 
-/// A small body between the two hinges of a universal joint, made of a part of the child's mass.
+/// Adds a small body between the two hinges of a universal joint, with a fraction of the child's
+/// mass.
 fn cross_body(place: &Axes, records: &mut Records) -> usize {
     let child = &mut records.bodies[place.child];
     let (mass, body) = if child.kind == BodyKind::Dynamic {
-        let taken = split(&child.mass, CROSS_SHARE, Vector::ZERO);
-        child.mass = split(&child.mass, 1.0 - CROSS_SHARE, child.mass.local_com);
+        let taken = split(&child.mass, CROSS_MASS_FRACTION, Vector::ZERO);
+        child.mass = split(&child.mass, 1.0 - CROSS_MASS_FRACTION, child.mass.local_com);
         (taken, &*child)
     } else {
         (MassProperties::new(Vector::ZERO, 0.1, Vector::splat(1e-4)), &*child)
@@ -187,10 +190,10 @@ fn cross_body(place: &Axes, records: &mut Records) -> usize {
         damping: body.damping,
         can_sleep: body.can_sleep,
         colliders: Vec::new(),
-        grains: Vec::new(),
+        anisotropic_colliders: Vec::new(),
         removed: false,
     };
-    records.bodies[place.child].weight_share *= 1.0 - CROSS_SHARE;
+    records.bodies[place.child].weight_share *= 1.0 - CROSS_MASS_FRACTION;
     records.bodies.push(cross);
     records.bodies.len() - 1
 }

@@ -4,45 +4,45 @@ use rapier3d_f64::prelude::PhysicsPipeline;
 
 use super::Rigid;
 use crate::hooks::Hooks;
-use crate::joints::Command;
+use crate::joints::JointCommand;
 use crate::limits::MAX_SPEED_M_S;
 use crate::records::{BodyKind, Records};
 
-/// A body whose motion is none, and its speed [m/s] if that is a number.
-pub(crate) struct Lost {
+/// A body with a diverged motion, and its speed [m/s] if finite.
+pub(crate) struct DivergedBody {
     pub(crate) body: usize,
     pub(crate) speed_m_s: Option<f64>,
 }
 
 impl Rigid {
-    /// Moves on by a time [s], and reads where the axes are.
-    pub(crate) fn step(&mut self, records: &mut Records, dt_s: f64) -> Result<(), Lost> {
+    /// Advances by a time [s], and reads the states of the axes.
+    pub(crate) fn step(&mut self, records: &mut Records, dt_s: f64) -> Result<(), DivergedBody> {
         self.solver.integration_parameters.dt = dt_s;
         for number in 0..records.axes.len() {
             let leader =
-                records.axes[number].follows.map(|follow| records.axes[follow.leader].state);
+                records.axes[number].mimics.map(|follow| records.axes[follow.leader].state);
             records.axes[number].drive(leader, dt_s, self.axes[number], self, &records.bodies);
         }
-        self.rub(dt_s);
+        self.apply_friction(dt_s);
         let hooks = Hooks {
             model_of_link: &records.model_of_link,
             links: &records.links,
             parameters: self.solver.integration_parameters,
         };
         self.solver.step_with_events(&hooks, &());
-        let mut pushed = false;
+        let mut has_external_forces = false;
         for (number, axis) in records.axes.iter_mut().enumerate() {
             axis.observe(self.axes[number], self);
-            pushed |= matches!(axis.command, Command::Effort(_));
+            has_external_forces |= matches!(axis.command, JointCommand::Effort(_));
         }
-        if pushed || self.pushed {
-            self.clear_pushes();
+        if has_external_forces || self.has_external_forces {
+            self.clear_forces();
         }
-        self.watch(records)
+        self.check_finite(records)
     }
 
-    fn clear_pushes(&mut self) {
-        self.pushed = false;
+    fn clear_forces(&mut self) {
+        self.has_external_forces = false;
         for handle in self.bodies.iter().flatten() {
             let body = &mut self.solver.bodies[*handle];
             if body.is_dynamic() {
@@ -52,8 +52,8 @@ impl Rigid {
         }
     }
 
-    /// Finds the first body whose motion is none.
-    fn watch(&self, records: &Records) -> Result<(), Lost> {
+    /// Returns the first body with a diverged motion as an error.
+    fn check_finite(&self, records: &Records) -> Result<(), DivergedBody> {
         let lost = PhysicsPipeline::quarantine(&self.solver.physics_pipeline).bodies();
         for (number, handle) in self.bodies.iter().enumerate() {
             let Some(handle) = handle.filter(|_| records.bodies[number].kind == BodyKind::Dynamic)
@@ -68,7 +68,7 @@ impl Rigid {
                 (true, true) => Some(speed),
                 (false, _) => None,
             };
-            return Err(Lost { body: number, speed_m_s });
+            return Err(DivergedBody { body: number, speed_m_s });
         }
         Ok(())
     }

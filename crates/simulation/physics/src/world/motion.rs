@@ -1,13 +1,13 @@
-//! Where things are and how they move.
+//! Poses and velocities.
 
 use periplus_geometry::{DVec3, Pose};
 
-use super::World;
+use super::PhysicsWorld;
 use crate::joints::{AxisRecord, AxisState};
 use crate::state::{JointId, LinkId, LinkState, ModelId};
 
-impl World {
-    /// Where a link is and how it moves.
+impl PhysicsWorld {
+    /// Returns pose and velocity of a link.
     #[must_use]
     pub fn link_state(&self, link: LinkId) -> Option<LinkState> {
         let record = self.records.links.get(link.0 as usize)?;
@@ -20,34 +20,34 @@ impl World {
         })
     }
 
-    /// All links of all models that are there, in the order of adding.
+    /// Returns the states of all links of all models, in the order of adding.
     #[must_use]
     pub fn snapshot(&self) -> Vec<(LinkId, LinkState)> {
         let numbers = (0..self.records.links.len() as u32).map(LinkId);
         numbers.filter_map(|link| Some((link, self.link_state(link)?))).collect()
     }
 
-    /// A model's frame in the world, carried by its canonical link.
+    /// Returns a model's pose, carried by its canonical link.
     #[must_use]
     pub fn model_pose(&self, model: ModelId) -> Option<Pose> {
         let (body, body_from_model) = self.records.canonical(model.0)?;
         Some(self.engine.body(&self.records, body)?.world_from_body * body_from_model)
     }
 
-    /// The axes of a joint: none of a fixed or ball joint, two of a universal joint.
+    /// Returns the axes of a joint: none for a fixed or ball joint, two for a universal joint.
     #[must_use]
     pub fn joint_state(&self, joint: JointId) -> Vec<AxisState> {
         self.axes(joint).iter().map(|axis| axis.state).collect()
     }
 
-    /// The first axis of a joint.
+    /// Returns the first axis of a joint.
     #[must_use]
     pub fn axis_state(&self, joint: JointId) -> Option<AxisState> {
         self.axes(joint).first().map(|axis| axis.state)
     }
 
-    /// The middle between some joints, in their model's frame [m]: what a robot turns about on the
-    /// spot if they are its driven wheels. None without joints that move.
+    /// Returns the midpoint of some joints, in their model's frame [m]: the centre of rotation in
+    /// place if they are driven wheels. `None` without movable joints.
     #[must_use]
     pub fn middle_of(&self, model: ModelId, joints: &[JointId]) -> Option<DVec3> {
         let model_from_world = self.model_pose(model)?.inverse();

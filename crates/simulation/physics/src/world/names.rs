@@ -1,10 +1,10 @@
-//! What things are called.
+//! Lookup by name.
 
-use super::World;
+use super::PhysicsWorld;
 use crate::state::{JointId, LinkId, ModelId};
 
-impl World {
-    /// The first model of a name.
+impl PhysicsWorld {
+    /// Returns the first model of a name.
     #[must_use]
     pub fn find_model(&self, name: &str) -> Option<ModelId> {
         let found =
@@ -12,19 +12,19 @@ impl World {
         found.map(|number| ModelId(number as u32))
     }
 
-    /// A link of a model by its scoped name.
+    /// Returns a link of a model by its scoped name.
     #[must_use]
     pub fn find_link(&self, model: ModelId, name: &str) -> Option<LinkId> {
         self.links(model).find(|&link| self.link_name(link) == Some(name))
     }
 
-    /// A joint of a model by its scoped name.
+    /// Returns a joint of a model by its scoped name.
     #[must_use]
     pub fn find_joint(&self, model: ModelId, name: &str) -> Option<JointId> {
         self.joints(model).find(|&joint| self.joint_name(joint) == Some(name))
     }
 
-    /// A joint between models, by its name in the world.
+    /// Returns a joint between models, by its name in the world.
     #[must_use]
     pub fn find_world_joint(&self, name: &str) -> Option<JointId> {
         let mut joints = self.records.joints.iter().enumerate();
@@ -35,42 +35,42 @@ impl World {
         found.map(|(number, _)| JointId(number as u32))
     }
 
-    /// The links of a model, in the order of the file.
+    /// Returns the links of a model, in the order of the file.
     pub fn links(&self, model: ModelId) -> impl Iterator<Item = LinkId> + use<> {
         self.records.present(model.0).map_or(0..0, |model| model.links.clone()).map(LinkId)
     }
 
-    /// The joints of a model, in the order of the file; fixed ones too.
+    /// Returns the joints of a model, in the order of the file, including fixed ones.
     pub fn joints(&self, model: ModelId) -> impl Iterator<Item = JointId> + use<> {
         self.records.present(model.0).map_or(0..0, |model| model.joints.clone()).map(JointId)
     }
 
-    /// A link's name, scoped within its model.
+    /// Returns a link's name, scoped within its model.
     #[must_use]
     pub fn link_name(&self, link: LinkId) -> Option<&str> {
         self.records.links.get(link.0 as usize).map(|link| link.name.as_str())
     }
 
-    /// A joint's name, scoped within its model.
+    /// Returns a joint's name, scoped within its model.
     #[must_use]
     pub fn joint_name(&self, joint: JointId) -> Option<&str> {
         self.records.joints.get(joint.0 as usize).map(|joint| joint.name.as_str())
     }
 
-    /// The name of a collision of a link.
+    /// Returns the name of a collision of a link.
     #[must_use]
     pub fn collision_name(&self, link: LinkId, collision: usize) -> Option<&str> {
         let link = self.records.links.get(link.0 as usize)?;
         link.collisions.get(collision).map(String::as_str)
     }
 
-    /// The model that a link belongs to.
+    /// Returns the model of a link.
     #[must_use]
     pub fn model_of(&self, link: LinkId) -> Option<ModelId> {
         self.records.model_of_link.get(link.0 as usize).map(|&model| ModelId(model))
     }
 
-    /// All models that are there, in the order of adding, with their names.
+    /// Returns all models in the order of adding, with their names.
     pub fn models(&self) -> impl Iterator<Item = (ModelId, &str)> {
         let models = self.records.models.iter().enumerate();
         models

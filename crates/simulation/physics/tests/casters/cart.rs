@@ -1,7 +1,7 @@
 //! A cart between two casters.
 
 use periplus_geometry::DQuat;
-use periplus_physics::{Command, World};
+use periplus_physics::{JointCommand, PhysicsWorld};
 use periplus_scene::{Axis, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
 
 use crate::common::{
@@ -62,10 +62,12 @@ pub(crate) fn drive(cart: &Model, height_m: f64) -> f64 {
     let mut world = flat_world();
     put(&mut world, cart, Pose::from_xyz(0.0, 0.0, height_m));
     let wheels = ["left_joint", "right_joint"].map(|name| find_joint(&world, "cart", name));
-    let turn = |world: &mut World, speed_m_s: f64| {
+    let turn = |world: &mut PhysicsWorld, speed_m_s: f64| {
         for wheel in wheels {
             let target = speed_m_s / 0.035;
-            assert!(world.command(wheel, Command::Velocity { target, max_effort: torque_n_m }));
+            assert!(
+                world.command(wheel, JointCommand::Velocity { target, max_effort: torque_n_m })
+            );
         }
     };
     turn(&mut world, 0.0);

@@ -2,7 +2,8 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "each test file uses a part; a test may panic")]
 
 use periplus_physics::{
-    Added, Command, JointId, LinkId, LinkState, Mode, ModelId, NoMeshes, World,
+    AddOutcome, JointCommand, JointId, LinkId, LinkState, ModelId, NoMeshes, PhysicsMode,
+    PhysicsWorld,
 };
 use periplus_scene::{
     Axis, Collision, DVec3, Inertial, Joint, JointKind, Link, Model, Pose, Shape,
@@ -61,33 +62,33 @@ pub(crate) fn ground() -> Model {
     Model { is_static: true, ..model("ground", vec![link], vec![]) }
 }
 
-pub(crate) fn flat_world() -> World {
-    let mut world = World::empty(DOWN, Mode::Rigid);
+pub(crate) fn flat_world() -> PhysicsWorld {
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     put(&mut world, &ground(), Pose::IDENTITY);
     world
 }
 
-pub(crate) fn put(world: &mut World, model: &Model, pose: Pose) -> ModelId {
-    let Added { model, diagnostics } = world.add(model, pose, &NoMeshes);
+pub(crate) fn put(world: &mut PhysicsWorld, model: &Model, pose: Pose) -> ModelId {
+    let AddOutcome { model, diagnostics } = world.add(model, pose, &NoMeshes);
     assert!(!diagnostics.has_errors(), "{diagnostics:?}");
     model.unwrap()
 }
 
-pub(crate) fn run(world: &mut World, time_s: f64) {
+pub(crate) fn run(world: &mut PhysicsWorld, time_s: f64) {
     for _ in 0..(time_s / STEP_S).round() as usize {
         world.step(STEP_NS).unwrap();
     }
 }
 
-pub(crate) fn link(world: &World, model: &str, link: &str) -> LinkId {
+pub(crate) fn link(world: &PhysicsWorld, model: &str, link: &str) -> LinkId {
     world.find_link(world.find_model(model).unwrap(), link).unwrap()
 }
 
-pub(crate) fn state(world: &World, model: &str, name: &str) -> LinkState {
+pub(crate) fn state(world: &PhysicsWorld, model: &str, name: &str) -> LinkState {
     world.link_state(link(world, model, name)).unwrap()
 }
 
-pub(crate) fn find_joint(world: &World, model: &str, name: &str) -> JointId {
+pub(crate) fn find_joint(world: &PhysicsWorld, model: &str, name: &str) -> JointId {
     world.find_joint(world.find_model(model).unwrap(), name).unwrap()
 }
 
@@ -144,16 +145,16 @@ pub(crate) struct Wheels {
 }
 
 impl Wheels {
-    pub(crate) fn of(world: &World) -> Self {
+    pub(crate) fn of(world: &PhysicsWorld) -> Self {
         Self {
             left: find_joint(world, "robot", "left_joint"),
             right: find_joint(world, "robot", "right_joint"),
         }
     }
 
-    pub(crate) fn turn(&self, world: &mut World, left: f64, right: f64) {
+    pub(crate) fn turn(&self, world: &mut PhysicsWorld, left: f64, right: f64) {
         for (joint, target) in [(self.left, left), (self.right, right)] {
-            assert!(world.command(joint, Command::Velocity { target, max_effort: 20.0 }));
+            assert!(world.command(joint, JointCommand::Velocity { target, max_effort: 20.0 }));
         }
     }
 }

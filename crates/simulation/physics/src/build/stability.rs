@@ -1,9 +1,9 @@
-//! Inertias and joints that the solver can step.
+//! Adjustment of inertias and joints for a stable solver.
 //!
-//! A body whose moments of inertia are far smaller than those of anything of its mass and extent
-//! spins up without bound under the forces at its joints and contacts; so does one that violates
-//! the triangle inequality. Both are common in files written by hand. ODE steps some of them and
-//! explodes on others; here they are raised, with a warning.
+//! A body with moments of inertia far below those of any body of its mass and extent spins up
+//! without bound under forces at its joints and contacts. So does a body that violates the triangle
+//! inequality. Both are common in hand-written files. ODE simulates some of them and diverges on
+//! others; here they are raised, with a warning.
 
 use periplus_diagnostics::Diagnostic;
 use rapier3d_f64::dynamics::SpringCoefficients;
@@ -13,25 +13,25 @@ use rapier3d_f64::parry::mass_properties::MassProperties;
 use super::Builder;
 use crate::records::{Body, BodyKind};
 
-/// Least radius of gyration about an axis, as a part of the greatest distance from this axis at
-/// which forces act: joints and corners of shapes. That of a solid box is at least 0.4.
+/// Minimum radius of gyration about an axis, relative to the maximum distance from this axis at
+/// which forces act: joints and corners of shapes. A solid box has at least 0.4.
 const MIN_GYRATION_RATIO: f64 = 0.1;
-/// Largest moment of inertia, as a multiple of the sum of the other two. No body exceeds 1; up to
-/// this factor the given numbers are used.
+/// Maximum moment of inertia relative to the sum of the other two. No body exceeds 1; up to this
+/// factor the given values are used.
 const MAX_MOMENT_RATIO: f64 = 2.0;
-/// The joints of a body give way a little where the bodies at their other ends have this many times
-/// its mass or moment of inertia: rigid joints would correct each other's errors without end.
+/// Ratio of mass or moment of inertia of neighbouring bodies above which a body's joints are
+/// softened: rigid joints would correct each other's errors indefinitely.
 const HEAVY_NEIGHBOURS_RATIO: f64 = 4.0;
-/// Least number of such joints; two keep each other in step.
-const MIN_JOINTS: usize = 3;
-/// Softness of such joints: the stiffest with which a base carries eight wheels that each weigh ten
-/// times as much.
-const GIVING: SpringCoefficients<f64> =
+/// Minimum number of such joints; two joints are stable.
+const MIN_JOINT_COUNT: usize = 3;
+/// Softness of such joints: the stiffest with which a base carries eight wheels of ten times its
+/// mass each.
+const HEAVY_NEIGHBOURS_SPRING: SpringCoefficients<f64> =
     SpringCoefficients { natural_frequency: 200.0, damping_ratio: 5.0 };
 
 impl Builder<'_, '_> {
-    /// Raises moments of inertia that no body of this mass and extent has.
-    pub(super) fn steady_inertias(&mut self, first_body: usize, first_axis: usize) {
+    /// Raises moments of inertia that are impossible for a body's mass and extent.
+    pub(super) fn stabilize_inertias(&mut self, first_body: usize, first_axis: usize) {
         for number in first_body..self.records.bodies.len() {
             let body = &self.records.bodies[number];
             if body.kind != BodyKind::Dynamic || body.mass.mass() <= 0.0 {
@@ -50,7 +50,7 @@ impl Builder<'_, '_> {
             let mut found = Diagnostic::warning(
                 "inertia-raised",
                 format!(
-                    "the moments of inertia of `{}`, {} kg m², do not fit its mass of {} kg and its \
+                    "the moments of inertia of `{}`, {} kg m², are too small for its mass of {} kg and its \
                      extent; {} kg m² are used",
                     body.name,
                     list(before),
@@ -58,7 +58,7 @@ impl Builder<'_, '_> {
                     list(after)
                 ),
             )
-            .help("for a box of sides a, b, c it is m (b² + c²) / 12 about a");
+            .help("a box of sides a, b, c has m (b² + c²) / 12 about a");
             if let Some((_, link, _)) = origin {
                 found = found.at(link.origin);
             }
@@ -66,15 +66,15 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Softens the joints of light bodies that hold several heavy ones.
-    pub(super) fn steady_joints(&mut self, first_body: usize, first_axis: usize) {
+    /// Softens the joints of light bodies with several heavy neighbours.
+    pub(super) fn stabilize_joints(&mut self, first_body: usize, first_axis: usize) {
         for number in first_body..self.records.bodies.len() {
             let body = &self.records.bodies[number];
             if body.kind != BodyKind::Dynamic {
                 continue;
             }
             let held = self.held(number, first_axis);
-            if held.len() < MIN_JOINTS {
+            if held.len() < MIN_JOINT_COUNT {
                 continue;
             }
             let masses_kg: f64 = held.iter().map(|(_, other)| other.mass()).sum();
@@ -90,13 +90,13 @@ impl Builder<'_, '_> {
             }
             for axis in &mut self.records.axes[first_axis..] {
                 if axis.body1 == number || axis.body2 == number {
-                    axis.data.softness = GIVING;
+                    axis.data.softness = HEAVY_NEIGHBOURS_SPRING;
                 }
             }
         }
     }
 
-    /// Where joints hold a body, in its frame, and the bodies at their other ends.
+    /// Returns the positions of a body's joints in its frame, and the bodies at their other ends.
     fn held(&self, body: usize, first_axis: usize) -> Vec<(Vector, MassProperties)> {
         let mass_of = |other: usize| self.records.bodies[other].mass;
         let axes = self.records.axes[first_axis..].iter();
@@ -109,14 +109,14 @@ impl Builder<'_, '_> {
     }
 }
 
-/// Square of the distance of a point from each principal axis [m²].
+/// Returns the squared distance of a point from each principal axis [m²].
 fn across_squared(mass: &MassProperties, point: Vector) -> Vector {
     let at = mass.principal_inertia_local_frame.inverse() * (point - mass.local_com);
     let square = at * at;
     Vector::splat(square.element_sum()) - square
 }
 
-/// Square of the greatest distance at which forces act, from each principal axis [m²].
+/// Returns the squared maximum distance of forces from each principal axis [m²].
 fn reach_squared(body: &Body, held: &[(Vector, MassProperties)]) -> Vector {
     let mut reach = Vector::ZERO;
     let mut add = |point: Vector| {
@@ -133,7 +133,7 @@ fn reach_squared(body: &Body, held: &[(Vector, MassProperties)]) -> Vector {
     reach
 }
 
-/// The same mass with larger moments of inertia; none where nothing is to be raised.
+/// Returns the mass with raised moments of inertia; `None` if they are sufficient.
 fn raised(mass: &MassProperties, reach_squared: Vector) -> Option<MassProperties> {
     let given = mass.principal_inertia();
     let least = reach_squared * (mass.mass() * MIN_GYRATION_RATIO * MIN_GYRATION_RATIO);
@@ -142,7 +142,7 @@ fn raised(mass: &MassProperties, reach_squared: Vector) -> Option<MassProperties
     let others = moments.element_sum() - largest;
     let missing = largest / MAX_MOMENT_RATIO - others;
     if missing > 0.0 {
-        // The two others take what is missing in equal parts.
+        // The deficit is added to the two others in equal parts.
         let is_other = moments.cmplt(Vector::splat(largest));
         moments = Vector::select(is_other, moments + Vector::splat(missing / 2.0), moments);
     }
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn sound_moments_stay() {
         assert!(raised(&mass([1.0, 1.0, 1.9]), Vector::splat(1.0)).is_none());
-        // Impossible, and used as given.
+        // Physically impossible, and used as given.
         assert!(raised(&mass([1.0, 1.0, 3.9]), Vector::splat(1.0)).is_none());
     }
 

@@ -1,54 +1,54 @@
-//! The push of what is rougher one way.
+//! Forces of anisotropic friction.
 
 use periplus_geometry::DVec3;
 use rapier3d_f64::dynamics::RigidBody;
 use rapier3d_f64::geometry::PairContacts;
 
-use super::{Rigid, push_body};
+use super::{Rigid, apply_force_at};
 use crate::build::scene_pose;
 
-/// One push of the step to come.
-struct Push {
+/// A force in the next step.
+struct FrictionForce {
     bodies: [Option<rapier3d_f64::dynamics::RigidBodyHandle>; 2],
     at_m: DVec3,
-    /// On the first; the second feels the opposite.
+    /// Force on the first body; the second gets the opposite.
     force_n: DVec3,
 }
 
 impl Rigid {
-    /// Pushes at the contacts of the last step against slip along the rougher way, by Coulomb's law
-    /// with that step's pressure, and never more than would stop the slip at once. (Force
-    /// = slip / (compliance of both bodies at the point * step), after Baraff 1989, for one point
-    /// and one direction.)
-    pub(super) fn rub(&mut self, dt_s: f64) {
-        if self.grains.is_empty() {
+    /// Applies forces at the contacts of the last step against slip along the direction of higher
+    /// friction, by Coulomb's law with that step's pressure, limited to the force that stops the
+    /// slip at once. (Force = slip / (compliance of both bodies at the point * step), after Baraff
+    /// 1989, for one point and one direction.)
+    pub(super) fn apply_friction(&mut self, dt_s: f64) {
+        if self.anisotropic_colliders.is_empty() {
             return;
         }
-        let pushes = self.pushes(dt_s);
-        for push in pushes {
-            for (body, sign) in push.bodies.into_iter().zip([1.0, -1.0]) {
+        let friction_forces = self.friction_forces(dt_s);
+        for apply_force in friction_forces {
+            for (body, sign) in apply_force.bodies.into_iter().zip([1.0, -1.0]) {
                 let Some(body) = body.and_then(|handle| self.solver.bodies.get_mut(handle)) else {
                     continue;
                 };
                 if body.is_dynamic() {
                     let com = body.mass_properties().local_mprops.local_com;
-                    push_body(body, com, push.at_m, push.force_n * sign);
-                    self.pushed = true;
+                    apply_force_at(body, com, apply_force.at_m, apply_force.force_n * sign);
+                    self.has_external_forces = true;
                 }
             }
         }
     }
 
-    fn pushes(&self, dt_s: f64) -> Vec<Push> {
-        let (solver, mut pushes) = (&self.solver, Vec::new());
-        for (handle, grain) in &self.grains {
-            let frame = self.bodies.get(grain.frame_body).copied().flatten();
+    fn friction_forces(&self, dt_s: f64) -> Vec<FrictionForce> {
+        let (solver, mut friction_forces) = (&self.solver, Vec::new());
+        for (handle, anisotropic_friction) in &self.anisotropic_colliders {
+            let frame = self.bodies.get(anisotropic_friction.frame_body).copied().flatten();
             let own = solver.colliders[*handle].parent();
             let (Some(frame), Some(own)) = (frame, own) else { continue };
             if solver.bodies[own].is_sleeping() {
                 continue;
             }
-            let first = solver.bodies[frame].rotation() * grain.first_in_frame;
+            let first = solver.bodies[frame].rotation() * anisotropic_friction.first_in_frame;
             for pair in solver.narrow_phase.contact_pairs_with(*handle) {
                 let PairContacts::Rigid(rigid) = &pair.contacts else { continue };
                 let is_first = pair.collider1 == *handle;
@@ -59,7 +59,8 @@ impl Rigid {
                     if manifold.data.solver_contacts.is_empty() {
                         continue;
                     }
-                    let along = grain.along(first, manifold.data.normal, other.friction());
+                    let along =
+                        anisotropic_friction.along(first, manifold.data.normal, other.friction());
                     let Some((way, mu)) = along else { continue };
                     let from_shape = manifold.subshape_pos1().map(scene_pose).unwrap_or_default();
                     let world_from_one =
@@ -82,16 +83,16 @@ impl Rigid {
                         let most_n = mu * point.data.impulse / dt_s;
                         let stop_n = share * slip_m_s / (compliance * dt_s);
                         let force_n = way * -stop_n.clamp(-most_n, most_n);
-                        pushes.push(Push { bodies, at_m, force_n });
+                        friction_forces.push(FrictionForce { bodies, at_m, force_n });
                     }
                 }
             }
         }
-        pushes
+        friction_forces
     }
 }
 
-/// How much faster a point of a body moves along a way after a unit impulse there [1/kg].
+/// Returns the velocity change of a body's point along a direction per unit impulse there [1/kg].
 fn compliance_along(body: &RigidBody, at_m: DVec3, way: DVec3) -> f64 {
     if !body.is_dynamic() {
         return 0.0;

@@ -1,30 +1,30 @@
-//! Where the names of a model lie, in the frame of the outermost model.
+//! Name lookup in a model and its nested models.
 
 use std::collections::BTreeMap;
 
 use periplus_geometry::Pose;
 use periplus_scene::{Joint, Link, Model, carrying_link};
 
-/// A model and the models in it, with scoped names.
-pub(crate) struct Flat<'a> {
+/// A model and its nested models, flattened, with scoped names.
+pub(crate) struct FlatModel<'a> {
     /// Links, each with its scoped name and `model_from_link`.
     pub(crate) links: Vec<(String, &'a Link, Pose)>,
-    /// Joints, each with its scope (`nested::` or nothing).
+    /// Joints, each with its scope (`nested::` or empty).
     pub(crate) joints: Vec<(String, &'a Joint)>,
     index: BTreeMap<String, usize>,
     poses: BTreeMap<String, Pose>,
     model: &'a Model,
 }
 
-/// What a joint's end is fixed to.
+/// Body of a joint's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum End {
-    World,
-    /// Number of the link, and `model_from_end` of the name itself.
+pub(crate) enum JointEnd {
+    PhysicsWorld,
+    /// Index of the link, and `model_from_end` of the name itself.
     Link(usize, Pose),
 }
 
-impl<'a> Flat<'a> {
+impl<'a> FlatModel<'a> {
     pub(crate) fn new(model: &'a Model) -> Self {
         let mut flat = Self {
             links: Vec::new(),
@@ -33,7 +33,7 @@ impl<'a> Flat<'a> {
             poses: BTreeMap::new(),
             model,
         };
-        // A list instead of recursion: models may be nested deeper than the stack.
+        // Iterative: models can be nested deeper than the call stack allows.
         let mut open = vec![(model, String::new(), Pose::IDENTITY)];
         while let Some((model, scope, outer_from_model)) = open.pop() {
             for link in &model.links {
@@ -58,10 +58,10 @@ impl<'a> Flat<'a> {
         flat
     }
 
-    /// What the end of a joint is fixed to; none if nothing has this name.
-    pub(crate) fn end(&self, scope: &str, name: &str) -> Option<End> {
+    /// Resolves the end of a joint; returns `None` for an unknown name.
+    pub(crate) fn end(&self, scope: &str, name: &str) -> Option<JointEnd> {
         if name == "world" {
-            return Some(End::World);
+            return Some(JointEnd::PhysicsWorld);
         }
         let scoped = format!("{scope}{name}");
         let pose = self.poses.get(&scoped).copied();
@@ -72,9 +72,9 @@ impl<'a> Flat<'a> {
             }
         };
         match (link, pose) {
-            (Some(link), pose) => Some(End::Link(link, pose.unwrap_or(self.links[link].2))),
-            // A frame that hangs on the world.
-            (None, Some(_)) => Some(End::World),
+            (Some(link), pose) => Some(JointEnd::Link(link, pose.unwrap_or(self.links[link].2))),
+            // A frame attached to the world.
+            (None, Some(_)) => Some(JointEnd::PhysicsWorld),
             (None, None) => None,
         }
     }

@@ -6,7 +6,7 @@ mod common;
 use common::{
     DOWN, at, find_joint, flat_world, hinge, model, put, run, solid_ball, solid_box, state,
 };
-use periplus_physics::{Command, Mode, NoMeshes, World};
+use periplus_physics::{JointCommand, NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_scene::{DVec3, Friction, Link, Model, Pose};
 
 fn rough(link: &mut Link, fdir1: DVec3, frame: Option<&str>) {
@@ -63,7 +63,7 @@ fn driven(speeds_rad_s: [f64; 4]) -> (DVec3, f64) {
     run(&mut world, 0.2);
     for (name, speed_rad_s) in ["fl", "fr", "rl", "rr"].into_iter().zip(speeds_rad_s) {
         let joint = find_joint(&world, "mecanum", &format!("{name}_joint"));
-        world.command(joint, Command::Velocity { target: speed_rad_s, max_effort: 100.0 });
+        world.command(joint, JointCommand::Velocity { target: speed_rad_s, max_effort: 100.0 });
     }
     run(&mut world, 2.0);
     let chassis = state(&world, "mecanum", "chassis");
@@ -87,7 +87,7 @@ fn rollers_strafe() {
 fn a_frame_that_is_not_there_is_told() {
     let mut runner = at(0.0, 0.0, 0.05, solid_box("runner", 2.0, DVec3::new(0.2, 0.2, 0.1)));
     rough(&mut runner, DVec3::X, Some("chasis"));
-    let mut world = World::empty(DOWN, Mode::Rigid);
+    let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     let added = world.add(&model("skate", vec![runner], Vec::new()), Pose::IDENTITY, &NoMeshes);
     let told: Vec<_> = added.diagnostics.iter().map(|found| found.code).collect();
     assert_eq!(told, ["unknown-frame"]);

@@ -1,27 +1,28 @@
-//! What a world can be told to do.
+//! Commands of a world.
 
 use periplus_geometry::{DVec3, Pose};
 
-use super::World;
+use super::PhysicsWorld;
 use crate::engine::Engine;
-use crate::joints::Command;
+use crate::joints::JointCommand;
 use crate::kinematic::Twist;
 use crate::limits::{
     MAX_ANGULAR_SPEED_RAD_S, MAX_FORCE_N, MAX_POSITION_M, MAX_SPEED_M_S, is_pose, is_within,
 };
 use crate::state::{JointId, LinkId, ModelId};
 
-impl World {
-    /// Tells the first axis of a joint what to do. False if there is none, or a number is none.
-    pub fn command(&mut self, joint: JointId, command: Command) -> bool {
+impl PhysicsWorld {
+    /// Commands the first axis of a joint. Returns false without such an axis, or for a non-finite
+    /// number.
+    pub fn command(&mut self, joint: JointId, command: JointCommand) -> bool {
         self.command_axis(joint, 0, command)
     }
 
-    /// Tells an axis of a joint what to do. False if there is none, or a number is none.
+    /// Commands an axis of a joint. Returns false without such an axis, or for a non-finite number.
     ///
-    /// In [`Mode::Kinematic`](crate::Mode) speeds and positions are reached exactly (by any effort
-    /// but zero), and efforts move nothing.
-    pub fn command_axis(&mut self, joint: JointId, axis: usize, command: Command) -> bool {
+    /// In [`PhysicsMode::Kinematic`](crate::Mode) speeds and positions are reached exactly (with any effort
+    /// but zero), and efforts have no effect.
+    pub fn command_axis(&mut self, joint: JointId, axis: usize, command: JointCommand) -> bool {
         if !command.is_sound() || axis >= self.axes(joint).len() {
             return false;
         }
@@ -30,16 +31,16 @@ impl World {
         true
     }
 
-    /// In [`Mode::Kinematic`](crate::Mode) a model goes along the arc of a twist of its own frame,
-    /// on flat ground, until told otherwise. In [`Mode::Rigid`](crate::Mode), where wheels move a
-    /// robot, this does nothing. Answers whether the model goes: it must be there, stand free, and
-    /// the numbers must be finite.
+    /// In [`PhysicsMode::Kinematic`](crate::Mode) moves a model along the arc of a twist of its own frame,
+    /// in the plane, until the next command. In [`PhysicsMode::Rigid`](crate::Mode), where wheels move a
+    /// robot, this does nothing. Returns true if the model moves: it must exist and be free, and the
+    /// numbers must be finite.
     pub fn follow(&mut self, model: ModelId, twist: Twist) -> bool {
         self.follow_about(model, DVec3::ZERO, twist)
     }
 
-    /// Like [`Self::follow`], with a point of the model [m] that the twist is that of, such as the
-    /// [middle](Self::middle_of) between the wheels of a differential drive.
+    /// Like [`Self::follow`], for the twist of a point of the model [m], such as the
+    /// [midpoint](Self::middle_of) of the wheels of a differential drive.
     pub fn follow_about(&mut self, model: ModelId, centre_m: DVec3, twist: Twist) -> bool {
         let speed = DVec3::new(twist.x_m_s, twist.y_m_s, 0.0);
         let sound =
@@ -52,10 +53,10 @@ impl World {
         }
     }
 
-    /// Gives all bodies of a model a velocity as if it were one piece: of its frame's origin
-    /// [m/s] and about it [rad/s], in world axes. This is what planar drives and Gazebo's
-    /// `VelocityControl` do at each step. In [`Mode::Kinematic`](crate::Mode) the model keeps it
-    /// until told otherwise, here or by [`Self::follow`].
+    /// Sets the velocities of all bodies of a model as one rigid piece: of its frame's origin [m/s]
+    /// and about it [rad/s], in world axes. Planar drives and Gazebo's `VelocityControl` do this in
+    /// every step. In [`PhysicsMode::Kinematic`](crate::Mode) the model keeps it until the next command,
+    /// here or by [`Self::follow`].
     pub fn set_model_velocity(
         &mut self,
         model: ModelId,
@@ -72,12 +73,14 @@ impl World {
                 rigid.move_as_one(&self.records, bodies, pose.translation, velocity);
                 true
             }
-            Engine::Exact(exact) => exact.fly(&self.records, model.0, linear_m_s, angular_rad_s),
+            Engine::Exact(exact) => {
+                exact.set_velocity(&self.records, model.0, linear_m_s, angular_rad_s)
+            }
         }
     }
 
-    /// Puts a model down somewhere, as it is bent, at rest. False if there is no such model, or
-    /// the pose is beyond its [limit](crate::limits).
+    /// Sets the pose of a model with its current joint positions, at rest. Returns false if the
+    /// model does not exist, or the pose is beyond its [limit](crate::limits).
     pub fn set_pose(&mut self, model: ModelId, world_from_model: Pose) -> bool {
         let Some(now) = self.model_pose(model).filter(|_| is_pose(world_from_model)) else {
             return false;
@@ -94,8 +97,8 @@ impl World {
         true
     }
 
-    /// Puts one link down somewhere, at rest, with what is fixed to it. Joints pull it back if they
-    /// can. False if it is not there, or the pose is beyond its [limit](crate::limits).
+    /// Sets the pose of a link, at rest, with the links fixed to it. Joints pull it back if they
+    /// can. Returns false if it does not exist, or the pose is beyond its [limit](crate::limits).
     pub fn set_link_pose(&mut self, link: LinkId, world_from_link: Pose) -> bool {
         let Some(record) = self.records.links.get(link.0 as usize) else { return false };
         let there = self.engine.body(&self.records, record.body).is_some();
@@ -107,24 +110,30 @@ impl World {
         true
     }
 
-    /// Pushes a link for the next step only, at a point of the world [m], by a force [N] and a
-    /// torque [N m] in world axes. False if it cannot be pushed.
-    pub fn push(&mut self, link: LinkId, at_m: DVec3, force_n: DVec3, torque_n_m: DVec3) -> bool {
+    /// Applies a force [N] and a torque [N m] to a link at a point of the world [m], in world axes,
+    /// for the next step only. Returns false for an immovable link.
+    pub fn apply_force(
+        &mut self,
+        link: LinkId,
+        at_m: DVec3,
+        force_n: DVec3,
+        torque_n_m: DVec3,
+    ) -> bool {
         let sound = is_within(at_m, MAX_POSITION_M)
             && is_within(force_n, MAX_FORCE_N)
             && is_within(torque_n_m, MAX_FORCE_N);
         let record = self.records.links.get(link.0 as usize).filter(|_| sound);
         match (&mut self.engine, record) {
             (Engine::Rigid(rigid), Some(link)) => {
-                rigid.push(&self.records, link.body, at_m, (force_n, torque_n_m))
+                rigid.apply_force(&self.records, link.body, at_m, (force_n, torque_n_m))
             }
             _ => false,
         }
     }
 }
 
-impl Command {
-    /// Whether its numbers are some.
+impl JointCommand {
+    /// Returns true if all numbers are finite.
     fn is_sound(self) -> bool {
         match self {
             Self::Free => true,

@@ -4,8 +4,8 @@
 use super::Odometry;
 use crate::kinematic::Twist;
 
-/// Below this difference a wheel is given its speed at once [m/s].
-const CLOSE_M_S: f64 = 0.01;
+/// Speed error below which the target speed is set at once [m/s].
+const SPEED_TOLERANCE_M_S: f64 = 0.01;
 
 /// A left and a right wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,16 +22,16 @@ impl Default for WheelPair {
     }
 }
 
-/// What the plugin is told.
+/// Parameters of the plugin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClassicDiffDrive {
-    /// Its wheels; skid-steered robots have several pairs. Odometry looks at the first only.
+    /// Wheel pairs; skid-steered robots have several. Odometry uses the first only.
     pub pairs: Vec<WheelPair>,
-    /// Greatest change of a wheel's speed on the ground [m/s²]; 0 is no limit.
+    /// Maximum change of a wheel's rim speed [m/s²]; 0 is unlimited.
     pub max_wheel_acceleration_m_s2: f64,
-    /// Greatest torque of a wheel [N m].
+    /// Maximum torque of a wheel [N m].
     pub max_wheel_torque_n_m: f64,
-    /// How often it acts [Hz]; 0 is at each step.
+    /// Update rate [Hz]; 0 is every step.
     pub update_rate_hz: f64,
 }
 
@@ -47,9 +47,9 @@ impl Default for ClassicDiffDrive {
 }
 
 impl ClassicDiffDrive {
-    /// `libgazebo_ros_skid_steer_drive.so`: a front and a rear pair that do the same, without a
+    /// `libgazebo_ros_skid_steer_drive.so`: a front and a rear pair with equal commands, without a
     /// limit on acceleration. Its own defaults are a separation of 0.4 m and a diameter of 0.15 m;
-    /// its odometry is the truth.
+    /// its odometry is the true pose.
     #[must_use]
     pub fn skid_steer(wheels: WheelPair, torque_n_m: f64, update_rate_hz: f64) -> Self {
         Self {
@@ -60,8 +60,8 @@ impl ClassicDiffDrive {
         }
     }
 
-    /// The twist of the middle between the wheels when they turn at these speeds [rad/s], left and
-    /// right of each pair, and slip no more than they must: the mean of what each pair would do.
+    /// Returns the twist of the midpoint of the wheels at these speeds [rad/s], left and right of
+    /// each pair, with minimal slip: the mean over the pairs.
     #[must_use]
     pub fn twist(&self, wheels_rad_s: &[[f64; 2]]) -> Twist {
         let mut twist = Twist::default();
@@ -75,22 +75,21 @@ impl ClassicDiffDrive {
     }
 }
 
-/// The plugin at work. It keeps the last command for ever, as the original does.
+/// State of the plugin. The last command has no timeout, as in the original.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClassicDrive {
-    /// What was asked for, in m/s on the ground, left and right of each pair.
+    /// Commanded rim speeds [m/s], left and right of each pair.
     ramps: Vec<[f64; 2]>,
-    /// Where the encoders say that it is.
+    /// Pose from the encoders.
     pub odometry: Odometry,
 }
 
 impl ClassicDrive {
-    /// One update: the command, what the wheels of each pair do now [rad/s, left and right], and
-    /// the time since the last update [s]. Answers what each wheel should do [rad/s].
+    /// Updates with the command, the current speeds of each pair's wheels [rad/s, left and right],
+    /// and the time since the last update [s]. Returns the target speed of each wheel [rad/s].
     ///
-    /// A wheel's speed on the ground is `v ∓ w separation / 2`. With a limit on acceleration, each
-    /// update adds no more than `acceleration dt` to what was asked for before, and never more than
-    /// what the wheel itself still lacks.
+    /// A wheel's rim speed is `v ∓ w separation / 2`. With a limit on acceleration, each update adds
+    /// at most `acceleration dt` to the previous target, and at most the wheel's own speed error.
     pub fn update(
         &mut self,
         drive: &ClassicDiffDrive,
@@ -109,7 +108,7 @@ impl ClassicDrive {
                 let target = command.x_m_s + sign * command.yaw_rad_s * pair.separation_m / 2.0;
                 let missing = target - now[side] * radius_m;
                 let ramp = &mut self.ramps[number][side];
-                if limit == 0.0 || missing.abs() < CLOSE_M_S {
+                if limit == 0.0 || missing.abs() < SPEED_TOLERANCE_M_S {
                     *ramp = target;
                 } else if missing >= 0.0 {
                     *ramp += missing.min(limit * dt_s);
@@ -122,7 +121,8 @@ impl ClassicDrive {
         }
         if let (Some(pair), Some([left, right])) = (drive.pairs.first(), wheels_rad_s.first()) {
             let way = pair.diameter_m / 2.0 * dt_s;
-            self.odometry = self.odometry.moved(left * way, right * way, pair.separation_m, dt_s);
+            self.odometry =
+                self.odometry.advanced(left * way, right * way, pair.separation_m, dt_s);
         }
         answer
     }
@@ -175,10 +175,10 @@ mod tests {
             updates += 1;
             assert!(updates < 60, "{wheels:?}");
         }
-        // The last centimetre per second is given at once.
+        // The last centimetre per second is set at once.
         assert!((49..=51).contains(&updates), "{updates}");
         assert_eq!(wheels[1], [5.0, 5.0]);
-        // 0.5 m/s² for half a second, less than 0.125 m by the steps of an update late.
+        // 0.5 m/s² for half a second, less than 0.125 m by the delay of one update.
         let x_m = plugin.odometry.pose.x_m;
         assert!((x_m - 0.1225).abs() < 0.003, "{x_m}");
     }

@@ -1,48 +1,48 @@
-//! `gz-sim-diff-drive-system`: every left wheel gets one speed, every right wheel the other.
+//! `gz-sim-diff-drive-system`: all left wheels get one speed, all right wheels the other.
 
-use super::{Limits, Odometry};
+use super::{Odometry, SpeedLimits};
 use crate::kinematic::Twist;
 
-/// What the plugin is told.
+/// Parameters of the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HarmonicDiffDrive {
+pub struct GzDiffDrive {
     /// Distance between left and right wheels [m].
     pub wheel_separation_m: f64,
     /// Radius of a wheel [m].
     pub wheel_radius_m: f64,
     /// Bounds of the forward speed [m/s].
-    pub linear: Limits,
+    pub linear: SpeedLimits,
     /// Bounds of the turning speed [rad/s].
-    pub angular: Limits,
-    /// How often odometry is told [Hz].
+    pub angular: SpeedLimits,
+    /// Publishing rate of odometry [Hz].
     pub odom_publish_frequency_hz: f64,
 }
 
-impl Default for HarmonicDiffDrive {
+impl Default for GzDiffDrive {
     fn default() -> Self {
         Self {
             wheel_separation_m: 1.0,
             wheel_radius_m: 0.2,
-            linear: Limits::default(),
-            angular: Limits::default(),
+            linear: SpeedLimits::default(),
+            angular: SpeedLimits::default(),
             odom_publish_frequency_hz: 50.0,
         }
     }
 }
 
-/// The plugin at work, at each step of the simulation.
+/// State of the plugin, updated in each simulation step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HarmonicDrive {
+pub struct GzDiffDriveState {
     last: [Twist; 2],
     wheels_before_rad: Option<[f64; 2]>,
-    /// Where the first left and right wheels say that it is, from zero.
+    /// Odometry of the first left and right wheels, from zero.
     pub odometry: Odometry,
 }
 
-impl HarmonicDrive {
-    /// One step: the command, and the time since the last step [s]. Answers the speeds of left and
-    /// right wheels [rad/s]: `(v ∓ w separation / 2) / radius`.
-    pub fn command(&mut self, drive: &HarmonicDiffDrive, wanted: Twist, dt_s: f64) -> [f64; 2] {
+impl GzDiffDriveState {
+    /// Returns the speeds of left and right wheels [rad/s] for a command after a time since the last
+    /// step [s]: `(v ∓ w separation / 2) / radius`.
+    pub fn command(&mut self, drive: &GzDiffDrive, wanted: Twist, dt_s: f64) -> [f64; 2] {
         let [last, before] = self.last;
         let x_m_s = drive.linear.limited(wanted.x_m_s, last.x_m_s, before.x_m_s, dt_s);
         let yaw_rad_s =
@@ -54,10 +54,10 @@ impl HarmonicDrive {
     }
 
     /// Reads the angles of the first left and right wheels [rad]. The first reading is the zero.
-    pub fn observe(&mut self, drive: &HarmonicDiffDrive, wheels_rad: [f64; 2], dt_s: f64) {
+    pub fn observe(&mut self, drive: &GzDiffDrive, wheels_rad: [f64; 2], dt_s: f64) {
         if let Some([left, right]) = self.wheels_before_rad {
             let way = |now: f64, before: f64| (now - before) * drive.wheel_radius_m;
-            self.odometry = self.odometry.moved(
+            self.odometry = self.odometry.advanced(
                 way(wheels_rad[0], left),
                 way(wheels_rad[1], right),
                 drive.wheel_separation_m,
@@ -74,8 +74,8 @@ mod tests {
 
     #[test]
     fn a_twist_in_wheel_speeds_and_back() {
-        let drive = HarmonicDiffDrive::default();
-        let mut plugin = HarmonicDrive::default();
+        let drive = GzDiffDrive::default();
+        let mut plugin = GzDiffDriveState::default();
         let twist = Twist { x_m_s: 1.0, y_m_s: 0.0, yaw_rad_s: 0.4 };
         let wheels = plugin.command(&drive, twist, 0.001);
         // (1 ∓ 0.2) / 0.2.
@@ -88,9 +88,9 @@ mod tests {
 
     #[test]
     fn acceleration_is_bounded() {
-        let linear = Limits { acceleration: [-1.0, 1.0], ..Limits::default() };
-        let drive = HarmonicDiffDrive { linear, ..HarmonicDiffDrive::default() };
-        let mut plugin = HarmonicDrive::default();
+        let linear = SpeedLimits { acceleration: [-1.0, 1.0], ..SpeedLimits::default() };
+        let drive = GzDiffDrive { linear, ..GzDiffDrive::default() };
+        let mut plugin = GzDiffDriveState::default();
         let twist = Twist { x_m_s: 1.0, ..Twist::default() };
         let mut wheels = [0.0; 2];
         for _ in 0..500 {

@@ -1,4 +1,4 @@
-//! Which way a collision is rougher.
+//! Anisotropic friction of a collision.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::DVec3;
@@ -6,21 +6,21 @@ use periplus_scene::Collision;
 
 use super::Builder;
 use super::surface::coefficient;
-use crate::grain::Grain;
-use crate::places::End;
-use crate::records::WORLD_BODY;
+use crate::anisotropic_friction::AnisotropicFriction;
+use crate::flat_model::JointEnd;
+use crate::records::WORLD_BODY_INDEX;
 
 impl Builder<'_, '_> {
-    /// The grain of a collision of a link, if it is rougher one way.
+    /// Returns the anisotropic friction of a link's collision, if any.
     ///
     /// # Errors
-    /// When the direction is told in a frame that the model does not have.
-    pub(super) fn grain(
+    /// When the direction refers to a frame that the model does not have.
+    pub(super) fn anisotropic_friction(
         &self,
         link: usize,
         collision: &Collision,
         name: &str,
-    ) -> Result<Option<Grain>, Box<Diagnostic>> {
+    ) -> Result<Option<AnisotropicFriction>, Box<Diagnostic>> {
         let friction = &collision.surface.friction;
         let (mu, mu2) = (coefficient(friction.mu), coefficient(friction.mu2));
         let Some(first) = friction.fdir1.try_normalize().filter(|_| mu != mu2) else {
@@ -35,27 +35,27 @@ impl Builder<'_, '_> {
                 let scoped = &self.flat.links[link].0;
                 let scope = scoped.rfind("::").map_or("", |end| &scoped[..end + 2]);
                 match self.flat.end(scope, frame) {
-                    Some(End::Link(carrier, model_from_frame)) => {
+                    Some(JointEnd::Link(carrier, model_from_frame)) => {
                         let record = &self.records.links[self.first_link + carrier];
                         let link_from_frame =
                             self.flat.links[carrier].2.inverse() * model_from_frame;
                         (record.body, record.body_from_link * link_from_frame)
                     }
-                    Some(End::World) => (WORLD_BODY, self.world_from_model),
+                    Some(JointEnd::PhysicsWorld) => (WORLD_BODY_INDEX, self.world_from_model),
                     None => return Err(Box::new(no_frame(collision, name, frame))),
                 }
             }
         };
         let first_in_frame: DVec3 = body_from_frame.rotation * first;
-        Ok(Some(Grain { frame_body, first_in_frame, mu, mu2 }))
+        Ok(Some(AnisotropicFriction { frame_body, first_in_frame, mu, mu2 }))
     }
 }
 
 fn no_frame(collision: &Collision, name: &str, frame: &str) -> Diagnostic {
     Diagnostic::warning(
         "unknown-frame",
-        format!("the friction of `{name}` is told in `{frame}`, which the model does not have"),
+        format!("the friction direction of `{name}` is in frame `{frame}`, which the model does not have"),
     )
     .at(collision.origin)
-    .note("the smaller coefficient holds in every direction")
+    .note("the smaller coefficient applies in all directions")
 }
