@@ -1,4 +1,4 @@
-//! Cameras: where pixels look, depths, and noise of images.
+//! Cameras: pinhole projection, depth clipping and image noise.
 
 mod depth;
 mod noise;
@@ -6,4 +6,4 @@ mod pinhole;
 
 pub use depth::clip_depths;
 pub use noise::ImageNoise;
-pub use pinhole::{Calibration, MOST_PIXELS, Pinhole};
+pub use pinhole::{CameraCalibration, MAX_PIXELS, Pinhole};

@@ -1,17 +1,21 @@
-//! What a contact sensor touches.
+//! Contact sensors.
 
-use periplus_physics::{Contact, Touching};
+use periplus_physics::{CollisionId, PhysicsContact};
 
-/// The contacts of a sensor's collisions, each seen from the sensor: `one` is the sensor's own, and
-/// the normal points away from it. Where both sides are its own the contact is told once.
+/// Returns the contacts of a sensor's collisions from the sensor's side: `one` is the sensor's own
+/// collision, and the normal points away from it. A contact between two own collisions is reported
+/// once.
 #[must_use]
-pub fn touches(contacts: &[Contact], is_own: impl Fn(Touching) -> bool) -> Vec<Contact> {
-    let own = |contact: &Contact| {
+pub fn contacts_of(
+    contacts: &[PhysicsContact],
+    is_own: impl Fn(CollisionId) -> bool,
+) -> Vec<PhysicsContact> {
+    let own = |contact: &PhysicsContact| {
         if is_own(contact.one) {
             Some(contact.clone())
         } else if is_own(contact.two) {
-            let Contact { one, two, normal, .. } = *contact;
-            Some(Contact { one: two, two: one, normal: -normal, ..contact.clone() })
+            let PhysicsContact { one, two, normal, .. } = *contact;
+            Some(PhysicsContact { one: two, two: one, normal: -normal, ..contact.clone() })
         } else {
             None
         }
@@ -22,7 +26,7 @@ pub fn touches(contacts: &[Contact], is_own: impl Fn(Touching) -> bool) -> Vec<C
 #[cfg(test)]
 mod tests {
     use periplus_geometry::{DVec3, Pose};
-    use periplus_physics::{Mode, NoMeshes, World};
+    use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
     use periplus_scene::{Collision, Link, Model, Shape};
 
     use super::*;
@@ -36,10 +40,10 @@ mod tests {
         model
     }
 
-    /// A ball of 1 kg on the floor: seen from either, the other presses with 9.8 N.
+    /// A ball of 1 kg on the floor: seen from either side, the other presses with 9.8 N.
     #[test]
-    fn a_contact_is_told_from_the_sensors_side() {
-        let mut world = World::empty(DVec3::Z * -9.8, Mode::Rigid);
+    fn contacts_are_seen_from_the_sensors_side() {
+        let mut world = PhysicsWorld::empty(DVec3::Z * -9.8, PhysicsMode::Rigid);
         let floor = model("floor", Shape::Box { size_m: DVec3::new(9.0, 9.0, 1.0) }, true);
         let ball = model("ball", Shape::Sphere { radius_m: 0.5 }, false);
         let floor = world.add(&floor, Pose::from_xyz(0.0, 0.0, -0.5), &NoMeshes).model.unwrap();
@@ -50,12 +54,12 @@ mod tests {
         let contacts = world.contacts();
         for (own, normal) in [(floor, DVec3::Z), (ball, DVec3::NEG_Z)] {
             let link = world.links(own).next().unwrap();
-            let seen = touches(&contacts, |touching| touching.link == link);
+            let seen = contacts_of(&contacts, |touching| touching.link == link);
             assert_eq!(seen.len(), 1);
             assert_eq!((seen[0].one.link, seen[0].one.collision), (link, 0));
             assert!(seen[0].normal.distance(normal) < 1e-6, "{:?}", seen[0]);
             assert!((seen[0].force_n - 9.8).abs() < 0.1, "{:?}", seen[0]);
         }
-        assert!(touches(&contacts, |_| false).is_empty());
+        assert!(contacts_of(&contacts, |_| false).is_empty());
     }
 }

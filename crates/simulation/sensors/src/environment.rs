@@ -1,19 +1,19 @@
-//! Small sensors of the field around them: magnetometer, altimeter, pressure of the air.
+//! Magnetometer, altimeter and barometer.
 
 use periplus_geometry::{DVec3, Stream};
 use periplus_scene::Noise;
 
-use crate::navsat::spoil;
+use crate::navsat::apply_bias_and_noise;
 use crate::{Motion, NoiseModel, Streams};
 
-/// A magnetometer: the world's field in the sensor's frame.
+/// A magnetometer: the world's magnetic field in the sensor's frame.
 #[derive(Clone, Debug)]
 pub struct Magnetometer {
     noise: [NoiseModel; 3],
 }
 
 impl Magnetometer {
-    /// With noise along x, y, z [T].
+    /// Creates a magnetometer with noise along x, y, z [T].
     #[must_use]
     pub fn new(noise: &[Noise; 3], streams: &Streams) -> Self {
         let noise = [(0, "x"), (1, "y"), (2, "z")]
@@ -21,7 +21,7 @@ impl Magnetometer {
         Self { noise }
     }
 
-    /// The field [T] in the sensor's frame, a time [s] after the last reading.
+    /// Returns the field [T] in the sensor's frame, `dt_s` after the last reading.
     pub fn measure(
         &mut self,
         motion: &Motion,
@@ -29,33 +29,33 @@ impl Magnetometer {
         dt_s: f64,
         stream: &mut Stream,
     ) -> DVec3 {
-        spoil(&mut self.noise, motion.in_sensor(world_field_t), dt_s, stream)
+        apply_bias_and_noise(&mut self.noise, motion.in_sensor(world_field_t), dt_s, stream)
     }
 
-    /// Variances along x, y, z \[T²\].
+    /// Returns the variances along x, y, z \[T²\].
     #[must_use]
     pub fn variances_t2(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.noise[axis].spec().stddev * self.noise[axis].spec().stddev)
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.noise.iter_mut().for_each(NoiseModel::reset);
     }
 }
 
-/// What an altimeter measures.
+/// Reading of an altimeter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AltimeterReading {
     /// Height above the reference [m].
     pub position_m: f64,
-    /// Speed upwards [m/s].
+    /// Upward velocity [m/s].
     pub velocity_m_s: f64,
-    /// The reference: height at the first reading, in the world [m].
+    /// Reference: height of the first reading in the world [m].
     pub reference_m: f64,
 }
 
-/// An altimeter: height above where it first measured, and its change.
+/// An altimeter: height above its first reading, and vertical velocity.
 #[derive(Clone, Debug)]
 pub struct Altimeter {
     position: NoiseModel,
@@ -64,7 +64,7 @@ pub struct Altimeter {
 }
 
 impl Altimeter {
-    /// With noise of height [m] and speed [m/s].
+    /// Creates an altimeter with noise of height [m] and velocity [m/s].
     #[must_use]
     pub fn new(position: &Noise, velocity: &Noise, streams: &Streams) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl Altimeter {
         }
     }
 
-    /// The reading of now, a time [s] after the last.
+    /// Returns the current reading, `dt_s` after the last.
     pub fn measure(&mut self, motion: &Motion, dt_s: f64, stream: &mut Stream) -> AltimeterReading {
         let height_m = motion.world_from_sensor.translation.z;
         let reference_m = *self.reference_m.get_or_insert(height_m);
@@ -85,7 +85,7 @@ impl Altimeter {
         }
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.reference_m = None;
         self.position.reset();
@@ -101,54 +101,62 @@ pub struct Barometer {
 }
 
 impl Barometer {
-    /// In a world whose origin lies at an altitude [m], with noise [Pa].
+    /// Creates a barometer for a world whose origin is at an altitude [m], with noise [Pa].
     #[must_use]
     pub fn new(reference_altitude_m: f64, noise: &Noise, streams: &Streams) -> Self {
         Self { reference_altitude_m, noise: NoiseModel::new(noise, streams, "pressure") }
     }
 
-    /// The pressure of the air [Pa], a time [s] after the last reading.
+    /// Returns the air pressure [Pa], `dt_s` after the last reading.
     pub fn measure(&mut self, motion: &Motion, dt_s: f64, stream: &mut Stream) -> f64 {
         let altitude_m = self.reference_altitude_m + motion.world_from_sensor.translation.z;
         self.noise.apply(standard_pressure_pa(altitude_m), dt_s, stream)
     }
 
-    /// Variance \[Pa²\].
+    /// Returns the variance \[Pa²\].
     #[must_use]
     pub fn variance_pa2(&self) -> f64 {
         self.noise.spec().stddev * self.noise.spec().stddev
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.noise.reset();
     }
 }
 
-/// Layers of the standard atmosphere: geopotential height of the base [m], change of temperature
-/// with height [K/m].
-const LAYERS: [(f64, f64); 7] = [
-    (0.0, -0.0065),
-    (11_000.0, 0.0),
-    (20_000.0, 0.001),
-    (32_000.0, 0.0028),
-    (47_000.0, 0.0),
-    (51_000.0, -0.0028),
-    (71_000.0, -0.002),
+/// A layer of the standard atmosphere.
+struct AtmosphereLayer {
+    /// Geopotential height of the base [m].
+    base_m: f64,
+    /// Lapse rate of the temperature [K/m].
+    lapse_k_m: f64,
+}
+
+/// Layers of the standard atmosphere (U.S. Standard Atmosphere 1976, table 4).
+const ATMOSPHERE_LAYERS: [AtmosphereLayer; 7] = [
+    AtmosphereLayer { base_m: 0.0, lapse_k_m: -0.0065 },
+    AtmosphereLayer { base_m: 11_000.0, lapse_k_m: 0.0 },
+    AtmosphereLayer { base_m: 20_000.0, lapse_k_m: 0.001 },
+    AtmosphereLayer { base_m: 32_000.0, lapse_k_m: 0.0028 },
+    AtmosphereLayer { base_m: 47_000.0, lapse_k_m: 0.0 },
+    AtmosphereLayer { base_m: 51_000.0, lapse_k_m: -0.0028 },
+    AtmosphereLayer { base_m: 71_000.0, lapse_k_m: -0.002 },
 ];
-/// Radius of the Earth that geopotential heights count with [m].
-const RADIUS_M: f64 = 6_356_766.0;
-/// `g₀ M / R*`: how temperature over height thins the air [K/m].
+/// Radius of the Earth for geopotential heights [m].
+const EARTH_RADIUS_M: f64 = 6_356_766.0;
+/// `g₀ M / R*`, the hydrostatic constant [K/m].
 const HYDROSTATIC_K_M: f64 = 9.806_65 * 28.9644 / 8_314.32;
 
-/// Pressure [Pa] at a geometric altitude [m] by the U.S. Standard Atmosphere 1976 (NASA-TM-X-74335),
-/// equations 18, 33a and 33b, from 5 km below the sea up to 86 km; beyond, its last layer goes on.
+/// Returns the pressure [Pa] at a geometric altitude [m] by the U.S. Standard Atmosphere 1976
+/// (NASA-TM-X-74335), equations 18, 33a and 33b, from -5 km to 86 km; the last layer is
+/// extrapolated.
 #[must_use]
 pub fn standard_pressure_pa(altitude_m: f64) -> f64 {
-    let height_m = RADIUS_M * altitude_m / (RADIUS_M + altitude_m);
+    let height_m = EARTH_RADIUS_M * altitude_m / (EARTH_RADIUS_M + altitude_m);
     let (mut pressure_pa, mut temperature_k) = (101_325.0, 288.15);
-    for (layer, &(base_m, lapse_k_m)) in LAYERS.iter().enumerate() {
-        let top_m = LAYERS.get(layer + 1).map_or(f64::INFINITY, |(next_m, _)| *next_m);
+    for (layer, &AtmosphereLayer { base_m, lapse_k_m }) in ATMOSPHERE_LAYERS.iter().enumerate() {
+        let top_m = ATMOSPHERE_LAYERS.get(layer + 1).map_or(f64::INFINITY, |next| next.base_m);
         let rise_m = height_m.min(top_m) - base_m;
         if lapse_k_m == 0.0 {
             pressure_pa *= libm::exp(-HYDROSTATIC_K_M * rise_m / temperature_k);

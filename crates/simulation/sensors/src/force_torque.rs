@@ -1,10 +1,10 @@
-//! Forces in a joint.
+//! Force-torque sensors of joints.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DQuat, DVec3, Stream};
 use periplus_scene::Noise;
 
-use crate::navsat::spoil;
+use crate::navsat::apply_bias_and_noise;
 use crate::{NoiseModel, Streams};
 
 /// A force and a torque about a point.
@@ -17,25 +17,25 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// The same, seen in other axes.
+    /// Rotates the wrench into other axes.
     #[must_use]
     pub fn turned(self, rotation: DQuat) -> Self {
         Self { force_n: rotation * self.force_n, torque_n_m: rotation * self.torque_n_m }
     }
 }
 
-/// In whose axes a sensor reports.
+/// Frame of a sensor's reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceFrame {
-    /// The child link's.
+    /// Frame of the child link.
     Child,
-    /// The parent link's.
+    /// Frame of the parent link.
     Parent,
-    /// The sensor's own.
+    /// Frame of the sensor.
     Sensor,
 }
 
-/// A force-torque sensor in a joint.
+/// A force-torque sensor of a joint.
 #[derive(Clone, Debug)]
 pub struct ForceTorque {
     frame: ForceFrame,
@@ -45,10 +45,10 @@ pub struct ForceTorque {
 }
 
 impl ForceTorque {
-    /// A sensor with SDF's `<frame>` and `<measure_direction>`, and noise along x, y, z.
+    /// Creates a sensor with SDF's `<frame>` and `<measure_direction>`, and noise along x, y, z.
     ///
     /// # Errors
-    /// When frame or direction are none of those that SDF knows.
+    /// When frame or direction are not values of SDF.
     pub fn new(
         frame: &str,
         measure_direction: &str,
@@ -57,11 +57,11 @@ impl ForceTorque {
         streams: &Streams,
     ) -> Result<Self, Box<Diagnostic>> {
         let unknown = |what: &str, written: &str, known: &[&str]| {
-            let told = Diagnostic::error(
+            let error = Diagnostic::error(
                 "unknown-type",
-                format!("`{written}` is no {what} of a force-torque sensor"),
+                format!("`{written}` is not a {what} of a force-torque sensor"),
             );
-            Box::new(told.help(format!("one of {}", known.join(", "))))
+            Box::new(error.help(format!("one of {}", known.join(", "))))
         };
         let frame = match frame {
             "child" => ForceFrame::Child,
@@ -86,14 +86,14 @@ impl ForceTorque {
         Ok(Self { frame, child_to_parent, force, torque })
     }
 
-    /// In whose axes it reports.
+    /// Returns the frame of the readings.
     #[must_use]
     pub fn frame(&self) -> ForceFrame {
         self.frame
     }
 
-    /// The reading of now, a time [s] after the last: from what the parent does to the child at the
-    /// joint, in world axes, and the rotation of [`Self::frame`] in the world.
+    /// Returns the current reading, `dt_s` after the last. Inputs: the wrench of the parent on the
+    /// child at the joint, in world axes, and the rotation of [`Self::frame`] in the world.
     pub fn measure(
         &mut self,
         parent_on_child: Wrench,
@@ -104,12 +104,12 @@ impl ForceTorque {
         let sign = if self.child_to_parent { -1.0 } else { 1.0 };
         let Wrench { force_n, torque_n_m } = parent_on_child.turned(world_from_frame.conjugate());
         Wrench {
-            force_n: spoil(&mut self.force, force_n * sign, dt_s, stream),
-            torque_n_m: spoil(&mut self.torque, torque_n_m * sign, dt_s, stream),
+            force_n: apply_bias_and_noise(&mut self.force, force_n * sign, dt_s, stream),
+            torque_n_m: apply_bias_and_noise(&mut self.torque, torque_n_m * sign, dt_s, stream),
         }
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.force.iter_mut().chain(&mut self.torque).for_each(NoiseModel::reset);
     }
@@ -130,7 +130,7 @@ mod tests {
         precision: 0.0,
     }; 3];
 
-    /// A parent that holds up 1 kg: 9.8 N upwards on the child, 9.8 N downwards on the parent.
+    /// A parent that supports 1 kg: 9.8 N upwards on the child, 9.8 N downwards on the parent.
     #[test]
     fn a_hanging_weight_pulls_down() {
         let streams = Streams::new(0, "ft");
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_words_are_told() {
+    fn unknown_values_are_rejected() {
         let streams = Streams::new(0, "ft");
         assert!(ForceTorque::new("world", "child_to_parent", &NONE, &NONE, &streams).is_err());
         assert!(ForceTorque::new("child", "up", &NONE, &NONE, &streams).is_err());

@@ -10,25 +10,26 @@ use crate::{Motion, NoiseModel, Streams};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// What an IMU measures, in its own frame.
+/// Reading of an IMU, in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImuReading {
-    /// `reference_from_sensor`; none where the sensor reports no orientation.
+pub struct ImuMeasurement {
+    /// `reference_from_sensor`; `None` without orientation output.
     pub orientation: Option<DQuat>,
     /// Angular velocity [rad/s].
     pub angular_velocity_rad_s: DVec3,
-    /// Specific force: acceleration less gravity, so that z reads +9.8 at rest (REP 145) [m/s²].
+    /// Specific force: acceleration minus gravity, so that z reads +9.8 at rest (REP 145) [m/s²].
     pub linear_acceleration_m_s2: DVec3,
 }
 
 /// An inertial measurement unit.
 ///
-/// An accelerometer gathers velocity over its period, and so does this one: it reports the change
-/// of its own velocity (with the lever arm on its link) since the last measurement, divided by the
-/// time, as seen at half of the turn in between. The sum of all readings times their periods is
-/// then the change of velocity, whatever happens between them. Gravity is as felt now.
+/// A real accelerometer integrates velocity over its period. This model does the same: it reports
+/// the change of its own velocity (with the lever arm on its link) since the last measurement,
+/// divided by the time, in the orientation halfway in between. The sum of all readings times their
+/// periods is then the change of velocity, for any motion in between. Gravity is that of the current
+/// orientation.
 #[derive(Clone, Debug)]
-pub struct Imu {
+pub struct ImuSensor {
     angular_velocity: [NoiseModel; 3],
     linear_acceleration: [NoiseModel; 3],
     reference: Option<OrientationReference>,
@@ -36,8 +37,8 @@ pub struct Imu {
     last: Option<(i64, Motion)>,
 }
 
-impl Imu {
-    /// An IMU with a reference for its orientation; with none it reports no orientation.
+impl ImuSensor {
+    /// Creates an IMU with an orientation reference; without one it reports no orientation.
     #[must_use]
     pub fn new(
         spec: &periplus_scene::Imu,
@@ -58,21 +59,21 @@ impl Imu {
         }
     }
 
-    /// Takes note of the motion at a time when a measurement is due and nobody wants it, so that
-    /// the next one knows where to start from. Also right at the start.
-    pub fn pass(&mut self, now_ns: i64, motion: &Motion) {
-        self.settle_reference(motion);
+    /// Records the motion of a measurement without subscribers, as the start of the next one. Also
+    /// valid before the first measurement.
+    pub fn skip(&mut self, now_ns: i64, motion: &Motion) {
+        self.update_reference(motion);
         self.last = Some((now_ns, *motion));
     }
 
-    /// The reading of now. Without an earlier measurement the acceleration is taken for none.
+    /// Returns the current reading. Without an earlier measurement the acceleration is zero.
     pub fn measure(
         &mut self,
         now_ns: i64,
         motion: &Motion,
         gravity_m_s2: DVec3,
         stream: &mut Stream,
-    ) -> ImuReading {
+    ) -> ImuMeasurement {
         let mut dt_s = 0.0;
         let mut felt = DVec3::ZERO;
         if let Some((last_ns, last)) = self.last.filter(|(last_ns, _)| *last_ns < now_ns) {
@@ -81,29 +82,30 @@ impl Imu {
             dt_s = passed_s;
             let (before, now) =
                 (last.world_from_sensor.rotation, motion.world_from_sensor.rotation);
-            // Halfway between two near rotations, whichever sign the quaternions have.
+            // Mean of two close rotations, for either sign of the quaternions.
             let nearer = if before.dot(now) < 0.0 { -now } else { now };
             let halfway = (before + nearer).normalize();
             felt = halfway.conjugate() * ((motion.linear_m_s - last.linear_m_s) / dt_s);
         }
-        self.pass(now_ns, motion);
+        self.skip(now_ns, motion);
         let force = felt - motion.in_sensor(gravity_m_s2);
         let turn = motion.in_sensor(motion.angular_rad_s);
-        let mut spoil = |noises: &mut [NoiseModel; 3], vector: DVec3| {
+        let mut apply_bias_and_noise = |noises: &mut [NoiseModel; 3], vector: DVec3| {
             let values = vector.to_array();
             let spoiled = [0, 1, 2].map(|axis| noises[axis].apply(values[axis], dt_s, stream));
             DVec3::from_array(spoiled)
         };
-        ImuReading {
-            angular_velocity_rad_s: spoil(&mut self.angular_velocity, turn),
-            linear_acceleration_m_s2: spoil(&mut self.linear_acceleration, force),
+        ImuMeasurement {
+            angular_velocity_rad_s: apply_bias_and_noise(&mut self.angular_velocity, turn),
+            linear_acceleration_m_s2: apply_bias_and_noise(&mut self.linear_acceleration, force),
             orientation: self
                 .world_from_reference
                 .map(|reference| reference.conjugate() * motion.world_from_sensor.rotation),
         }
     }
 
-    /// Variances of angular velocity [rad²/s²] and linear acceleration [m²/s⁴] along x, y, z.
+    /// Returns the variances of angular velocity [rad²/s²] and linear acceleration [m²/s⁴] along x,
+    /// y, z.
     #[must_use]
     pub fn variances(&self) -> [[f64; 3]; 2] {
         let of = |noises: &[NoiseModel; 3]| {
@@ -112,19 +114,19 @@ impl Imu {
         [of(&self.angular_velocity), of(&self.linear_acceleration)]
     }
 
-    /// Takes the orientation of now as reference, where that is the start's (a calibration).
+    /// Sets the reference to a current orientation if it is that of the start (a calibration).
     pub fn set_reference(&mut self, world_from_reference: DQuat) {
         if self.reference.is_some() {
             self.world_from_reference = Some(world_from_reference);
         }
     }
 
-    /// Forgets all motion, for a robot that was put elsewhere.
-    pub fn forget(&mut self) {
+    /// Discards the recorded motion, after a teleport of the robot.
+    pub fn forget_motion(&mut self) {
         self.last = None;
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.last = None;
         self.world_from_reference = None;
@@ -132,7 +134,7 @@ impl Imu {
         self.linear_acceleration.iter_mut().for_each(NoiseModel::reset);
     }
 
-    fn settle_reference(&mut self, motion: &Motion) {
+    fn update_reference(&mut self, motion: &Motion) {
         if self.world_from_reference.is_none() {
             let start = motion.world_from_sensor.rotation;
             self.world_from_reference = self.reference.map(|reference| match reference {
@@ -166,8 +168,8 @@ mod tests {
         }
     }
 
-    fn imu(reference: OrientationReference) -> Imu {
-        Imu::new(&silent(), Some(reference), &Streams::new(0, "imu"))
+    fn imu(reference: OrientationReference) -> ImuSensor {
+        ImuSensor::new(&silent(), Some(reference), &Streams::new(0, "imu"))
     }
 
     fn near(a: DVec3, b: [f64; 3], within: f64) -> bool {
@@ -196,12 +198,12 @@ mod tests {
             linear_m_s: GRAVITY * time_s,
             ..Motion::at_rest(Pose::IDENTITY)
         };
-        imu.pass(0, &fall(0.0));
+        imu.skip(0, &fall(0.0));
         let reading = imu.measure(10_000_000, &fall(0.01), GRAVITY, &mut stream());
         assert!(near(reading.linear_acceleration_m_s2, [0.0; 3], 1e-12), "{reading:?}");
     }
 
-    /// On a circle of 0.5 m at 2 rad/s: 0.5 · 2² = 2 m/s² to the centre, 9.8 up, and nothing along.
+    /// On a circle of 0.5 m at 2 rad/s: 0.5 · 2² = 2 m/s² to the centre, 9.8 up, and 0 along.
     #[test]
     fn on_a_turntable_it_feels_the_centre() {
         let mut imu = imu(OrientationReference::START);
@@ -214,7 +216,7 @@ mod tests {
             };
             Motion::on_link(&link, Pose::from_xyz(0.5, 0.0, 0.0))
         };
-        imu.pass(0, &at(0.0));
+        imu.skip(0, &at(0.0));
         for tick in 1..200 {
             let time_s = f64::from(tick) * 0.01;
             let now_ns = i64::from(tick) * 10_000_000;
@@ -229,7 +231,7 @@ mod tests {
         let yaw = |yaw| Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch: 0.0, yaw });
         let last = |reference| {
             let mut imu = imu(reference);
-            imu.pass(0, &Motion::at_rest(yaw(0.5)));
+            imu.skip(0, &Motion::at_rest(yaw(0.5)));
             let reading = imu.measure(1, &Motion::at_rest(yaw(0.7)), GRAVITY, &mut stream());
             Pose { rotation: reading.orientation.unwrap(), ..Pose::IDENTITY }.rpy().yaw
         };
@@ -242,7 +244,7 @@ mod tests {
         let noise = Noise { kind: NoiseKind::Gaussian, mean: 1.0, stddev: 0.5, ..Noise::default() };
         let spec = periplus_scene::Imu { angular_velocity: [noise; 3], ..silent() };
         let streams = Streams::new(1, "imu");
-        let mut imu = Imu::new(&spec, None, &streams);
+        let mut imu = ImuSensor::new(&spec, None, &streams);
         let mut sum = DVec3::ZERO;
         for tick in 0..10_000_u64 {
             let motion = Motion::at_rest(Pose::IDENTITY);

@@ -1,41 +1,40 @@
-//! What sensors measure: ideal readings as plain numbers, then noise.
+//! Sensor models: ideal readings as plain numbers, then noise.
 //!
-//! No messages and no clock: a reading is a function of a specification, the true state of the
-//! world and a random stream named by (seed, sensor, tick). Where the time since the last reading
-//! matters it is handed in.
+//! No messages and no clock: a reading is a function of a specification, the true state of the world
+//! and a random stream keyed by (seed, sensor, tick). Time since the last reading is an argument.
 //!
-//! Out of range is told as REP 117 says: `-inf` too near, `+inf` nothing there.
+//! Out-of-range values follow REP 117: `-inf` for too near, `+inf` for no hit.
 
 mod camera;
-mod field;
+mod contact;
+mod environment;
 mod force_torque;
 mod geodesy;
+mod gz_quirks;
 mod imu;
 mod lidar;
-mod logical;
+mod logical_camera;
 mod motion;
 mod navsat;
 mod noise;
-mod quirks;
+mod scan_motion;
 mod schedule;
 mod sonar;
-mod sweep;
-mod touch;
 mod view;
 
-pub use camera::{Calibration, ImageNoise, MOST_PIXELS, Pinhole, clip_depths};
-pub use field::{Altimeter, AltimeterReading, Barometer, Magnetometer, standard_pressure_pa};
+pub use camera::{CameraCalibration, ImageNoise, MAX_PIXELS, Pinhole, clip_depths};
+pub use contact::contacts_of;
+pub use environment::{Altimeter, AltimeterReading, Barometer, Magnetometer, standard_pressure_pa};
 pub use force_torque::{ForceFrame, ForceTorque, Wrench};
-pub use geodesy::{Ellipsoid, Geodetic, Globe};
-pub use imu::{Imu, ImuReading, OrientationReference};
-pub use lidar::{Beams, Lidar, MOST_BEAMS, Scan};
-pub use logical::LogicalCamera;
+pub use geodesy::{Ellipsoid, GeodeticPosition, LocalTangentFrame};
+pub use gz_quirks::Quirks;
+pub use imu::{ImuMeasurement, ImuSensor, OrientationReference};
+pub use lidar::{LidarBeams, LidarScan, LidarSensor, MAX_BEAMS};
+pub use logical_camera::LogicalCamera;
 pub use motion::Motion;
 pub use navsat::{NavSat, NavSatNoise, NavSatReading};
 pub use noise::{NoiseModel, Streams};
-pub use quirks::Quirks;
+pub use scan_motion::Sweep;
 pub use schedule::Schedule;
 pub use sonar::Sonar;
-pub use sweep::Sweep;
-pub use touch::touches;
-pub use view::View;
+pub use view::RayView;

@@ -1,43 +1,43 @@
-//! Lidars: distances along a fan or a grid of rays.
+//! Lidars: ranges along a fan or a grid of rays.
 
 mod beams;
-mod blend;
+mod interpolation;
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Stream};
 use periplus_raycast::{Filter, Hit, Ray};
 
-pub use beams::Beams;
+pub use beams::LidarBeams;
 
-use self::blend::Blend;
-use crate::{NoiseModel, Streams, Sweep, View};
+use self::interpolation::RangeInterpolation;
+use crate::{NoiseModel, RayView, Streams, Sweep};
 
-/// The most rays, and the most ranges, of one lidar: sixteen times 128 rows of 2048. More is taken
-/// for a slip of the pen.
-pub const MOST_BEAMS: usize = 1 << 22;
+/// Maximum number of rays, and of ranges, of a lidar: sixteen times 128 rows of 2048. More is
+/// assumed to be a mistake.
+pub const MAX_BEAMS: usize = 1 << 22;
 
-/// What a lidar measures, row after row from the lowest, each from the first angle to the last.
+/// Ranges of a lidar, row by row from the lowest, each from the first angle to the last.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Scan {
-    /// Distances [m]; `-inf` too near, `inf` nothing there (REP 117).
+pub struct LidarScan {
+    /// Distances [m]; `-inf` too near, `inf` no hit (REP 117).
     pub ranges_m: Vec<f32>,
-    /// Brightness of what was met: its `laser_retro`.
+    /// Laser intensity (`laser_retro`) of the hits.
     pub intensities: Vec<f32>,
 }
 
-/// A lidar of any spelling: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
+/// A lidar of any sensor type: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
 ///
-/// Rays look from the least range on, so that the housing around a lidar, which is nearer, is not
-/// seen; parts of its own model that are farther are. Something of another model nearer than that is
-/// told as too near. `<range><resolution>` is not applied, as in Gazebo.
+/// Rays start at the minimum range, so that the housing of the lidar is not seen; farther parts of
+/// its own model are. Another model within the minimum range is reported as too near.
+/// `<range><resolution>` is not applied, as in Gazebo.
 #[derive(Clone, Debug)]
-pub struct Lidar {
-    beams: Beams,
+pub struct LidarSensor {
+    beams: LidarBeams,
     range_min_m: f64,
     range_max_m: f64,
     noise: NoiseModel,
-    /// How ranges come from rays, where there are not as many.
-    blend: Option<Blend>,
+    /// Interpolation from rays to ranges, when their numbers differ.
+    interpolate: Option<RangeInterpolation>,
     /// Directions of the rays in the sensor's frame.
     directions: Vec<DVec3>,
     rays: Vec<Ray>,
@@ -45,29 +45,29 @@ pub struct Lidar {
     hits: Vec<Option<Hit>>,
     near_m: Vec<f32>,
     brightness: Vec<f32>,
-    scan: Scan,
+    scan: LidarScan,
 }
 
-impl Lidar {
-    /// A lidar as a file describes it.
+impl LidarSensor {
+    /// Creates a lidar from its specification.
     ///
     /// # Errors
-    /// When it cannot measure anything: no beams or too many, angles or ranges that are no numbers,
-    /// no room between the least and the greatest range.
+    /// When it cannot measure: no beams or too many, angles or ranges that are not finite, or an
+    /// empty range interval.
     pub fn new(spec: &periplus_scene::Lidar, streams: &Streams) -> Result<Self, Box<Diagnostic>> {
-        let beams = Beams::new(spec)?;
+        let beams = LidarBeams::new(spec)?;
         let (min_m, max_m) = (spec.range_min_m, spec.range_max_m);
         if !(min_m >= 0.0 && min_m.is_finite() && max_m > min_m) {
             return Err(Diagnostic::error(
                 "out-of-range",
-                format!("a lidar with ranges from {min_m} m to {max_m} m sees nothing"),
+                format!("a lidar with ranges from {min_m} m to {max_m} m cannot measure anything"),
             )
-            .help("write `<range><min>` at 0 or above, and `<max>` above it")
+            .help("set `<range><min>` to 0 or above, and `<max>` above it")
             .into());
         }
         let directions = beams.directions();
         Ok(Self {
-            blend: Blend::new(&beams),
+            interpolate: RangeInterpolation::new(&beams),
             beams,
             range_min_m: min_m,
             range_max_m: max_m,
@@ -78,30 +78,35 @@ impl Lidar {
             hits: Vec::new(),
             near_m: Vec::new(),
             brightness: Vec::new(),
-            scan: Scan::default(),
+            scan: LidarScan::default(),
         })
     }
 
-    /// Angles and counts.
+    /// Returns angles and counts.
     #[must_use]
-    pub fn beams(&self) -> &Beams {
+    pub fn beams(&self) -> &LidarBeams {
         &self.beams
     }
 
-    /// Nearest and farthest [m].
+    /// Returns the minimum and maximum range [m].
     #[must_use]
     pub fn range_m(&self) -> [f64; 2] {
         [self.range_min_m, self.range_max_m]
     }
 
-    /// Measures.
-    pub fn scan(&mut self, view: &View<'_>, sweep: Sweep<'_>, stream: &mut Stream) -> &Scan {
-        self.aim(sweep);
-        self.look(view);
-        self.drop_too_near(view, sweep);
-        self.blend();
+    /// Measures a scan.
+    pub fn scan(
+        &mut self,
+        view: &RayView<'_>,
+        sweep: Sweep<'_>,
+        stream: &mut Stream,
+    ) -> &LidarScan {
+        self.aim_rays(sweep);
+        self.cast_rays(view);
+        self.mark_too_near(view, sweep);
+        self.interpolate();
         let (min_m, max_m) = (self.range_min_m, self.range_max_m);
-        let silent = self.noise.is_silent();
+        let silent = self.noise.is_none();
         for range_m in &mut self.scan.ranges_m {
             let seen_m = f64::from(*range_m);
             *range_m = if seen_m >= max_m {
@@ -111,20 +116,20 @@ impl Lidar {
             } else if silent {
                 *range_m
             } else {
-                single(self.noise.spoil(seen_m, stream).clamp(min_m, max_m))
+                single(self.noise.apply_bias_and_noise(seen_m, stream).clamp(min_m, max_m))
             };
         }
         &self.scan
     }
 
-    /// The last scan.
+    /// Returns the last scan.
     #[must_use]
-    pub fn last(&self) -> &Scan {
+    pub fn last(&self) -> &LidarScan {
         &self.scan
     }
 
-    /// Points of the last scan in the sensor's frame [m], in the order of the ranges; infinite and
-    /// unlike any point where nothing was met.
+    /// Returns the points of the last scan in the sensor's frame [m], in the order of the ranges;
+    /// infinite without a hit.
     pub fn points(&self) -> impl Iterator<Item = [f32; 3]> {
         let ranges = &self.scan.ranges_m;
         self.beams.range_directions().zip(ranges).map(|(direction, &range_m)| {
@@ -133,13 +138,13 @@ impl Lidar {
         })
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.noise.reset();
-        self.scan = Scan::default();
+        self.scan = LidarScan::default();
     }
 
-    fn aim(&mut self, sweep: Sweep<'_>) {
+    fn aim_rays(&mut self, sweep: Sweep<'_>) {
         let columns = self.beams.rays[0];
         let ray = |pose: &Pose, direction: DVec3| Ray {
             origin_m: pose.translation,
@@ -149,7 +154,7 @@ impl Lidar {
         };
         self.rays.clear();
         match sweep {
-            Sweep::Still(pose) => {
+            Sweep::AtOnce(pose) => {
                 self.rays.extend(self.directions.iter().map(|&direction| ray(&pose, direction)));
             }
             Sweep::Moving(_) => {
@@ -164,7 +169,7 @@ impl Lidar {
         }
     }
 
-    fn look(&mut self, view: &View<'_>) {
+    fn cast_rays(&mut self, view: &RayView<'_>) {
         let (count, columns) = (self.rays.len(), self.beams.rays[0]);
         self.distances_m.resize(count, f32::INFINITY);
         self.brightness.clear();
@@ -182,12 +187,14 @@ impl Lidar {
         }
     }
 
-    /// Marks rays on which something of another model is nearer than the least range.
-    fn drop_too_near(&mut self, view: &View<'_>, sweep: Sweep<'_>) {
-        let others: Filter = view.others();
-        let near = |pose: Pose| view.rays.may_be_near(pose.translation, self.range_min_m, others);
+    /// Marks rays with another model within the minimum range.
+    fn mark_too_near(&mut self, view: &RayView<'_>, sweep: Sweep<'_>) {
+        let without_own_model: Filter = view.without_own_model();
+        let near = |pose: Pose| {
+            view.rays.may_be_near(pose.translation, self.range_min_m, without_own_model)
+        };
         let any = match sweep {
-            Sweep::Still(pose) => near(pose),
+            Sweep::AtOnce(pose) => near(pose),
             Sweep::Moving(_) => true,
         };
         if self.range_min_m == 0.0 || !any {
@@ -198,7 +205,7 @@ impl Lidar {
         }
         self.near_m.resize(self.rays.len(), f32::INFINITY);
         let columns = self.beams.rays[0];
-        view.rays.cast_grid(&self.rays, columns, others, view.threads, &mut self.near_m);
+        view.rays.cast_grid(&self.rays, columns, without_own_model, view.threads, &mut self.near_m);
         for (distance_m, near_m) in self.distances_m.iter_mut().zip(&self.near_m) {
             if near_m.is_finite() {
                 *distance_m = f32::NEG_INFINITY;
@@ -206,22 +213,22 @@ impl Lidar {
         }
     }
 
-    /// From rays to ranges.
-    fn blend(&mut self) {
-        let Scan { ranges_m, intensities } = &mut self.scan;
+    /// Interpolates ranges from rays.
+    fn interpolate(&mut self) {
+        let LidarScan { ranges_m, intensities } = &mut self.scan;
         ranges_m.clear();
         intensities.clear();
-        match &self.blend {
+        match &self.interpolate {
             None => {
                 ranges_m.extend_from_slice(&self.distances_m);
                 intensities.extend_from_slice(&self.brightness);
             }
-            Some(blend) => {
+            Some(interpolate) => {
                 let (min_m, max_m) = (single(self.range_min_m), single(self.range_max_m));
                 let within = |distance_m: f32| f64::from(distance_m.clamp(min_m, max_m));
-                ranges_m.extend(blend.linear(|ray| within(self.distances_m[ray])));
-                intensities.extend(blend.mean(|ray| f64::from(self.brightness[ray])));
-                // Rounding must not make a range of what saw nothing.
+                ranges_m.extend(interpolate.linear(|ray| within(self.distances_m[ray])));
+                intensities.extend(interpolate.mean(|ray| f64::from(self.brightness[ray])));
+                // Rounding must not produce a finite range without a hit.
                 for range_m in ranges_m {
                     if *range_m >= max_m {
                         *range_m = f32::INFINITY;

@@ -1,9 +1,9 @@
-//! Which models a logical camera sees.
+//! Logical cameras.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
 
-/// A camera that tells models instead of pixels. It looks along x, y to the left, z up.
+/// A camera that detects models instead of pixels. It looks along x, y to the left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogicalCamera {
     near_m: f64,
@@ -13,10 +13,10 @@ pub struct LogicalCamera {
 }
 
 impl LogicalCamera {
-    /// A frustum: its ends [m], width over height, and the angle across [rad].
+    /// Creates a frustum from its ends [m], width over height, and horizontal field of view [rad].
     ///
     /// # Errors
-    /// When that is no frustum.
+    /// When the values do not define a frustum.
     pub fn new(
         near_m: f64,
         far_m: f64,
@@ -32,7 +32,7 @@ impl LogicalCamera {
         if !sound {
             return Err(Diagnostic::error(
                 "out-of-range",
-                "near, far, aspect ratio and field of view of the logical camera span no frustum",
+                "near, far, aspect ratio and field of view of the logical camera do not define a frustum",
             )
             .help("0 <= near < far, aspect ratio above 0, horizontal field of view within 0..pi")
             .into());
@@ -41,7 +41,7 @@ impl LogicalCamera {
         Ok(Self { near_m, far_m, slopes: [across, across / aspect_ratio] })
     }
 
-    /// Whether a point in the sensor's frame [m] lies in the frustum.
+    /// Returns true if a point in the sensor's frame [m] is in the frustum.
     #[must_use]
     pub fn contains(&self, point_in_sensor_m: DVec3) -> bool {
         let DVec3 { x, y, z } = point_in_sensor_m;
@@ -49,8 +49,8 @@ impl LogicalCamera {
         (self.near_m..=self.far_m).contains(&x) && y.abs() <= x * across && z.abs() <= x * up
     }
 
-    /// The models whose frames lie in the frustum, with their poses in the sensor's frame, in the
-    /// order given (gz-sensors' rule; Classic takes boxes around models).
+    /// Returns the models whose origins are in the frustum, with their poses in the sensor's frame,
+    /// in the given order (gz-sensors' rule; Classic uses bounding boxes).
     pub fn see<'a, M: 'a>(
         &'a self,
         world_from_sensor: Pose,
@@ -71,7 +71,7 @@ mod tests {
 
     use super::*;
 
-    /// A right angle across, half as high: at 4 m it sees 4 m to either side and 2 m up.
+    /// 90° across, half as high: at 4 m it sees 4 m to either side and 2 m up.
     #[test]
     fn the_frustum_has_straight_sides() {
         let camera = LogicalCamera::new(0.5, 10.0, 2.0, FRAC_PI_2).unwrap();
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn models_are_told_in_the_sensors_frame() {
+    fn models_have_poses_in_the_sensor_frame() {
         let camera = LogicalCamera::new(0.1, 5.0, 1.0, 1.0).unwrap();
         let left = Rpy { roll: 0.0, pitch: 0.0, yaw: FRAC_PI_2 };
         let world_from_sensor = Pose::from_xyz_rpy([1.0, 0.0, 0.0], left);
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn no_frustum_is_told() {
+    fn invalid_frustums_are_rejected() {
         for (near, far, aspect, fov) in [
             (1.0, 0.5, 1.0, 1.0),
             (0.0, 1.0, 0.0, 1.0),

@@ -1,27 +1,27 @@
-//! How a sensor moves with its link.
+//! Motion of a sensor with its link.
 
 use periplus_geometry::{DVec3, Pose};
 use periplus_physics::LinkState;
 
-/// Where a sensor is and how it moves: the truth that readings are made from.
+/// True pose and velocity of a sensor, the input of readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// Its frame in the world.
+    /// Pose of the sensor's frame.
     pub world_from_sensor: Pose,
-    /// Velocity of its frame's origin, in world axes [m/s].
+    /// Velocity of the frame's origin, in world axes [m/s].
     pub linear_m_s: DVec3,
     /// Angular velocity, in world axes [rad/s].
     pub angular_rad_s: DVec3,
 }
 
 impl Motion {
-    /// Not moving.
+    /// Returns the motion of a sensor at rest.
     #[must_use]
     pub fn at_rest(world_from_sensor: Pose) -> Self {
         Self { world_from_sensor, linear_m_s: DVec3::ZERO, angular_rad_s: DVec3::ZERO }
     }
 
-    /// Of a sensor on a link. On a turning link it moves with its lever arm: `v + ω × r`.
+    /// Returns the motion of a sensor on a link, including its lever arm: `v + ω × r`.
     #[must_use]
     pub fn on_link(link: &LinkState, link_from_sensor: Pose) -> Self {
         let world_from_sensor = link.world_from_link * link_from_sensor;
@@ -33,7 +33,7 @@ impl Motion {
         }
     }
 
-    /// A vector in world axes, in the sensor's.
+    /// Rotates a vector from world axes into the sensor's axes.
     #[must_use]
     pub fn in_sensor(&self, vector_in_world: DVec3) -> DVec3 {
         self.world_from_sensor.rotation.conjugate() * vector_in_world

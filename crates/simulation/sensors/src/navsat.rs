@@ -3,19 +3,19 @@
 use periplus_geometry::{DVec3, Stream};
 use periplus_scene::Noise;
 
-use crate::geodesy::{Geodetic, Globe};
+use crate::geodesy::{GeodeticPosition, LocalTangentFrame};
 use crate::{Motion, NoiseModel, Streams};
 
-/// What a satellite receiver measures.
+/// Reading of a satellite receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NavSatReading {
-    /// Where it is.
-    pub place: Geodetic,
-    /// Velocity to the east, north and up [m/s].
+    /// Position.
+    pub position: GeodeticPosition,
+    /// Velocity east, north and up [m/s].
     pub velocity_m_s: DVec3,
 }
 
-/// Noise of a receiver as a file gives it.
+/// Noise specification of a receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NavSatNoise {
     /// Horizontal position [m].
@@ -28,56 +28,56 @@ pub struct NavSatNoise {
     pub velocity_vertical: Noise,
 }
 
-/// A satellite receiver. Noise of the position is in metres to the east, north and up, as SDF says
-/// and Classic does (gz-sensors adds it to angles).
+/// A satellite receiver. Noise of the position is in metres east, north and up, as SDF defines and
+/// Classic does (gz-sensors adds it to angles).
 #[derive(Clone, Debug)]
 pub struct NavSat {
-    globe: Globe,
+    frame: LocalTangentFrame,
     position: [NoiseModel; 3],
     velocity: [NoiseModel; 3],
 }
 
 impl NavSat {
-    /// A receiver in a world that lies on a globe.
+    /// Creates a receiver in a georeferenced world.
     #[must_use]
-    pub fn new(globe: Globe, noise: &NavSatNoise, streams: &Streams) -> Self {
+    pub fn new(frame: LocalTangentFrame, noise: &NavSatNoise, streams: &Streams) -> Self {
         let three = |horizontal: &Noise, vertical: &Noise, group: &str| {
             [(horizontal, "east"), (horizontal, "north"), (vertical, "up")]
                 .map(|(noise, axis)| NoiseModel::new(noise, streams, &format!("{group}/{axis}")))
         };
         Self {
-            globe,
+            frame,
             position: three(&noise.position_horizontal, &noise.position_vertical, "position"),
             velocity: three(&noise.velocity_horizontal, &noise.velocity_vertical, "velocity"),
         }
     }
 
-    /// The reading of now, a time [s] after the last.
+    /// Returns the current reading, `dt_s` after the last.
     pub fn measure(&mut self, motion: &Motion, dt_s: f64, stream: &mut Stream) -> NavSatReading {
-        let mut place = self.globe.place(motion.world_from_sensor.translation);
-        let mut velocity_m_s = self.globe.velocity(place, motion.linear_m_s);
-        let off_m = spoil(&mut self.position, DVec3::ZERO, dt_s, stream);
+        let mut position = self.frame.position(motion.world_from_sensor.translation);
+        let mut velocity_m_s = self.frame.velocity(position, motion.linear_m_s);
+        let off_m = apply_bias_and_noise(&mut self.position, DVec3::ZERO, dt_s, stream);
         if off_m != DVec3::ZERO {
-            place = self.globe.moved(place, off_m);
+            position = self.frame.offset_by(position, off_m);
         }
-        velocity_m_s = spoil(&mut self.velocity, velocity_m_s, dt_s, stream);
-        NavSatReading { place, velocity_m_s }
+        velocity_m_s = apply_bias_and_noise(&mut self.velocity, velocity_m_s, dt_s, stream);
+        NavSatReading { position, velocity_m_s }
     }
 
-    /// Variances of the position to the east, north and up \[m²\].
+    /// Returns the variances of the position east, north and up \[m²\].
     #[must_use]
     pub fn position_variances_m2(&self) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.position[axis].spec().stddev * self.position[axis].spec().stddev)
     }
 
-    /// Back to the start.
+    /// Resets to the initial state.
     pub fn reset(&mut self) {
         self.position.iter_mut().chain(&mut self.velocity).for_each(NoiseModel::reset);
     }
 }
 
-/// Spoils every axis of a vector.
-pub(crate) fn spoil(
+/// Adds noise to every axis of a vector.
+pub(crate) fn apply_bias_and_noise(
     noises: &mut [NoiseModel; 3],
     vector: DVec3,
     dt_s: f64,
@@ -94,8 +94,8 @@ mod tests {
 
     use super::*;
 
-    fn globe() -> Globe {
-        Globe::new(&SphericalCoordinates {
+    fn frame() -> LocalTangentFrame {
+        LocalTangentFrame::new(&SphericalCoordinates {
             surface_model: "EARTH_WGS84".into(),
             frame_orientation: "ENU".into(),
             latitude_rad: 0.8,
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_kilometre_north_is_a_kilometre_by_the_meridian() {
-        let mut sensor = NavSat::new(globe(), &NavSatNoise::default(), &Streams::new(0, "gps"));
+        let mut sensor = NavSat::new(frame(), &NavSatNoise::default(), &Streams::new(0, "gps"));
         let motion = Motion {
             linear_m_s: DVec3::new(1.0, 2.0, 3.0),
             ..Motion::at_rest(Pose::from_xyz(0.0, 1000.0, 5.0))
@@ -118,11 +118,11 @@ mod tests {
         // Radius of the meridian at this latitude: a (1 - e²) / (1 - e² sin²)^(3/2).
         let (e2, sine) = (0.006_694_379_990_14, libm::sin(0.8));
         let radius_m = 6_378_137.0 * (1.0 - e2) / libm::pow(1.0 - e2 * sine * sine, 1.5);
-        let north_m = (reading.place.latitude_rad - 0.8) * radius_m;
+        let north_m = (reading.position.latitude_rad - 0.8) * radius_m;
         assert!((north_m - 1000.0).abs() < 0.01, "{north_m}");
         // The tangent plane leaves the Earth by s²/2R.
         let rise_m = 1000.0 * 1000.0 / (2.0 * radius_m);
-        assert!((reading.place.altitude_m - 5.0 - rise_m).abs() < 1e-3);
+        assert!((reading.position.altitude_m - 5.0 - rise_m).abs() < 1e-3);
         assert!(reading.velocity_m_s.distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-3);
     }
 
@@ -131,14 +131,14 @@ mod tests {
         let metre = Noise { kind: NoiseKind::Gaussian, stddev: 2.0, ..Noise::default() };
         let noise = NavSatNoise { position_horizontal: metre, ..NavSatNoise::default() };
         let streams = Streams::new(0, "gps");
-        let mut sensor = NavSat::new(globe(), &noise, &streams);
+        let mut sensor = NavSat::new(frame(), &noise, &streams);
         assert_eq!(sensor.position_variances_m2(), [4.0, 4.0, 0.0]);
-        let here = globe().centred(DVec3::ZERO);
+        let here = frame().to_ecef(DVec3::ZERO);
         let mut squares = 0.0;
         for tick in 0..2000 {
             let motion = Motion::at_rest(Pose::IDENTITY);
-            let place = sensor.measure(&motion, 0.1, &mut streams.tick(tick)).place;
-            squares += crate::geodesy::Ellipsoid::EARTH.centred(place).distance_squared(here);
+            let position = sensor.measure(&motion, 0.1, &mut streams.tick(tick)).position;
+            squares += crate::geodesy::Ellipsoid::EARTH.to_ecef(position).distance_squared(here);
         }
         assert!((squares / 2000.0 - 8.0).abs() < 0.6, "{squares}");
     }

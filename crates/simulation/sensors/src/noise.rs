@@ -1,10 +1,10 @@
-//! What spoils a measurement.
+//! Sensor noise.
 
 use periplus_geometry::Stream;
 use periplus_scene::{Noise, NoiseKind};
 
-/// Where a sensor's random numbers come from: streams named by the run's seed and the sensor's full
-/// name, so that one sensor more changes nothing for the others.
+/// Random streams of a sensor, keyed by the run's seed and the sensor's full name, so that adding a
+/// sensor does not change the others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Streams {
     seed: u64,
@@ -12,19 +12,19 @@ pub struct Streams {
 }
 
 impl Streams {
-    /// Those of a sensor. The name must be unique in the world: `model::link::sensor`.
+    /// Creates the streams of a sensor. The name must be unique in the world: `model::link::sensor`.
     #[must_use]
     pub fn new(seed: u64, name: impl Into<String>) -> Self {
         Self { seed, name: name.into() }
     }
 
-    /// For one measurement, counted from 0.
+    /// Returns the stream of one measurement, counted from 0.
     #[must_use]
     pub fn tick(&self, number: u64) -> Stream {
         Stream::keyed(self.seed, &self.name, number)
     }
 
-    /// For what is drawn once, such as the bias of a quantity.
+    /// Returns the stream of a quantity that is drawn once, such as a bias.
     #[must_use]
     pub fn once(&self, quantity: &str) -> Stream {
         Stream::keyed(self.seed, &format!("{}/{quantity}", self.name), 0)
@@ -33,9 +33,9 @@ impl Streams {
 
 /// Noise of one quantity, with its bias.
 ///
-/// The laws are those of gz-sensors' `GaussianNoiseModel` (and Classic's): a bias is drawn once
-/// from a normal distribution and has its sign flipped every other time; it drifts as a
-/// Gauss-Markov process; white noise comes on top; quantized output is rounded at the end.
+/// The model is that of gz-sensors' `GaussianNoiseModel` (and Classic's): a bias is drawn once from
+/// a normal distribution, with its sign flipped every other time; it drifts as a Gauss-Markov
+/// process; white noise is added; quantized output is rounded last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseModel {
     spec: Noise,
@@ -44,7 +44,7 @@ pub struct NoiseModel {
 }
 
 impl NoiseModel {
-    /// Draws the bias. `quantity` tells this noise from others of the same sensor.
+    /// Draws the bias. `quantity` distinguishes noises of the same sensor.
     #[must_use]
     pub fn new(spec: &Noise, streams: &Streams, quantity: &str) -> Self {
         let mut bias = 0.0;
@@ -58,15 +58,15 @@ impl NoiseModel {
         Self { spec: *spec, first_bias: bias, bias }
     }
 
-    /// What the file says.
+    /// Returns the specification.
     #[must_use]
     pub fn spec(&self) -> &Noise {
         &self.spec
     }
 
-    /// Whether values pass as they are.
+    /// Returns true if values are not changed.
     #[must_use]
-    pub fn is_silent(&self) -> bool {
+    pub fn is_none(&self) -> bool {
         let Noise { kind, mean, stddev, dynamic_bias_stddev, precision, .. } = self.spec;
         kind == NoiseKind::None
             || mean == 0.0
@@ -76,11 +76,11 @@ impl NoiseModel {
                 && (kind == NoiseKind::Gaussian || precision == 0.0)
     }
 
-    /// Lets the bias drift over a time [s]; nothing happens in no time.
+    /// Advances the bias by a time [s]; zero time has no effect.
     ///
     /// `b ← φ b + N(0, σ_d)` with `φ = exp(-dt/τ)` and `σ_d² = -σ_b² τ/2 expm1(-2 dt/τ)` (Kalibr's
     /// IMU noise model).
-    pub fn drift(&mut self, dt_s: f64, stream: &mut Stream) {
+    pub fn advance_bias(&mut self, dt_s: f64, stream: &mut Stream) {
         let (sigma, tau_s) =
             (self.spec.dynamic_bias_stddev, self.spec.dynamic_bias_correlation_time_s);
         let drifts = self.spec.kind != NoiseKind::None && sigma > 0.0 && tau_s > 0.0 && dt_s > 0.0;
@@ -90,8 +90,8 @@ impl NoiseModel {
         }
     }
 
-    /// A value with bias and white noise, as it stands.
-    pub fn spoil(&self, value: f64, stream: &mut Stream) -> f64 {
+    /// Adds the current bias and white noise to a value.
+    pub fn apply_bias_and_noise(&self, value: f64, stream: &mut Stream) -> f64 {
         if self.spec.kind == NoiseKind::None {
             return value;
         }
@@ -107,13 +107,13 @@ impl NoiseModel {
         }
     }
 
-    /// A value that is measured once in `dt_s`: the bias drifts, then spoils it.
+    /// Adds noise to a value that is measured every `dt_s`: advances the bias, then applies it.
     pub fn apply(&mut self, value: f64, dt_s: f64, stream: &mut Stream) -> f64 {
-        self.drift(dt_s, stream);
-        self.spoil(value, stream)
+        self.advance_bias(dt_s, stream);
+        self.apply_bias_and_noise(value, stream)
     }
 
-    /// Back to the bias of the start.
+    /// Resets to the initial bias.
     pub fn reset(&mut self) {
         self.bias = self.first_bias;
     }
@@ -149,27 +149,29 @@ mod tests {
     #[test]
     fn no_noise_changes_nothing() {
         let model = model(Noise { kind: NoiseKind::None, ..GAUSSIAN }, 0);
-        assert!(model.is_silent());
-        assert_eq!(model.spoil(1.25, &mut Stream::keyed(0, "", 0)), 1.25);
+        assert!(model.is_none());
+        assert_eq!(model.apply_bias_and_noise(1.25, &mut Stream::keyed(0, "", 0)), 1.25);
     }
 
     #[test]
     fn white_noise_has_its_mean_and_deviation() {
         let (model, streams) = (model(GAUSSIAN, 0), Streams::new(7, "s"));
-        let values: Vec<f64> =
-            (0..100_000).map(|tick| model.spoil(2.0, &mut streams.tick(tick))).collect();
+        let values: Vec<f64> = (0..100_000)
+            .map(|tick| model.apply_bias_and_noise(2.0, &mut streams.tick(tick)))
+            .collect();
         let (mean, sigma) = spread(&values);
         assert!((mean - 2.5).abs() < 0.002 && (sigma - 0.1).abs() < 0.001, "{mean} {sigma}");
     }
 
-    /// Half of the biases lie about 3, half about -3.
+    /// Half of the biases are about 3, half about -3.
     #[test]
     fn a_bias_is_drawn_once_and_flipped_every_other_time() {
         let spec = Noise { mean: 0.0, stddev: 0.0, bias_mean: 3.0, bias_stddev: 0.25, ..GAUSSIAN };
         let mut biases: Vec<f64> = Vec::new();
         for sensor in 0..10_000 {
             let model = model(spec, sensor);
-            let measured = |tick| model.spoil(0.0, &mut Stream::keyed(1, "any", tick));
+            let measured =
+                |tick| model.apply_bias_and_noise(0.0, &mut Stream::keyed(1, "any", tick));
             assert_eq!(measured(0), measured(1));
             biases.push(measured(0));
         }
@@ -181,7 +183,7 @@ mod tests {
         }
     }
 
-    /// In the long run the drifting bias has variance σ² τ/2 and forgets itself within τ.
+    /// In the long run the drifting bias has variance σ² τ/2 and decorrelates within τ.
     #[test]
     fn a_drifting_bias_wanders_as_far_as_it_may() {
         let spec = Noise {
@@ -208,7 +210,7 @@ mod tests {
         let model = model(spec, 0);
         let mut stream = Stream::keyed(1, "q", 0);
         for _ in 0..100 {
-            let value = model.spoil(1.0, &mut stream);
+            let value = model.apply_bias_and_noise(1.0, &mut stream);
             assert_eq!(value % 0.25, 0.0, "{value}");
         }
     }

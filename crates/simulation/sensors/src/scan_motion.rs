@@ -1,24 +1,23 @@
-//! Where a sensor is while it measures.
+//! Poses of a sensor during a measurement.
 
 use periplus_geometry::Pose;
 
-/// Where a sensor is while it measures.
+/// Poses of a sensor during a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sweep<'a> {
-    /// All is measured at once from here (`world_from_sensor`).
-    Still(Pose),
-    /// One column of beams after the other while the sensor moves through these poses, each with
-    /// the part of the scan (0 at the first column, 1 at the last) at which it is there, in order.
+    /// All beams are measured at once from this pose (`world_from_sensor`).
+    AtOnce(Pose),
+    /// Columns of beams are measured one after the other while the sensor moves through these poses,
+    /// each with its fraction of the scan (0 at the first column, 1 at the last), in order.
     Moving(&'a [(f64, Pose)]),
 }
 
 impl Sweep<'_> {
-    /// `world_from_sensor` at a part of the scan; between poses along a straight line, turning
-    /// evenly.
+    /// Returns `world_from_sensor` at a fraction of the scan, interpolated between poses.
     #[must_use]
     pub fn at(&self, part: f64) -> Pose {
         let poses = match self {
-            Sweep::Still(pose) => return *pose,
+            Sweep::AtOnce(pose) => return *pose,
             Sweep::Moving(poses) => poses,
         };
         let after = poses.partition_point(|(at, _)| *at <= part);
@@ -32,7 +31,7 @@ impl Sweep<'_> {
     }
 }
 
-/// A pose between two (spherical linear interpolation of the rotation).
+/// Interpolates between two poses (spherical linear interpolation of the rotation).
 fn between(from: Pose, to: Pose, part: f64) -> Pose {
     let translation = from.translation + (to.translation - from.translation) * part;
     let turn = from.rotation.conjugate() * to.rotation;

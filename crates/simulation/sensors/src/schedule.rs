@@ -1,54 +1,58 @@
-//! When a sensor measures.
+//! Measurement times of a sensor.
 
 use crate::Quirks;
 
 const SECOND_NS: f64 = 1e9;
 
-/// The times of a sensor's measurements: number `k` at `start + k / rate`, rounded to a nanosecond,
-/// without drift however long the run. It is taken at the first step at or after that.
+/// Measurement times: number `k` at `start + k / rate`, rounded to a nanosecond, without drift. A
+/// measurement happens at the first step at or after its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Schedule {
     start_ns: i64,
-    rate: Rate,
+    rate: MeasurementRate,
     next: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Rate {
+enum MeasurementRate {
     EachStep,
     Hz(f64),
     Period { whole_ms: i64 },
 }
 
 impl Schedule {
-    /// From a time on, the first measurement included. A rate that is not above 0 (or no number)
-    /// means each step, as in Gazebo; so does one above what nanoseconds can tell apart.
+    /// Creates a schedule from a time on, including it. A rate that is not positive (or NaN) means
+    /// every step, as in Gazebo; so does a rate above the resolution of nanoseconds.
     #[must_use]
     pub fn new(update_rate_hz: f64, start_ns: i64, quirks: Quirks) -> Self {
         let rate = if !(update_rate_hz > 0.0 && update_rate_hz <= SECOND_NS) {
-            Rate::EachStep
+            MeasurementRate::EachStep
         } else if quirks.whole_millisecond_periods {
-            // gz-sensors casts the period to whole milliseconds (`Sensor.cc`): 30 Hz is 33 ms.
+            // gz-sensors truncates the period to whole milliseconds (`Sensor.cc`): 30 Hz is 33 ms.
             #[expect(clippy::cast_possible_truncation, reason = "as gz does; it saturates")]
             let whole_ms = (1e3 / update_rate_hz) as i64;
-            if whole_ms == 0 { Rate::EachStep } else { Rate::Period { whole_ms } }
+            if whole_ms == 0 {
+                MeasurementRate::EachStep
+            } else {
+                MeasurementRate::Period { whole_ms }
+            }
         } else {
-            Rate::Hz(update_rate_hz)
+            MeasurementRate::Hz(update_rate_hz)
         };
         Self { start_ns, rate, next: 0 }
     }
 
-    /// The time of the next measurement; none when each step is one.
+    /// Returns the time of the next measurement; `None` when every step is one.
     #[must_use]
     pub fn next_ns(&self) -> Option<i64> {
         self.time_ns(self.next)
     }
 
-    /// The number of the measurement that is due, if one is; it is then done. Of several that a
-    /// long step passed over the last counts.
+    /// Returns the number of the measurement that is due, if any, and completes it. Of several
+    /// skipped by a long step the last counts.
     pub fn due(&mut self, now_ns: i64) -> Option<u64> {
         let number = match self.rate {
-            Rate::EachStep => self.next,
+            MeasurementRate::EachStep => self.next,
             _ if self.next_ns()? > now_ns => return None,
             rate => {
                 let since_ns = now_ns.saturating_sub(self.start_ns);
@@ -56,12 +60,14 @@ impl Schedule {
                     clippy::cast_precision_loss,
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,
-                    reason = "a guess, set right below; casts saturate"
+                    reason = "an estimate, corrected below; casts saturate"
                 )]
                 let mut guess = match rate {
-                    Rate::Hz(rate_hz) => (since_ns as f64 * rate_hz / SECOND_NS) as u64,
-                    Rate::Period { whole_ms } => (since_ns / (whole_ms * 1_000_000)) as u64,
-                    Rate::EachStep => 0,
+                    MeasurementRate::Hz(rate_hz) => (since_ns as f64 * rate_hz / SECOND_NS) as u64,
+                    MeasurementRate::Period { whole_ms } => {
+                        (since_ns / (whole_ms * 1_000_000)) as u64
+                    }
+                    MeasurementRate::EachStep => 0,
                 };
                 let is_over = |number: u64| self.time_ns(number).is_some_and(|time| time <= now_ns);
                 while guess > self.next && !is_over(guess) {
@@ -77,22 +83,22 @@ impl Schedule {
         Some(number)
     }
 
-    /// Time between measurements [s]; 0 when each step is one.
+    /// Returns the time between measurements [s]; 0 when every step is one.
     #[must_use]
     pub fn period_s(&self) -> f64 {
         match self.rate {
-            Rate::EachStep => 0.0,
-            Rate::Hz(rate_hz) => 1.0 / rate_hz,
+            MeasurementRate::EachStep => 0.0,
+            MeasurementRate::Hz(rate_hz) => 1.0 / rate_hz,
             #[expect(clippy::cast_precision_loss, reason = "a period")]
-            Rate::Period { whole_ms } => whole_ms as f64 / 1e3,
+            MeasurementRate::Period { whole_ms } => whole_ms as f64 / 1e3,
         }
     }
 
-    /// Another rate from now on (`set_rate` services); the count goes on.
+    /// Changes the rate from now on (`set_rate` services); the count continues.
     pub fn set_rate(&mut self, update_rate_hz: f64, now_ns: i64, quirks: Quirks) {
         let count = self.next;
         *self = Self::new(update_rate_hz, now_ns, quirks);
-        // Counting from a start that lies `count` periods back keeps numbers unique.
+        // A start `count` periods in the past keeps numbers unique.
         if let Some(passed_ns) = self.time_ns(count).map(|time| time.saturating_sub(now_ns)) {
             self.start_ns = self.start_ns.saturating_sub(passed_ns);
         }
@@ -106,9 +112,9 @@ impl Schedule {
     )]
     fn time_ns(&self, number: u64) -> Option<i64> {
         let since_ns = match self.rate {
-            Rate::EachStep => return None,
-            Rate::Hz(rate_hz) => (number as f64 * SECOND_NS / rate_hz).round() as i64,
-            Rate::Period { whole_ms } => whole_ms
+            MeasurementRate::EachStep => return None,
+            MeasurementRate::Hz(rate_hz) => (number as f64 * SECOND_NS / rate_hz).round() as i64,
+            MeasurementRate::Period { whole_ms } => whole_ms
                 .saturating_mul(1_000_000)
                 .saturating_mul(number.min(i64::MAX as u64) as i64),
         };

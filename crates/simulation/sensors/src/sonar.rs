@@ -1,41 +1,40 @@
-//! Sonars: the nearest distance in a cone or all around.
+//! Sonars: the nearest distance in a cone or in all directions.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
 use periplus_raycast::{Hit, Ray};
 
-use crate::View;
+use crate::RayView;
 
-/// Rays of the first look.
-const COARSE: usize = 512;
-/// Rays of each closer look around the nearest so far.
-const FINE: usize = 32;
-/// How much narrower each closer look is.
-const NARROWER: f64 = 0.35;
-/// Closer looks: the last is narrower than the first by 10^-4.
-const LOOKS: i32 = 9;
-/// From one ray to the next around the spiral: the golden angle, which leaves no gaps (Vogel 1979).
+/// Number of rays of the first pass.
+const FIRST_PASS_RAYS: usize = 512;
+/// Number of rays of each refinement around the nearest hit.
+const REFINEMENT_RAYS: usize = 32;
+/// Ratio of the angles of successive refinements.
+const REFINEMENT_RATIO: f64 = 0.35;
+/// Number of refinements: the last is narrower than the first pass by 10^-4.
+const REFINEMENT_COUNT: i32 = 9;
+/// Angle between successive rays of the spiral: the golden angle, for even coverage (Vogel 1979).
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
-/// A sonar. Its cone opens along x of its own frame (Classic's `sonar`).
+/// A sonar. Its cone opens along the x axis of its own frame (Classic's `sonar`).
 ///
-/// What it finds is the nearest of many rays, then of finer and finer ones about that. It may
-/// overlook what is thinner than the gaps of the first 512, about a twentieth of the cone's
-/// radius.
+/// The reading is the nearest of many rays, refined around it. Objects thinner than the gaps of the
+/// first 512 rays, about a twentieth of the cone's radius, can be missed.
 #[derive(Clone, Debug)]
 pub struct Sonar {
     min_m: f64,
     max_m: f64,
-    /// Half the angle of the cone [rad]; half a turn is all around.
+    /// Half the angle of the cone [rad]; π covers all directions.
     half_angle_rad: f64,
 }
 
 impl Sonar {
-    /// A sonar of a geometry (`cone` or `sphere`), its ranges [m], and the radius [m] of the cone at
-    /// the greatest range.
+    /// Creates a sonar from a geometry (`cone` or `sphere`), its ranges [m], and the radius [m] of
+    /// the cone at the maximum range.
     ///
     /// # Errors
-    /// When that is no room to look into.
+    /// When the values do not define a volume.
     pub fn new(
         geometry: &str,
         min_m: f64,
@@ -48,7 +47,7 @@ impl Sonar {
             other => {
                 return Err(Diagnostic::error(
                     "unknown-type",
-                    format!("`{other}` is no geometry of a sonar"),
+                    format!("`{other}` is not a geometry of a sonar"),
                 )
                 .help("one of cone, sphere")
                 .into());
@@ -58,7 +57,7 @@ impl Sonar {
         if !sound {
             return Err(Diagnostic::error(
                 "out-of-range",
-                format!("a sonar from {min_m} m to {max_m} m of radius {radius_m} m sees nothing"),
+                format!("a sonar from {min_m} m to {max_m} m of radius {radius_m} m cannot measure anything"),
             )
             .help("0 <= min < max, and a radius above 0")
             .into());
@@ -66,21 +65,21 @@ impl Sonar {
         Ok(Self { min_m, max_m, half_angle_rad })
     }
 
-    /// Nearest and farthest [m].
+    /// Returns the minimum and maximum range [m].
     #[must_use]
     pub fn range_m(&self) -> [f64; 2] {
         [self.min_m, self.max_m]
     }
 
-    /// The whole angle of the cone [rad].
+    /// Returns the full angle of the cone [rad].
     #[must_use]
     pub fn field_of_view_rad(&self) -> f64 {
         2.0 * self.half_angle_rad
     }
 
-    /// The nearest distance [m]: `-inf` too near, `inf` nothing there.
+    /// Returns the nearest distance [m]: `-inf` too near, `inf` no hit.
     #[must_use]
-    pub fn measure(&self, view: &View<'_>, world_from_sensor: Pose) -> f64 {
+    pub fn measure(&self, view: &RayView<'_>, world_from_sensor: Pose) -> f64 {
         let near = self.nearest(view, world_from_sensor, [0.0, self.min_m]);
         if self.min_m > 0.0 && near.is_some() {
             return f64::NEG_INFINITY;
@@ -88,9 +87,14 @@ impl Sonar {
         self.nearest(view, world_from_sensor, [self.min_m, self.max_m]).unwrap_or(f64::INFINITY)
     }
 
-    fn nearest(&self, view: &View<'_>, world_from_sensor: Pose, range_m: [f64; 2]) -> Option<f64> {
+    fn nearest(
+        &self,
+        view: &RayView<'_>,
+        world_from_sensor: Pose,
+        range_m: [f64; 2],
+    ) -> Option<f64> {
         let [min_m, max_m] = range_m;
-        let filter = view.others();
+        let filter = view.without_own_model();
         if !view.rays.may_be_near(world_from_sensor.translation, max_m, filter) {
             return None;
         }
@@ -108,23 +112,24 @@ impl Sonar {
             (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
             (a, b) => a.or(b),
         };
-        let best = spiral(DVec3::X, self.half_angle_rad, COARSE).map(cast).fold(None, nearer);
+        let best =
+            spiral(DVec3::X, self.half_angle_rad, FIRST_PASS_RAYS).map(cast).fold(None, nearer);
         let mut best = best?;
-        // Twice the gap between neighbours of the first look.
+        // Twice the gap between neighbours of the first pass.
         let mut width = self.half_angle_rad * 4.0 / libm::sqrt(512.0);
-        for _ in 0..LOOKS {
+        for _ in 0..REFINEMENT_COUNT {
             let inside = |direction: &DVec3| {
                 libm::acos(direction.x.clamp(-1.0, 1.0)) <= self.half_angle_rad + 1e-12
             };
-            let closer = spiral(best.1, width, FINE).filter(inside).map(cast);
+            let closer = spiral(best.1, width, REFINEMENT_RAYS).filter(inside).map(cast);
             best = closer.fold(Some(best), nearer).unwrap_or(best);
-            width *= NARROWER;
+            width *= REFINEMENT_RATIO;
         }
         Some(best.0)
     }
 }
 
-/// Directions that fill a cone evenly, its axis first and its rim among them.
+/// Returns directions that cover a cone evenly, its axis first, its rim included.
 fn spiral(axis: DVec3, half_angle_rad: f64, count: usize) -> impl Iterator<Item = DVec3> {
     let (across, up) = axis.any_orthonormal_pair();
     let rim = 1.0 - libm::cos(half_angle_rad);
@@ -156,7 +161,7 @@ mod tests {
 
     fn measure(world: &RaycastWorld, own_group: u32) -> f64 {
         let sonar = Sonar::new("cone", 0.3, 4.0, 2.0).unwrap();
-        sonar.measure(&View { own_group, ..View::of(world) }, Pose::IDENTITY)
+        sonar.measure(&RayView { own_group, ..RayView::of(world) }, Pose::IDENTITY)
     }
 
     #[test]
@@ -184,7 +189,7 @@ mod tests {
         assert_eq!(measure(&ball(2.0, 3.0, 0), 0), f64::INFINITY);
         assert_eq!(measure(&ball(2.0, 0.0, 5), 5), f64::INFINITY);
         let around = Sonar::new("sphere", 0.0, 4.0, 0.0).unwrap();
-        let measured = around.measure(&View::of(&ball(-2.0, 0.3, 0)), Pose::IDENTITY);
+        let measured = around.measure(&RayView::of(&ball(-2.0, 0.3, 0)), Pose::IDENTITY);
         assert!((measured - (libm::hypot(2.0, 0.3) - 0.25)).abs() < 1e-6, "{measured}");
         assert!(Sonar::new("cone", 1.0, 0.5, 1.0).is_err());
         assert!(Sonar::new("pyramid", 0.1, 0.5, 1.0).is_err());

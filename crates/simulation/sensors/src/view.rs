@@ -1,33 +1,33 @@
-//! What rays of a sensor see.
+//! The world as seen by a sensor's rays.
 
 use periplus_raycast::{Filter, InstanceId, RaycastWorld};
 
-/// What rays of a sensor see, and with how many threads they are cast (few stay on one; the answers
-/// are the same for any number).
+/// The world as seen by a sensor's rays, and the number of threads for casting (small batches use
+/// one; results are the same for any number).
 #[derive(Clone, Copy)]
-pub struct View<'a> {
-    /// The shapes.
+pub struct RayView<'a> {
+    /// The ray-cast world.
     pub rays: &'a RaycastWorld,
-    /// What the sensor looks for: its visibility mask.
+    /// Visibility filter of the sensor.
     pub filter: Filter,
-    /// The group of the sensor's own model, whose parts do not count when they are nearer than the
-    /// least range: housings. 0 is none.
+    /// Group of the sensor's own model, whose parts within the minimum range (housings) are ignored.
+    /// 0 is none.
     pub own_group: u32,
-    /// Brightness to a laser of an instance; none where all are 0, which saves time.
+    /// Laser intensity of an instance; `None` where all are 0, which saves time.
     pub retro: Option<&'a (dyn Fn(InstanceId) -> f64 + Sync)>,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
 }
 
-impl<'a> View<'a> {
-    /// Everything there is, on one thread.
+impl<'a> RayView<'a> {
+    /// Returns a view of everything, on one thread.
     #[must_use]
     pub fn of(rays: &'a RaycastWorld) -> Self {
         Self { rays, filter: Filter::default(), own_group: 0, retro: None, threads: 1 }
     }
 
-    /// The filter that looks past the sensor's own model.
-    pub(crate) fn others(&self) -> Filter {
+    /// Returns the filter that excludes the sensor's own model.
+    pub(crate) fn without_own_model(&self) -> Filter {
         Filter { except_group: self.own_group, ..self.filter }
     }
 }

@@ -3,7 +3,7 @@
 use periplus_geometry::{DVec3, Pose, Rpy, Stream};
 use periplus_raycast::{InstanceId, RaycastShape, RaycastWorld, Tags};
 use periplus_scene::{Noise, NoiseKind, ScanAxis};
-use periplus_sensors::{Lidar, Streams, Sweep, View};
+use periplus_sensors::{LidarSensor, RayView, Streams, Sweep};
 use proptest::prelude::*;
 
 /// What the issue asks for [m].
@@ -31,8 +31,8 @@ fn flat(samples: u32) -> periplus_scene::Lidar {
     spec(axis(samples, -pi, pi), axis(1, 0.0, 0.0))
 }
 
-fn lidar(spec: &periplus_scene::Lidar) -> Lidar {
-    Lidar::new(spec, &Streams::new(3, "robot::base::lidar")).expect("a sound lidar")
+fn lidar(spec: &periplus_scene::Lidar) -> LidarSensor {
+    LidarSensor::new(spec, &Streams::new(3, "robot::base::lidar")).expect("a sound lidar")
 }
 
 fn world(shapes: &[(RaycastShape, Pose)]) -> RaycastWorld {
@@ -47,9 +47,9 @@ fn turned(xyz: [f64; 3], roll: f64, pitch: f64, yaw: f64) -> Pose {
     Pose::from_xyz_rpy(xyz, Rpy { roll, pitch, yaw })
 }
 
-fn ranges(lidar: &mut Lidar, world: &RaycastWorld, pose: Pose) -> Vec<f32> {
+fn ranges(lidar: &mut LidarSensor, world: &RaycastWorld, pose: Pose) -> Vec<f32> {
     let mut stream = Stream::keyed(0, "", 0);
-    lidar.scan(&View::of(world), Sweep::Still(pose), &mut stream).ranges_m.clone()
+    lidar.scan(&RayView::of(world), Sweep::AtOnce(pose), &mut stream).ranges_m.clone()
 }
 
 /// Every range of a scan from the origin against a closed form: azimuth and elevation to metres.
@@ -186,9 +186,9 @@ fn the_own_housing_is_not_seen() {
     let four = spec(axis(5, -std::f64::consts::PI, std::f64::consts::PI), axis(1, 0.0, 0.0));
     let scan = |cable_group| {
         let world = scene(cable_group);
-        let view = View { own_group: 1, ..View::of(&world) };
+        let view = RayView { own_group: 1, ..RayView::of(&world) };
         let mut lidar = lidar(&four);
-        lidar.scan(&view, Sweep::Still(Pose::IDENTITY), &mut Stream::keyed(0, "", 0)).clone()
+        lidar.scan(&view, Sweep::AtOnce(Pose::IDENTITY), &mut Stream::keyed(0, "", 0)).clone()
     };
     let [back, right, ahead, left, _] = scan(2).ranges_m[..] else { panic!() };
     assert!((back - 0.28).abs() < 1e-6, "{back}");
@@ -203,9 +203,9 @@ fn intensities_are_those_of_what_was_met() {
         (RaycastShape::Sphere { radius_m: 1.0 }, Pose::from_xyz(-3.0, 0.0, 0.0)),
     ]);
     let retro = |InstanceId(number)| if number == 0 { 100.0 } else { 2000.0 };
-    let view = View { retro: Some(&retro), ..View::of(&world) };
+    let view = RayView { retro: Some(&retro), ..RayView::of(&world) };
     let mut lidar = lidar(&spec(axis(3, 0.0, std::f64::consts::PI), axis(1, 0.0, 0.0)));
-    let scan = lidar.scan(&view, Sweep::Still(Pose::IDENTITY), &mut Stream::keyed(0, "", 0));
+    let scan = lidar.scan(&view, Sweep::AtOnce(Pose::IDENTITY), &mut Stream::keyed(0, "", 0));
     assert_eq!(scan.intensities, [100.0, 0.0, 2000.0]);
     assert_eq!(scan.ranges_m[1], f32::INFINITY);
 }
@@ -258,7 +258,7 @@ fn a_rolling_scan_is_distorted_by_motion() {
     let world = world(&[(RaycastShape::Plane { size_m: None }, wall)]);
     let mut lidar = lidar(&spec(axis(11, 0.0, 0.0), axis(1, 0.0, 0.0)));
     let path = [(0.0, Pose::IDENTITY), (1.0, Pose::from_xyz(0.1, 0.0, 0.0))];
-    let view = View::of(&world);
+    let view = RayView::of(&world);
     let scan = lidar.scan(&view, Sweep::Moving(&path), &mut Stream::keyed(0, "", 0));
     for (column, range) in scan.ranges_m.iter().enumerate() {
         assert!((range - (2.0 - 0.01 * column as f32)).abs() < 1e-6, "{column}: {range}");
@@ -270,7 +270,7 @@ fn impossible_lidars_are_told() {
     let bad = |change: fn(&mut periplus_scene::Lidar)| {
         let mut spec = flat(360);
         change(&mut spec);
-        Lidar::new(&spec, &Streams::new(0, "x")).err().unwrap().code
+        LidarSensor::new(&spec, &Streams::new(0, "x")).err().unwrap().code
     };
     assert_eq!(bad(|spec| spec.horizontal.samples = 0), "out-of-range");
     assert_eq!(bad(|spec| spec.vertical.resolution = f64::NAN), "out-of-range");
@@ -293,9 +293,9 @@ fn threads_change_nothing() {
     let tall = spec(axis(512, -3.0, 3.0), axis(64, -0.4, 0.4));
     let scan = |threads| {
         let mut lidar = lidar(&periplus_scene::Lidar { noise, ..tall.clone() });
-        let view = View { threads, ..View::of(&world) };
+        let view = RayView { threads, ..RayView::of(&world) };
         let mut stream = Stream::keyed(9, "lidar", 4);
-        lidar.scan(&view, Sweep::Still(Pose::IDENTITY), &mut stream).clone()
+        lidar.scan(&view, Sweep::AtOnce(Pose::IDENTITY), &mut stream).clone()
     };
     assert_eq!(scan(1), scan(2));
     assert_eq!(scan(1), scan(8));
@@ -364,8 +364,8 @@ proptest! {
                 continue;
             }
             let (measured, way) = (f64::from(*measured), pose.rotation * direction);
-            let told = nearest(way);
-            if measured == told || (measured - told).abs() < EXACT_M {
+            let error = nearest(way);
+            if measured == error || (measured - error).abs() < EXACT_M {
                 continue;
             }
             // Along an edge, or nearly along a face, it may be what a neighbour meets, or lie between
@@ -374,9 +374,9 @@ proptest! {
             let around = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| {
                 [-beside, beside].map(|off| nearest((way + axis * off).normalize()))
             });
-            let (low, high) = around.fold((told, told), |(low, high), d| (low.min(d), high.max(d)));
+            let (low, high) = around.fold((error, error), |(low, high), d| (low.min(d), high.max(d)));
             let is_between = low - EXACT_M <= measured && measured <= high + EXACT_M;
-            prop_assert!(is_between, "{measured} is not within {low} and {high}, but {told}");
+            prop_assert!(is_between, "{measured} is not within {low} and {high}, but {error}");
         }
     }
 }

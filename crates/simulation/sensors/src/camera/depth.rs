@@ -1,6 +1,6 @@
-//! Which depths are told.
+//! Depth clipping.
 
-/// Out of range as REP 117 says: at or below the least depth `-inf`, from the greatest on `inf`.
+/// Clips depths by REP 117: `-inf` at or below the minimum, `inf` at or above the maximum.
 pub fn clip_depths(depths_m: &mut [f32], min_m: f64, max_m: f64) {
     #[expect(clippy::cast_possible_truncation, reason = "images have single precision")]
     let (min_m, max_m) = (min_m as f32, max_m as f32);

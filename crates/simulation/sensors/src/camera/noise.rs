@@ -3,7 +3,7 @@
 use periplus_geometry::Stream;
 use periplus_scene::{Noise, NoiseKind};
 
-/// Noise of pixels. As in Gazebo only mean and standard deviation count.
+/// Pixel noise. As in Gazebo only mean and standard deviation apply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageNoise {
     mean: f64,
@@ -11,28 +11,29 @@ pub struct ImageNoise {
 }
 
 impl ImageNoise {
-    /// None where there is none.
+    /// Returns `None` for a specification without noise.
     #[must_use]
     pub fn new(noise: &Noise) -> Option<Self> {
         let Noise { kind, mean, stddev, .. } = *noise;
         (kind != NoiseKind::None && (mean != 0.0 || stddev != 0.0)).then_some(Self { mean, stddev })
     }
 
-    /// Spoils every channel of every pixel; the numbers of the file count in 0..1.
+    /// Adds noise to every channel of every pixel; the specification is in units of full scale, 0 to
+    /// 1.
     pub fn colours(&self, channels: &mut [u8], stream: &mut Stream) {
         for channel in channels {
             let value = f64::from(*channel) + 255.0 * self.draw(stream);
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
-                reason = "held to 0..255"
+                reason = "clamped to 0..255"
             )]
             let spoiled = (value + 0.5).clamp(0.0, 255.0) as u8;
             *channel = spoiled;
         }
     }
 
-    /// Spoils depths [m], within their range; infinities stay.
+    /// Adds noise to depths [m], clamped to their range; infinities are kept.
     pub fn depths(&self, depths_m: &mut [f32], range_m: [f64; 2], stream: &mut Stream) {
         for depth_m in depths_m.iter_mut().filter(|depth_m| depth_m.is_finite()) {
             let spoiled = f64::from(*depth_m) + self.draw(stream);

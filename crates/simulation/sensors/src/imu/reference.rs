@@ -1,38 +1,38 @@
-//! What an IMU's orientation is measured against.
+//! Reference frames of an IMU's orientation.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DQuat, DVec3, Rpy, parse_numbers, quaternion_from_rpy};
 use periplus_scene::Element;
 
-/// What an IMU's orientation is measured against.
+/// Reference frame of an IMU's orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OrientationReference {
-    /// The orientation of the sensor at the start, turned by this.
+    /// The initial orientation of the sensor, rotated.
     Start {
         /// `start_from_reference`.
         start_from_reference: DQuat,
     },
-    /// A frame that stands still in the world.
+    /// A frame fixed in the world.
     World {
         /// `world_from_reference`.
         world_from_reference: DQuat,
     },
 }
 
-/// Element of the file.
+/// Element of SDF.
 const ELEMENT: &str = "orientation_reference_frame";
 
 impl OrientationReference {
-    /// The orientation at the start: what gz-sensors takes when the file says nothing.
+    /// The initial orientation: gz-sensors' default.
     pub const START: Self = Self::Start { start_from_reference: DQuat::IDENTITY };
-    /// The world's frame: what REP 145 wants, and ROS plugins take.
+    /// The world frame: required by REP 145 and used by ROS plugins.
     pub const WORLD: Self = Self::World { world_from_reference: DQuat::IDENTITY };
 
-    /// What the file says; none if it says nothing. `heading_rad` is how far the world's frame is
-    /// turned about up, against east. The meanings are those of SDF's `<localization>`.
+    /// Reads SDF's `<localization>`; returns `None` if it is absent. `heading_rad` is the heading of
+    /// the world's x axis, counterclockwise from east.
     ///
     /// # Errors
-    /// When that makes no frame.
+    /// When the elements do not define a frame.
     pub fn read(
         imu: &periplus_scene::Imu,
         heading_rad: f64,
@@ -57,7 +57,7 @@ impl OrientationReference {
             other => {
                 return Err(Diagnostic::error(
                     "unknown-localization",
-                    format!("`{other}` is no frame for the orientation of an IMU"),
+                    format!("`{other}` is not an orientation reference of an IMU"),
                 )
                 .help("one of CUSTOM, ENU, NED, NWU, GRAV_UP, GRAV_DOWN")
                 .into());
@@ -77,16 +77,16 @@ fn by_gravity(z: DVec3, frame: Option<&Element>) -> Result<DQuat, Box<Diagnostic
     let z = z.normalize_or_zero();
     let x = (ahead - z * ahead.dot(z)).normalize_or_zero();
     if z == DVec3::ZERO || x == DVec3::ZERO {
-        let mut told = Diagnostic::error(
+        let mut error = Diagnostic::error(
             "no-reference-frame",
-            "gravity and `<grav_dir_x>` make no frame: one is zero, or they are parallel",
+            "gravity and `<grav_dir_x>` do not define a frame: one is zero, or they are parallel",
         );
         if let Some(child) = child {
-            told = told.at(child.origin);
+            error = error.at(child.origin);
         }
-        return Err(told.help("name a direction that lies across gravity, such as 1 0 0").into());
+        return Err(error.help("use a direction across gravity, such as 1 0 0").into());
     }
-    // First z to where it belongs, then about it until x fits.
+    // First rotate z, then rotate about it until x fits.
     let upright = DQuat::from_rotation_arc(DVec3::Z, z);
     let start = upright * DVec3::X;
     let (sine, cosine) = libm::sincos(libm::atan2(start.cross(x).dot(z), start.dot(x)) / 2.0);
@@ -94,7 +94,7 @@ fn by_gravity(z: DVec3, frame: Option<&Element>) -> Result<DQuat, Box<Diagnostic
     Ok((about_z * upright).normalize())
 }
 
-/// `<custom_rpy parent_frame="">`: against the sensor at the start, or against the world.
+/// Reads `<custom_rpy parent_frame="">`: relative to the initial orientation, or to the world.
 fn custom(frame: Option<&Element>) -> Result<OrientationReference, Box<Diagnostic>> {
     let Some(child) = frame.and_then(|frame| frame.child("custom_rpy")) else {
         return Ok(OrientationReference::START);
@@ -106,10 +106,10 @@ fn custom(frame: Option<&Element>) -> Result<OrientationReference, Box<Diagnosti
         "world" => Ok(OrientationReference::World { world_from_reference: turn }),
         other => Err(Diagnostic::error(
             "unknown-parent-frame",
-            format!("an orientation against `{other}` is not offered"),
+            format!("an orientation relative to `{other}` is not supported"),
         )
         .at(child.origin)
-        .help("leave `parent_frame` empty (the sensor at the start), or name `world`")
+        .help("leave `parent_frame` empty (initial orientation of the sensor), or use `world`")
         .into()),
     }
 }
@@ -120,9 +120,12 @@ fn three(element: &Element) -> Result<DVec3, Box<Diagnostic>> {
         Ok(numbers) if numbers.iter().all(|number| number.is_finite()) => {
             Ok(DVec3::from_array(numbers))
         }
-        _ => Err(Diagnostic::error("bad-value", format!("`<{}>` is three numbers", element.name))
-            .at(element.text_origin())
-            .into()),
+        _ => Err(Diagnostic::error(
+            "bad-value",
+            format!("`<{}>` must be three numbers", element.name),
+        )
+        .at(element.text_origin())
+        .into()),
     }
 }
 
@@ -180,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_frame_is_told() {
+    fn invalid_frames_are_rejected() {
         let up = Element::new("grav_dir_x").with_text("0 0 1");
         for imu in [imu("GRAV_UP", Some(up)), imu("UPSIDE", None)] {
             assert!(OrientationReference::read(&imu, 0.0, DOWN).is_err());
