@@ -1,4 +1,4 @@
-//! From a model to its devices.
+//! Devices of a model.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, GraphError};
@@ -6,14 +6,14 @@ use periplus_plugin_specs::{interpret, model_sites, world_sites};
 use periplus_scene::World;
 
 use crate::states::{JointStatePublisher, RobotFrames, triggered};
-use crate::{Device, Setting, drives, sensors};
+use crate::{Device, DeviceContext, drives, sensors};
 
-/// The devices of a model: first what drives it, then what measures, then who tells of its joints
-/// and frames. What cannot be is told, and the rest is there. `description` is the URDF that it
-/// came from; with it the robot has a `robot_state_publisher`.
+/// Builds the devices of a model: first drives, then sensors, then publishers of joint states and
+/// frames. Problems are reported, and valid devices are built. `description` is the URDF of the
+/// model; with it the robot has a `robot_state_publisher`.
 #[must_use]
 pub fn devices(
-    setting: &Setting<'_>,
+    setting: &DeviceContext<'_>,
     description: Option<&str>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Box<dyn Device>> {
@@ -21,15 +21,15 @@ pub fn devices(
     let others = joint_state_publishers(setting);
     let mut devices: Vec<Box<dyn Device>> = Vec::new();
     for site in &sites {
-        // What is wrong with a parameter was told when the file was checked.
+        // Problems of parameters were reported when the file was checked.
         let plugin = interpret(site.plugin, &site.context, &mut Diagnostics::new());
         let driven = plugin.and_then(|plugin| drives::build(setting, site, &plugin, diagnostics));
         devices.extend(driven);
     }
     devices.extend(sensors::build(setting, &sites, diagnostics));
-    let tells_joints = joint_state_publishers(setting) > others;
-    if setting.tells_joints && !tells_joints {
-        match JointStatePublisher::usual(setting) {
+    let publishes_joint_states = joint_state_publishers(setting) > others;
+    if setting.publishes_joint_states && !publishes_joint_states {
+        match JointStatePublisher::fallback(setting) {
             Ok(Some(publisher)) => devices.push(Box::new(publisher)),
             Ok(None) => {}
             Err(error) => diagnostics.push(refused(setting, &error)),
@@ -44,7 +44,7 @@ pub fn devices(
     devices
 }
 
-/// The devices of a world itself, beside those of its models.
+/// Builds the devices of a world, besides those of its models.
 #[must_use]
 pub fn world_devices(
     graph: &Graph,
@@ -63,14 +63,15 @@ pub fn world_devices(
     devices
 }
 
-/// How many publish on a topic called `joint_states`.
-fn joint_state_publishers(setting: &Setting<'_>) -> usize {
+/// Returns the number of publishers of topics named `joint_states`.
+fn joint_state_publishers(setting: &DeviceContext<'_>) -> usize {
     let topics = setting.graph.topics();
     let named = topics.iter().filter(|topic| topic.name.ends_with("/joint_states"));
     named.map(|topic| topic.publishers.len()).sum()
 }
 
-fn refused(setting: &Setting<'_>, error: &GraphError) -> Diagnostic {
-    let message = format!("the joints of `{}` are not told: {error}", setting.model_name);
+fn refused(setting: &DeviceContext<'_>, error: &GraphError) -> Diagnostic {
+    let message =
+        format!("the joint states of `{}` are not published: {error}", setting.model_name);
     Diagnostic::error("states-refused", message).at(setting.root.origin)
 }

@@ -1,28 +1,28 @@
-//! What acts and measures.
+//! Devices: drives, sensors and state publishers.
 
 use periplus_geometry::Pose;
-use periplus_physics::{LinkId, World};
+use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_rendering::{PartId, RenderScene, SensedGeometry};
 
 use crate::Views;
 
-/// A stretch of simulated time.
+/// An interval of simulated time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Span {
-    /// Where it begins \[ns\].
+pub struct StepInterval {
+    /// Start \[ns\].
     pub start_ns: i64,
-    /// How long it is \[ns\].
+    /// Length \[ns\].
     pub length_ns: i64,
 }
 
-impl Span {
-    /// Where it ends \[ns\].
+impl StepInterval {
+    /// Returns the end \[ns\].
     #[must_use]
     pub fn end_ns(self) -> i64 {
         self.start_ns + self.length_ns
     }
 
-    /// How long it is \[s\].
+    /// Returns the length \[s\].
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a step is far below 2^53 ns")]
     pub fn seconds(self) -> f64 {
@@ -30,36 +30,36 @@ impl Span {
     }
 }
 
-/// A drive, a sensor, a publisher of states: a part of the simulation that others know as a node.
+/// A drive, a sensor or a state publisher: a part of the simulation that appears as a node.
 ///
-/// In each step first all devices act, then everything moves, then all devices sense, always in the
-/// order in which they were made.
+/// In each step first all devices act, then physics advances, then all devices sense, always in the
+/// order of their creation.
 pub trait Device: Send {
-    /// Its name for messages and tables, such as `sam_bot::lidar`.
+    /// Name for messages and tables, such as `sam_bot::lidar`.
     fn name(&self) -> &str;
 
-    /// Before a step: reads what it was told and tells joints what to do during `span`.
-    fn act(&mut self, _world: &mut World, _span: Span) {}
+    /// Before a step: reads received commands and commands the joints for `span`.
+    fn act(&mut self, _world: &mut PhysicsWorld, _span: StepInterval) {}
 
-    /// After a step: measures and publishes what is due.
-    fn sense(&mut self, _moment: &mut Moment<'_>) {}
+    /// After a step: measures and publishes due messages.
+    fn sense(&mut self, _moment: &mut SenseContext<'_>) {}
 
-    /// While time stands still: measures once for subscribers that came after the last measurement.
-    /// Nothing is published to others a second time.
-    fn sense_paused(&mut self, _moment: &mut Moment<'_>) {}
+    /// While simulation is paused: measures once for subscribers that joined after the last
+    /// measurement. Nothing is published a second time to others.
+    fn sense_paused(&mut self, _moment: &mut SenseContext<'_>) {}
 
-    /// Mounting poses of the sensor data that it publishes.
+    /// Returns the mounting poses of the published sensor data.
     fn mounts(&self) -> Vec<SensorMount> {
         Vec::new()
     }
 
-    /// When it next has something to do without being told \[ns\]. Where motion needs no small
-    /// steps, time goes straight to the first of these.
+    /// Returns the time of the next scheduled action \[ns\]. If motion needs no small steps, time
+    /// advances directly to the earliest of these.
     fn next_ns(&self) -> Option<i64> {
         None
     }
 
-    /// Starts again at this time \[ns\], as after its making.
+    /// Resets to the initial state at this time \[ns\].
     fn reset(&mut self, time_ns: i64);
 }
 
@@ -70,37 +70,37 @@ pub struct SensorMount {
     pub topic: String,
     /// Frame in the headers of its messages.
     pub frame_id: String,
-    /// The link that carries the sensor.
+    /// Link of the sensor.
     pub link: LinkId,
     /// Pose of the data in that link.
     pub link_from_data: Pose,
 }
 
-/// The world at the end of a step, as devices see it.
-pub struct Moment<'a> {
-    /// The step that ends now; messages are stamped with its end.
-    pub span: Span,
-    /// What moved.
-    pub world: &'a World,
-    /// What rays see.
+/// The world at the end of a step.
+pub struct SenseContext<'a> {
+    /// The step that just ended; messages are stamped with its end.
+    pub span: StepInterval,
+    /// Physics state.
+    pub world: &'a PhysicsWorld,
+    /// Ray-cast scenes.
     pub views: &'a mut Views,
-    /// Threads that one measurement may use.
+    /// Maximum number of threads of a measurement.
     pub threads: usize,
 }
 
-impl Moment<'_> {
-    /// Now \[ns\].
+impl SenseContext<'_> {
+    /// Returns the current time \[ns\].
     #[must_use]
     pub fn time_ns(&self) -> i64 {
         self.span.end_ns()
     }
 
-    /// What rays see now.
+    /// Returns the ray-cast scene at the current time.
     pub fn seen(&mut self, geometry: SensedGeometry) -> &RenderScene {
         self.views.at(geometry, self.span.end_ns(), self.world)
     }
 
-    /// The part of a link in what rays see, so that a sensor can look past its own.
+    /// Returns the id of a link in a ray-cast scene, so that a sensor can ignore its own model.
     pub fn part(&mut self, geometry: SensedGeometry, link: LinkId) -> Option<PartId> {
         self.views.part(geometry, link, self.world)
     }

@@ -1,59 +1,59 @@
-//! What a device is told when it is made.
+//! Inputs for building a device.
 
 use periplus_graph::Graph;
-use periplus_physics::{LinkId, ModelId, World};
+use periplus_physics::{LinkId, ModelId, PhysicsWorld};
 use periplus_plugin_specs::Site;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 
-/// Where a device stands and what it may use.
+/// Environment of a device: graph, world, model and run options.
 #[derive(Clone, Copy)]
-pub struct Setting<'a> {
-    /// Where it publishes and listens.
+pub struct DeviceContext<'a> {
+    /// Graph to publish and subscribe on.
     pub graph: &'a Graph,
-    /// What moves.
-    pub world: &'a World,
-    /// The world as the file has it.
+    /// Physics world.
+    pub world: &'a PhysicsWorld,
+    /// World description.
     pub scene: &'a scene::World,
-    /// The outermost model, as the file has it.
+    /// Outermost model of the description.
     pub root: &'a scene::Model,
-    /// The same model in `world`.
+    /// Id of that model in `world`.
     pub model: ModelId,
-    /// What the model is called here; several robots may come from one file.
+    /// Name of the model in this run; several robots can come from one file.
     pub model_name: &'a str,
-    /// Namespace put before every relative name; `/` is none.
+    /// Namespace of relative names; `/` is none.
     pub namespace: &'a str,
-    /// `from:=to` for every node of the model.
+    /// Remappings `from:=to` of every node of the model.
     pub remaps: &'a [String],
     /// Seed of all noise.
     pub seed: u64,
-    /// Which oddities of Gazebo are wanted.
+    /// Deviations of Gazebo to reproduce.
     pub quirks: Quirks,
-    /// Whether beams of a lidar are measured one after the other while the robot moves.
+    /// True if the beams of a lidar are measured one after the other while the robot moves.
     pub rolling_scans: bool,
-    /// The time at which it begins \[ns\].
+    /// Start time \[ns\].
     pub start_ns: i64,
-    /// Whether the joints of a robot are told where no plugin does so.
-    pub tells_joints: bool,
+    /// True if joint states are published when no plugin does.
+    pub publishes_joint_states: bool,
 }
 
-impl Setting<'_> {
-    /// The name of a link in the outermost model, scoped: `arm::hand` for the link `hand` of a
-    /// model `arm` inside.
+impl DeviceContext<'_> {
+    /// Returns the name of a link scoped in the outermost model: `arm::hand` for the link `hand` of
+    /// a nested model `arm`.
     #[must_use]
     pub fn scoped(&self, site: &Site<'_>, name: &str) -> String {
         let inner = site.context.model.map(|model| scope_of(self.root, model)).unwrap_or_default();
         format!("{inner}{name}")
     }
 
-    /// A link by its name as seen from where a plugin stands.
+    /// Returns a link by its name relative to a plugin's model.
     #[must_use]
     pub fn link(&self, site: &Site<'_>, name: &str) -> Option<LinkId> {
         self.world.find_link(self.model, &self.scoped(site, name))
     }
 }
 
-/// `a::b::` for a model `b` inside `a` inside the outermost; nothing for the outermost itself.
+/// Returns `a::b::` for a model `b` inside `a` inside the outermost; empty for the outermost itself.
 fn scope_of(root: &scene::Model, model: &scene::Model) -> String {
     fn find(around: &scene::Model, model: &scene::Model, scope: &str) -> Option<String> {
         if std::ptr::eq(around, model) {

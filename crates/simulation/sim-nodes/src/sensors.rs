@@ -1,20 +1,20 @@
-//! Sensors with those who publish what they measure.
+//! Sensors and their publishers.
 //!
-//! A sensor publishes through its plugins, as each of them would in Gazebo; one without any under
-//! the topic that Gazebo's own sensors have. What nobody hears is not measured.
+//! A sensor publishes through its plugins, as in Gazebo; without plugins, on the topics of Gazebo's
+//! own sensors. Sensors without subscribers are not simulated.
 
+mod build_context;
 mod camera;
 mod cloud;
 mod contact;
+mod environment;
 mod imu;
 mod lidar;
 mod logical;
 mod mount;
 mod navsat;
-mod order;
 mod port;
-mod post;
-mod scalar;
+mod sensor_context;
 mod sonar;
 mod timer;
 
@@ -22,32 +22,32 @@ use periplus_diagnostics::Diagnostics;
 use periplus_plugin_specs::{Site, interpret};
 use periplus_scene::{Model, SensorKind};
 
-use crate::{Device, Setting};
+use crate::{Device, DeviceContext};
+use build_context::{DeviceResult, SensorBuildContext, SensorBuildError};
 use mount::Mount;
-use order::{Failed, Made, Order};
-use post::Post;
+use sensor_context::SensorContext;
 use timer::Timer;
 
-/// The sensors of a model. `sites` are all its plugins.
+/// Builds the sensors of a model. `sites` are all its plugins.
 pub(crate) fn build(
-    setting: &Setting<'_>,
+    setting: &DeviceContext<'_>,
     sites: &[Site<'_>],
     diagnostics: &mut Diagnostics,
 ) -> Vec<Box<dyn Device>> {
     let mut devices = Vec::new();
-    each_post(setting, setting.root, "", sites, &mut |post| {
-        devices.extend(device(&post, diagnostics));
+    for_each_sensor(setting, setting.root, "", sites, &mut |sensor_context| {
+        devices.extend(device(&sensor_context, diagnostics));
     });
     devices
 }
 
-/// Visits the sensors on links, those of nested models after those of the model itself.
-fn each_post(
-    setting: &Setting<'_>,
+/// Visits the sensors on links, nested models after the model itself.
+fn for_each_sensor(
+    setting: &DeviceContext<'_>,
     model: &Model,
     scope: &str,
     sites: &[Site<'_>],
-    visit: &mut dyn FnMut(Post<'_>),
+    visit: &mut dyn FnMut(SensorContext<'_>),
 ) {
     for link in &model.links {
         let scoped = format!("{scope}{}", link.name);
@@ -57,23 +57,26 @@ fn each_post(
                 site.context.sensor.is_some_and(|other| std::ptr::eq(other, sensor))
             };
             let own: Vec<Site<'_>> = sites.iter().filter(own).copied().collect();
-            visit(Post { setting, model, scoped: &scoped, link, id, sensor, sites: &own });
+            visit(SensorContext { setting, model, scoped: &scoped, link, id, sensor, sites: &own });
         }
     }
     for inner in &model.models {
-        each_post(setting, inner, &format!("{scope}{}::", inner.name), sites, visit);
+        for_each_sensor(setting, inner, &format!("{scope}{}::", inner.name), sites, visit);
     }
 }
 
-fn device(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Option<Box<dyn Device>> {
-    // What is wrong with a parameter was told when the file was checked.
-    let plugins: Vec<_> = post
+fn device(
+    sensor_context: &SensorContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Box<dyn Device>> {
+    // Problems of parameters were reported when the file was checked.
+    let plugins: Vec<_> = sensor_context
         .sites
         .iter()
         .filter_map(|site| interpret(site.plugin, &site.context, &mut Diagnostics::new()))
         .collect();
-    match &post.sensor.kind {
-        SensorKind::Lidar(spec) => lidar::build(post, spec, &plugins, diagnostics),
-        _ => order::build(post, diagnostics),
+    match &sensor_context.sensor.kind {
+        SensorKind::Lidar(spec) => lidar::build(sensor_context, spec, &plugins, diagnostics),
+        _ => build_context::build(sensor_context, diagnostics),
     }
 }

@@ -1,6 +1,7 @@
 //! Publishers of states: odometry, joints, poses, frames and the clock.
 
 mod clock;
+mod frame_tree;
 mod geometry;
 mod gz_odometry;
 mod gz_poses;
@@ -10,7 +11,6 @@ mod noise;
 mod odometry;
 mod p3d;
 mod robot_state_publisher;
-mod tree;
 mod triggered;
 
 pub use clock::ClockPublisher;
@@ -18,7 +18,7 @@ pub(crate) use geometry::{from_vector, planar_twist, transform, vector};
 pub use joint_state_publisher::{JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource};
 pub use joint_states::JointStatePublisher;
 pub(crate) use joint_states::JointStates;
-pub(crate) use odometry::{TF_QOS, Teller, planar_covariance};
+pub(crate) use odometry::{OdometryPublisher, TF_QOS, planar_covariance};
 pub(crate) use robot_state_publisher::RobotFrames;
 pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateOptions, RobotStatePublisher};
 pub(crate) use triggered::build as triggered;
@@ -26,25 +26,25 @@ pub(crate) use triggered::build as triggered;
 use periplus_diagnostics::Diagnostics;
 
 use crate::Device;
-use crate::drives::Order;
+use crate::drives::BuildContext;
 
-/// The device of a plugin that publishes states. `Err` if there is none for it here.
+/// Builds the device of a plugin that publishes states. `Err` if the plugin is of another kind.
 pub(crate) fn build(
-    order: &Order<'_>,
+    context: &BuildContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Result<Option<Box<dyn Device>>, ()> {
     fn boxed<D: Device + 'static>(device: Option<D>) -> Option<Box<dyn Device>> {
         device.map(|device| Box::new(device) as Box<dyn Device>)
     }
-    Ok(match order.plugin.known.id {
+    Ok(match context.plugin.known.id {
         "gazebo_ros_joint_state_publisher" | "gz-sim-joint-state-publisher-system" => {
-            boxed(joint_states::plugin(order, diagnostics))
+            boxed(joint_states::plugin(context, diagnostics))
         }
-        "gazebo_ros_p3d" => boxed(p3d::build(order, diagnostics)),
-        "gz-sim-odometry-publisher-system" => boxed(gz_odometry::build(order, diagnostics)),
-        "gz-sim-pose-publisher-system" => boxed(gz_poses::build(order, diagnostics)),
+        "gazebo_ros_p3d" => boxed(p3d::build(context, diagnostics)),
+        "gz-sim-odometry-publisher-system" => boxed(gz_odometry::build(context, diagnostics)),
+        "gz-sim-pose-publisher-system" => boxed(gz_poses::build(context, diagnostics)),
         "gz-sim-triggered-publisher-system" => {
-            boxed(triggered::build(order.setting.graph, order.site.plugin, diagnostics))
+            boxed(triggered::build(context.setting.graph, context.site.plugin, diagnostics))
         }
         _ => return Err(()),
     })

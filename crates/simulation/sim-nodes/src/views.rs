@@ -1,39 +1,39 @@
-//! What rays see, kept where motion has it.
+//! Ray-cast scenes that follow the motion of links.
 
 use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose;
-use periplus_physics::{LinkId, ModelId, World};
+use periplus_physics::{LinkId, ModelId, PhysicsWorld};
 use periplus_rendering::{AssetLoader, PartId, RenderScene, SensedGeometry};
 use periplus_scene as scene;
 
-/// The surroundings of sensors, one for what touches and one for what is seen. Each is made when a
-/// sensor first looks, and moved when one looks again: a world without cameras has no pictures.
+/// Ray-cast scenes of the sensors, one of collisions and one of visuals. Each is built when a sensor
+/// first uses it, and updated on use: a world without cameras has no visual scene.
 pub struct Views {
     shapes: Arc<dyn AssetLoader + Send + Sync>,
     threads: usize,
-    /// Models that are there, in the order of coming.
+    /// Models in the order of insertion.
     models: Vec<(ModelId, Arc<scene::Model>)>,
-    /// Lights and colours of the sky.
+    /// Lights and background colours.
     sky: scene::World,
-    collision: Option<View>,
-    visual: Option<View>,
+    collision: Option<SceneView>,
+    visual: Option<SceneView>,
     findings: Diagnostics,
 }
 
-/// One of the two.
-struct View {
+/// A scene with its links.
+struct SceneView {
     scene: RenderScene,
     models: Vec<(ModelId, periplus_rendering::RenderModelId)>,
     links: Vec<(LinkId, PartId)>,
-    /// When its links were put where they are \[ns\]; none when it is to be done again.
-    placed_ns: Option<i64>,
+    /// Time of the last update of its links \[ns\]; `None` requires an update.
+    updated_ns: Option<i64>,
     poses: Vec<(PartId, Pose)>,
 }
 
 impl Views {
-    /// Of a world without models yet.
+    /// Creates the scenes of a world without models.
     #[must_use]
     pub fn new(shapes: Arc<dyn AssetLoader + Send + Sync>, threads: usize) -> Self {
         Self {
@@ -47,9 +47,9 @@ impl Views {
         }
     }
 
-    /// Under the sky and in the light of a world.
+    /// Sets the lights and background of a world.
     #[must_use]
-    pub fn under(self, world: &scene::World) -> Self {
+    pub fn with_lights_of(self, world: &scene::World) -> Self {
         let sky = scene::World {
             ambient: world.ambient,
             background: world.background,
@@ -60,7 +60,7 @@ impl Views {
         Self { sky, ..self }
     }
 
-    /// Adds a light to the world, or puts it in place of the one of its name.
+    /// Adds a light to the world or replaces the light of the same name.
     pub fn set_light(&mut self, light: &scene::Light) {
         self.sky.lights.retain(|known| known.name != light.name);
         self.sky.lights.push(light.clone());
@@ -69,7 +69,7 @@ impl Views {
         }
     }
 
-    /// Takes a light of the world away.
+    /// Removes a light of the world.
     pub fn remove_light(&mut self, name: &str) {
         self.sky.lights.retain(|known| known.name != name);
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
@@ -77,10 +77,10 @@ impl Views {
         }
     }
 
-    /// Puts a light in place of the one of its name on a link of an outermost model.
-    pub fn set_light_on(&mut self, link: LinkId, light: &scene::Light, world: &World) {
+    /// Replaces the light of the same name on a link of an outermost model.
+    pub fn set_light_on(&mut self, link: LinkId, light: &scene::Light, world: &PhysicsWorld) {
         let (Some(id), Some(name)) = (world.model_of(link), world.link_name(link)) else { return };
-        // Views that are made later read the model.
+        // Scenes that are built later read the model.
         let model = self.models.iter_mut().find(|(model, _)| *model == id);
         let model = model.map(|(_, model)| Arc::make_mut(model));
         let links = model.into_iter().flat_map(|model| &mut model.links);
@@ -95,50 +95,50 @@ impl Views {
         }
     }
 
-    /// A model has come.
-    pub fn add(&mut self, model: Arc<scene::Model>, id: ModelId, world: &World) {
+    /// Adds a model.
+    pub fn add(&mut self, model: Arc<scene::Model>, id: ModelId, world: &PhysicsWorld) {
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             let pose = world.model_pose(id).unwrap_or_default();
             let parts = view.scene.add(&model, pose, &*self.shapes);
             self.findings.append(parts.diagnostics);
             view.models.push((id, parts.model));
             view.links.extend(world.links(id).zip(parts.parts));
-            view.placed_ns = None;
+            view.updated_ns = None;
         }
         self.models.push((id, model));
     }
 
-    /// A model has gone.
-    pub fn remove(&mut self, id: ModelId, world: &World) {
+    /// Removes a model.
+    pub fn remove(&mut self, id: ModelId, world: &PhysicsWorld) {
         self.models.retain(|(model, _)| *model != id);
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            if let Some(place) = view.models.iter().position(|(model, _)| *model == id) {
-                view.scene.remove(view.models.remove(place).1);
+            if let Some(update) = view.models.iter().position(|(model, _)| *model == id) {
+                view.scene.remove(view.models.remove(update).1);
             }
             view.links.retain(|(link, _)| world.model_of(*link) != Some(id));
         }
     }
 
-    /// Something moved otherwise than by a step.
-    pub fn moved(&mut self) {
+    /// Marks the links as moved by something other than a step, such as a teleport.
+    pub fn invalidate(&mut self) {
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            view.placed_ns = None;
+            view.updated_ns = None;
         }
     }
 
-    /// The surroundings at a time \[ns\], where `world` has everything now.
+    /// Returns a scene at a time \[ns\] with the current poses of `world`.
     pub fn at(
         &mut self,
         geometry: SensedGeometry,
         time_ns: i64,
-        world: &World,
+        world: &PhysicsWorld,
     ) -> &mut RenderScene {
         let slot = match geometry {
             SensedGeometry::Collision => &mut self.collision,
             SensedGeometry::Visual => &mut self.visual,
         };
         let view = slot.get_or_insert_with(|| {
-            View::new(
+            SceneView::new(
                 geometry,
                 &self.sky,
                 &self.models,
@@ -148,16 +148,16 @@ impl Views {
                 &mut self.findings,
             )
         });
-        view.place(time_ns, world);
+        view.update(time_ns, world);
         &mut view.scene
     }
 
-    /// The part of a link in one of the surroundings, which is made if it was not there.
+    /// Returns the id of a link in a scene, which is built on first use.
     pub fn part(
         &mut self,
         geometry: SensedGeometry,
         link: LinkId,
-        world: &World,
+        world: &PhysicsWorld,
     ) -> Option<PartId> {
         self.at(geometry, i64::MIN, world);
         let view = match geometry {
@@ -168,18 +168,18 @@ impl Views {
         links.iter().find(|(known, _)| *known == link).map(|(_, part)| *part)
     }
 
-    /// What was found wrong with shapes since this was last asked.
+    /// Returns and clears the problems of shapes found since the last call.
     pub fn take_findings(&mut self) -> Diagnostics {
         std::mem::take(&mut self.findings)
     }
 }
 
-impl View {
+impl SceneView {
     fn new(
         geometry: SensedGeometry,
         sky: &scene::World,
         models: &[(ModelId, Arc<scene::Model>)],
-        world: &World,
+        world: &PhysicsWorld,
         shapes: &dyn AssetLoader,
         threads: usize,
         findings: &mut Diagnostics,
@@ -188,7 +188,7 @@ impl View {
             let parent_from_model = world.model_pose(*id).unwrap_or(model.parent_from_model);
             scene::Model { parent_from_model, ..(**model).clone() }
         });
-        // All at once: the trees of fixed shapes are then built only once.
+        // All at once: the trees of fixed shapes are built only once.
         let together = scene::World { models: placed.collect(), ..sky.clone() };
         let (scene, wrong) = RenderScene::new(&together, geometry, shapes, threads);
         findings.append(wrong);
@@ -196,14 +196,14 @@ impl View {
         let models: Vec<_> = models.iter().map(|(id, _)| *id).zip(seen).collect();
         let links = models.iter().flat_map(|(id, seen)| world.links(*id).zip(scene.parts(*seen)));
         let links = links.collect();
-        Self { scene, models, links, placed_ns: None, poses: Vec::new() }
+        Self { scene, models, links, updated_ns: None, poses: Vec::new() }
     }
 
-    fn place(&mut self, time_ns: i64, world: &World) {
-        if self.placed_ns == Some(time_ns) {
+    fn update(&mut self, time_ns: i64, world: &PhysicsWorld) {
+        if self.updated_ns == Some(time_ns) {
             return;
         }
-        self.placed_ns = Some(time_ns);
+        self.updated_ns = Some(time_ns);
         self.poses.clear();
         self.poses.extend(
             self.links

@@ -13,13 +13,13 @@ use periplus_loader::{Loaded, load};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_os::Machine;
-use periplus_physics::{Mode, NoMeshes, World};
+use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_plugin_specs::{Role, interpret, model_sites};
 use periplus_rendering::NoAssets;
 use periplus_resources::Resolver;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, Moment, Setting, Span, Views, drives};
+use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
 
 const STEP_NS: i64 = 10_000_000;
 
@@ -77,11 +77,11 @@ fn models(loaded: &Loaded) -> Vec<&scene::Model> {
 fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
     let mut file = scene::World::empty("corpus");
     file.models.push(scene::Model { parent_from_model: Default::default(), ..model.clone() });
-    let (mut world, _) = World::new(&file, Mode::Kinematic, &NoMeshes);
+    let (mut world, _) = PhysicsWorld::new(&file, PhysicsMode::Kinematic, &NoMeshes);
     let (id, _) = world.models().next()?;
     let graph = Graph::new();
     let root = &file.models[0];
-    let setting = Setting {
+    let setting = DeviceContext {
         graph: &graph,
         world: &world,
         scene: &file,
@@ -94,7 +94,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         quirks: Quirks::NONE,
         rolling_scans: false,
         start_ns: 0,
-        tells_joints: true,
+        publishes_joint_states: true,
     };
     let mut diagnostics = Diagnostics::new();
     let mut devices: Vec<Box<dyn Device>> = Vec::new();
@@ -133,11 +133,11 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
     }
     let mut views = Views::new(Arc::new(NoAssets), 1);
     for step in 0..100 {
-        let span = Span { start_ns: step * STEP_NS, length_ns: STEP_NS };
+        let span = StepInterval { start_ns: step * STEP_NS, length_ns: STEP_NS };
         devices.iter_mut().for_each(|device| device.act(&mut world, span));
         world.step(STEP_NS).unwrap();
         graph.advance_to(span.end_ns());
-        let mut moment = Moment { span, world: &world, views: &mut views, threads: 1 };
+        let mut moment = SenseContext { span, world: &world, views: &mut views, threads: 1 };
         devices.iter_mut().for_each(|device| device.sense(&mut moment));
     }
     let mut ways_m = Vec::new();

@@ -6,9 +6,9 @@ use periplus_geometry::DVec3;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
 use periplus_msgs::geometry_msgs::Twist;
 use periplus_msgs::std_msgs::Int32;
-use periplus_physics::{Mode, World};
+use periplus_physics::{PhysicsMode, PhysicsWorld};
 use periplus_scene as scene;
-use periplus_sim_nodes::{Device, Span, world_devices};
+use periplus_sim_nodes::{Device, StepInterval, world_devices};
 
 /// The devices of a world that has a plugin with this inside, and what is wrong with it.
 fn devices(graph: &Graph, inside: &str) -> (Vec<Box<dyn Device>>, Vec<String>) {
@@ -34,7 +34,7 @@ struct Bench {
     devices: Vec<Box<dyn Device>>,
     keys: Publisher<Int32>,
     commands: Mailbox<Twist>,
-    motion: World,
+    motion: PhysicsWorld,
     now_ns: i64,
 }
 
@@ -46,7 +46,7 @@ impl Bench {
         let node = graph.node(NodeSettings::new("person")).unwrap();
         let keys = node.publisher("/keyboard/keypress", Qos::reliable(10)).unwrap();
         let commands = node.mailbox("/cmd_vel", Qos::reliable(10)).unwrap();
-        let motion = World::empty(DVec3::ZERO, Mode::Kinematic);
+        let motion = PhysicsWorld::empty(DVec3::ZERO, PhysicsMode::Kinematic);
         Self { graph, devices, keys, commands, motion, now_ns: 0 }
     }
 
@@ -60,7 +60,7 @@ impl Bench {
         for _ in 0..steps {
             self.now_ns += 1_000_000;
             self.graph.advance_to(self.now_ns);
-            let span = Span { start_ns: self.now_ns, length_ns: 1_000_000 };
+            let span = StepInterval { start_ns: self.now_ns, length_ns: 1_000_000 };
             for device in &mut self.devices {
                 device.act(&mut self.motion, span);
             }

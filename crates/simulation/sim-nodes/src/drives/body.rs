@@ -1,13 +1,13 @@
-//! Where the model of a plugin is.
+//! Body frames of models.
 
 use periplus_geometry::{DVec3, Pose};
-use periplus_physics::{LinkId, LinkState, World};
+use periplus_physics::{LinkId, LinkState, PhysicsWorld};
 use periplus_scene::Model;
 
-use super::order::Order;
-use crate::Setting;
+use super::build_context::BuildContext;
+use crate::DeviceContext;
 
-/// A place fixed to a link: the frame of a model, of a merged link.
+/// A frame fixed to a link, such as that of a model or of a lumped link.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Body {
     pub(crate) link: LinkId,
@@ -15,21 +15,21 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    /// The frame of the model that a plugin stands in, carried by its canonical link. None of a
-    /// model without links.
-    pub(crate) fn of_model(order: &Order<'_>) -> Option<Self> {
-        Self::of(order.setting, order.model(), &order.setting.scoped(order.site, ""))
+    /// Returns the frame of a plugin's model, carried by its canonical link; `None` for a model
+    /// without links.
+    pub(crate) fn of_model(context: &BuildContext<'_>) -> Option<Self> {
+        Self::of(context.setting, context.model(), &context.setting.scoped(context.site, ""))
     }
 
-    /// The frame of a model whose names have a scope before them in the outermost model.
-    pub(crate) fn of(setting: &Setting<'_>, model: &Model, scope: &str) -> Option<Self> {
+    /// Returns the frame of a model with a scope in the outermost model.
+    pub(crate) fn of(setting: &DeviceContext<'_>, model: &Model, scope: &str) -> Option<Self> {
         let (name, model_from_link) = canonical(model)?;
         let link = setting.world.find_link(setting.model, &format!("{scope}{name}"))?;
         Some(Self { link, link_from_body: model_from_link.inverse() })
     }
 
-    /// Where it is, and how it moves: its own origin, in world axes.
-    pub(crate) fn state(&self, world: &World) -> Option<LinkState> {
+    /// Returns pose and velocity of the frame's origin, in world axes.
+    pub(crate) fn state(&self, world: &PhysicsWorld) -> Option<LinkState> {
         let LinkState { world_from_link, linear_m_s, angular_rad_s } =
             world.link_state(self.link)?;
         let world_from_body = world_from_link * self.link_from_body;
@@ -42,10 +42,10 @@ impl Body {
     }
 }
 
-/// The canonical link of a model, its name scoped in it, and where it is in the model.
+/// Returns the canonical link of a model with its scoped name, and its pose in the model.
 pub(crate) fn canonical(model: &Model) -> Option<(String, Pose)> {
     if let Some(name) = &model.canonical_link {
-        return place_of(model, name).map(|pose| (name.clone(), pose));
+        return link_pose(model, name).map(|pose| (name.clone(), pose));
     }
     if let Some(link) = model.links.first() {
         return Some((link.name.clone(), link.model_from_link));
@@ -56,12 +56,12 @@ pub(crate) fn canonical(model: &Model) -> Option<(String, Pose)> {
     })
 }
 
-/// Where a link is in a model that has it, itself or inside.
-pub(crate) fn place_of(model: &Model, scoped: &str) -> Option<Pose> {
+/// Returns the pose of a link in a model that contains it, directly or nested.
+pub(crate) fn link_pose(model: &Model, scoped: &str) -> Option<Pose> {
     if let Some(link) = model.link(scoped) {
         return Some(link.model_from_link);
     }
     let (first, rest) = scoped.split_once("::")?;
     let inner = model.models.iter().find(|inner| inner.name == first)?;
-    Some(inner.parent_from_model * place_of(inner, rest)?)
+    Some(inner.parent_from_model * link_pose(inner, rest)?)
 }

@@ -5,25 +5,24 @@ use periplus_geometry::DVec3;
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs;
 use periplus_physics::drives::{Ackermann, AckermannCommand};
-use periplus_physics::{JointId, Kinematic, ModelId, Twist, World};
+use periplus_physics::{JointId, Kinematic, ModelId, PhysicsWorld, Twist};
 
-use super::beat::Beat;
+use super::build_context::BuildContext;
 use super::commands::Commands;
 use super::encoders::angle;
-use super::gz_common::{Limiter, limits, next_ns, tell, teller, turn};
-use super::order::Order;
-use crate::states::Teller;
-use crate::{Device, Moment, Span, gz_topic};
+use super::gz_common::{Limiter, limits, next_ns, odometry_publisher, publish, turn};
+use super::rate_timer::RateTimer;
+use crate::states::OdometryPublisher;
+use crate::{Device, SenseContext, StepInterval, gz_topic};
 
-/// Two driven wheels and two steered ones. A steered wheel turns towards its angle at
-/// `steer_p_gain` times the angle that is missing; odometry is counted from the driven wheels along
-/// the mean angle of the steered ones.
+/// Two driven wheels and two steered ones. A steered wheel turns at `steer_p_gain` times its angle
+/// error. Odometry is computed from the driven wheels and the mean angle of the steered ones.
 ///
 /// Source: gz-sim 8, `AckermannSteering.cc`.
 pub(crate) struct GzAckermann {
     name: String,
     model: ModelId,
-    /// The middle between the driven wheels, in the model [m].
+    /// Midpoint of the driven wheels, in the model [m].
     centre_m: DVec3,
     /// Left and right.
     driven: [Vec<JointId>; 2],
@@ -31,91 +30,100 @@ pub(crate) struct GzAckermann {
     drive: Ackermann,
     gain: f64,
     limiter: Limiter,
-    told: Told,
+    command_source: CommandSource,
     before_rad: Option<[f64; 2]>,
     pose: Kinematic,
-    teller: Option<Teller>,
-    tells: Beat,
+    odometry_publisher: Option<OdometryPublisher>,
+    publish_timer: RateTimer,
     now_ns: i64,
 }
 
-/// Where commands come from.
-enum Told {
+/// Source of commands.
+enum CommandSource {
     Twist(Commands),
-    /// With `steering_only`, an angle of the middle of the front axle [rad].
+    /// With `steering_only`: steering angle at the middle of the front axle [rad].
     Angle {
         inbox: Mailbox<std_msgs::Float64>,
         last_rad: f64,
     },
 }
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<GzAckermann> {
-    let steers_only = order.flag("steering_only");
+pub(crate) fn build(
+    context: &BuildContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<GzAckermann> {
+    let steers_only = context.flag("steering_only");
     let [left, right] = ["left_joint", "right_joint"]
-        .map(|name| if steers_only { Some(Vec::new()) } else { order.joints(name, diagnostics) });
-    let steered =
-        ["left_steering_joint", "right_steering_joint"].map(|name| order.joint(name, diagnostics));
+        .map(|name| if steers_only { Some(Vec::new()) } else { context.joints(name, diagnostics) });
+    let steered = ["left_steering_joint", "right_steering_joint"]
+        .map(|name| context.joint(name, diagnostics));
     let (driven, steered) = ([left?, right?], [steered[0]?, steered[1]?]);
-    let node = order.node(diagnostics)?;
-    let start_ns = order.setting.start_ns;
-    let sub_topic = order.given_text("sub_topic");
-    let usual = if steers_only { "steer_angle" } else { "cmd_vel" };
-    let topic = order.gz_topic("topic", sub_topic.as_deref().unwrap_or(usual));
-    let told = if steers_only {
-        let inbox = order.accept(node.mailbox(&gz_topic(&topic), Qos::reliable(1)), diagnostics)?;
-        Told::Angle { inbox, last_rad: 0.0 }
+    let node = context.node(diagnostics)?;
+    let start_ns = context.setting.start_ns;
+    let sub_topic = context.given_text("sub_topic");
+    let fallback = if steers_only { "steer_angle" } else { "cmd_vel" };
+    let topic = context.gz_topic("topic", sub_topic.as_deref().unwrap_or(fallback));
+    let command_source = if steers_only {
+        let inbox =
+            context.accept(node.mailbox(&gz_topic(&topic), Qos::reliable(1)), diagnostics)?;
+        CommandSource::Angle { inbox, last_rad: 0.0 }
     } else {
-        Told::Twist(Commands::new(order, &node, &topic, diagnostics)?)
+        CommandSource::Twist(Commands::new(context, &node, &topic, diagnostics)?)
     };
     let drive = Ackermann {
-        wheel_separation_m: order.number("wheel_separation"),
-        kingpin_width_m: order.number("kingpin_width"),
-        wheel_base_m: order.number("wheel_base"),
-        steering_limit_rad: order.number("steering_limit"),
-        wheel_radius_m: order.number("wheel_radius"),
+        wheel_separation_m: context.number("wheel_separation"),
+        kingpin_width_m: context.number("kingpin_width"),
+        wheel_base_m: context.number("wheel_base"),
+        steering_limit_rad: context.number("steering_limit"),
+        wheel_radius_m: context.number("wheel_radius"),
     };
     Some(GzAckermann {
-        name: order.name(),
-        model: order.setting.model,
-        centre_m: order.middle(&driven.concat()),
+        name: context.name(),
+        model: context.setting.model,
+        centre_m: context.middle(&driven.concat()),
         driven,
         steered,
         drive,
-        gain: order.number("steer_p_gain"),
-        limiter: Limiter::new(limits(order, false)),
-        told,
+        gain: context.number("steer_p_gain"),
+        limiter: Limiter::new(limits(context, false)),
+        command_source,
         before_rad: None,
         pose: Kinematic::default(),
-        teller: if steers_only { None } else { Some(teller(order, &node, diagnostics)?) },
-        tells: Beat::telling(order.number("odom_publish_frequency"), start_ns),
+        odometry_publisher: if steers_only {
+            None
+        } else {
+            Some(odometry_publisher(context, &node, diagnostics)?)
+        },
+        publish_timer: RateTimer::for_publisher(context.number("odom_publish_frequency"), start_ns),
         now_ns: start_ns,
     })
 }
 
 impl GzAckermann {
-    fn driven_rad(&self, world: &World) -> [f64; 2] {
+    fn driven_rad(&self, world: &PhysicsWorld) -> [f64; 2] {
         [0, 1].map(|side| self.driven[side].first().map_or(0.0, |&joint| angle(world, joint)))
     }
 
-    /// What the joints should do in a step, and the turn rate of the driven axle.
-    fn wanted(&mut self, span: Span) -> (AckermannCommand, Twist) {
-        match &mut self.told {
-            Told::Twist(commands) => {
+    /// Returns the joint commands of a step, and the turn rate of the driven axle.
+    fn wanted(&mut self, span: StepInterval) -> (AckermannCommand, Twist) {
+        match &mut self.command_source {
+            CommandSource::Twist(commands) => {
                 let Twist { x_m_s, yaw_rad_s, .. } = commands.planar();
                 let twist = Twist { x_m_s, y_m_s: 0.0, yaw_rad_s };
                 let twist = self.limiter.limited(twist, span);
                 let command = self.drive.command(twist);
-                // What the wheels can do of it: no turning in place, no tighter than the limit.
+                // Feasible part for the wheels: no turning in place, no turn tighter than the
+                // steering limit.
                 let [left, right] = command.wheels_rad_s;
                 let yaw_rad_s =
                     (right - left) * self.drive.wheel_radius_m / self.drive.wheel_separation_m;
                 (command, Twist { yaw_rad_s, ..twist })
             }
-            Told::Angle { inbox, last_rad } => {
+            CommandSource::Angle { inbox, last_rad } => {
                 if let Some(angle) = inbox.latest().filter(|angle| angle.data.is_finite()) {
                     *last_rad = angle.data;
                 }
-                // Driving ahead at a speed that makes this angle needs this turn rate.
+                // Turn rate at which driving forward at this speed produces this angle.
                 let limit_rad = self.drive.steering_limit_rad.abs();
                 let tangent = libm::tan(last_rad.clamp(-limit_rad, limit_rad));
                 let twist =
@@ -131,13 +139,13 @@ impl Device for GzAckermann {
         &self.name
     }
 
-    fn act(&mut self, world: &mut World, span: Span) {
+    fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         if self.before_rad.is_none() {
             self.before_rad = Some(self.driven_rad(world));
         }
         let (command, twist) = self.wanted(span);
         for (joint, wanted_rad) in self.steered.into_iter().zip(command.steering_rad) {
-            // Never past the angle within a step, however long that is.
+            // Never past the angle within a step, however long.
             let missing_rad = wanted_rad - angle(world, joint);
             let most = missing_rad.abs() / span.seconds().max(f64::MIN_POSITIVE);
             turn(world, &[joint], (self.gain * missing_rad).clamp(-most, most));
@@ -145,14 +153,14 @@ impl Device for GzAckermann {
         for (joints, speed) in self.driven.iter().zip(command.wheels_rad_s) {
             turn(world, joints, speed);
         }
-        if matches!(self.told, Told::Twist(_)) {
+        if matches!(self.command_source, CommandSource::Twist(_)) {
             world.follow_about(self.model, self.centre_m, twist);
         }
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         self.now_ns = moment.time_ns();
-        let Some(teller) = &self.teller else { return };
+        let Some(odometry_publisher) = &self.odometry_publisher else { return };
         let now = self.driven_rad(moment.world);
         let before = self.before_rad.replace(now).unwrap_or(now);
         let way_rad = (now[0] - before[0] + now[1] - before[1]) / 2.0;
@@ -160,30 +168,35 @@ impl Device for GzAckermann {
         let [left_rad, right_rad] = self.steered.map(|joint| angle(moment.world, joint));
         let middle_rad = (left_rad + right_rad) / 2.0;
         let turned_rad = way_m * libm::tan(middle_rad) / self.drive.wheel_base_m;
-        let way = Twist { x_m_s: way_m, y_m_s: 0.0, yaw_rad_s: turned_rad };
-        self.pose = self.pose.moved(way, 1.0);
+        let displacement = Twist { x_m_s: way_m, y_m_s: 0.0, yaw_rad_s: turned_rad };
+        self.pose = self.pose.advanced(displacement, 1.0);
         let dt_s = moment.span.seconds();
-        let speed = |way: f64| if dt_s > 0.0 { way / dt_s } else { 0.0 };
+        let speed = |displacement: f64| if dt_s > 0.0 { displacement / dt_s } else { 0.0 };
         let twist = Twist { x_m_s: speed(way_m), y_m_s: 0.0, yaw_rad_s: speed(turned_rad) };
-        tell(teller, &mut self.tells, moment, self.pose.pose(), twist);
+        publish(odometry_publisher, &mut self.publish_timer, moment, self.pose.pose(), twist);
     }
 
     fn next_ns(&self) -> Option<i64> {
-        next_ns(self.limiter.changes(), self.now_ns, &self.tells, self.teller.as_ref()?)
+        next_ns(
+            self.limiter.changes(),
+            self.now_ns,
+            &self.publish_timer,
+            self.odometry_publisher.as_ref()?,
+        )
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.limiter.reset();
-        match &mut self.told {
-            Told::Twist(commands) => commands.reset(),
-            Told::Angle { inbox, last_rad } => {
+        match &mut self.command_source {
+            CommandSource::Twist(commands) => commands.reset(),
+            CommandSource::Angle { inbox, last_rad } => {
                 drop(inbox.drain());
                 *last_rad = 0.0;
             }
         }
         self.before_rad = None;
         self.pose = Kinematic::default();
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
         self.now_ns = time_ns;
     }
 }

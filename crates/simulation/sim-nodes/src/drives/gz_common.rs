@@ -1,45 +1,45 @@
-//! What the drives of gz-sim have in common.
+//! Parts shared by the drives of gz-sim.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::Node;
-use periplus_physics::{Command, JointId, Twist, World, drives::Limits};
+use periplus_physics::{JointCommand, JointId, PhysicsWorld, Twist, drives::SpeedLimits};
 
-use super::beat::{Beat, earlier};
-use super::order::Order;
-use crate::states::{Teller, planar_twist};
-use crate::{Moment, Span};
+use super::build_context::BuildContext;
+use super::rate_timer::{RateTimer, earlier};
+use crate::states::{OdometryPublisher, planar_twist};
+use crate::{SenseContext, StepInterval};
 
-/// In a world without physics, speeds that still change are given anew this often [ns]: the step
-/// of an ordinary world.
+/// Interval of new commands in a world without physics while speeds still change [ns]: the default
+/// step of a world.
 const CHANGING_STEP_NS: i64 = 1_000_000;
 
-/// Where odometry and transform of a drive of gz-sim go: `/model/<m>/odometry` and `/model/<m>/tf`,
-/// from the frame `<m>/odom` to `<m>/<canonical link>`. Covariances are zero.
-pub(crate) fn teller(
-    order: &Order<'_>,
+/// Creates the odometry publisher of a gz-sim drive: topics `/model/<m>/odometry` and
+/// `/model/<m>/tf`, from frame `<m>/odom` to `<m>/<canonical link>`. Covariances are zero.
+pub(crate) fn odometry_publisher(
+    context: &BuildContext<'_>,
     node: &Node,
     diagnostics: &mut Diagnostics,
-) -> Option<Teller> {
-    let model = order.model_name();
-    let parent = order.given_text("frame_id").unwrap_or_else(|| format!("{model}/odom"));
-    let child = order.given_text("child_frame_id").unwrap_or_else(|| {
-        let canonical = order.canonical_link().unwrap_or_default();
+) -> Option<OdometryPublisher> {
+    let model = context.model_name();
+    let parent = context.given_text("frame_id").unwrap_or_else(|| format!("{model}/odom"));
+    let child = context.given_text("child_frame_id").unwrap_or_else(|| {
+        let canonical = context.canonical_link().unwrap_or_default();
         format!("{model}/{canonical}")
     });
-    Teller::between(parent, child)
-        .on(order, node, &order.gz_topic("odom_topic", "odometry"), diagnostics)?
-        .with_tf(order, node, &order.gz_topic("tf_topic", "tf"), diagnostics)
+    OdometryPublisher::between(parent, child)
+        .on(context, node, &context.gz_topic("odom_topic", "odometry"), diagnostics)?
+        .with_tf(context, node, &context.gz_topic("tf_topic", "tf"), diagnostics)
 }
 
-/// Limits of the forward and the turning speed: `min_velocity` and its like for both, then those of
-/// each.
-pub(crate) fn limits(order: &Order<'_>, has_each: bool) -> [Limits; 2] {
+/// Reads the limits of linear and angular velocity: `min_velocity` etc. for both, overridden by
+/// those of each.
+pub(crate) fn limits(context: &BuildContext<'_>, has_each: bool) -> [SpeedLimits; 2] {
     let one = |kind: &str| {
         let bounds = |quantity: &str| {
             let bound = |side: &str, free: f64| {
-                let both = order.plugin.values.number(&format!("{side}_{quantity}"));
+                let both = context.plugin.values.number(&format!("{side}_{quantity}"));
                 let own = if has_each {
-                    order.plugin.values.number(&format!("{side}_{kind}_{quantity}"))
+                    context.plugin.values.number(&format!("{side}_{kind}_{quantity}"))
                 } else {
                     None
                 };
@@ -47,7 +47,7 @@ pub(crate) fn limits(order: &Order<'_>, has_each: bool) -> [Limits; 2] {
             };
             [bound("min", f64::NEG_INFINITY), bound("max", f64::INFINITY)]
         };
-        Limits {
+        SpeedLimits {
             velocity: bounds("velocity"),
             acceleration: bounds("acceleration"),
             jerk: bounds("jerk"),
@@ -56,24 +56,24 @@ pub(crate) fn limits(order: &Order<'_>, has_each: bool) -> [Limits; 2] {
     [one("linear"), one("angular")]
 }
 
-/// A twist within limits, step by step.
+/// Limits of a twist, applied step by step.
 #[derive(Clone, Debug)]
 pub(crate) struct Limiter {
-    linear: Limits,
-    angular: Limits,
+    linear: SpeedLimits,
+    angular: SpeedLimits,
     last: Twist,
     before_last: Twist,
     changes: bool,
 }
 
 impl Limiter {
-    pub(crate) fn new([linear, angular]: [Limits; 2]) -> Self {
+    pub(crate) fn new([linear, angular]: [SpeedLimits; 2]) -> Self {
         let (last, before_last) = Default::default();
         Self { linear, angular, last, before_last, changes: false }
     }
 
-    /// What becomes of a wanted twist in a step.
-    pub(crate) fn limited(&mut self, wanted: Twist, span: Span) -> Twist {
+    /// Returns the limited twist of a step.
+    pub(crate) fn limited(&mut self, wanted: Twist, span: StepInterval) -> Twist {
         let (last, before) = (self.last, self.before_last);
         let dt_s = span.seconds();
         let linear = |wanted, last, before| self.linear.limited(wanted, last, before, dt_s);
@@ -95,35 +95,43 @@ impl Limiter {
         (self.last, self.before_last, self.changes) = Default::default();
     }
 
-    /// Whether the last step changed it, so that the next may too.
+    /// Returns true if the last step changed the twist, so that the next can too.
     pub(crate) fn changes(&self) -> bool {
         self.changes
     }
 }
 
-/// When a drive that acts at each step wants to act again \[ns\].
-pub(crate) fn next_ns(changes: bool, now_ns: i64, tells: &Beat, teller: &Teller) -> Option<i64> {
-    let acting = changes.then_some(now_ns + CHANGING_STEP_NS);
-    earlier(acting, tells.next_ns().filter(|_| teller.is_heard()))
+/// Returns the next action of a drive that acts in every step \[ns\].
+pub(crate) fn next_ns(
+    changes: bool,
+    now_ns: i64,
+    publish_timer: &RateTimer,
+    odometry_publisher: &OdometryPublisher,
+) -> Option<i64> {
+    let for_controller = changes.then_some(now_ns + CHANGING_STEP_NS);
+    earlier(
+        for_controller,
+        publish_timer.next_ns().filter(|_| odometry_publisher.has_subscribers()),
+    )
 }
 
-/// Turns wheels at a speed \[rad/s\], with whatever effort their joints allow.
-pub(crate) fn turn(world: &mut World, joints: &[JointId], target: f64) {
+/// Rotates wheels at a speed \[rad/s\] with any effort that their joints allow.
+pub(crate) fn turn(world: &mut PhysicsWorld, joints: &[JointId], target: f64) {
     for &joint in joints {
-        world.command(joint, Command::Velocity { target, max_effort: f64::INFINITY });
+        world.command(joint, JointCommand::Velocity { target, max_effort: f64::INFINITY });
     }
 }
 
-/// Tells odometry if it is time and somebody listens.
-pub(crate) fn tell(
-    teller: &Teller,
-    tells: &mut Beat,
-    moment: &Moment<'_>,
+/// Publishes odometry if it is due and has subscribers.
+pub(crate) fn publish(
+    odometry_publisher: &OdometryPublisher,
+    publish_timer: &mut RateTimer,
+    moment: &SenseContext<'_>,
     pose: periplus_geometry::Pose,
     twist: Twist,
 ) {
     let now_ns = moment.time_ns();
-    if tells.due(now_ns) && teller.is_heard() {
-        teller.tell(now_ns, pose, planar_twist(twist));
+    if publish_timer.due(now_ns) && odometry_publisher.has_subscribers() {
+        odometry_publisher.publish(now_ns, pose, planar_twist(twist));
     }
 }

@@ -4,20 +4,20 @@ use periplus_diagnostics::Diagnostics;
 use periplus_geometry::DVec3;
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs;
-use periplus_physics::{JointId, ModelId, Twist, World};
+use periplus_physics::{JointId, ModelId, PhysicsWorld, Twist};
 
-use super::beat::Beat;
+use super::build_context::BuildContext;
 use super::commands::Commands;
 use super::encoders::Encoders;
-use super::gz_common::{Limiter, limits, next_ns, tell, teller, turn};
-use super::order::Order;
-use super::rolling::RollingMean;
-use crate::states::Teller;
-use crate::{Device, Moment, Span, gz_topic};
+use super::gz_common::{Limiter, limits, next_ns, odometry_publisher, publish, turn};
+use super::rate_timer::RateTimer;
+use super::rolling_mean::RollingMean;
+use crate::states::OdometryPublisher;
+use crate::{Device, SenseContext, StepInterval, gz_topic};
 
-/// Every left wheel gets one speed, every right wheel the other: `(v ∓ w separation / 2) / radius`.
-/// Odometry is that of the first wheel on each side, from zero; its speeds are means over ten
-/// steps. `/model/<m>/enable` stops it and lets it go again.
+/// All left wheels get one speed, all right wheels the other: `(v ∓ w separation / 2) / radius`.
+/// Odometry is that of the first wheel on each side, from zero; its velocities are means over ten
+/// steps. `/model/<m>/enable` disables and enables the drive.
 ///
 /// Source: gz-sim 8, `DiffDrive.cc`; gz-math 7, `DiffDriveOdometry`.
 pub(crate) struct GzDiffDrive {
@@ -34,36 +34,40 @@ pub(crate) struct GzDiffDrive {
     is_enabled: bool,
     encoders: Encoders,
     speeds: RollingMean<2>,
-    teller: Teller,
-    tells: Beat,
+    odometry_publisher: OdometryPublisher,
+    publish_timer: RateTimer,
     now_ns: i64,
 }
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<GzDiffDrive> {
-    let left = order.joints("left_joint", diagnostics);
-    let right = order.joints("right_joint", diagnostics);
+pub(crate) fn build(
+    context: &BuildContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<GzDiffDrive> {
+    let left = context.joints("left_joint", diagnostics);
+    let right = context.joints("right_joint", diagnostics);
     let (left, right) = (left?, right?);
-    let node = order.node(diagnostics)?;
-    let topic = order.gz_topic("topic", "cmd_vel");
-    let enable = gz_topic(&order.below_model("enable"));
-    let (radius_m, separation_m) = (order.number("wheel_radius"), order.number("wheel_separation"));
-    let start_ns = order.setting.start_ns;
+    let node = context.node(diagnostics)?;
+    let topic = context.gz_topic("topic", "cmd_vel");
+    let enable = gz_topic(&context.below_model("enable"));
+    let (radius_m, separation_m) =
+        (context.number("wheel_radius"), context.number("wheel_separation"));
+    let start_ns = context.setting.start_ns;
     Some(GzDiffDrive {
-        name: order.name(),
-        model: order.setting.model,
-        centre_m: order.middle(&[left.as_slice(), right.as_slice()].concat()),
+        name: context.name(),
+        model: context.setting.model,
+        centre_m: context.middle(&[left.as_slice(), right.as_slice()].concat()),
         encoders: Encoders::new([*left.first()?, *right.first()?], radius_m, separation_m),
         left,
         right,
         radius_m,
         separation_m,
-        limiter: Limiter::new(limits(order, true)),
-        commands: Commands::new(order, &node, &topic, diagnostics)?,
-        enable: order.accept(node.mailbox(&enable, Qos::reliable(1)), diagnostics)?,
+        limiter: Limiter::new(limits(context, true)),
+        commands: Commands::new(context, &node, &topic, diagnostics)?,
+        enable: context.accept(node.mailbox(&enable, Qos::reliable(1)), diagnostics)?,
         is_enabled: true,
         speeds: RollingMean::default(),
-        teller: teller(order, &node, diagnostics)?,
-        tells: Beat::telling(order.number("odom_publish_frequency"), start_ns),
+        odometry_publisher: odometry_publisher(context, &node, diagnostics)?,
+        publish_timer: RateTimer::for_publisher(context.number("odom_publish_frequency"), start_ns),
         now_ns: start_ns,
     })
 }
@@ -73,7 +77,7 @@ impl Device for GzDiffDrive {
         &self.name
     }
 
-    fn act(&mut self, world: &mut World, span: Span) {
+    fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         self.encoders.begin(world);
         let heard = self.commands.planar();
         if let Some(enable) = self.enable.latest() {
@@ -92,18 +96,24 @@ impl Device for GzDiffDrive {
         world.follow_about(self.model, self.centre_m, twist);
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         self.now_ns = moment.time_ns();
         self.encoders.observe(moment.world, moment.span.seconds());
         let odometry = self.encoders.odometry;
         self.speeds.push([odometry.twist.x_m_s, odometry.twist.yaw_rad_s]);
         let [x_m_s, yaw_rad_s] = self.speeds.mean();
         let twist = Twist { x_m_s, y_m_s: 0.0, yaw_rad_s };
-        tell(&self.teller, &mut self.tells, moment, odometry.pose.pose(), twist);
+        publish(
+            &self.odometry_publisher,
+            &mut self.publish_timer,
+            moment,
+            odometry.pose.pose(),
+            twist,
+        );
     }
 
     fn next_ns(&self) -> Option<i64> {
-        next_ns(self.limiter.changes(), self.now_ns, &self.tells, &self.teller)
+        next_ns(self.limiter.changes(), self.now_ns, &self.publish_timer, &self.odometry_publisher)
     }
 
     fn reset(&mut self, time_ns: i64) {
@@ -113,7 +123,7 @@ impl Device for GzDiffDrive {
         self.is_enabled = true;
         self.encoders.reset();
         self.speeds.clear();
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
         self.now_ns = time_ns;
     }
 }

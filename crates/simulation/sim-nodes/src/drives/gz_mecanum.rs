@@ -3,18 +3,18 @@
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::DVec3;
 use periplus_physics::drives::{Mecanum, MecanumWheels};
-use periplus_physics::{JointId, Kinematic, ModelId, Twist, World};
+use periplus_physics::{JointId, Kinematic, ModelId, PhysicsWorld, Twist};
 
-use super::beat::Beat;
+use super::build_context::BuildContext;
 use super::commands::Commands;
 use super::encoders::angle;
-use super::gz_common::{Limiter, limits, next_ns, tell, teller, turn};
-use super::order::Order;
-use crate::states::Teller;
-use crate::{Device, Moment, Span};
+use super::gz_common::{Limiter, limits, next_ns, odometry_publisher, publish, turn};
+use super::rate_timer::RateTimer;
+use crate::states::OdometryPublisher;
+use crate::{Device, SenseContext, StepInterval};
 
-/// Four wheels with slanted rollers. The rollers are a matter of friction directions in Gazebo, so
-/// with physics the robot slides sideways only as far as contacts let it.
+/// Four mecanum wheels. Gazebo models the rollers by friction directions, so with physics the robot
+/// moves sideways only as far as contacts allow.
 ///
 /// Source: gz-sim 8, `MecanumDrive.cc`.
 pub(crate) struct GzMecanumDrive {
@@ -28,40 +28,48 @@ pub(crate) struct GzMecanumDrive {
     commands: Commands,
     before_rad: Option<[f64; 4]>,
     pose: Kinematic,
-    teller: Teller,
-    tells: Beat,
+    odometry_publisher: OdometryPublisher,
+    publish_timer: RateTimer,
     now_ns: i64,
 }
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<GzMecanumDrive> {
+pub(crate) fn build(
+    context: &BuildContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<GzMecanumDrive> {
     let names = ["front_left_joint", "front_right_joint", "back_left_joint", "back_right_joint"];
     let [front_left, front_right, back_left, back_right] =
-        names.map(|name| order.joints(name, diagnostics));
+        names.map(|name| context.joints(name, diagnostics));
     let wheels = [front_left?, front_right?, back_left?, back_right?];
-    let node = order.node(diagnostics)?;
-    let start_ns = order.setting.start_ns;
+    let node = context.node(diagnostics)?;
+    let start_ns = context.setting.start_ns;
     Some(GzMecanumDrive {
-        name: order.name(),
-        model: order.setting.model,
-        centre_m: order.middle(&wheels.concat()),
+        name: context.name(),
+        model: context.setting.model,
+        centre_m: context.middle(&wheels.concat()),
         wheels,
         drive: Mecanum {
-            wheelbase_m: order.number("wheelbase"),
-            wheel_separation_m: order.number("wheel_separation"),
-            wheel_radius_m: order.number("wheel_radius"),
+            wheelbase_m: context.number("wheelbase"),
+            wheel_separation_m: context.number("wheel_separation"),
+            wheel_radius_m: context.number("wheel_radius"),
         },
-        limiter: Limiter::new(limits(order, true)),
-        commands: Commands::new(order, &node, &order.gz_topic("topic", "cmd_vel"), diagnostics)?,
+        limiter: Limiter::new(limits(context, true)),
+        commands: Commands::new(
+            context,
+            &node,
+            &context.gz_topic("topic", "cmd_vel"),
+            diagnostics,
+        )?,
         before_rad: None,
         pose: Kinematic::default(),
-        teller: teller(order, &node, diagnostics)?,
-        tells: Beat::telling(order.number("odom_publish_frequency"), start_ns),
+        odometry_publisher: odometry_publisher(context, &node, diagnostics)?,
+        publish_timer: RateTimer::for_publisher(context.number("odom_publish_frequency"), start_ns),
         now_ns: start_ns,
     })
 }
 
 impl GzMecanumDrive {
-    fn angles_rad(&self, world: &World) -> [f64; 4] {
+    fn angles_rad(&self, world: &PhysicsWorld) -> [f64; 4] {
         std::array::from_fn(|place| {
             self.wheels[place].first().map_or(0.0, |&joint| angle(world, joint))
         })
@@ -73,7 +81,7 @@ impl Device for GzMecanumDrive {
         &self.name
     }
 
-    fn act(&mut self, world: &mut World, span: Span) {
+    fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         if self.before_rad.is_none() {
             self.before_rad = Some(self.angles_rad(world));
         }
@@ -87,28 +95,28 @@ impl Device for GzMecanumDrive {
         world.follow_about(self.model, self.centre_m, twist);
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         self.now_ns = moment.time_ns();
         let now = self.angles_rad(moment.world);
         let before = self.before_rad.replace(now).unwrap_or(now);
         let [front_left, front_right, back_left, back_right] =
             std::array::from_fn(|place| now[place] - before[place]);
-        // The way of this step as a twist over one second.
-        let way =
+        // Displacement of this step as a twist over one second.
+        let displacement =
             self.drive.twist(MecanumWheels { front_left, front_right, back_left, back_right });
-        self.pose = self.pose.moved(way, 1.0);
+        self.pose = self.pose.advanced(displacement, 1.0);
         let dt_s = moment.span.seconds();
-        let speed = |way: f64| if dt_s > 0.0 { way / dt_s } else { 0.0 };
+        let speed = |displacement: f64| if dt_s > 0.0 { displacement / dt_s } else { 0.0 };
         let twist = Twist {
-            x_m_s: speed(way.x_m_s),
-            y_m_s: speed(way.y_m_s),
-            yaw_rad_s: speed(way.yaw_rad_s),
+            x_m_s: speed(displacement.x_m_s),
+            y_m_s: speed(displacement.y_m_s),
+            yaw_rad_s: speed(displacement.yaw_rad_s),
         };
-        tell(&self.teller, &mut self.tells, moment, self.pose.pose(), twist);
+        publish(&self.odometry_publisher, &mut self.publish_timer, moment, self.pose.pose(), twist);
     }
 
     fn next_ns(&self) -> Option<i64> {
-        next_ns(self.limiter.changes(), self.now_ns, &self.tells, &self.teller)
+        next_ns(self.limiter.changes(), self.now_ns, &self.publish_timer, &self.odometry_publisher)
     }
 
     fn reset(&mut self, time_ns: i64) {
@@ -116,7 +124,7 @@ impl Device for GzMecanumDrive {
         self.commands.reset();
         self.before_rad = None;
         self.pose = Kinematic::default();
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
         self.now_ns = time_ns;
     }
 }

@@ -4,114 +4,113 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs;
 use periplus_params::Value;
-use periplus_physics::{Command, JointId, World};
+use periplus_physics::{JointCommand, JointId, PhysicsWorld};
 
+use super::build_context::BuildContext;
 use super::encoders::{angle, speed};
-use super::order::Order;
 use super::pid::{Gains, Pid};
-use crate::{Device, Moment, Span, gz_topic};
+use crate::{Device, SenseContext, StepInterval, gz_topic};
 
-/// In a world without physics, a position that is not reached yet is looked at again after this
-/// [ns].
+/// Interval of checks of a position that is not reached yet, in a world without physics [ns].
 const MOVING_STEP_NS: i64 = 1_000_000;
 
-/// Joints that are told a number: a speed or a position.
+/// Joints controlled by a speed or position command.
 ///
 /// Source: gz-sim 8, `JointController.cc` and `JointPositionController.cc`. Commands are
-/// `std_msgs/msg/Float64`, as the bridge makes of `gz.msgs.Double`. Several joints of one plugin get
-/// the same command, each with a controller of its own.
+/// `std_msgs/msg/Float64`, the bridge's equivalent of `gz.msgs.Double`. Several joints of a plugin
+/// get the same command, each with its own controller.
 pub(crate) struct JointControl {
     name: String,
     joints: Vec<(JointId, Pid)>,
     inbox: Mailbox<std_msgs::Float64>,
-    way: Way,
+    mode: ControlMode,
     first: f64,
     last: f64,
     now_ns: i64,
     is_moving: bool,
 }
 
-/// How a joint is brought to do what it is told.
+/// Mode of control.
 #[derive(Clone, Copy, Debug)]
-enum Way {
-    /// Its speed is set.
+enum ControlMode {
+    /// Sets the speed.
     Speed,
-    /// Its speed is held by forces; without braking a force never acts against the motion.
+    /// Holds the speed by efforts; without braking an effort never opposes the motion.
     SpeedByForce { gains: Gains },
-    /// It goes to a position at no more than a speed \[m/s or rad/s\].
+    /// Moves to a position with a maximum speed \[m/s or rad/s\].
     Position { most: f64 },
-    /// A position is held by forces.
+    /// Holds a position by efforts.
     PositionByForce { gains: Gains },
 }
 
 /// `gz-sim-joint-controller-system`.
 pub(crate) fn speed_controller(
-    order: &Order<'_>,
+    context: &BuildContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<JointControl> {
-    let way = if order.flag("use_force_commands") {
-        Way::SpeedByForce { gains: Gains::read(order) }
+    let mode = if context.flag("use_force_commands") {
+        ControlMode::SpeedByForce { gains: Gains::read(context) }
     } else {
-        Way::Speed
+        ControlMode::Speed
     };
-    let first = order.number("initial_velocity");
-    build(order, way, "cmd_vel", first, diagnostics)
+    let first = context.number("initial_velocity");
+    build(context, mode, "cmd_vel", first, diagnostics)
 }
 
 /// `gz-sim-joint-position-controller-system`.
 pub(crate) fn position_controller(
-    order: &Order<'_>,
+    context: &BuildContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<JointControl> {
-    let gains = Gains::read(order);
-    let way = if order.flag("use_velocity_commands") {
-        Way::Position { most: gains.command[1].abs() }
+    let gains = Gains::read(context);
+    let mode = if context.flag("use_velocity_commands") {
+        ControlMode::Position { most: gains.command[1].abs() }
     } else {
-        Way::PositionByForce { gains }
+        ControlMode::PositionByForce { gains }
     };
-    let index = order.plugin.values.integer("joint_index").unwrap_or_default();
-    let first = order.number("initial_position");
-    build(order, way, &format!("{index}/cmd_pos"), first, diagnostics)
+    let index = context.plugin.values.integer("joint_index").unwrap_or_default();
+    let first = context.number("initial_position");
+    build(context, mode, &format!("{index}/cmd_pos"), first, diagnostics)
 }
 
 fn build(
-    order: &Order<'_>,
-    way: Way,
+    context: &BuildContext<'_>,
+    mode: ControlMode,
     topic: &str,
     first: f64,
     diagnostics: &mut Diagnostics,
 ) -> Option<JointControl> {
-    let joints = order.joints("joint_name", diagnostics)?;
-    if order.plugin.values.integer("joint_index").is_some_and(|index| index != 0) {
-        let origin = order.plugin.values.origin("joint_index");
+    let joints = context.joints("joint_name", diagnostics)?;
+    if context.plugin.values.integer("joint_index").is_some_and(|index| index != 0) {
+        let origin = context.plugin.values.origin("joint_index");
         let message = "only the first axis of a joint is controlled";
         diagnostics.push(Diagnostic::error("joint-index", message).at(origin));
         return None;
     }
-    if order.flag("use_actuator_msg") {
-        let message = "commands as `Actuators` messages are not read; the topic takes a Float64";
-        let origin = order.plugin.values.origin("use_actuator_msg");
+    if context.flag("use_actuator_msg") {
+        let message = "commands of type `Actuators` are not supported; the topic expects a Float64";
+        let origin = context.plugin.values.origin("use_actuator_msg");
         diagnostics.push(Diagnostic::warning("actuators-not-read", message).at(origin));
     }
-    let node = order.node(diagnostics)?;
-    let names = order.plugin.values.all("joint_name");
+    let node = context.node(diagnostics)?;
+    let names = context.plugin.values.all("joint_name");
     let joint = names.iter().find_map(|(value, _)| match value {
         Value::Text(name) => Some(name.trim().to_owned()),
         _ => None,
     })?;
-    let usual = match order.given_text("sub_topic") {
+    let fallback = match context.given_text("sub_topic") {
         Some(sub_topic) => sub_topic,
         None => format!("joint/{joint}/{topic}"),
     };
-    let topic = gz_topic(&order.gz_topic("topic", &usual));
+    let topic = gz_topic(&context.gz_topic("topic", &fallback));
     Some(JointControl {
-        name: order.name(),
+        name: context.name(),
         joints: joints.into_iter().map(|joint| (joint, Pid::default())).collect(),
-        inbox: order.accept(node.mailbox(&topic, Qos::reliable(1)), diagnostics)?,
-        way,
+        inbox: context.accept(node.mailbox(&topic, Qos::reliable(1)), diagnostics)?,
+        mode,
         first,
         last: first,
-        now_ns: order.setting.start_ns,
+        now_ns: context.setting.start_ns,
         is_moving: false,
     })
 }
@@ -121,33 +120,33 @@ impl Device for JointControl {
         &self.name
     }
 
-    fn act(&mut self, world: &mut World, span: Span) {
-        if let Some(told) = self.inbox.latest().filter(|told| told.data.is_finite()) {
-            self.last = told.data;
+    fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
+        if let Some(command) = self.inbox.latest().filter(|command| command.data.is_finite()) {
+            self.last = command.data;
         }
         let (target, free) = (self.last, f64::INFINITY);
         for (joint, pid) in &mut self.joints {
-            let command = match &self.way {
-                Way::Speed => Command::Velocity { target, max_effort: free },
-                Way::SpeedByForce { gains } => {
+            let command = match &self.mode {
+                ControlMode::Speed => JointCommand::Velocity { target, max_effort: free },
+                ControlMode::SpeedByForce { gains } => {
                     let error = speed(world, *joint) - target;
-                    Command::Effort(pid.update(gains, error, span.seconds()))
+                    JointCommand::Effort(pid.update(gains, error, span.seconds()))
                 }
-                Way::Position { most } => {
-                    Command::Position { target, max_speed: *most, max_effort: free }
+                ControlMode::Position { most } => {
+                    JointCommand::Position { target, max_speed: *most, max_effort: free }
                 }
-                Way::PositionByForce { gains } => {
+                ControlMode::PositionByForce { gains } => {
                     let error = angle(world, *joint) - target;
-                    Command::Effort(pid.update(gains, error, span.seconds()))
+                    JointCommand::Effort(pid.update(gains, error, span.seconds()))
                 }
             };
             world.command(*joint, command);
         }
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         self.now_ns = moment.time_ns();
-        let is_positional = matches!(self.way, Way::Position { .. });
+        let is_positional = matches!(self.mode, ControlMode::Position { .. });
         self.is_moving = is_positional
             && self.joints.iter().any(|(joint, _)| speed(moment.world, *joint).abs() > 1e-6);
     }

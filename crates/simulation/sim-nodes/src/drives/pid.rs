@@ -1,36 +1,36 @@
-//! A controller with proportional, integral and derivative parts.
+//! PID controller.
 
-use super::order::Order;
+use super::build_context::BuildContext;
 
-/// Gains and bounds as gz-math's `PID` and Gazebo Classic's `common::PID` have them: the answer is
-/// `offset - p e - i ∫e - d de/dt`, with `e` what is there minus what is wanted.
+/// Gains and bounds of gz-math's `PID` and Gazebo Classic's `common::PID`: the output is `offset - p
+/// e - i ∫e - d de/dt` with the error `e` = actual - desired.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gains {
     pub(crate) p: f64,
     pub(crate) i: f64,
     pub(crate) d: f64,
-    /// Bounds of the integral part; none where the upper one is below the lower.
+    /// Bounds of the integral part; unbounded if the upper one is below the lower.
     pub(crate) integral: [f64; 2],
-    /// Bounds of the answer; none where the upper one is below the lower.
+    /// Bounds of the output; unbounded if the upper one is below the lower.
     pub(crate) command: [f64; 2],
     pub(crate) offset: f64,
 }
 
 impl Gains {
-    /// Those of gz-sim's joint controllers.
-    pub(crate) fn read(order: &Order<'_>) -> Self {
+    /// Reads the gains of gz-sim's joint controllers.
+    pub(crate) fn read(context: &BuildContext<'_>) -> Self {
         Self {
-            p: order.number("p_gain"),
-            i: order.number("i_gain"),
-            d: order.number("d_gain"),
-            integral: [order.number("i_min"), order.number("i_max")],
-            command: [order.number("cmd_min"), order.number("cmd_max")],
-            offset: order.number("cmd_offset"),
+            p: context.number("p_gain"),
+            i: context.number("i_gain"),
+            d: context.number("d_gain"),
+            integral: [context.number("i_min"), context.number("i_max")],
+            command: [context.number("cmd_min"), context.number("cmd_max")],
+            offset: context.number("cmd_offset"),
         }
     }
 }
 
-/// A controller at work.
+/// State of a PID controller.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pid {
     integral: f64,
@@ -38,7 +38,7 @@ pub(crate) struct Pid {
 }
 
 impl Pid {
-    /// One update with an error, what is there minus what is wanted, after a time [s].
+    /// Returns the output for an error (actual - desired) after a time [s].
     pub(crate) fn update(&mut self, gains: &Gains, error: f64, dt_s: f64) -> f64 {
         if !(dt_s > 0.0 && error.is_finite()) {
             return 0.0;
@@ -67,7 +67,7 @@ mod tests {
         let mut pid = Pid::default();
         // 1 - 2 * 3 - 0.5 * 3 * 0.1 - 0.1 * 3 / 0.1.
         assert!((pid.update(&gains, 3.0, 0.1) + 8.15).abs() < 1e-12);
-        // The error stands still: no derivative, twice the integral.
+        // Constant error: no derivative, twice the integral.
         assert!((pid.update(&gains, 3.0, 0.1) + 5.3).abs() < 1e-12);
     }
 

@@ -1,11 +1,11 @@
-//! Means over the last few values.
+//! Rolling means.
 
 use std::collections::VecDeque;
 
-/// As many values as gz-math's odometry and gz-sim's `OdometryPublisher` take the mean of.
-const WINDOW: usize = 10;
+/// Window of gz-math's odometry and gz-sim's `OdometryPublisher`.
+const WINDOW_SAMPLES: usize = 10;
 
-/// The mean of the last ten values of several quantities (gz-math, `RollingMean`).
+/// Mean of the last ten values of several quantities (gz-math, `RollingMean`).
 #[derive(Clone, Debug)]
 pub(crate) struct RollingMean<const N: usize> {
     values: VecDeque<[f64; N]>,
@@ -13,19 +13,19 @@ pub(crate) struct RollingMean<const N: usize> {
 
 impl<const N: usize> Default for RollingMean<N> {
     fn default() -> Self {
-        Self { values: VecDeque::with_capacity(WINDOW) }
+        Self { values: VecDeque::with_capacity(WINDOW_SAMPLES) }
     }
 }
 
 impl<const N: usize> RollingMean<N> {
     pub(crate) fn push(&mut self, value: [f64; N]) {
-        if self.values.len() == WINDOW {
+        if self.values.len() == WINDOW_SAMPLES {
             self.values.pop_front();
         }
         self.values.push_back(value);
     }
 
-    /// The mean; zero of nothing.
+    /// Returns the mean; zero without values.
     #[expect(clippy::cast_precision_loss, reason = "at most ten")]
     pub(crate) fn mean(&self) -> [f64; N] {
         let count = self.values.len().max(1) as f64;

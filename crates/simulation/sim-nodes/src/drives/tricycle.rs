@@ -1,48 +1,43 @@
 //! `libgazebo_ros_tricycle_drive.so` of ROS 1 and ROS 2.
 
 use periplus_diagnostics::Diagnostics;
-use periplus_geometry::{DVec3, Pose};
-use periplus_physics::drives::{self, Steering, truth};
-use periplus_physics::{Command, JointId, ModelId, Twist, World};
+use periplus_geometry::DVec3;
+use periplus_physics::drives::{self, Steering};
+use periplus_physics::{JointCommand, JointId, ModelId, PhysicsWorld};
 use periplus_plugin_specs::Family;
 
-use super::beat::{Beat, earlier};
 use super::body::Body;
+use super::build_context::BuildContext;
+use super::classic_odometry::{ClassicOdometry, OdometrySource};
 use super::commands::Commands;
 use super::encoders::{Encoders, angle, speed};
-use super::order::Order;
+use super::rate_timer::{RateTimer, earlier};
 use super::wheel_frames::WheelFrames;
-use crate::states::{JointStates, Teller, planar_covariance, planar_twist};
-use crate::{Device, Moment, Span};
+use crate::states::{JointStates, OdometryPublisher, planar_covariance};
+use crate::{Device, SenseContext, StepInterval};
 
-/// A driven and steered wheel in front, two counted wheels behind. A command's `linear.x` is the
-/// speed of the driven wheel on the ground, its `angular.z` the **angle** of the steering.
+/// A driven and steered wheel in front, two wheels with encoders behind. A command's `linear.x` is
+/// the rim speed of the driven wheel, its `angular.z` the steering **angle**.
 ///
-/// Source: `gazebo_plugins/src/gazebo_ros_tricycle_drive.cpp` of `gazebo_ros_pkgs`. One slip of it is
-/// not copied: odometry of wheels turns the right way round.
+/// Source: `gazebo_plugins/src/gazebo_ros_tricycle_drive.cpp` of `gazebo_ros_pkgs`. One error of the
+/// original is corrected: the sign of the yaw in wheel odometry.
 pub(crate) struct Tricycle {
     name: String,
     model: ModelId,
-    body: Body,
-    /// The middle between the counted wheels, in the model [m].
+    /// Midpoint of the encoder wheels, in the model [m].
     centre_m: DVec3,
-    /// From there to the driven wheel [m].
+    /// Distance from there to the driven wheel [m].
     wheel_base_m: f64,
     steering: JointId,
     driven: JointId,
-    law: drives::Tricycle,
+    controller: drives::Tricycle,
     commands: Commands,
-    acts: Beat,
-    tells: Beat,
+    control_timer: RateTimer,
     acted_ns: i64,
-    encoders: Encoders,
-    counts_wheels: bool,
-    teller: Teller,
-    wheel_frames: Option<WheelFrames>,
-    joint_states: Option<JointStates>,
+    odometry: ClassicOdometry,
 }
 
-/// Names of parameters in both generations.
+/// Parameter names of the plugin in ROS 1 or ROS 2.
 struct Names {
     joints: [&'static str; 4],
     separation: &'static str,
@@ -104,99 +99,87 @@ const ROS2: Names = Names {
     joint_states: "publish_wheel_joint_state",
 };
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<Tricycle> {
-    let is_ros1 = order.plugin.known.family == Family::ClassicRos1;
+pub(crate) fn build(context: &BuildContext<'_>, diagnostics: &mut Diagnostics) -> Option<Tricycle> {
+    let is_ros1 = context.plugin.known.family == Family::ClassicRos1;
     let names = if is_ros1 { ROS1 } else { ROS2 };
-    let joints = names.joints.map(|name| order.joint(name, diagnostics));
+    let joints = names.joints.map(|name| context.joint(name, diagnostics));
     let [steering, driven, left, right] = [joints[0]?, joints[1]?, joints[2]?, joints[3]?];
-    let node = order.node(diagnostics)?;
-    let start_ns = order.setting.start_ns;
-    let mut teller = Teller::between(order.text(names.frames[0]), order.text(names.frames[1]));
-    teller.pose_covariance = planar_covariance(1e-5, 1e-5, 1e-3);
+    let node = context.node(diagnostics)?;
+    let start_ns = context.setting.start_ns;
+    let mut odometry_publisher =
+        OdometryPublisher::between(context.text(names.frames[0]), context.text(names.frames[1]));
+    odometry_publisher.pose_covariance = planar_covariance(1e-5, 1e-5, 1e-3);
     let (command_topic, counts_wheels);
     if is_ros1 {
-        command_topic = order.text("commandTopic");
-        counts_wheels = order.text("odometrySource") == "encoder";
-        teller = teller.on(order, &node, &order.text("odometryTopic"), diagnostics)?;
-        teller = teller.with_tf(order, &node, "/tf", diagnostics)?;
+        command_topic = context.text("commandTopic");
+        counts_wheels = context.text("odometrySource") == "encoder";
+        odometry_publisher =
+            odometry_publisher.on(context, &node, &context.text("odometryTopic"), diagnostics)?;
+        odometry_publisher = odometry_publisher.with_tf(context, &node, "/tf", diagnostics)?;
     } else {
         command_topic = "cmd_vel".to_owned();
-        counts_wheels = order.plugin.values.integer("odometry_source") == Some(0);
-        if order.flag("publish_odom") {
-            teller = teller.on(order, &node, "odom", diagnostics)?;
-            teller = teller.with_tf(order, &node, "/tf", diagnostics)?;
+        counts_wheels = context.plugin.values.integer("odometry_source") == Some(0);
+        if context.flag("publish_odom") {
+            odometry_publisher = odometry_publisher.on(context, &node, "odom", diagnostics)?;
+            odometry_publisher = odometry_publisher.with_tf(context, &node, "/tf", diagnostics)?;
         }
     }
-    let acceleration = order.number(names.acceleration);
-    let law = drives::Tricycle {
-        actuated_wheel_diameter_m: order.number(names.driven_diameter),
-        encoder_wheel_diameter_m: order.number(names.counted_diameter),
-        encoder_wheel_separation_m: order.number(names.separation),
+    let acceleration = context.number(names.acceleration);
+    let controller = drives::Tricycle {
+        actuated_wheel_diameter_m: context.number(names.driven_diameter),
+        encoder_wheel_diameter_m: context.number(names.counted_diameter),
+        encoder_wheel_separation_m: context.number(names.separation),
         wheel_acceleration_rad_s2: acceleration,
-        wheel_deceleration_rad_s2: order
+        wheel_deceleration_rad_s2: context
             .plugin
             .values
             .number(names.deceleration)
             .unwrap_or(acceleration),
-        wheel_speed_tolerance_rad_s: order.number(names.speed_tolerance),
-        steering_speed_rad_s: order.number(names.steering_speed),
-        steering_angle_tolerance_rad: order.number(names.angle_tolerance),
-        wheel_torque_n_m: order.plugin.values.number(names.torque).unwrap_or(f64::INFINITY),
-        update_rate_hz: order.number(names.update_rate),
+        wheel_speed_tolerance_rad_s: context.number(names.speed_tolerance),
+        steering_speed_rad_s: context.number(names.steering_speed),
+        steering_angle_tolerance_rad: context.number(names.angle_tolerance),
+        wheel_torque_n_m: context.plugin.values.number(names.torque).unwrap_or(f64::INFINITY),
+        update_rate_hz: context.number(names.update_rate),
     };
-    let centre_m = order.middle(&[left, right]);
+    let centre_m = context.middle(&[left, right]);
     let encoders = Encoders::new(
         [left, right],
-        law.encoder_wheel_diameter_m / 2.0,
-        law.encoder_wheel_separation_m,
+        controller.encoder_wheel_diameter_m / 2.0,
+        controller.encoder_wheel_separation_m,
     );
-    let wheel_frames = order
+    let wheel_frames = context
         .flag(names.wheel_tf)
-        .then(|| WheelFrames::new(order, &node, &names.joints, diagnostics))
+        .then(|| WheelFrames::new(context, &node, &names.joints, diagnostics))
         .flatten();
-    let joint_states = order
+    let joint_states = context
         .flag(names.joint_states)
         .then(|| {
-            JointStates::of_wheels(order, &node, &[steering, driven, left, right], diagnostics)
+            JointStates::of_wheels(context, &node, &[steering, driven, left, right], diagnostics)
         })
         .flatten();
+    let body = Body::of_model(context)?;
+    let rate_hz = controller.update_rate_hz;
     Some(Tricycle {
-        name: order.name(),
-        model: order.setting.model,
-        body: Body::of_model(order)?,
+        name: context.name(),
+        model: context.setting.model,
         centre_m,
-        wheel_base_m: (order.middle(&[driven]) - centre_m).x,
+        wheel_base_m: (context.middle(&[driven]) - centre_m).x,
         steering,
         driven,
-        commands: Commands::new(order, &node, &command_topic, diagnostics)?,
-        acts: Beat::acting(law.update_rate_hz, start_ns),
-        tells: Beat::telling(law.update_rate_hz, start_ns),
+        commands: Commands::new(context, &node, &command_topic, diagnostics)?,
+        control_timer: RateTimer::for_controller(rate_hz, start_ns),
         acted_ns: start_ns,
-        encoders,
-        law,
-        counts_wheels,
-        teller,
-        wheel_frames,
-        joint_states,
+        controller,
+        odometry: ClassicOdometry {
+            source: OdometrySource::new(counts_wheels),
+            body,
+            encoders: Some(encoders),
+            publisher: odometry_publisher,
+            wheel_frames,
+            joint_states,
+            timer: RateTimer::for_publisher(rate_hz, start_ns),
+        },
     })
-}
-
-impl Tricycle {
-    fn is_heard(&self) -> bool {
-        self.teller.is_heard()
-            || self.wheel_frames.as_ref().is_some_and(WheelFrames::is_heard)
-            || self.joint_states.as_ref().is_some_and(JointStates::is_heard)
-    }
-
-    fn told(&self, world: &World) -> Option<(Pose, Twist)> {
-        if self.counts_wheels {
-            let odometry = self.encoders.odometry;
-            return Some((odometry.pose.pose(), odometry.twist));
-        }
-        let state = self.body.state(world)?;
-        let twist = truth(state.world_from_link, state.linear_m_s, state.angular_rad_s);
-        Some((state.world_from_link, twist))
-    }
 }
 
 impl Device for Tricycle {
@@ -204,62 +187,51 @@ impl Device for Tricycle {
         &self.name
     }
 
-    fn act(&mut self, world: &mut World, span: Span) {
-        self.encoders.begin(world);
-        if !self.acts.due(span.start_ns) {
+    fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
+        self.odometry.begin(world);
+        if !self.control_timer.due(span.start_ns) {
             return;
         }
-        let since = Span { start_ns: self.acted_ns, length_ns: span.start_ns - self.acted_ns };
+        let since =
+            StepInterval { start_ns: self.acted_ns, length_ns: span.start_ns - self.acted_ns };
         self.acted_ns = span.start_ns;
         let command = self.commands.planar();
         let at_rad = angle(world, self.steering);
         let rolls_rad_s = speed(world, self.driven);
-        let (target, steering) = self.law.update(command, rolls_rad_s, at_rad, since.seconds());
-        let max_effort = self.law.wheel_torque_n_m;
-        world.command(self.driven, Command::Velocity { target, max_effort });
+        let (target, steering) =
+            self.controller.update(command, rolls_rad_s, at_rad, since.seconds());
+        let max_effort = self.controller.wheel_torque_n_m;
+        world.command(self.driven, JointCommand::Velocity { target, max_effort });
         let free = f64::INFINITY;
         let steer = match steering {
-            // The original puts the joint there at once.
-            Steering::At(target) => Command::Position { target, max_speed: free, max_effort: free },
-            Steering::Turning(target) => Command::Velocity { target, max_effort },
+            // The original sets the joint position at once.
+            Steering::At(target) => {
+                JointCommand::Position { target, max_speed: free, max_effort: free }
+            }
+            Steering::Turning(target) => JointCommand::Velocity { target, max_effort },
         };
         world.command(self.steering, steer);
         if self.wheel_base_m.abs() > 1e-6 {
-            let twist = self.law.twist(target, at_rad, self.wheel_base_m);
+            let twist = self.controller.twist(target, at_rad, self.wheel_base_m);
             if world.follow_about(self.model, self.centre_m, twist) {
-                // Without physics nothing rolls the counted wheels along.
-                self.encoders.roll(world, twist);
+                // Without physics nothing rolls the encoder wheels.
+                self.odometry.roll(world, twist);
             }
         }
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
-        self.encoders.observe(moment.world, moment.span.seconds());
-        let now_ns = moment.time_ns();
-        if !self.tells.due(now_ns) || !self.is_heard() {
-            return;
-        }
-        if let Some((pose, twist)) = self.told(moment.world) {
-            self.teller.tell(now_ns, pose, planar_twist(twist));
-        }
-        if let Some(frames) = &self.wheel_frames {
-            frames.tell(moment.world, now_ns);
-        }
-        if let Some(states) = &self.joint_states {
-            states.tell(moment.world, now_ns);
-        }
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
+        self.odometry.sense(moment);
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let telling = self.tells.next_ns().filter(|_| self.is_heard());
-        earlier(self.acts.next_ns(), telling)
+        earlier(self.control_timer.next_ns(), self.odometry.next_ns())
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.commands.reset();
-        self.acts.restart(time_ns);
-        self.tells.restart(time_ns);
+        self.control_timer.restart(time_ns);
         self.acted_ns = time_ns;
-        self.encoders.reset();
+        self.odometry.reset(time_ns);
     }
 }

@@ -4,16 +4,16 @@ use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Node, Publisher};
 use periplus_msgs::tf2_msgs;
 use periplus_params::Value;
-use periplus_physics::{LinkId, World};
+use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_scene::carrying_link;
 
-use super::order::{Order, unscoped};
+use super::build_context::{BuildContext, unscoped};
 use crate::states::{TF_QOS, transform};
 
-/// Tells where wheels are on the links that carry them.
+/// Publishes the poses of wheels relative to their parent links.
 ///
-/// Gazebo's plugins give the wheel's place in the model but name the parent link as its frame; here
-/// it is the place on that link.
+/// Gazebo's plugins publish the wheel's pose in the model with the parent link as frame; here it is
+/// the pose in that link.
 pub(crate) struct WheelFrames {
     tf: Publisher<tf2_msgs::TFMessage>,
     wheels: Vec<WheelFrame>,
@@ -27,32 +27,32 @@ struct WheelFrame {
 }
 
 impl WheelFrames {
-    /// Those of the joints that parameters name. Joints on the world have no parent link and do not
-    /// show.
+    /// Creates the frames of the joints in some parameters. Joints on the world have no parent link
+    /// and are skipped.
     pub(crate) fn new(
-        order: &Order<'_>,
+        context: &BuildContext<'_>,
         node: &Node,
         parameters: &[&str],
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
-        let tf = order.accept(node.publisher("/tf", TF_QOS), diagnostics)?;
+        let tf = context.accept(node.publisher("/tf", TF_QOS), diagnostics)?;
         let mut wheels = Vec::new();
         for parameter in parameters {
-            for (value, _) in order.plugin.values.all(parameter) {
+            for (value, _) in context.plugin.values.all(parameter) {
                 if let Value::Text(joint) = value {
-                    wheels.extend(frame_of(order, joint.trim()));
+                    wheels.extend(frame_of(context, joint.trim()));
                 }
             }
         }
         Some(Self { tf, wheels })
     }
 
-    pub(crate) fn is_heard(&self) -> bool {
+    pub(crate) fn has_subscribers(&self) -> bool {
         self.tf.is_heard()
     }
 
-    pub(crate) fn tell(&self, world: &World, time_ns: i64) {
-        if !self.is_heard() {
+    pub(crate) fn publish(&self, world: &PhysicsWorld, time_ns: i64) {
+        if !self.has_subscribers() {
             return;
         }
         let transforms = self.wheels.iter().filter_map(|wheel| {
@@ -65,14 +65,14 @@ impl WheelFrames {
     }
 }
 
-fn frame_of(order: &Order<'_>, joint: &str) -> Option<WheelFrame> {
-    let model = order.model();
+fn frame_of(context: &BuildContext<'_>, joint: &str) -> Option<WheelFrame> {
+    let model = context.model();
     let joint = model.joint(joint)?;
     let parent = carrying_link(model, &joint.parent)?;
     let child = carrying_link(model, &joint.child)?;
     Some(WheelFrame {
-        parent: order.setting.link(order.site, &parent)?,
-        child: order.setting.link(order.site, &child)?,
+        parent: context.setting.link(context.site, &parent)?,
+        child: context.setting.link(context.site, &child)?,
         parent_frame: unscoped(&parent).to_owned(),
         child_frame: unscoped(&child).to_owned(),
     })

@@ -1,82 +1,92 @@
-//! Devices of all sensors but lidars.
+//! Building of all sensors except lidars.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::GraphError;
 use periplus_scene::{Sensor, SensorKind};
 
-use super::port::{Port, ports};
-use super::{Mount, Post, camera, contact, imu, logical, navsat, scalar, sonar};
+use super::port::{SensorPort, ports};
+use super::{Mount, SensorContext, camera, contact, environment, imu, logical, navsat, sonar};
 use crate::Device;
 
-/// What a sensor's device is made from.
-pub(super) struct Order<'a, 'b> {
-    pub(super) post: &'a Post<'b>,
+/// Inputs for building a sensor's device.
+pub(super) struct SensorBuildContext<'a, 'b> {
+    pub(super) sensor_context: &'a SensorContext<'b>,
     pub(super) mount: Mount,
-    /// Through what it publishes; never empty.
-    pub(super) ports: Vec<Port>,
+    /// Publishers of the sensor; never empty.
+    pub(super) ports: Vec<SensorPort>,
 }
 
-/// Why a sensor is not there.
-pub(super) struct Failed(Box<Diagnostic>);
+/// Reason that a sensor cannot be built.
+pub(super) struct SensorBuildError(Box<Diagnostic>);
 
-/// A sensor as a device, or why not.
-pub(super) type Made = Result<Box<dyn Device>, Failed>;
+/// A sensor's device, or the reason that it cannot be built.
+pub(super) type DeviceResult = Result<Box<dyn Device>, SensorBuildError>;
 
-impl From<Box<Diagnostic>> for Failed {
+impl From<Box<Diagnostic>> for SensorBuildError {
     fn from(diagnostic: Box<Diagnostic>) -> Self {
         Self(diagnostic)
     }
 }
 
-impl From<GraphError> for Failed {
+impl From<GraphError> for SensorBuildError {
     fn from(error: GraphError) -> Self {
         Self(Box::new(Diagnostic::error("sensor-topic", error.to_string())))
     }
 }
 
-impl Failed {
-    /// A kind that nobody here measures.
-    pub(super) fn not_measured(sensor: &Sensor) -> Self {
+impl SensorBuildError {
+    /// Unsupported type of sensor.
+    pub(super) fn unsupported(sensor: &Sensor) -> Self {
         let Sensor { name, type_name, .. } = sensor;
-        let told = format!("sensor `{name}` of type `{type_name}` is not measured");
-        Self(Box::new(Diagnostic::warning("sensor-not-measured", told)))
+        let message = format!("sensor `{name}` of type `{type_name}` is not supported");
+        Self(Box::new(Diagnostic::warning("sensor-not-measured", message)))
     }
 }
 
-/// The device of a sensor; none, with a finding, for one that cannot measure.
-pub(super) fn build(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Option<Box<dyn Device>> {
-    match made(post, diagnostics) {
+/// Builds the device of a sensor; reports a problem and returns `None` for one that cannot measure.
+pub(super) fn build(
+    sensor_context: &SensorContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Box<dyn Device>> {
+    match build_by_kind(sensor_context, diagnostics) {
         Ok(device) => Some(device),
-        Err(Failed(diagnostic)) => {
+        Err(SensorBuildError(diagnostic)) => {
             let is_placed = diagnostic.span.is_some();
             diagnostics.push(if is_placed {
                 *diagnostic
             } else {
-                diagnostic.at(post.sensor.origin)
+                diagnostic.at(sensor_context.sensor.origin)
             });
             None
         }
     }
 }
 
-fn made(post: &Post<'_>, diagnostics: &mut Diagnostics) -> Made {
-    let sensor = post.sensor;
+fn build_by_kind(
+    sensor_context: &SensorContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> DeviceResult {
+    let sensor = sensor_context.sensor;
     if matches!(sensor.kind, SensorKind::ForceTorque { .. } | SensorKind::Other) {
-        return Err(Failed::not_measured(sensor));
+        return Err(SensorBuildError::unsupported(sensor));
     }
-    let order = Order { post, mount: Mount::new(post), ports: ports(post, diagnostics)? };
+    let context = SensorBuildContext {
+        sensor_context,
+        mount: Mount::new(sensor_context),
+        ports: ports(sensor_context, diagnostics)?,
+    };
     match &sensor.kind {
-        SensorKind::Imu(spec) => imu::device(order, spec),
-        SensorKind::NavSat { .. } => navsat::device(order, diagnostics),
+        SensorKind::Imu(spec) => imu::device(context, spec),
+        SensorKind::NavSat { .. } => navsat::device(context, diagnostics),
         SensorKind::Magnetometer(_)
         | SensorKind::Altimeter { .. }
-        | SensorKind::AirPressure { .. } => scalar::device(order),
-        SensorKind::Contact { .. } => contact::device(order, diagnostics),
-        SensorKind::Sonar { .. } => sonar::device(order),
-        SensorKind::LogicalCamera { .. } => logical::device(order),
-        SensorKind::Camera(spec) => camera::device(order, spec, diagnostics),
+        | SensorKind::AirPressure { .. } => environment::device(context),
+        SensorKind::Contact { .. } => contact::device(context, diagnostics),
+        SensorKind::Sonar { .. } => sonar::device(context),
+        SensorKind::LogicalCamera { .. } => logical::device(context),
+        SensorKind::Camera(spec) => camera::device(context, spec, diagnostics),
         SensorKind::Lidar(_) | SensorKind::ForceTorque { .. } | SensorKind::Other => {
-            Err(Failed::not_measured(sensor))
+            Err(SensorBuildError::unsupported(sensor))
         }
     }
 }

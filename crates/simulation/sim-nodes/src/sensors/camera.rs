@@ -1,7 +1,7 @@
-//! Cameras: colours, depths, points, labels, and the camera info beside them.
+//! Cameras: images, depth images, point clouds, labels, and camera info.
 
 mod info;
-mod outs;
+mod outputs;
 mod pixels;
 mod points;
 
@@ -13,50 +13,50 @@ use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, Sens
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{ImageNoise, Pinhole, Streams};
 
-use self::outs::{Out, outs};
-use super::port::Style;
-use super::{Failed, Made, Mount, Order, Timer};
-use crate::{Device, Moment, SensorMount};
+use self::outputs::{CameraOutput, outputs};
+use super::port::Convention;
+use super::{DeviceResult, Mount, SensorBuildContext, SensorBuildError, Timer};
+use crate::{Device, SenseContext, SensorMount};
 
-/// One camera, or several in one sensor.
+/// A camera sensor: one camera, or several.
 struct CameraDevice {
     mount: Mount,
     timer: Timer,
-    eyes: Vec<Eye>,
+    units: Vec<CameraUnit>,
     trigger: Option<Trigger>,
     /// Number of the last measurement that was due.
     last_tick: u64,
     /// Whether it had subscribers then.
-    was_heard: bool,
+    had_subscribers: bool,
 }
 
 /// What one camera sees and to whom it tells.
-struct Eye {
+struct CameraUnit {
     lens: Lens,
     pinhole: Pinhole,
     sensor_from_camera: Pose,
     near_m: f64,
     far_m: f64,
     visibility_mask: u32,
-    /// Of its own, so that nothing depends on who hears the others of one sensor.
+    /// Separate streams per camera, so that noise does not depend on the subscribers of the others.
     streams: Streams,
     noise: Option<ImageNoise>,
-    /// Whether the noise is of depths \[m\] (gz's depth cameras) instead of colours.
+    /// True if the noise applies to depths \[m\] (gz's depth cameras) instead of colours.
     noisy_depths: bool,
-    /// Least and greatest depth that is told \[m\].
+    /// Minimum and maximum depth that is published \[m\].
     depth_range_m: [f64; 2],
     picture: RenderedImages,
-    outs: Vec<Out>,
+    outputs: Vec<CameraOutput>,
 }
 
-/// What a camera waits for.
+/// Trigger subscription of a camera.
 enum Trigger {
     Classic(Mailbox<Empty>),
     Gz(Mailbox<Bool>),
 }
 
 impl Trigger {
-    fn is_pulled(&self) -> bool {
+    fn is_requested(&self) -> bool {
         match self {
             Self::Classic(mailbox) => mailbox.latest().is_some(),
             Self::Gz(mailbox) => mailbox.latest().is_some_and(|message| message.data),
@@ -64,54 +64,58 @@ impl Trigger {
     }
 }
 
-pub(super) fn device(order: Order<'_, '_>, spec: &Camera, diagnostics: &mut Diagnostics) -> Made {
+pub(super) fn device(
+    context: SensorBuildContext<'_, '_>,
+    spec: &Camera,
+    diagnostics: &mut Diagnostics,
+) -> DeviceResult {
     if matches!(spec.kind, CameraKind::Thermal | CameraKind::BoundingBox) {
-        return Err(Failed::not_measured(order.post.sensor));
+        return Err(SensorBuildError::unsupported(context.sensor_context.sensor));
     }
     let several = spec.kind == CameraKind::Multi;
-    let mut eyes = Vec::new();
+    let mut units = Vec::new();
     for camera in std::iter::once(spec).chain(spec.others.iter().filter(|_| several)) {
-        eyes.push(eye(
-            &order,
+        units.push(unit(
+            &context,
             camera,
             several.then_some(camera.name.as_deref()).flatten(),
             diagnostics,
         )?);
     }
-    let trigger = trigger(&order, spec)?;
+    let trigger = trigger(&context, spec)?;
     Ok(Box::new(CameraDevice {
-        timer: Timer::new(order.post, &order.ports),
-        mount: order.mount,
-        eyes,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        mount: context.mount,
+        units,
         trigger,
         last_tick: 0,
-        was_heard: false,
+        had_subscribers: false,
     }))
 }
 
-fn eye(
-    order: &Order<'_, '_>,
+fn unit(
+    context: &SensorBuildContext<'_, '_>,
     camera: &Camera,
     name: Option<&str>,
     diagnostics: &mut Diagnostics,
-) -> Result<Eye, Failed> {
+) -> Result<CameraUnit, SensorBuildError> {
     let impossible = |why: String| Box::new(Diagnostic::error("camera-impossible", why));
-    // A wide angle has no focal length; its camera info says the nearest thing to it.
+    // A wide-angle lens has no focal length; its camera info is the closest pinhole.
     let narrow =
         Camera { horizontal_fov_rad: camera.horizontal_fov_rad.min(3.1), ..camera.clone() };
     let pinhole =
         Pinhole::new(if camera.kind == CameraKind::WideAngle { &narrow } else { camera })?;
     let mut depth_range_m = camera.depth_clip_m.unwrap_or([camera.near_m, camera.far_m]);
     let mut all = Vec::new();
-    for port in &order.ports {
-        if let Some(range_m) = outs::depth_range_m(port) {
+    for port in &context.ports {
+        if let Some(range_m) = outputs::depth_range_m(port) {
             depth_range_m = range_m;
         }
-        all.extend(outs(order.post, port, camera, &pinhole, name, diagnostics)?);
+        all.extend(outputs(context.sensor_context, port, camera, &pinhole, name, diagnostics)?);
     }
     let near_m = camera.depth_clip_m.map_or(camera.near_m, |[near_m, _]| near_m.min(camera.near_m));
     let far_m = camera.depth_clip_m.map_or(camera.far_m, |[_, far_m]| far_m.max(camera.far_m));
-    Ok(Eye {
+    Ok(CameraUnit {
         lens: Lens::of(camera).map_err(impossible)?,
         pinhole,
         sensor_from_camera: camera.sensor_from_camera,
@@ -119,28 +123,32 @@ fn eye(
         far_m,
         visibility_mask: camera.visibility_mask,
         streams: match name {
-            Some(name) => {
-                Streams::new(order.post.setting.seed, format!("{}::{name}", order.mount.name))
-            }
-            None => order.mount.streams().clone(),
+            Some(name) => Streams::new(
+                context.sensor_context.setting.seed,
+                format!("{}::{name}", context.mount.name),
+            ),
+            None => context.mount.streams().clone(),
         },
         noise: ImageNoise::new(&camera.noise),
         noisy_depths: camera.kind == CameraKind::Depth
-            && order.ports.iter().all(|port| port.style == Style::Gz),
+            && context.ports.iter().all(|port| port.convention == Convention::Gz),
         depth_range_m,
         picture: RenderedImages::default(),
-        outs: all,
+        outputs: all,
     })
 }
 
-fn trigger(order: &Order<'_, '_>, spec: &Camera) -> Result<Option<Trigger>, Failed> {
-    for port in &order.ports {
-        if port.style == Style::Ros2 && port.flag("triggered") {
+fn trigger(
+    context: &SensorBuildContext<'_, '_>,
+    spec: &Camera,
+) -> Result<Option<Trigger>, SensorBuildError> {
+    for port in &context.ports {
+        if port.convention == Convention::Ros2 && port.flag("triggered") {
             let topic = port.out_named("image_trigger").unwrap_or("image_trigger");
             return Ok(Some(Trigger::Classic(port.node.mailbox(topic, Qos::reliable(1))?)));
         }
-        if port.style == Style::Gz && spec.triggered {
-            let topic = format!("{}/trigger", order.post.gz_topic("/image"));
+        if port.convention == Convention::Gz && spec.triggered {
+            let topic = format!("{}/trigger", context.sensor_context.gz_topic("/image"));
             return Ok(Some(Trigger::Gz(port.node.mailbox(&topic, Qos::reliable(1))?)));
         }
     }
@@ -152,39 +160,41 @@ impl Device for CameraDevice {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let Some(tick) = self.timer.due(time_ns) else { return };
-        if self.trigger.as_ref().is_some_and(|trigger| !trigger.is_pulled()) {
+        if self.trigger.as_ref().is_some_and(|trigger| !trigger.is_requested()) {
             return;
         }
         self.last_tick = tick.number;
-        self.was_heard = self.is_heard();
+        self.had_subscribers = self.has_subscribers();
         self.measure(moment, tick.number);
     }
 
-    fn sense_paused(&mut self, moment: &mut Moment<'_>) {
-        let is_heard = self.is_heard();
-        let had_subscribers = std::mem::replace(&mut self.was_heard, is_heard);
-        if is_heard && !had_subscribers && self.trigger.is_none() {
+    fn sense_paused(&mut self, moment: &mut SenseContext<'_>) {
+        let has_subscribers = self.has_subscribers();
+        let had_subscribers = std::mem::replace(&mut self.had_subscribers, has_subscribers);
+        if has_subscribers && !had_subscribers && self.trigger.is_none() {
             self.measure(moment, self.last_tick);
         }
     }
 
     fn mounts(&self) -> Vec<SensorMount> {
         let link = self.mount.link;
-        let of = |eye: &Eye, out: &Out| {
+        let of = |unit: &CameraUnit, out: &CameraOutput| {
             let (topic, frame_id, camera_from_points) = out.points()?;
-            let link_from_camera = self.mount.link_from_sensor() * eye.sensor_from_camera;
+            let link_from_camera = self.mount.link_from_sensor() * unit.sensor_from_camera;
             let link_from_data = link_from_camera * camera_from_points;
             Some(SensorMount { topic, frame_id, link, link_from_data })
         };
-        let of_eye = |eye: &Eye| eye.outs.iter().filter_map(|out| of(eye, out)).collect::<Vec<_>>();
-        self.eyes.iter().flat_map(of_eye).collect()
+        let of_eye = |unit: &CameraUnit| {
+            unit.outputs.iter().filter_map(|out| of(unit, out)).collect::<Vec<_>>()
+        };
+        self.units.iter().flat_map(of_eye).collect()
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns().filter(|_| self.is_heard())
+        self.timer.next_ns().filter(|_| self.has_subscribers())
     }
 
     fn reset(&mut self, time_ns: i64) {
@@ -193,48 +203,51 @@ impl Device for CameraDevice {
 }
 
 impl CameraDevice {
-    fn is_heard(&self) -> bool {
-        self.eyes.iter().any(|eye| eye.outs.iter().any(Out::is_heard))
+    fn has_subscribers(&self) -> bool {
+        self.units.iter().any(|unit| unit.outputs.iter().any(CameraOutput::has_subscribers))
     }
 
-    fn measure(&mut self, moment: &mut Moment<'_>, tick: u64) {
+    fn measure(&mut self, moment: &mut SenseContext<'_>, tick: u64) {
         let time_ns = moment.time_ns();
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let threads = moment.threads;
-        for eye in &mut self.eyes {
-            let outputs = eye.outputs();
+        for unit in &mut self.units {
+            let outputs = unit.outputs();
             if outputs != ImageOutputs::default() {
                 let shot = RenderRequest {
-                    lens: &eye.lens,
-                    world_from_camera: motion.world_from_sensor * eye.sensor_from_camera,
-                    near_m: eye.near_m,
-                    far_m: eye.far_m,
-                    visibility_mask: eye.visibility_mask,
+                    lens: &unit.lens,
+                    world_from_camera: motion.world_from_sensor * unit.sensor_from_camera,
+                    near_m: unit.near_m,
+                    far_m: unit.far_m,
+                    visibility_mask: unit.visibility_mask,
                     own: None,
                     outputs,
                     threads,
                 };
-                moment.seen(SensedGeometry::Visual).render(&shot, &mut eye.picture);
-                eye.spoil(&mut eye.streams.tick(tick));
+                moment.seen(SensedGeometry::Visual).render(&shot, &mut unit.picture);
+                unit.spoil(&mut unit.streams.tick(tick));
             }
-            for out in &eye.outs {
-                out.publish(&eye.picture, &eye.pinhole, time_ns);
+            for out in &unit.outputs {
+                out.publish(&unit.picture, &unit.pinhole, time_ns);
             }
         }
     }
 }
 
-impl Eye {
-    /// The images that somebody hears.
+impl CameraUnit {
+    /// Returns the images with subscribers.
     fn outputs(&self) -> ImageOutputs {
-        self.outs.iter().filter(|out| out.is_heard()).fold(ImageOutputs::default(), |all, out| {
-            let ImageOutputs { colour, depth, labels } = out.needs();
-            ImageOutputs {
-                colour: all.colour || colour,
-                depth: all.depth || depth,
-                labels: all.labels || labels,
-            }
-        })
+        self.outputs.iter().filter(|out| out.has_subscribers()).fold(
+            ImageOutputs::default(),
+            |all, out| {
+                let ImageOutputs { colour, depth, labels } = out.needs();
+                ImageOutputs {
+                    colour: all.colour || colour,
+                    depth: all.depth || depth,
+                    labels: all.labels || labels,
+                }
+            },
+        )
     }
 
     fn spoil(&mut self, stream: &mut periplus_geometry::Stream) {

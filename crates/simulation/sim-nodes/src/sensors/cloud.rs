@@ -1,9 +1,9 @@
-//! Points as `sensor_msgs/PointCloud2` carries them.
+//! Layouts of `sensor_msgs/PointCloud2`.
 
 use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 use periplus_msgs::std_msgs::Header;
 
-/// A column of a cloud.
+/// A field of a point cloud.
 #[derive(Clone, Copy)]
 pub(crate) struct Column {
     pub(crate) name: &'static str,
@@ -11,11 +11,11 @@ pub(crate) struct Column {
     pub(crate) datatype: u8,
 }
 
-/// How a cloud lies in memory.
+/// Memory layout of a point cloud.
 #[derive(Clone, Copy)]
 pub(crate) struct Layout {
     pub(crate) columns: &'static [Column],
-    /// Bytes from point to point.
+    /// Bytes per point.
     pub(crate) point_step: u32,
 }
 
@@ -23,13 +23,13 @@ const fn float(name: &'static str, offset: u32) -> Column {
     Column { name, offset, datatype: PointField::FLOAT32 }
 }
 
-/// Of Classic's lasers: four floats side by side (`setPointCloud2Fields` of gazebo_ros).
+/// Classic's lasers: four adjacent floats (`setPointCloud2Fields` of gazebo_ros).
 pub(crate) const CLASSIC_LASER: Layout = Layout {
     columns: &[float("x", 0), float("y", 4), float("z", 8), float("intensity", 12)],
     point_step: 16,
 };
 
-/// Of Gazebo's lidars: positions padded to 16 bytes (`InitPointCloudPacked` of gz-msgs).
+/// Gazebo's lidars: positions padded to 16 bytes (`InitPointCloudPacked` of gz-msgs).
 pub(crate) const GZ_LIDAR: Layout = Layout {
     columns: &[
         float("x", 0),
@@ -41,7 +41,7 @@ pub(crate) const GZ_LIDAR: Layout = Layout {
     point_step: 32,
 };
 
-/// A cloud of so many columns and rows of points, whose bytes are given.
+/// Returns a cloud of this width and height with the given bytes.
 pub(crate) fn cloud(
     header: Header,
     layout: Layout,

@@ -7,24 +7,24 @@ use periplus_msgs::gazebo_msgs::{ContactState, ContactsState};
 use periplus_msgs::geometry_msgs::Wrench;
 use periplus_msgs::ros_gz_interfaces::{self, Contacts, Entity, JointWrench};
 use periplus_msgs::std_msgs::Header;
-use periplus_physics::{Contact, Touching, World};
+use periplus_physics::{CollisionId, PhysicsContact, PhysicsWorld};
 use periplus_scene::SensorKind;
-use periplus_sensors::touches;
+use periplus_sensors::contacts_of;
 
 use super::imu::vector;
-use super::port::Style;
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::port::Convention;
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
 struct ContactDevice {
     mount: Mount,
     timer: Timer,
-    own: Vec<Touching>,
-    outs: Vec<Out>,
+    own: Vec<CollisionId>,
+    outputs: Vec<ContactOutput>,
 }
 
-enum Out {
-    /// `gazebo_msgs`, in the world's frame or in that of the link.
+enum ContactOutput {
+    /// `gazebo_msgs`, in the world frame or the frame of the link.
     Classic {
         publisher: Publisher<ContactsState>,
         frame: String,
@@ -36,47 +36,54 @@ enum Out {
     },
 }
 
-pub(super) fn device(order: Order<'_, '_>, diagnostics: &mut Diagnostics) -> Made {
-    let SensorKind::Contact { collisions, topic } = &order.post.sensor.kind else {
-        return Err(super::Failed::not_measured(order.post.sensor));
+pub(super) fn device(
+    context: SensorBuildContext<'_, '_>,
+    diagnostics: &mut Diagnostics,
+) -> DeviceResult {
+    let SensorKind::Contact { collisions, topic } = &context.sensor_context.sensor.kind else {
+        return Err(super::SensorBuildError::unsupported(context.sensor_context.sensor));
     };
-    let own = own(&order, collisions, diagnostics);
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        outs.push(if port.style == Style::Gz {
+    let own = own(&context, collisions, diagnostics);
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        outputs.push(if port.convention == Convention::Gz {
             let topic = match topic {
                 Some(topic) => periplus_graph::valid_topic_name(topic),
-                None => port.topic(order.post, "/contact"),
+                None => port.topic(context.sensor_context, "/contact"),
             };
-            Out::Gz { publisher: port.publisher(&topic)?, frame: port.frame.clone() }
+            ContactOutput::Gz { publisher: port.publisher(&topic)?, frame: port.frame.clone() }
         } else {
-            let name = if port.style == Style::Ros2 { "frame_name" } else { "frameName" };
+            let name = if port.convention == Convention::Ros2 { "frame_name" } else { "frameName" };
             let frame = port.text(name);
             let frame = frame.trim_start_matches('/');
             let in_world = matches!(frame, "" | "world" | "map");
             let frame = if frame.is_empty() { "world" } else { frame }.to_owned();
-            Out::Classic {
-                publisher: port.publisher(&port.topic(order.post, ""))?,
+            ContactOutput::Classic {
+                publisher: port.publisher(&port.topic(context.sensor_context, ""))?,
                 frame,
                 in_world,
             }
         });
     }
     Ok(Box::new(ContactDevice {
-        timer: Timer::new(order.post, &order.ports),
-        mount: order.mount,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        mount: context.mount,
         own,
-        outs,
+        outputs,
     }))
 }
 
-/// The collisions that a sensor watches; all of its link where the file names none. A link that was
-/// merged from others has given its collisions longer names, which contain the old.
-fn own(order: &Order<'_, '_>, wanted: &[String], diagnostics: &mut Diagnostics) -> Vec<Touching> {
-    let (world, link) = (order.post.setting.world, order.mount.link);
+/// Returns the collisions of a sensor; all of its link if the file names none. Lumped links have
+/// longer collision names that contain the original ones.
+fn own(
+    context: &SensorBuildContext<'_, '_>,
+    wanted: &[String],
+    diagnostics: &mut Diagnostics,
+) -> Vec<CollisionId> {
+    let (world, link) = (context.sensor_context.setting.world, context.mount.link);
     let names: Vec<&str> = (0..).map_while(|number| world.collision_name(link, number)).collect();
     let numbers = 0..names.len();
-    let touching = |collision: usize| Touching { link, collision };
+    let touching = |collision: usize| CollisionId { link, collision };
     if wanted.is_empty() {
         return numbers.map(touching).collect();
     }
@@ -91,11 +98,11 @@ fn own(order: &Order<'_, '_>, wanted: &[String], diagnostics: &mut Diagnostics) 
                 Diagnostic::error(
                     "unknown-collision",
                     format!(
-                        "sensor `{}` watches `{name}`, which is not there",
-                        order.post.sensor.name
+                        "sensor `{}` uses the collision `{name}`, which does not exist",
+                        context.sensor_context.sensor.name
                     ),
                 )
-                .at(order.post.sensor.origin)
+                .at(context.sensor_context.sensor.origin)
                 .help(format!("collisions of its link: {}", names.join(", "))),
             ),
         }
@@ -103,8 +110,8 @@ fn own(order: &Order<'_, '_>, wanted: &[String], diagnostics: &mut Diagnostics) 
     own
 }
 
-impl Out {
-    fn is_heard(&self) -> bool {
+impl ContactOutput {
+    fn has_subscribers(&self) -> bool {
         match self {
             Self::Classic { publisher, .. } => publisher.is_heard(),
             Self::Gz { publisher, .. } => publisher.is_heard(),
@@ -117,22 +124,29 @@ impl Device for ContactDevice {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
-        if self.timer.due(time_ns).is_none() || !self.outs.iter().any(Out::is_heard) {
+        if self.timer.due(time_ns).is_none()
+            || !self.outputs.iter().any(ContactOutput::has_subscribers)
+        {
             return;
         }
         let world = moment.world;
-        let contacts = touches(&world.contacts(), |touching| self.own.contains(&touching));
-        for out in &self.outs {
+        let contacts = contacts_of(&world.contacts(), |touching| self.own.contains(&touching));
+        for out in &self.outputs {
             match out {
-                Out::Classic { publisher, frame, in_world } => publisher.publish(ContactsState {
-                    header: Header::at(time_ns, frame),
-                    states: contacts.iter().map(|it| self.state(world, it, *in_world)).collect(),
-                }),
-                // As in Gazebo, nothing is said of nothing.
-                Out::Gz { .. } if contacts.is_empty() => {}
-                Out::Gz { publisher, frame } => {
+                ContactOutput::Classic { publisher, frame, in_world } => {
+                    publisher.publish(ContactsState {
+                        header: Header::at(time_ns, frame),
+                        states: contacts
+                            .iter()
+                            .map(|it| self.state(world, it, *in_world))
+                            .collect(),
+                    })
+                }
+                // As in Gazebo, no message without contacts.
+                ContactOutput::Gz { .. } if contacts.is_empty() => {}
+                ContactOutput::Gz { publisher, frame } => {
                     let header = Header::at(time_ns, frame);
                     let contacts = contacts.iter().map(|it| gz_contact(world, it)).collect();
                     publisher.publish(Contacts { header, contacts });
@@ -142,8 +156,8 @@ impl Device for ContactDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.outs.iter().any(Out::is_heard);
-        self.timer.next_ns().filter(|_| is_heard)
+        let has_subscribers = self.outputs.iter().any(ContactOutput::has_subscribers);
+        self.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {
@@ -152,9 +166,14 @@ impl Device for ContactDevice {
 }
 
 impl ContactDevice {
-    /// Forces are on the sensor's own side, shared evenly among the points; torques count about the
-    /// link's origin. Normals point into the sensor's own collision, as ODE has them.
-    fn state(&self, world: &World, contact: &Contact, in_world: bool) -> ContactState {
+    /// Forces act on the sensor's own side, divided evenly among the points; torques are about the
+    /// link's origin. Normals point into the sensor's own collision, as in ODE.
+    fn state(
+        &self,
+        world: &PhysicsWorld,
+        contact: &PhysicsContact,
+        in_world: bool,
+    ) -> ContactState {
         let link = world.link_state(self.mount.link);
         let world_from_link = link.map(|link| link.world_from_link).unwrap_or_default();
         let rotation = if in_world {
@@ -187,7 +206,7 @@ impl ContactDevice {
     }
 }
 
-fn gz_contact(world: &World, contact: &Contact) -> ros_gz_interfaces::Contact {
+fn gz_contact(world: &PhysicsWorld, contact: &PhysicsContact) -> ros_gz_interfaces::Contact {
     let entity = |touching| Entity {
         name: collision_name(world, touching),
         r#type: Entity::COLLISION,
@@ -216,8 +235,8 @@ fn gz_contact(world: &World, contact: &Contact) -> ros_gz_interfaces::Contact {
     }
 }
 
-/// What one of the points bears [N].
-fn share_n(contact: &Contact) -> f64 {
+/// Returns the force per contact point [N].
+fn share_n(contact: &PhysicsContact) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a handful")]
     let count = contact.points.len().max(1) as f64;
     contact.force_n / count
@@ -227,9 +246,9 @@ fn wrench(force: DVec3, torque: DVec3) -> Wrench {
     Wrench { force: vector(force), torque: vector(torque) }
 }
 
-/// `model::link::collision`, as Gazebo names it.
-fn collision_name(world: &World, touching: Touching) -> String {
-    let Touching { link, collision } = touching;
+/// Returns `model::link::collision`, Gazebo's name of a collision.
+fn collision_name(world: &PhysicsWorld, touching: CollisionId) -> String {
+    let CollisionId { link, collision } = touching;
     let model = world.model_of(link);
     let model = world.models().find(|(id, _)| Some(*id) == model).map_or("", |(_, name)| name);
     let link_name = world.link_name(link).unwrap_or_default();

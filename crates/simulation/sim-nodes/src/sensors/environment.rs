@@ -10,53 +10,53 @@ use periplus_sensors::{Altimeter, Barometer, Magnetometer, Motion};
 
 use super::imu::{diagonal, vector};
 use super::timer::Tick;
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
-struct FieldDevice {
+struct ScalarDevice {
     mount: Mount,
     timer: Timer,
     world_field_t: DVec3,
-    outs: Vec<(String, Kind)>,
+    outputs: Vec<(String, ScalarSensor)>,
 }
 
-/// What is measured, each with its publisher.
-enum Kind {
+/// A measured quantity with its publisher.
+enum ScalarSensor {
     Magnetic(Magnetometer, Publisher<MagneticField>),
     Height(Altimeter, Publisher<ros_gz_interfaces::Altimeter>),
     Pressure(Barometer, Publisher<FluidPressure>),
 }
 
-pub(super) fn device(order: Order<'_, '_>) -> Made {
-    let streams = order.mount.streams();
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        let kind = match &order.post.sensor.kind {
-            SensorKind::Magnetometer(noise) => Kind::Magnetic(
+pub(super) fn device(context: SensorBuildContext<'_, '_>) -> DeviceResult {
+    let streams = context.mount.streams();
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        let kind = match &context.sensor_context.sensor.kind {
+            SensorKind::Magnetometer(noise) => ScalarSensor::Magnetic(
                 Magnetometer::new(noise, streams),
-                port.publisher(&port.topic(order.post, "/magnetometer"))?,
+                port.publisher(&port.topic(context.sensor_context, "/magnetometer"))?,
             ),
-            SensorKind::Altimeter { vertical_position, vertical_velocity } => Kind::Height(
+            SensorKind::Altimeter { vertical_position, vertical_velocity } => ScalarSensor::Height(
                 Altimeter::new(vertical_position, vertical_velocity, streams),
-                port.publisher(&port.topic(order.post, "/altimeter"))?,
+                port.publisher(&port.topic(context.sensor_context, "/altimeter"))?,
             ),
-            SensorKind::AirPressure { reference_altitude_m, pressure } => Kind::Pressure(
+            SensorKind::AirPressure { reference_altitude_m, pressure } => ScalarSensor::Pressure(
                 Barometer::new(*reference_altitude_m, pressure, streams),
-                port.publisher(&port.topic(order.post, "/air_pressure"))?,
+                port.publisher(&port.topic(context.sensor_context, "/air_pressure"))?,
             ),
-            _ => return Err(super::Failed::not_measured(order.post.sensor)),
+            _ => return Err(super::SensorBuildError::unsupported(context.sensor_context.sensor)),
         };
-        outs.push((port.frame.clone(), kind));
+        outputs.push((port.frame.clone(), kind));
     }
-    Ok(Box::new(FieldDevice {
-        timer: Timer::new(order.post, &order.ports),
-        world_field_t: order.post.setting.scene.magnetic_field_t,
-        mount: order.mount,
-        outs,
+    Ok(Box::new(ScalarDevice {
+        timer: Timer::new(context.sensor_context, &context.ports),
+        world_field_t: context.sensor_context.setting.scene.magnetic_field_t,
+        mount: context.mount,
+        outputs,
     }))
 }
 
-impl Kind {
+impl ScalarSensor {
     fn publish(
         &mut self,
         header: periplus_msgs::std_msgs::Header,
@@ -75,7 +75,7 @@ impl Kind {
                 });
             }
             Self::Height(sensor, out) => {
-                // The first reading is the reference, heard or not.
+                // The first reading is the reference, with or without subscribers.
                 let reading = sensor.measure(motion, tick.dt_s, stream);
                 out.publish(ros_gz_interfaces::Altimeter {
                     header,
@@ -102,16 +102,16 @@ impl Kind {
     }
 }
 
-impl Device for FieldDevice {
+impl Device for ScalarDevice {
     fn name(&self) -> &str {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let Some(tick) = self.timer.due(time_ns) else { return };
         let Some(motion) = self.mount.motion(moment.world) else { return };
-        for (frame, kind) in &mut self.outs {
+        for (frame, kind) in &mut self.outputs {
             let mut stream = self.mount.streams().tick(tick.number);
             kind.publish(
                 Header::at(time_ns, frame),
@@ -129,6 +129,6 @@ impl Device for FieldDevice {
 
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
-        self.outs.iter_mut().for_each(|(_, kind)| kind.reset());
+        self.outputs.iter_mut().for_each(|(_, kind)| kind.reset());
     }
 }

@@ -6,71 +6,77 @@ use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
 use periplus_scene::{Noise, NoiseKind};
-use periplus_sensors::{Imu, Motion, OrientationReference};
+use periplus_sensors::{ImuSensor, Motion, OrientationReference};
 
-use super::port::{Port, Style};
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::port::{Convention, SensorPort};
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
 struct ImuDevice {
     mount: Mount,
     timer: Timer,
-    imu: Imu,
-    /// How it moved when it was made, and moves again after a reset.
+    imu: ImuSensor,
+    /// Initial motion, restored by a reset.
     start: Option<Motion>,
-    outs: Vec<(String, Publisher<sensor_msgs::Imu>)>,
+    outputs: Vec<(String, Publisher<sensor_msgs::Imu>)>,
 }
 
-pub(super) fn device(order: Order<'_, '_>, spec: &periplus_scene::Imu) -> Made {
+pub(super) fn device(
+    context: SensorBuildContext<'_, '_>,
+    spec: &periplus_scene::Imu,
+) -> DeviceResult {
     let mut spec = spec.clone();
-    // ROS 1 plugins have one noise for everything.
+    // ROS 1 plugins have a single noise parameter.
     let noise =
-        order.ports.iter().filter_map(|port| port.given("gaussianNoise")).fold(0.0, f64::max);
+        context.ports.iter().filter_map(|port| port.given("gaussianNoise")).fold(0.0, f64::max);
     for own in spec.angular_velocity.iter_mut().chain(&mut spec.linear_acceleration) {
         if noise > 0.0 && own.kind == NoiseKind::None {
             *own = Noise { kind: NoiseKind::Gaussian, stddev: noise, ..Noise::default() };
         }
     }
-    let reference = reference(&order, &spec)?;
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        outs.push((port.frame.clone(), port.publisher(&port.topic(order.post, "/imu"))?));
+    let reference = reference(&context, &spec)?;
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        outputs.push((
+            port.frame.clone(),
+            port.publisher(&port.topic(context.sensor_context, "/imu"))?,
+        ));
     }
-    let mut imu = Imu::new(&spec, Some(reference), order.mount.streams());
-    let start = order.mount.motion(order.post.setting.world);
+    let mut imu = ImuSensor::new(&spec, Some(reference), context.mount.streams());
+    let start = context.mount.motion(context.sensor_context.setting.world);
     if let Some(start) = &start {
-        imu.pass(order.post.setting.start_ns, start);
+        imu.skip(context.sensor_context.setting.start_ns, start);
     }
     Ok(Box::new(ImuDevice {
-        timer: Timer::new(order.post, &order.ports),
-        mount: order.mount,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        mount: context.mount,
         imu,
         start,
-        outs,
+        outputs,
     }))
 }
 
-/// ROS plugins measure against the world unless told to take the start (REP 145); gz-sensors
-/// against the start unless the file names a frame.
+/// ROS plugins measure relative to the world unless configured for the initial orientation (REP
+/// 145); gz-sensors relative to the initial orientation unless the file names a frame.
 fn reference(
-    order: &Order<'_, '_>,
+    context: &SensorBuildContext<'_, '_>,
     spec: &periplus_scene::Imu,
-) -> Result<OrientationReference, super::Failed> {
-    let from_start = |port: &Port| match port.style {
-        Style::Ros2 => port.flag("initial_orientation_as_reference"),
-        Style::Ros1 => port.flag("initialOrientationAsReference"),
-        Style::Gz => true,
+) -> Result<OrientationReference, super::SensorBuildError> {
+    let from_start = |port: &SensorPort| match port.convention {
+        Convention::Ros2 => port.flag("initial_orientation_as_reference"),
+        Convention::Ros1 => port.flag("initialOrientationAsReference"),
+        Convention::Gz => true,
     };
-    let scene = order.post.setting.scene;
+    let scene = context.sensor_context.setting.scene;
     let heading_rad = scene.spherical_coordinates.as_ref().map_or(0.0, |globe| globe.heading_rad);
     let written = OrientationReference::read(spec, heading_rad, scene.gravity_m_s2)?;
-    let usual = if order.ports.iter().all(from_start) {
+    let fallback = if context.ports.iter().all(from_start) {
         OrientationReference::START
     } else {
         OrientationReference::WORLD
     };
-    let classic = order.ports.iter().any(|port| port.style != Style::Gz);
-    Ok(if classic { usual } else { written.unwrap_or(usual) })
+    let classic = context.ports.iter().any(|port| port.convention != Convention::Gz);
+    Ok(if classic { fallback } else { written.unwrap_or(fallback) })
 }
 
 impl Device for ImuDevice {
@@ -78,12 +84,12 @@ impl Device for ImuDevice {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let Some(tick) = self.timer.due(time_ns) else { return };
         let Some(motion) = self.mount.motion(moment.world) else { return };
-        if !self.outs.iter().any(|(_, out)| out.is_heard()) {
-            self.imu.pass(time_ns, &motion);
+        if !self.outputs.iter().any(|(_, out)| out.is_heard()) {
+            self.imu.skip(time_ns, &motion);
             return;
         }
         let mut stream = self.mount.streams().tick(tick.number);
@@ -94,10 +100,10 @@ impl Device for ImuDevice {
         let mut orientation = Quaternion::default();
         match reading.orientation {
             Some(q) => orientation = Quaternion { x: q.x, y: q.y, z: q.z, w: q.w },
-            // REP 145: not reported.
+            // REP 145: orientation is not available.
             None => orientation_covariance[0] = -1.0,
         }
-        for (frame, out) in self.outs.iter().filter(|(_, out)| out.is_heard()) {
+        for (frame, out) in self.outputs.iter().filter(|(_, out)| out.is_heard()) {
             out.publish(sensor_msgs::Imu {
                 header: Header::at(time_ns, frame),
                 orientation: orientation.clone(),
@@ -111,20 +117,20 @@ impl Device for ImuDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.outs.iter().any(|(_, out)| out.is_heard());
-        self.timer.next_ns().filter(|_| is_heard)
+        let has_subscribers = self.outputs.iter().any(|(_, out)| out.is_heard());
+        self.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
         self.imu.reset();
         if let Some(start) = &self.start {
-            self.imu.pass(time_ns, start);
+            self.imu.skip(time_ns, start);
         }
     }
 }
 
-/// A covariance of independent axes.
+/// Returns the covariance matrix of independent axes.
 pub(super) fn diagonal(variances: [f64; 3]) -> [f64; 9] {
     let [x, y, z] = variances;
     [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z]

@@ -8,35 +8,35 @@ use periplus_msgs::std_msgs::Header;
 use periplus_scene::SensorKind;
 use periplus_sensors::LogicalCamera;
 
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
 struct LogicalDevice {
     mount: Mount,
     timer: Timer,
     camera: LogicalCamera,
-    outs: Vec<(String, Publisher<LogicalCameraImage>)>,
+    outputs: Vec<(String, Publisher<LogicalCameraImage>)>,
 }
 
-pub(super) fn device(order: Order<'_, '_>) -> Made {
+pub(super) fn device(context: SensorBuildContext<'_, '_>) -> DeviceResult {
     let SensorKind::LogicalCamera { near_m, far_m, aspect_ratio, horizontal_fov_rad } =
-        order.post.sensor.kind
+        context.sensor_context.sensor.kind
     else {
-        return Err(super::Failed::not_measured(order.post.sensor));
+        return Err(super::SensorBuildError::unsupported(context.sensor_context.sensor));
     };
     let camera = LogicalCamera::new(near_m, far_m, aspect_ratio, horizontal_fov_rad)?;
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        outs.push((
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        outputs.push((
             port.frame.clone(),
-            port.publisher(&port.topic(order.post, "/logical_camera"))?,
+            port.publisher(&port.topic(context.sensor_context, "/logical_camera"))?,
         ));
     }
     Ok(Box::new(LogicalDevice {
-        timer: Timer::new(order.post, &order.ports),
-        mount: order.mount,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        mount: context.mount,
         camera,
-        outs,
+        outputs,
     }))
 }
 
@@ -45,10 +45,10 @@ impl Device for LogicalDevice {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let due = self.timer.due(time_ns).is_some();
-        if !due || !self.outs.iter().any(|(_, out)| out.is_heard()) {
+        if !due || !self.outputs.iter().any(|(_, out)| out.is_heard()) {
             return;
         }
         let world = moment.world;
@@ -63,7 +63,7 @@ impl Device for LogicalDevice {
             .see(motion.world_from_sensor, models)
             .map(|(name, pose)| LogicalCameraImageModel { name: name.into(), pose: pose_of(pose) })
             .collect();
-        for (frame, out) in &self.outs {
+        for (frame, out) in &self.outputs {
             out.publish(LogicalCameraImage {
                 header: Header::at(time_ns, frame),
                 pose: pose_of(motion.world_from_sensor),
@@ -73,8 +73,8 @@ impl Device for LogicalDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.outs.iter().any(|(_, out)| out.is_heard());
-        self.timer.next_ns().filter(|_| is_heard)
+        let has_subscribers = self.outputs.iter().any(|(_, out)| out.is_heard());
+        self.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {

@@ -1,12 +1,12 @@
-//! Where a sensor sits.
+//! Mounting of a sensor.
 
 use periplus_geometry::Pose;
-use periplus_physics::{LinkId, World};
+use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_sensors::{Motion, Streams};
 
-use super::Post;
+use super::SensorContext;
 
-/// A sensor on a link that moves.
+/// A sensor on a moving link.
 #[derive(Clone, Debug)]
 pub(super) struct Mount {
     pub(super) link: LinkId,
@@ -17,21 +17,21 @@ pub(super) struct Mount {
 }
 
 impl Mount {
-    pub(super) fn new(post: &Post<'_>) -> Self {
+    pub(super) fn new(sensor_context: &SensorContext<'_>) -> Self {
         Self {
-            link: post.id,
-            name: post.full_name(),
-            link_from_sensor: post.link_from_sensor(),
-            streams: post.streams(),
+            link: sensor_context.id,
+            name: sensor_context.full_name(),
+            link_from_sensor: sensor_context.link_from_sensor(),
+            streams: sensor_context.streams(),
         }
     }
 
-    /// How the sensor moves now; none when its model has gone.
-    pub(super) fn motion(&self, world: &World) -> Option<Motion> {
+    /// Returns the current motion of the sensor; `None` after its model was removed.
+    pub(super) fn motion(&self, world: &PhysicsWorld) -> Option<Motion> {
         Some(Motion::on_link(&world.link_state(self.link)?, self.link_from_sensor))
     }
 
-    /// Its pose in its link.
+    /// Returns the pose of the sensor in its link.
     pub(super) fn link_from_sensor(&self) -> Pose {
         self.link_from_sensor
     }

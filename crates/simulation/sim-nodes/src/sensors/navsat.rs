@@ -6,35 +6,38 @@ use periplus_msgs::geometry_msgs::Vector3Stamped;
 use periplus_msgs::sensor_msgs::{NavSatFix, NavSatStatus};
 use periplus_msgs::std_msgs::Header;
 use periplus_scene::{SensorKind, SphericalCoordinates};
-use periplus_sensors::{Globe, NavSat, NavSatNoise};
+use periplus_sensors::{LocalTangentFrame, NavSat, NavSatNoise};
 
 use super::imu::{diagonal, vector};
-use super::port::Style;
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::port::Convention;
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
 struct NavSatDevice {
     mount: Mount,
     timer: Timer,
     sensor: NavSat,
-    outs: Vec<Out>,
+    outputs: Vec<NavSatOutput>,
 }
 
-struct Out {
+struct NavSatOutput {
     frame: String,
     fix: Publisher<NavSatFix>,
     velocity: Option<Publisher<Vector3Stamped>>,
 }
 
-pub(super) fn device(order: Order<'_, '_>, diagnostics: &mut Diagnostics) -> Made {
+pub(super) fn device(
+    context: SensorBuildContext<'_, '_>,
+    diagnostics: &mut Diagnostics,
+) -> DeviceResult {
     let SensorKind::NavSat {
         position_horizontal,
         position_vertical,
         velocity_horizontal,
         velocity_vertical,
-    } = order.post.sensor.kind
+    } = context.sensor_context.sensor.kind
     else {
-        return Err(super::Failed::not_measured(order.post.sensor));
+        return Err(super::SensorBuildError::unsupported(context.sensor_context.sensor));
     };
     let noise = NavSatNoise {
         position_horizontal,
@@ -42,49 +45,50 @@ pub(super) fn device(order: Order<'_, '_>, diagnostics: &mut Diagnostics) -> Mad
         velocity_horizontal,
         velocity_vertical,
     };
-    let spherical = order.post.setting.scene.spherical_coordinates.clone().unwrap_or_else(|| {
-        diagnostics.push(nowhere(&order));
-        SphericalCoordinates {
-            surface_model: "EARTH_WGS84".into(),
-            frame_orientation: "ENU".into(),
-            latitude_rad: 0.0,
-            longitude_rad: 0.0,
-            elevation_m: 0.0,
-            heading_rad: 0.0,
-            extra: Vec::new(),
-        }
-    });
-    let globe = Globe::new(&spherical)?;
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        let velocity = match (port.style, port.out(1)) {
-            (Style::Ros2, Some(topic)) => Some(port.publisher(topic)?),
+    let spherical =
+        context.sensor_context.setting.scene.spherical_coordinates.clone().unwrap_or_else(|| {
+            diagnostics.push(missing_coordinates(&context));
+            SphericalCoordinates {
+                surface_model: "EARTH_WGS84".into(),
+                frame_orientation: "ENU".into(),
+                latitude_rad: 0.0,
+                longitude_rad: 0.0,
+                elevation_m: 0.0,
+                heading_rad: 0.0,
+                extra: Vec::new(),
+            }
+        });
+    let frame = LocalTangentFrame::new(&spherical)?;
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        let velocity = match (port.convention, port.out(1)) {
+            (Convention::Ros2, Some(topic)) => Some(port.publisher(topic)?),
             _ => None,
         };
-        let fix = port.publisher(&port.topic(order.post, "/navsat"))?;
-        outs.push(Out { frame: port.frame.clone(), fix, velocity });
+        let fix = port.publisher(&port.topic(context.sensor_context, "/navsat"))?;
+        outputs.push(NavSatOutput { frame: port.frame.clone(), fix, velocity });
     }
     Ok(Box::new(NavSatDevice {
-        timer: Timer::new(order.post, &order.ports),
-        sensor: NavSat::new(globe, &noise, order.mount.streams()),
-        mount: order.mount,
-        outs,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        sensor: NavSat::new(frame, &noise, context.mount.streams()),
+        mount: context.mount,
+        outputs,
     }))
 }
 
-fn nowhere(order: &Order<'_, '_>) -> Diagnostic {
+fn missing_coordinates(context: &SensorBuildContext<'_, '_>) -> Diagnostic {
     let message = format!(
-        "sensor `{}` measures where on Earth it is, but the world does not say where it lies",
-        order.post.sensor.name
+        "sensor `{}` measures geodetic coordinates, but the world does not define where its origin is",
+        context.sensor_context.sensor.name
     );
     Diagnostic::warning("no-spherical-coordinates", message)
-        .at(order.post.sensor.origin)
-        .note("latitude 0, longitude 0, elevation 0 is taken")
+        .at(context.sensor_context.sensor.origin)
+        .note("latitude 0, longitude 0, elevation 0 are used")
         .help("add `<spherical_coordinates>` to the world")
 }
 
-impl Out {
-    fn is_heard(&self) -> bool {
+impl NavSatOutput {
+    fn has_subscribers(&self) -> bool {
         self.fix.is_heard() || self.velocity.as_ref().is_some_and(Publisher::is_heard)
     }
 }
@@ -94,25 +98,25 @@ impl Device for NavSatDevice {
         &self.mount.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let Some(tick) = self.timer.due(time_ns) else { return };
-        if !self.outs.iter().any(Out::is_heard) {
+        if !self.outputs.iter().any(NavSatOutput::has_subscribers) {
             return;
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let mut stream = self.mount.streams().tick(tick.number);
         let reading = self.sensor.measure(&motion, tick.dt_s, &mut stream);
-        for out in &self.outs {
+        for out in &self.outputs {
             out.fix.publish(NavSatFix {
                 header: Header::at(time_ns, &out.frame),
                 status: NavSatStatus {
                     status: NavSatStatus::STATUS_FIX,
                     service: NavSatStatus::SERVICE_GPS,
                 },
-                latitude: reading.place.latitude_rad.to_degrees(),
-                longitude: reading.place.longitude_rad.to_degrees(),
-                altitude: reading.place.altitude_m,
+                latitude: reading.position.latitude_rad.to_degrees(),
+                longitude: reading.position.longitude_rad.to_degrees(),
+                altitude: reading.position.altitude_m,
                 position_covariance: diagonal(self.sensor.position_variances_m2()),
                 position_covariance_type: NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN,
             });
@@ -126,8 +130,8 @@ impl Device for NavSatDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.outs.iter().any(Out::is_heard);
-        self.timer.next_ns().filter(|_| is_heard)
+        let has_subscribers = self.outputs.iter().any(NavSatOutput::has_subscribers);
+        self.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {

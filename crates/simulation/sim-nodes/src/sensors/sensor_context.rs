@@ -1,4 +1,4 @@
-//! Where a sensor stands, and what its messages are called.
+//! A sensor in its model, with its topics and frames.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
@@ -7,18 +7,18 @@ use periplus_plugin_specs::Site;
 use periplus_scene::{FrameRole, Link, Model, Sensor};
 use periplus_sensors::{Schedule, Streams};
 
-use crate::{Setting, gz_topic};
+use crate::{DeviceContext, gz_topic};
 
-/// Frames nearer than this are the same place \[m, rad\].
-const SAME_PLACE: f64 = 1e-6;
+/// Tolerance for frames at the same pose \[m, rad\].
+const SAME_FRAME_TOLERANCE_M: f64 = 1e-6;
 
-/// Where a sensor stands.
+/// A sensor in its model.
 #[derive(Clone, Copy)]
-pub(crate) struct Post<'a> {
-    pub(crate) setting: &'a Setting<'a>,
-    /// The innermost model.
+pub(crate) struct SensorContext<'a> {
+    pub(crate) setting: &'a DeviceContext<'a>,
+    /// Innermost model.
     pub(crate) model: &'a Model,
-    /// The link's name, scoped in the outermost model.
+    /// Name of the link, scoped in the outermost model.
     pub(crate) scoped: &'a str,
     pub(crate) link: &'a Link,
     pub(crate) id: LinkId,
@@ -26,29 +26,30 @@ pub(crate) struct Post<'a> {
     pub(crate) sites: &'a [Site<'a>],
 }
 
-impl Post<'_> {
-    /// `robot::link::sensor`: unique in the world.
+impl SensorContext<'_> {
+    /// Returns `robot::link::sensor`, which is unique in the world.
     pub(crate) fn full_name(&self) -> String {
         format!("{}::{}::{}", self.setting.model_name, self.scoped, self.sensor.name)
     }
 
-    /// Its random streams.
+    /// Returns the random streams of the sensor.
     pub(crate) fn streams(&self) -> Streams {
         Streams::new(self.setting.seed, self.full_name())
     }
 
-    /// When it measures. `rate_hz` is a plugin's, where that counts instead of the sensor's.
+    /// Returns the schedule of measurements. `rate_hz` is a plugin's rate that replaces the
+    /// sensor's.
     pub(crate) fn schedule(&self, rate_hz: Option<f64>) -> Schedule {
         let rate_hz = rate_hz.unwrap_or(self.sensor.update_rate_hz);
         Schedule::new(rate_hz, self.setting.start_ns, self.setting.quirks)
     }
 
-    /// Its frame in that of its link.
+    /// Returns the pose of the sensor in its link.
     pub(crate) fn link_from_sensor(&self) -> Pose {
         self.sensor.parent_from_sensor
     }
 
-    /// The topic that Gazebo gives it: its own, or the long one with a word for what it is.
+    /// Returns Gazebo's topic: the sensor's own, or the long default with a suffix.
     pub(crate) fn gz_topic(&self, suffix: &str) -> String {
         match &self.sensor.topic {
             Some(topic) => gz_topic(topic),
@@ -64,17 +65,21 @@ impl Post<'_> {
         }
     }
 
-    /// The frame of its messages: the one that is `told` by a plugin, that of the sensor element,
-    /// the link or frame that is where the sensor is, or its link's. In the last case a reader
-    /// will take its data for measured somewhere else, and that is told.
-    pub(crate) fn frame_id(&self, told: Option<String>, diagnostics: &mut Diagnostics) -> String {
-        // ROS 1 names begin with a slash now and then; tf2 refuses those.
-        if let Some(told) = told.or_else(|| self.sensor.frame_id.clone()) {
-            return told.trim_start_matches('/').to_owned();
+    /// Returns the frame of the messages: `requested` by a plugin, else that of the sensor element,
+    /// else the link or frame at the sensor's pose, else its link. The last case misplaces the data
+    /// for receivers, and is reported.
+    pub(crate) fn frame_id(
+        &self,
+        requested: Option<String>,
+        diagnostics: &mut Diagnostics,
+    ) -> String {
+        // ROS 1 names can begin with a slash, which tf2 rejects.
+        if let Some(requested) = requested.or_else(|| self.sensor.frame_id.clone()) {
+            return requested.trim_start_matches('/').to_owned();
         }
         let same = |a: Pose, b: Pose| {
             let (metres, radians) = a.distance_to(b);
-            metres < SAME_PLACE && radians < SAME_PLACE
+            metres < SAME_FRAME_TOLERANCE_M && radians < SAME_FRAME_TOLERANCE_M
         };
         let sensor = self.link.model_from_link * self.link_from_sensor();
         if same(self.link_from_sensor(), Pose::IDENTITY) {
@@ -85,7 +90,8 @@ impl Post<'_> {
                 && periplus_scene::carrying_link(self.model, &frame.name).as_ref()
                     == Some(&self.link.name)
         });
-        // Of several in one place the last is the sensor's own: the links before it lead there.
+        // Of several frames at the same pose the last is the sensor's own: the links before it lead
+        // there.
         if let Some(frame) = frames.rfind(|frame| frame.role != FrameRole::MergedJoint) {
             return frame.name.clone();
         }

@@ -5,32 +5,37 @@ use periplus_msgs::sensor_msgs::Range;
 use periplus_msgs::std_msgs::Header;
 use periplus_rendering::{SensedGeometry, filter};
 use periplus_scene::SensorKind;
-use periplus_sensors::{Sonar, View};
+use periplus_sensors::{RayView, Sonar};
 
-use super::{Made, Mount, Order, Timer};
-use crate::{Device, Moment};
+use super::{DeviceResult, Mount, SensorBuildContext, Timer};
+use crate::{Device, SenseContext};
 
 struct SonarDevice {
     mount: Mount,
     timer: Timer,
     sonar: Sonar,
-    outs: Vec<(String, Publisher<Range>)>,
+    outputs: Vec<(String, Publisher<Range>)>,
 }
 
-pub(super) fn device(order: Order<'_, '_>) -> Made {
-    let SensorKind::Sonar { geometry, min_m, max_m, radius_m } = &order.post.sensor.kind else {
-        return Err(super::Failed::not_measured(order.post.sensor));
+pub(super) fn device(context: SensorBuildContext<'_, '_>) -> DeviceResult {
+    let SensorKind::Sonar { geometry, min_m, max_m, radius_m } =
+        &context.sensor_context.sensor.kind
+    else {
+        return Err(super::SensorBuildError::unsupported(context.sensor_context.sensor));
     };
     let sonar = Sonar::new(geometry, *min_m, *max_m, *radius_m)?;
-    let mut outs = Vec::new();
-    for port in &order.ports {
-        outs.push((port.frame.clone(), port.publisher(&port.topic(order.post, "/sonar"))?));
+    let mut outputs = Vec::new();
+    for port in &context.ports {
+        outputs.push((
+            port.frame.clone(),
+            port.publisher(&port.topic(context.sensor_context, "/sonar"))?,
+        ));
     }
     Ok(Box::new(SonarDevice {
-        timer: Timer::new(order.post, &order.ports),
-        mount: order.mount,
+        timer: Timer::new(context.sensor_context, &context.ports),
+        mount: context.mount,
         sonar,
-        outs,
+        outputs,
     }))
 }
 
@@ -40,25 +45,25 @@ impl Device for SonarDevice {
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "messages have single precision")]
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
         let due = self.timer.due(time_ns).is_some();
-        if !due || !self.outs.iter().any(|(_, out)| out.is_heard()) {
+        if !due || !self.outputs.iter().any(|(_, out)| out.is_heard()) {
             return;
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let own = moment.part(SensedGeometry::Collision, self.mount.link);
         let threads = moment.threads;
         let seen = moment.seen(SensedGeometry::Collision);
-        let view = View {
+        let view = RayView {
             filter: filter(u32::MAX, None),
             own_group: own.and_then(|part| seen.model_of(part)).map_or(0, |model| model.group().0),
             threads,
-            ..View::of(seen.rays())
+            ..RayView::of(seen.rays())
         };
         let range_m = self.sonar.measure(&view, motion.world_from_sensor);
         let [min_m, max_m] = self.sonar.range_m();
-        for (frame, out) in &self.outs {
+        for (frame, out) in &self.outputs {
             out.publish(Range {
                 header: Header::at(time_ns, frame),
                 radiation_type: Range::ULTRASOUND,
@@ -72,8 +77,8 @@ impl Device for SonarDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let is_heard = self.outs.iter().any(|(_, out)| out.is_heard());
-        self.timer.next_ns().filter(|_| is_heard)
+        let has_subscribers = self.outputs.iter().any(|(_, out)| out.is_heard());
+        self.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {

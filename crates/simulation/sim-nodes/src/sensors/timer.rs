@@ -1,11 +1,11 @@
-//! When a sensor's device measures.
+//! Measurement times of a sensor's device.
 
 use periplus_sensors::Schedule;
 
-use super::Post;
-use super::port::Port;
+use super::SensorContext;
+use super::port::SensorPort;
 
-/// When a sensor's device measures, and how long that is after the last time.
+/// Measurement times of a sensor's device, with the time since the last measurement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Timer {
     rate_hz: f64,
@@ -17,27 +17,27 @@ pub(super) struct Timer {
 /// A measurement that is due.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tick {
-    /// Which, counted from 0.
+    /// Number, counted from 0.
     pub(super) number: u64,
-    /// Since the last \[s\]; 0 at the first.
+    /// Time since the last measurement \[s\]; 0 at the first.
     pub(super) dt_s: f64,
 }
 
 impl Timer {
-    /// At the sensor's rate, or that of a plugin of ROS 1 that asks for less.
-    pub(super) fn new(post: &Post<'_>, ports: &[Port]) -> Self {
-        let sensor_hz = post.sensor.update_rate_hz;
+    /// Uses the sensor's rate, or the lower rate of a ROS 1 plugin.
+    pub(super) fn new(sensor_context: &SensorContext<'_>, ports: &[SensorPort]) -> Self {
+        let sensor_hz = sensor_context.sensor.update_rate_hz;
         let asked = ports
             .iter()
-            .filter_map(Port::rate_hz)
+            .filter_map(SensorPort::rate_hz)
             .fold(None, |a: Option<f64>, b| Some(a.map_or(b, |a| a.max(b))));
         let rate_hz = match asked {
             Some(asked) if sensor_hz > 0.0 => asked.min(sensor_hz),
             Some(asked) => asked,
             None => sensor_hz,
         };
-        let quirks = post.setting.quirks;
-        let schedule = Schedule::new(rate_hz, post.setting.start_ns, quirks);
+        let quirks = sensor_context.setting.quirks;
+        let schedule = Schedule::new(rate_hz, sensor_context.setting.start_ns, quirks);
         Self { rate_hz, quirks, schedule, last_ns: None }
     }
 

@@ -4,13 +4,13 @@ use periplus_graph::{Graph, GraphError, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::rosgraph_msgs;
 
-use crate::drives::Beat;
-use crate::{Device, Moment};
+use crate::drives::RateTimer;
+use crate::{Device, SenseContext};
 
 /// Publishes the simulated time on `/clock`, best effort with depth 1 as `rclcpp::ClockQoS` asks.
 pub struct ClockPublisher {
     publisher: Publisher<rosgraph_msgs::Clock>,
-    tells: Beat,
+    publish_timer: RateTimer,
 }
 
 impl ClockPublisher {
@@ -21,7 +21,7 @@ impl ClockPublisher {
     pub fn new(graph: &Graph, rate_hz: f64, start_ns: i64) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("clock").keep_names())?;
         let publisher = node.publisher("/clock", Qos::clock())?;
-        Ok(Self { publisher, tells: Beat::telling(rate_hz, start_ns) })
+        Ok(Self { publisher, publish_timer: RateTimer::for_publisher(rate_hz, start_ns) })
     }
 }
 
@@ -30,18 +30,18 @@ impl Device for ClockPublisher {
         "clock"
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let now_ns = moment.time_ns();
-        if self.tells.due(now_ns) {
+        if self.publish_timer.due(now_ns) {
             self.publisher.publish(rosgraph_msgs::Clock { clock: Time::of_ns(now_ns) });
         }
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.tells.next_ns().filter(|_| self.publisher.is_heard())
+        self.publish_timer.next_ns().filter(|_| self.publisher.is_heard())
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
     }
 }

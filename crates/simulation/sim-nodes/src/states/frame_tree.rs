@@ -1,4 +1,4 @@
-//! A robot's tree of frames, moved by joint positions.
+//! Frame tree of a robot.
 
 use std::collections::BTreeMap;
 
@@ -6,16 +6,16 @@ use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_scene::{Joint, JointKind, Mimic, Model, tf_tree};
 use periplus_urdf::{JointType, Robot};
 
-/// A frame on another.
+/// A frame with its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Edge {
     pub(crate) parent: String,
     pub(crate) child: String,
-    /// The child in the parent with the joint at zero.
+    /// Pose of the child in the parent with the joint at zero.
     pub(crate) parent_from_child: Pose,
 }
 
-/// A frame that a joint moves.
+/// A frame moved by a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MovingEdge {
     pub(crate) edge: Edge,
@@ -24,14 +24,13 @@ pub(crate) struct MovingEdge {
     slides: bool,
 }
 
-/// The frames of a robot, as `robot_state_publisher` has them: those that never move, and those
-/// that one coordinate moves, by the name of their joint. Joints with several coordinates have no
-/// transforms.
+/// Frames of a robot as in `robot_state_publisher`: fixed ones, and those moved by one coordinate,
+/// by the name of their joint. Joints with several coordinates have no transforms.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct FrameTree {
     pub(crate) fixed: Vec<Edge>,
     pub(crate) moving: BTreeMap<String, MovingEdge>,
-    /// Joints that follow others, by their names.
+    /// Mimic joints by name.
     pub(crate) mimics: BTreeMap<String, Mimic>,
 }
 
@@ -66,8 +65,8 @@ impl FrameTree {
         tree
     }
 
-    /// The frames of a URDF as `kdl_parser` has them: every joint counts whatever its links weigh,
-    /// floating joints have no transform, and planar ones never move.
+    /// Returns the frames of a URDF as `kdl_parser` does: every joint counts regardless of inertia,
+    /// floating joints have no transform, and planar ones are fixed.
     pub(crate) fn of_robot(robot: &Robot) -> Self {
         let mut tree = Self::default();
         for joint in &robot.joints {
@@ -104,7 +103,7 @@ impl FrameTree {
             };
             tree.moving.insert(joint.name.clone(), moving);
         }
-        // In the order of the joints' names, as the original keeps them.
+        // Sorted by joint name, as in the original.
         let name = |edge: &Edge| {
             let joint = robot.joints.iter().find(|joint| joint.child == edge.child);
             joint.map(|joint| joint.name.clone())
@@ -113,7 +112,7 @@ impl FrameTree {
         tree
     }
 
-    /// Adds the positions of joints that follow others which are known.
+    /// Adds the positions of mimic joints with known leaders.
     pub(crate) fn complete(&self, positions: &mut BTreeMap<String, f64>) {
         for (name, mimic) in &self.mimics {
             if let Some(leader) = positions.get(&mimic.joint)
@@ -127,9 +126,9 @@ impl FrameTree {
 }
 
 impl MovingEdge {
-    /// The child in the parent, with the joint at a position [rad or m].
+    /// Returns the pose of the child in the parent, with the joint at a position [rad or m].
     pub(crate) fn parent_from_child(&self, position: f64) -> Pose {
-        let moved = if self.slides {
+        let motion = if self.slides {
             let DVec3 { x, y, z } = self.axis_in_joint * position;
             Pose::from_xyz(x, y, z)
         } else {
@@ -138,11 +137,11 @@ impl MovingEdge {
             Pose { translation: DVec3::ZERO, rotation: DQuat::from_xyzw(x, y, z, cosine) }
         };
         let child_from_joint = self.child_from_joint;
-        self.edge.parent_from_child * child_from_joint * moved * child_from_joint.inverse()
+        self.edge.parent_from_child * child_from_joint * motion * child_from_joint.inverse()
     }
 }
 
-/// A joint by its scoped name, and the model that has it.
+/// Returns a joint by its scoped name, and the model that contains it.
 fn joint_of<'m>(model: &'m Model, scoped: &str) -> Option<(&'m Model, &'m Joint)> {
     if let Some(joint) = model.joint(scoped) {
         return Some((model, joint));
@@ -151,8 +150,8 @@ fn joint_of<'m>(model: &'m Model, scoped: &str) -> Option<(&'m Model, &'m Joint)
     joint_of(model.models.iter().find(|inner| inner.name == first)?, rest)
 }
 
-/// The joint's frame in the link below it. Its pose is given in the joint's child, which may be a
-/// frame on that link.
+/// Returns the joint's frame in its child link. The pose in the file is relative to the joint's
+/// child, which can be a frame on that link.
 fn joint_in_link(owner: &Model, joint: &Joint, link: &str) -> Pose {
     let link = link.rsplit("::").next().unwrap_or(link);
     let frame = owner.frames.iter().find(|frame| frame.name == joint.child);

@@ -8,16 +8,16 @@ use periplus_sensors::Streams;
 
 use super::geometry::vector;
 use super::noise::noisy;
-use super::odometry::{Teller, diagonal};
-use crate::drives::{Beat, Body, Order, RollingMean};
-use crate::{Device, Moment, Span, gz_topic};
+use super::odometry::{OdometryPublisher, diagonal};
+use crate::drives::{Body, BuildContext, RateTimer, RollingMean};
+use crate::{Device, SenseContext, StepInterval, gz_topic};
 
-/// The true pose of a model as odometry. Velocities are those between steps: the linear one is the
-/// mean of ten, the angular one is not. Noise is on the velocities only; the topic with covariances
-/// has the square of its deviation as every variance, the plain one has none.
+/// The true pose of a model as odometry. Velocities are differences between steps: the linear one is
+/// averaged over ten, the angular one is not. Noise applies to the velocities only; on the topic
+/// with covariances every variance is the square of its deviation, on the plain one zero.
 ///
-/// In two dimensions the height is left out, while roll and pitch are not, and velocities are along
-/// the heading; in three everything is in the axes of the body.
+/// With two dimensions the height is omitted, roll and pitch are not, and velocities are along the
+/// heading; with three everything is in the axes of the body.
 ///
 /// Source: gz-sim 8, `OdometryPublisher.cc`.
 pub(crate) struct GzOdometry {
@@ -29,50 +29,56 @@ pub(crate) struct GzOdometry {
     streams: Streams,
     before: Option<Pose>,
     linear: RollingMean<3>,
-    teller: Teller,
-    with_covariance: Teller,
-    tells: Beat,
+    odometry_publisher: OdometryPublisher,
+    with_covariance: OdometryPublisher,
+    publish_timer: RateTimer,
 }
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<GzOdometry> {
-    let model = order.model_name();
-    let frame = |parameter: &str, usual: &str| {
-        order.given_text(parameter).unwrap_or_else(|| format!("{model}/{usual}"))
+pub(crate) fn build(
+    context: &BuildContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<GzOdometry> {
+    let model = context.model_name();
+    let frame = |parameter: &str, fallback: &str| {
+        context.given_text(parameter).unwrap_or_else(|| format!("{model}/{fallback}"))
     };
     let parent = frame("odom_frame", "odom");
     let child = frame("robot_base_frame", "base_footprint");
-    let node = order.node(diagnostics)?;
-    let noise = order.number("gaussian_noise");
-    let topic = order.gz_topic("odom_topic", "odometry");
-    let teller = Teller::between(parent.clone(), child.clone())
-        .on(order, &node, &topic, diagnostics)?
-        .with_tf(order, &node, &order.gz_topic("tf_topic", "pose"), diagnostics)?;
-    let topic = order.gz_topic("odom_covariance_topic", "odometry_with_covariance");
-    let mut with_covariance = Teller::between(parent, child);
+    let node = context.node(diagnostics)?;
+    let noise = context.number("gaussian_noise");
+    let topic = context.gz_topic("odom_topic", "odometry");
+    let odometry_publisher = OdometryPublisher::between(parent.clone(), child.clone())
+        .on(context, &node, &topic, diagnostics)?
+        .with_tf(context, &node, &context.gz_topic("tf_topic", "pose"), diagnostics)?;
+    let topic = context.gz_topic("odom_covariance_topic", "odometry_with_covariance");
+    let mut with_covariance = OdometryPublisher::between(parent, child);
     with_covariance.pose_covariance = diagonal([noise * noise; 6]);
     with_covariance.twist_covariance = with_covariance.pose_covariance;
     let publisher: Publisher<nav_msgs::Odometry> =
-        order.accept(node.publisher(&gz_topic(&topic), Qos::reliable(1)), diagnostics)?;
+        context.accept(node.publisher(&gz_topic(&topic), Qos::reliable(1)), diagnostics)?;
     with_covariance.odometry = Some(publisher);
-    let [roll, pitch, yaw] = order.triple("rpy_offset");
+    let [roll, pitch, yaw] = context.triple("rpy_offset");
     Some(GzOdometry {
-        name: order.name(),
-        body: Body::of_model(order)?,
-        offset: Pose::from_xyz_rpy(order.triple("xyz_offset"), Rpy { roll, pitch, yaw }),
-        is_flat: order.plugin.values.integer("dimensions") != Some(3),
+        name: context.name(),
+        body: Body::of_model(context)?,
+        offset: Pose::from_xyz_rpy(context.triple("xyz_offset"), Rpy { roll, pitch, yaw }),
+        is_flat: context.plugin.values.integer("dimensions") != Some(3),
         noise,
-        streams: Streams::new(order.setting.seed, order.name()),
+        streams: Streams::new(context.setting.seed, context.name()),
         before: None,
         linear: RollingMean::default(),
-        teller,
+        odometry_publisher,
         with_covariance,
-        tells: Beat::telling(order.number("odom_publish_frequency"), order.setting.start_ns),
+        publish_timer: RateTimer::for_publisher(
+            context.number("odom_publish_frequency"),
+            context.setting.start_ns,
+        ),
     })
 }
 
 impl GzOdometry {
-    /// Linear and angular velocity of a step, in the axes that are told.
-    fn velocities(&self, before: Pose, now: Pose, span: Span) -> (DVec3, DVec3) {
+    /// Returns linear and angular velocity of a step, in the published axes.
+    fn velocities(&self, before: Pose, now: Pose, span: StepInterval) -> (DVec3, DVec3) {
         let dt_s = span.seconds();
         let way_m = now.translation - before.translation;
         let turn = (now.rotation * before.rotation.conjugate()).normalize();
@@ -94,13 +100,13 @@ impl Device for GzOdometry {
         &self.name
     }
 
-    fn act(&mut self, world: &mut periplus_physics::World, _span: Span) {
+    fn act(&mut self, world: &mut periplus_physics::PhysicsWorld, _span: StepInterval) {
         if self.before.is_none() {
             self.before = self.body.state(world).map(|state| state.world_from_link * self.offset);
         }
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let Some(state) = self.body.state(moment.world) else { return };
         let now = state.world_from_link * self.offset;
         let before = self.before.replace(now).unwrap_or(now);
@@ -110,8 +116,8 @@ impl Device for GzOdometry {
         let (linear, angular) = self.velocities(before, now, moment.span);
         self.linear.push(linear.to_array());
         let now_ns = moment.time_ns();
-        let Some(number) = self.tells.due_number(now_ns) else { return };
-        if !self.teller.is_heard() && !self.with_covariance.is_heard() {
+        let Some(number) = self.publish_timer.due_number(now_ns) else { return };
+        if !self.odometry_publisher.has_subscribers() && !self.with_covariance.has_subscribers() {
             return;
         }
         let mut stream = self.streams.tick(number);
@@ -124,18 +130,19 @@ impl Device for GzOdometry {
         if self.is_flat {
             pose.translation.z = 0.0;
         }
-        self.teller.tell(now_ns, pose, twist.clone());
-        self.with_covariance.tell(now_ns, pose, twist);
+        self.odometry_publisher.publish(now_ns, pose, twist.clone());
+        self.with_covariance.publish(now_ns, pose, twist);
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let heard = self.teller.is_heard() || self.with_covariance.is_heard();
-        self.tells.next_ns().filter(|_| heard)
+        let heard =
+            self.odometry_publisher.has_subscribers() || self.with_covariance.has_subscribers();
+        self.publish_timer.next_ns().filter(|_| heard)
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.before = None;
         self.linear.clear();
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
     }
 }

@@ -6,56 +6,56 @@ use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose;
 use periplus_graph::{Node, Publisher, Qos};
 use periplus_msgs::{geometry_msgs, tf2_msgs};
-use periplus_physics::{LinkId, World};
+use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_scene::{JointKind, Model, carrying_link};
 
 use super::geometry::transform;
-use crate::drives::{Beat, Body, Order, earlier};
-use crate::{Device, Moment, gz_topic};
+use crate::drives::{Body, BuildContext, RateTimer, earlier};
+use crate::{Device, SenseContext, gz_topic};
 
-/// Where the parts of a model are, each in what it is a part of: links in their model, shapes and
-/// sensors in their link. Frames are named by their scope: `robot`, `robot::wheel`.
+/// Poses of a model's parts relative to their parents: links in their model, shapes and sensors in
+/// their link. Frames are scoped names: `robot`, `robot::wheel`.
 ///
-/// Each pose is a `TransformStamped` of its own, or all are one `TFMessage`
-/// (`use_pose_vector_msg`). With `static_publisher`, `/model/<m>/pose` has the links on joints that
-/// move, and `/model/<m>/pose_static` the rest.
+/// Poses are single `TransformStamped` messages, or one `TFMessage` (`use_pose_vector_msg`). With
+/// `static_publisher`, `/model/<m>/pose` contains the links on movable joints, and
+/// `/model/<m>/pose_static` the rest.
 ///
 /// Source: gz-sim 8, `PosePublisher.cc`.
 pub(crate) struct GzPoses {
     name: String,
     parts: Vec<Part>,
-    moving: Outlet,
-    still: Option<Outlet>,
+    moving: PoseTopic,
+    fixed: Option<PoseTopic>,
 }
 
 struct Part {
     parent_frame: String,
     frame: String,
-    place: Place,
+    place: PartPose,
     moves: bool,
 }
 
-enum Place {
+enum PartPose {
     /// A link, in its model.
     Link { link: LinkId, model: Body },
-    /// A model, in the world or in the model around it.
+    /// A model, in the world or in its parent model.
     Model { model: Body, around: Option<Body> },
-    /// A part of a link, in it.
+    /// A part of a link, in the link.
     Fixed(Pose),
 }
 
-struct Outlet {
-    out: Out,
-    tells: Beat,
+struct PoseTopic {
+    out: PoseOutput,
+    publish_timer: RateTimer,
 }
 
-enum Out {
+enum PoseOutput {
     Each(Publisher<geometry_msgs::TransformStamped>),
     All(Publisher<tf2_msgs::TFMessage>),
 }
 
-/// What is published, apart from links.
-struct Wanted {
+/// Kinds of poses to publish.
+struct PublishedParts {
     links: bool,
     visuals: bool,
     collisions: bool,
@@ -64,85 +64,98 @@ struct Wanted {
     model: bool,
 }
 
-pub(crate) fn build(order: &Order<'_>, diagnostics: &mut Diagnostics) -> Option<GzPoses> {
-    let nested = order.flag("publish_nested_model_pose");
-    let values = &order.plugin.values;
+pub(crate) fn build(context: &BuildContext<'_>, diagnostics: &mut Diagnostics) -> Option<GzPoses> {
+    let nested = context.flag("publish_nested_model_pose");
+    let values = &context.plugin.values;
     let says_model = values.is_given("publish_model_pose");
-    let wanted = Wanted {
-        links: order.flag("publish_link_pose"),
-        visuals: order.flag("publish_visual_pose"),
-        collisions: order.flag("publish_collision_pose"),
-        sensors: order.flag("publish_sensor_pose"),
+    let published = PublishedParts {
+        links: context.flag("publish_link_pose"),
+        visuals: context.flag("publish_visual_pose"),
+        collisions: context.flag("publish_collision_pose"),
+        sensors: context.flag("publish_sensor_pose"),
         nested,
-        // Gazebo asks for both; nobody who writes `publish_model_pose` alone means nothing by it.
-        model: if says_model { order.flag("publish_model_pose") } else { nested },
+        // Gazebo requires both flags; `publish_model_pose` alone would have no effect.
+        model: if says_model { context.flag("publish_model_pose") } else { nested },
     };
-    let model = order.model();
-    let body = Body::of_model(order)?;
-    let name = order.model_name();
+    let model = context.model();
+    let body = Body::of_model(context)?;
+    let name = context.model_name();
     let mut parts = Vec::new();
-    if wanted.model {
+    if published.model {
         parts.push(Part {
-            parent_frame: order.setting.scene.name.clone(),
+            parent_frame: context.setting.scene.name.clone(),
             frame: name.to_owned(),
-            place: Place::Model { model: body, around: None },
+            place: PartPose::Model { model: body, around: None },
             moves: false,
         });
     }
-    add(order, model, &order.setting.scoped(order.site, ""), name, body, &wanted, &mut parts);
-    let node = order.node(diagnostics)?;
-    let topic = gz_topic(&order.below_model("pose"));
-    let rate_hz = order.number("update_frequency");
-    let moving = outlet(order, &node, &topic, rate_hz, diagnostics)?;
-    let still = if order.flag("static_publisher") {
+    add(
+        context,
+        model,
+        &context.setting.scoped(context.site, ""),
+        name,
+        body,
+        &published,
+        &mut parts,
+    );
+    let node = context.node(diagnostics)?;
+    let topic = gz_topic(&context.below_model("pose"));
+    let rate_hz = context.number("update_frequency");
+    let moving = pose_topic(context, &node, &topic, rate_hz, diagnostics)?;
+    let fixed = if context.flag("static_publisher") {
         let given = values.is_given("static_update_frequency");
-        let rate_hz = if given { order.number("static_update_frequency") } else { rate_hz };
-        Some(outlet(order, &node, &format!("{topic}_static"), rate_hz, diagnostics)?)
+        let rate_hz = if given { context.number("static_update_frequency") } else { rate_hz };
+        Some(pose_topic(context, &node, &format!("{topic}_static"), rate_hz, diagnostics)?)
     } else {
         None
     };
-    Some(GzPoses { name: order.name(), parts, moving, still })
+    Some(GzPoses { name: context.name(), parts, moving, fixed })
 }
 
-fn outlet(
-    order: &Order<'_>,
+fn pose_topic(
+    context: &BuildContext<'_>,
     node: &Node,
     topic: &str,
     rate_hz: f64,
     diagnostics: &mut Diagnostics,
-) -> Option<Outlet> {
+) -> Option<PoseTopic> {
     let qos = Qos::reliable(100);
-    let out = if order.flag("use_pose_vector_msg") {
-        Out::All(order.accept(node.publisher(topic, qos), diagnostics)?)
+    let out = if context.flag("use_pose_vector_msg") {
+        PoseOutput::All(context.accept(node.publisher(topic, qos), diagnostics)?)
     } else {
-        Out::Each(order.accept(node.publisher(topic, qos), diagnostics)?)
+        PoseOutput::Each(context.accept(node.publisher(topic, qos), diagnostics)?)
     };
-    Some(Outlet { out, tells: Beat::telling(rate_hz, order.setting.start_ns) })
+    Some(PoseTopic {
+        out,
+        publish_timer: RateTimer::for_publisher(rate_hz, context.setting.start_ns),
+    })
 }
 
-/// Adds the parts of a model: `scope` is its place in the outermost model, `name` in the frames.
+/// Adds the parts of a model: `scope` is its scope in the outermost model, `name` its frame.
 fn add(
-    order: &Order<'_>,
+    context: &BuildContext<'_>,
     model: &Model,
     scope: &str,
     name: &str,
     body: Body,
-    wanted: &Wanted,
+    published: &PublishedParts,
     parts: &mut Vec<Part>,
 ) {
     let moving = moving_links(model);
     for link in &model.links {
-        let Some(id) =
-            order.setting.world.find_link(order.setting.model, &format!("{scope}{}", link.name))
+        let Some(id) = context
+            .setting
+            .world
+            .find_link(context.setting.model, &format!("{scope}{}", link.name))
         else {
             continue;
         };
         let frame = format!("{name}::{}", link.name);
-        if wanted.links {
+        if published.links {
             parts.push(Part {
                 parent_frame: name.to_owned(),
                 frame: frame.clone(),
-                place: Place::Link { link: id, model: body },
+                place: PartPose::Link { link: id, model: body },
                 moves: moving.contains(&link.name),
             });
         }
@@ -151,38 +164,38 @@ fn add(
                 parts.push(Part {
                     parent_frame: frame.clone(),
                     frame: format!("{frame}::{part}"),
-                    place: Place::Fixed(pose),
+                    place: PartPose::Fixed(pose),
                     moves: false,
                 });
             }
         };
         for visual in &link.visuals {
-            fixed(wanted.visuals, &visual.name, visual.link_from_visual);
+            fixed(published.visuals, &visual.name, visual.link_from_visual);
         }
         for collision in &link.collisions {
-            fixed(wanted.collisions, &collision.name, collision.link_from_collision);
+            fixed(published.collisions, &collision.name, collision.link_from_collision);
         }
         for sensor in &link.sensors {
-            fixed(wanted.sensors, &sensor.name, sensor.parent_from_sensor);
+            fixed(published.sensors, &sensor.name, sensor.parent_from_sensor);
         }
     }
     for inner in &model.models {
         let scope = format!("{scope}{}::", inner.name);
-        let Some(inner_body) = Body::of(order.setting, inner, &scope) else { continue };
+        let Some(inner_body) = Body::of(context.setting, inner, &scope) else { continue };
         let frame = format!("{name}::{}", inner.name);
-        if wanted.nested {
+        if published.nested {
             parts.push(Part {
                 parent_frame: name.to_owned(),
                 frame: frame.clone(),
-                place: Place::Model { model: inner_body, around: Some(body) },
+                place: PartPose::Model { model: inner_body, around: Some(body) },
                 moves: false,
             });
         }
-        add(order, inner, &scope, &frame, inner_body, wanted, parts);
+        add(context, inner, &scope, &frame, inner_body, published, parts);
     }
 }
 
-/// The links on joints that move, but not the one that carries the model.
+/// Returns the links on movable joints, except the canonical link.
 fn moving_links(model: &Model) -> BTreeSet<String> {
     let joints = model.joints.iter().filter(|joint| joint.kind != JointKind::Fixed);
     let ends = joints.flat_map(|joint| [&joint.parent, &joint.child]);
@@ -193,9 +206,9 @@ fn moving_links(model: &Model) -> BTreeSet<String> {
     links
 }
 
-impl Place {
-    /// The part in what it is a part of.
-    fn pose(&self, world: &World) -> Option<Pose> {
+impl PartPose {
+    /// Returns the pose of the part in its parent.
+    fn pose(&self, world: &PhysicsWorld) -> Option<Pose> {
         let of = |body: &Body| Some(body.state(world)?.world_from_link);
         match self {
             Self::Link { link, model } => {
@@ -209,21 +222,21 @@ impl Place {
     }
 }
 
-impl Outlet {
-    fn is_heard(&self) -> bool {
+impl PoseTopic {
+    fn has_subscribers(&self) -> bool {
         match &self.out {
-            Out::Each(publisher) => publisher.is_heard(),
-            Out::All(publisher) => publisher.is_heard(),
+            PoseOutput::Each(publisher) => publisher.is_heard(),
+            PoseOutput::All(publisher) => publisher.is_heard(),
         }
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.tells.next_ns().filter(|_| self.is_heard())
+        self.publish_timer.next_ns().filter(|_| self.has_subscribers())
     }
 
-    fn tell<'p>(&mut self, parts: impl Iterator<Item = &'p Part>, moment: &Moment<'_>) {
+    fn publish<'p>(&mut self, parts: impl Iterator<Item = &'p Part>, moment: &SenseContext<'_>) {
         let now_ns = moment.time_ns();
-        if !self.tells.due(now_ns) || !self.is_heard() {
+        if !self.publish_timer.due(now_ns) || !self.has_subscribers() {
             return;
         }
         let transforms = parts.filter_map(|part| {
@@ -231,8 +244,8 @@ impl Outlet {
             Some(transform(now_ns, &part.parent_frame, &part.frame, pose))
         });
         match &self.out {
-            Out::Each(publisher) => transforms.for_each(|one| publisher.publish(one)),
-            Out::All(publisher) => {
+            PoseOutput::Each(publisher) => transforms.for_each(|one| publisher.publish(one)),
+            PoseOutput::All(publisher) => {
                 publisher.publish(tf2_msgs::TFMessage { transforms: transforms.collect() });
             }
         }
@@ -244,24 +257,24 @@ impl Device for GzPoses {
         &self.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
-        match &mut self.still {
-            Some(still) => {
-                still.tell(self.parts.iter().filter(|part| !part.moves), moment);
-                self.moving.tell(self.parts.iter().filter(|part| part.moves), moment);
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
+        match &mut self.fixed {
+            Some(fixed) => {
+                fixed.publish(self.parts.iter().filter(|part| !part.moves), moment);
+                self.moving.publish(self.parts.iter().filter(|part| part.moves), moment);
             }
-            None => self.moving.tell(self.parts.iter(), moment),
+            None => self.moving.publish(self.parts.iter(), moment),
         }
     }
 
     fn next_ns(&self) -> Option<i64> {
-        earlier(self.moving.next_ns(), self.still.as_ref().and_then(Outlet::next_ns))
+        earlier(self.moving.next_ns(), self.fixed.as_ref().and_then(PoseTopic::next_ns))
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.moving.tells.restart(time_ns);
-        if let Some(still) = &mut self.still {
-            still.tells.restart(time_ns);
+        self.moving.publish_timer.restart(time_ns);
+        if let Some(fixed) = &mut self.fixed {
+            fixed.publish_timer.restart(time_ns);
         }
     }
 }

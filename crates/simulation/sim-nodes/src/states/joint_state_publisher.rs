@@ -15,30 +15,30 @@ pub static JOINT_STATE_PUBLISHER: Table = Table {
     doc: "Publishes joint states from default positions and from other topics.",
     parameters: &[
         number("rate", "Hz", "Messages per second.").or("10").within(1e-3, 1e6),
-        texts("source_list", "Topics of joint states that are passed on."),
-        flag("use_mimic_tags", "Whether joints that follow others are worked out.").or("true"),
-        flag("publish_default_positions", "Whether positions are published.").or("true"),
-        flag("publish_default_velocities", "Whether velocities of zero are published.").or("false"),
-        flag("publish_default_efforts", "Whether efforts of zero are published.").or("false"),
+        texts("source_list", "Topics of joint states that are merged (default none)."),
+        flag("use_mimic_tags", "Compute the positions of mimic joints (default true).").or("true"),
+        flag("publish_default_positions", "Publish positions (default true).").or("true"),
+        flag("publish_default_velocities", "Publish zero velocities (default false).").or("false"),
+        flag("publish_default_efforts", "Publish zero efforts (default false).").or("false"),
     ],
 };
 
-/// What a [`JointStateSource`] may be told.
+/// Options of a [`JointStateSource`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointStateOptions {
-    /// Messages per second \[Hz\].
+    /// Publishing rate \[Hz\].
     pub rate_hz: f64,
-    /// Topics of joint states that are passed on.
+    /// Topics of joint states that are merged.
     pub source_list: Vec<String>,
-    /// Whether joints that follow others are worked out.
+    /// True if the positions of mimic joints are computed.
     pub use_mimic_tags: bool,
-    /// Whether positions are published.
+    /// True if positions are published.
     pub publish_default_positions: bool,
-    /// Whether velocities of zero are published.
+    /// True if zero velocities are published.
     pub publish_default_velocities: bool,
-    /// Whether efforts of zero are published.
+    /// True if zero efforts are published.
     pub publish_default_efforts: bool,
-    /// Positions at the start, by joint, in the place of zero \[rad or m\].
+    /// Initial positions by joint, instead of zero \[rad or m\].
     pub zeros: BTreeMap<String, f64>,
 }
 
@@ -57,7 +57,7 @@ impl Default for JointStateOptions {
 }
 
 impl JointStateOptions {
-    /// From parameters of [`JOINT_STATE_PUBLISHER`].
+    /// Reads parameters of [`JOINT_STATE_PUBLISHER`].
     #[must_use]
     pub fn read(values: &Values) -> Self {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
@@ -73,15 +73,15 @@ impl JointStateOptions {
     }
 }
 
-/// Publishes the states of all joints of a robot on `joint_states` at a rate: zero (or the middle
-/// of the limits where zero is outside them) until one of the sources tells otherwise.
+/// Publishes the states of all joints of a robot on `joint_states` at a rate: zero (or the middle of
+/// the limits if they exclude zero) until a source publishes a value.
 ///
 /// Source: `joint_state_publisher.py` of ROS 2.
 pub struct JointStateSource {
-    actor: Actor<State>,
+    actor: Actor<PublisherState>,
 }
 
-struct State {
+struct PublisherState {
     joints: Vec<JointEntry>,
     has_velocities: bool,
     has_efforts: bool,
@@ -99,10 +99,10 @@ struct JointEntry {
 }
 
 impl JointStateSource {
-    /// As a node of a graph, of the joints of a model.
+    /// Creates the publisher as a node of a graph, for the joints of a model.
     ///
     /// # Errors
-    /// When a topic of that name has another type, or the rate is not above 0.
+    /// When a topic of that name has another type, or the rate is not positive.
     pub fn new(node: Node, model: &Model, options: JointStateOptions) -> Result<Self, GraphError> {
         let mut joints = Vec::new();
         collect(model, "", &options, &mut joints);
@@ -110,29 +110,29 @@ impl JointStateSource {
         let (sources, rate_hz) = (options.source_list.clone(), options.rate_hz);
         let (has_velocities, has_efforts) =
             (options.publish_default_velocities, options.publish_default_efforts);
-        let state = State { joints, has_velocities, has_efforts, options, publisher };
+        let state = PublisherState { joints, has_velocities, has_efforts, options, publisher };
         let mut actor = node.actor(state);
         for source in &sources {
             actor.subscribe::<sensor_msgs::JointState>(
                 source,
                 Qos::reliable(10),
-                |state, message, _| state.hear(&message),
+                |state, message, _| state.on_joint_states(&message),
             )?;
         }
         #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
         let period_ns = (1e9 / rate_hz) as i64;
-        actor.timer(period_ns, |state, io| state.tell(io.now_ns()))?;
+        actor.timer(period_ns, |state, io| state.publish(io.now_ns()))?;
         Ok(Self { actor })
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 }
 
-/// The joints of a model and of those inside it that one coordinate moves, in order.
+/// Collects the joints with one coordinate of a model and its nested models, in order.
 fn collect(model: &Model, scope: &str, options: &JointStateOptions, joints: &mut Vec<JointEntry>) {
     for joint in &model.joints {
         let kinds = [JointKind::Revolute, JointKind::Continuous, JointKind::Prismatic];
@@ -141,12 +141,12 @@ fn collect(model: &Model, scope: &str, options: &JointStateOptions, joints: &mut
         };
         let name = format!("{scope}{}", joint.name);
         let is_free = joint.kind == JointKind::Continuous;
-        let usual = if is_free || (axis.lower <= 0.0 && 0.0 <= axis.upper) {
+        let fallback = if is_free || (axis.lower <= 0.0 && 0.0 <= axis.upper) {
             0.0
         } else {
             (axis.lower + axis.upper) / 2.0
         };
-        let position = options.zeros.get(&name).copied().unwrap_or(usual);
+        let position = options.zeros.get(&name).copied().unwrap_or(fallback);
         let mimic = axis.mimic.clone().filter(|_| options.use_mimic_tags);
         joints.push(JointEntry { name, mimic, position, velocity: 0.0, effort: 0.0 });
     }
@@ -155,8 +155,8 @@ fn collect(model: &Model, scope: &str, options: &JointStateOptions, joints: &mut
     }
 }
 
-impl State {
-    fn hear(&mut self, message: &Arc<sensor_msgs::JointState>) {
+impl PublisherState {
+    fn on_joint_states(&mut self, message: &Arc<sensor_msgs::JointState>) {
         for (index, name) in message.name.iter().enumerate() {
             let joint = self.joints.iter_mut().find(|joint| joint.name == *name);
             let Some(joint) = joint.filter(|joint| joint.mimic.is_none()) else { continue };
@@ -174,7 +174,7 @@ impl State {
         }
     }
 
-    fn tell(&self, now_ns: i64) {
+    fn publish(&self, now_ns: i64) {
         let mut message =
             sensor_msgs::JointState { header: Header::at(now_ns, ""), ..Default::default() };
         for joint in &self.joints {
@@ -197,8 +197,8 @@ impl State {
         }
     }
 
-    /// Position and velocity; those of a follower come from its leader. None of a circle of
-    /// followers, which is longer than all joints.
+    /// Returns position and velocity; for mimic joints those derived from the leader. `None` for a
+    /// cycle of mimic joints, which is longer than the number of joints.
     fn state_of(&self, joint: &JointEntry, most: usize) -> Option<(f64, f64)> {
         let Some(mimic) = &joint.mimic else { return Some((joint.position, joint.velocity)) };
         let leader = self.joints.iter().find(|other| other.name == mimic.joint)?;

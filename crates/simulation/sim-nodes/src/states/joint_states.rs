@@ -1,20 +1,20 @@
-//! Joint states from the truth.
+//! Joint states from the simulation's state.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
 use periplus_params::Value;
-use periplus_physics::{JointId, World};
+use periplus_physics::{JointId, PhysicsWorld};
 use periplus_plugin_specs::Family;
 
-use crate::drives::{Beat, Order};
-use crate::{Device, Moment, Setting, gz_topic, plain_node, publisher_qos};
+use crate::drives::{BuildContext, RateTimer};
+use crate::{Device, DeviceContext, SenseContext, device_node, gz_topic, publisher_qos};
 
-/// How often a robot without a publisher of its own tells its joints \[Hz\].
-const USUAL_RATE_HZ: f64 = 50.0;
+/// Publishing rate of the joints of a robot without a publisher plugin \[Hz\].
+const DEFAULT_RATE_HZ: f64 = 50.0;
 
-/// Joints, their names, and where they are told.
+/// Joints with their names and publisher.
 pub(crate) struct JointStates {
     joints: Vec<(String, JointId)>,
     publisher: Publisher<sensor_msgs::JointState>,
@@ -22,29 +22,29 @@ pub(crate) struct JointStates {
 }
 
 impl JointStates {
-    /// Those of a drive's wheels, on `joint_states`.
+    /// Creates the publisher of a drive's wheels, on `joint_states`.
     pub(crate) fn of_wheels(
-        order: &Order<'_>,
+        context: &BuildContext<'_>,
         node: &Node,
         joints: &[JointId],
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
-        let world = order.setting.world;
+        let world = context.setting.world;
         let named = joints.iter().map(|&joint| {
             let name = world.joint_name(joint).unwrap_or_default();
-            (order.inner_name(name), joint)
+            (context.inner_name(name), joint)
         });
-        let qos = publisher_qos(&order.plugin.ros, "joint_states", Qos::reliable(1000));
-        let publisher = order.accept(node.publisher("joint_states", qos), diagnostics)?;
+        let qos = publisher_qos(&context.plugin.ros, "joint_states", Qos::reliable(1000));
+        let publisher = context.accept(node.publisher("joint_states", qos), diagnostics)?;
         Some(Self { joints: named.collect(), publisher, with_efforts: false })
     }
 
-    pub(crate) fn is_heard(&self) -> bool {
+    pub(crate) fn has_subscribers(&self) -> bool {
         self.publisher.is_heard()
     }
 
-    pub(crate) fn tell(&self, world: &World, time_ns: i64) {
-        if !self.is_heard() {
+    pub(crate) fn publish(&self, world: &PhysicsWorld, time_ns: i64) {
+        if !self.has_subscribers() {
             return;
         }
         let mut message =
@@ -63,68 +63,71 @@ impl JointStates {
 }
 
 /// Publishes joint states at a rate: `gazebo_ros_joint_state_publisher` of ROS 1 and ROS 2,
-/// `gz-sim-joint-state-publisher-system`, and what a robot without any of them gets.
+/// `gz-sim-joint-state-publisher-system`, and the default of a robot without any of them.
 pub struct JointStatePublisher {
     name: String,
     states: JointStates,
-    tells: Beat,
+    publish_timer: RateTimer,
 }
 
-/// A plugin's publisher. Joints that are not there are errors, and the others are told; without
-/// names all joints that move are.
+/// Builds the publisher of a plugin. Missing joints are errors, the others are published; without
+/// names all movable joints are.
 ///
 /// Source: `gazebo_ros_joint_state_publisher.cpp` of `gazebo_ros_pkgs`: position and velocity on
 /// `joint_states`, QoS of depth 1000. gz-sim 8, `JointStatePublisher.cc`: effort too, on
 /// `/world/<w>/model/<m>/joint_state`, each step.
 pub(crate) fn plugin(
-    order: &Order<'_>,
+    context: &BuildContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<JointStatePublisher> {
-    let names = match order.plugin.known.family {
-        Family::ClassicRos1 => order
+    let names = match context.plugin.known.family {
+        Family::ClassicRos1 => context
             .text("jointName")
             .split(',')
             .map(|name| name.trim().to_owned())
             .filter(|name| !name.is_empty())
-            .map(|name| (name, order.plugin.values.origin("jointName")))
+            .map(|name| (name, context.plugin.values.origin("jointName")))
             .collect(),
-        _ => named(order, "joint_name"),
+        _ => named(context, "joint_name"),
     };
     let mut joints = Vec::new();
     for (name, origin) in &names {
-        if let Some(joint) = order.joint_named(name, *origin, diagnostics) {
+        if let Some(joint) = context.joint_named(name, *origin, diagnostics) {
             joints.push((name.clone(), joint));
         }
     }
     if names.is_empty() {
-        joints = moving(order);
+        joints = moving(context);
     }
     if joints.is_empty() {
         return None;
     }
-    let node = order.node(diagnostics)?;
-    let (topic, rate_hz, depth) = match order.plugin.known.family {
+    let node = context.node(diagnostics)?;
+    let (topic, rate_hz, depth) = match context.plugin.known.family {
         Family::Gz => {
-            let world = &order.setting.scene.name;
-            let usual = format!("/world/{world}/model/{}/joint_state", order.model_name());
-            let topic = gz_topic(&order.given_text("topic").unwrap_or(usual));
-            (topic, order.number("update_rate"), 10)
+            let world = &context.setting.scene.name;
+            let fallback = format!("/world/{world}/model/{}/joint_state", context.model_name());
+            let topic = gz_topic(&context.given_text("topic").unwrap_or(fallback));
+            (topic, context.number("update_rate"), 10)
         }
-        Family::ClassicRos1 => ("joint_states".to_owned(), order.number("updateRate"), 1000),
-        _ => ("joint_states".to_owned(), order.number("update_rate"), 1000),
+        Family::ClassicRos1 => ("joint_states".to_owned(), context.number("updateRate"), 1000),
+        _ => ("joint_states".to_owned(), context.number("update_rate"), 1000),
     };
-    let qos = publisher_qos(&order.plugin.ros, &topic, Qos::reliable(depth));
-    let publisher = order.accept(node.publisher(&topic, qos), diagnostics)?;
-    let with_efforts = order.plugin.known.family == Family::Gz;
+    let qos = publisher_qos(&context.plugin.ros, &topic, Qos::reliable(depth));
+    let publisher = context.accept(node.publisher(&topic, qos), diagnostics)?;
+    let with_efforts = context.plugin.known.family == Family::Gz;
     Some(JointStatePublisher {
-        name: order.name(),
+        name: context.name(),
         states: JointStates { joints, publisher, with_efforts },
-        tells: Beat::telling(rate_hz, order.setting.start_ns),
+        publish_timer: RateTimer::for_publisher(rate_hz, context.setting.start_ns),
     })
 }
 
-fn named(order: &Order<'_>, parameter: &str) -> Vec<(String, periplus_diagnostics::Origin)> {
-    let values = order.plugin.values.all(parameter).into_iter();
+fn named(
+    context: &BuildContext<'_>,
+    parameter: &str,
+) -> Vec<(String, periplus_diagnostics::Origin)> {
+    let values = context.plugin.values.all(parameter).into_iter();
     let names = values.filter_map(|(value, origin)| match value {
         Value::Text(name) if !name.trim().is_empty() => Some((name.trim().to_owned(), origin)),
         _ => None,
@@ -132,10 +135,10 @@ fn named(order: &Order<'_>, parameter: &str) -> Vec<(String, periplus_diagnostic
     names.collect()
 }
 
-/// The joints with an axis in the model of a plugin, by their names there.
-fn moving(order: &Order<'_>) -> Vec<(String, JointId)> {
-    let Setting { world, model, .. } = *order.setting;
-    let within = order.setting.scoped(order.site, "");
+/// Returns the movable joints of a plugin's model, by their names in it.
+fn moving(context: &BuildContext<'_>) -> Vec<(String, JointId)> {
+    let DeviceContext { world, model, .. } = *context.setting;
+    let within = context.setting.scoped(context.site, "");
     let joints = world.joints(model).filter_map(|joint| {
         let name = world.joint_name(joint)?.strip_prefix(&within)?;
         world.axis_state(joint)?;
@@ -145,12 +148,12 @@ fn moving(order: &Order<'_>) -> Vec<(String, JointId)> {
 }
 
 impl JointStatePublisher {
-    /// For a robot that moves joints and has no plugin that tells of them: all of them, 50 times a
-    /// second, on `joint_states` of its namespace. None if no joint moves.
+    /// Creates the publisher of a robot with movable joints but no publisher plugin: all joints, at
+    /// 50 Hz, on `joint_states` of its namespace. `None` if no joint is movable.
     ///
     /// # Errors
-    /// When the names do not fit into the graph.
-    pub fn usual(setting: &Setting<'_>) -> Result<Option<Self>, GraphError> {
+    /// When the node's names are invalid.
+    pub fn fallback(setting: &DeviceContext<'_>) -> Result<Option<Self>, GraphError> {
         let world = setting.world;
         let joints: Vec<(String, JointId)> = world
             .joints(setting.model)
@@ -160,16 +163,16 @@ impl JointStatePublisher {
         if joints.is_empty() {
             return Ok(None);
         }
-        let node = plain_node(setting, &format!("{}_joint_states", setting.model_name))?;
+        let node = device_node(setting, &format!("{}_joint_states", setting.model_name))?;
         let publisher = node.publisher("joint_states", Qos::reliable(10))?;
         Ok(Some(Self {
             name: format!("{}::joint_states", setting.model_name),
             states: JointStates { joints, publisher, with_efforts: true },
-            tells: Beat::telling(USUAL_RATE_HZ, setting.start_ns),
+            publish_timer: RateTimer::for_publisher(DEFAULT_RATE_HZ, setting.start_ns),
         }))
     }
 
-    /// The topic that it publishes.
+    /// Returns the published topic.
     #[must_use]
     pub fn topic(&self) -> &str {
         self.states.publisher.topic()
@@ -181,18 +184,18 @@ impl Device for JointStatePublisher {
         &self.name
     }
 
-    fn sense(&mut self, moment: &mut Moment<'_>) {
+    fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let now_ns = moment.time_ns();
-        if self.tells.due(now_ns) {
-            self.states.tell(moment.world, now_ns);
+        if self.publish_timer.due(now_ns) {
+            self.states.publish(moment.world, now_ns);
         }
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.tells.next_ns().filter(|_| self.states.is_heard())
+        self.publish_timer.next_ns().filter(|_| self.states.has_subscribers())
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.tells.restart(time_ns);
+        self.publish_timer.restart(time_ns);
     }
 }

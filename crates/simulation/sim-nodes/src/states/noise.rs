@@ -1,8 +1,8 @@
-//! Noise on velocities.
+//! Velocity noise.
 
 use periplus_geometry::{DVec3, Stream};
 
-/// With normal noise of a deviation on each axis.
+/// Adds normal noise of a standard deviation to each axis.
 pub(crate) fn noisy(value: DVec3, deviation: f64, stream: &mut Stream) -> DVec3 {
     if deviation == 0.0 {
         return value;

@@ -1,4 +1,4 @@
-//! Odometry as messages: the topic and the transform.
+//! Odometry messages and transforms.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose;
@@ -7,16 +7,16 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, nav_msgs, tf2_msgs};
 
 use super::geometry;
-use crate::drives::Order;
+use crate::drives::BuildContext;
 use crate::publisher_qos;
 
-/// What Gazebo's plugins say of what they do not know: height, roll and pitch.
+/// Variance of height, roll and pitch in Gazebo's plugins: unknown.
 const UNKNOWN: f64 = 1e12;
 
-/// Transforms go out as `tf2_ros` sends them.
+/// QoS of transforms, as in `tf2_ros`.
 pub(crate) const TF_QOS: Qos = Qos::reliable(100);
 
-/// Variances on the diagonal of a covariance: x, y, z, roll, pitch, yaw.
+/// Returns the diagonal covariance matrix of variances: x, y, z, roll, pitch, yaw.
 pub(crate) fn diagonal(variances: [f64; 6]) -> [f64; 36] {
     let mut covariance = [0.0; 36];
     for (index, variance) in variances.into_iter().enumerate() {
@@ -25,13 +25,13 @@ pub(crate) fn diagonal(variances: [f64; 6]) -> [f64; 36] {
     covariance
 }
 
-/// The covariance of a robot on the plane.
+/// Returns the covariance of a robot in the plane.
 pub(crate) fn planar_covariance(x_m2: f64, y_m2: f64, yaw_rad2: f64) -> [f64; 36] {
     diagonal([x_m2, y_m2, UNKNOWN, UNKNOWN, UNKNOWN, yaw_rad2])
 }
 
-/// Tells where a robot is, from one frame to another.
-pub(crate) struct Teller {
+/// Publishes the pose between two frames as odometry and transform.
+pub(crate) struct OdometryPublisher {
     pub(crate) parent_frame: String,
     pub(crate) child_frame: String,
     pub(crate) pose_covariance: [f64; 36],
@@ -40,8 +40,8 @@ pub(crate) struct Teller {
     pub(crate) tf: Option<Publisher<tf2_msgs::TFMessage>>,
 }
 
-impl Teller {
-    /// Without covariances and topics.
+impl OdometryPublisher {
+    /// Creates a publisher without covariances and topics.
     pub(crate) fn between(parent_frame: String, child_frame: String) -> Self {
         Self {
             parent_frame,
@@ -53,39 +53,44 @@ impl Teller {
         }
     }
 
-    /// With a topic of odometry.
+    /// Adds a topic of odometry.
     pub(crate) fn on(
         mut self,
-        order: &Order<'_>,
+        context: &BuildContext<'_>,
         node: &Node,
         topic: &str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
-        let qos = publisher_qos(&order.plugin.ros, topic, Qos::reliable(1));
-        self.odometry = Some(order.accept(node.publisher(topic, qos), diagnostics)?);
+        let qos = publisher_qos(&context.plugin.ros, topic, Qos::reliable(1));
+        self.odometry = Some(context.accept(node.publisher(topic, qos), diagnostics)?);
         Some(self)
     }
 
-    /// With a topic of transforms.
+    /// Adds a topic of transforms.
     pub(crate) fn with_tf(
         mut self,
-        order: &Order<'_>,
+        context: &BuildContext<'_>,
         node: &Node,
         topic: &str,
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
-        self.tf = Some(order.accept(node.publisher(topic, TF_QOS), diagnostics)?);
+        self.tf = Some(context.accept(node.publisher(topic, TF_QOS), diagnostics)?);
         Some(self)
     }
 
-    /// Whether anybody wants to know.
-    pub(crate) fn is_heard(&self) -> bool {
+    /// Returns true if any topic has subscribers.
+    pub(crate) fn has_subscribers(&self) -> bool {
         self.odometry.as_ref().is_some_and(Publisher::is_heard)
             || self.tf.as_ref().is_some_and(Publisher::is_heard)
     }
 
-    /// Tells where the child frame is in the parent frame, and how it moves, in its own axes.
-    pub(crate) fn tell(&self, time_ns: i64, parent_from_child: Pose, twist: geometry_msgs::Twist) {
+    /// Publishes the pose of the child frame in the parent frame, and its velocity in its own axes.
+    pub(crate) fn publish(
+        &self,
+        time_ns: i64,
+        parent_from_child: Pose,
+        twist: geometry_msgs::Twist,
+    ) {
         if let Some(tf) = self.tf.as_ref().filter(|tf| tf.is_heard()) {
             let (parent, child) = (&self.parent_frame, &self.child_frame);
             let transform = geometry::transform(time_ns, parent, child, parent_from_child);

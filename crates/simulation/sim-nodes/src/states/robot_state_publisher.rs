@@ -9,33 +9,38 @@ use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_params::{Table, Value, Values, flag, number, text};
 use periplus_scene::Model;
 
+use super::frame_tree::FrameTree;
 use super::geometry::transform;
 use super::odometry::TF_QOS;
-use super::tree::FrameTree;
-use crate::{Device, Setting, plain_node};
+use crate::{Device, DeviceContext, device_node};
 
 /// Parameters of [`RobotStatePublisher`].
 pub static ROBOT_STATE_PUBLISHER: Table = Table {
     name: "robot_state_publisher",
     doc: "Publishes the frames of a robot from its description and its joint states.",
     parameters: &[
-        text("robot_description", "The robot as URDF."),
-        number("publish_frequency", "Hz", "Most messages per second for the joints that move.")
-            .or("20")
-            .within(1e-3, 1000.0),
-        text("frame_prefix", "Before the name of every frame.").or(""),
-        flag("ignore_timestamp", "Whether joint states count whatever their time.").or("false"),
+        text("robot_description", "Robot description as URDF (required)."),
+        number(
+            "publish_frequency",
+            "Hz",
+            "Maximum rate of `/tf` for movable joints (default 20 Hz).",
+        )
+        .or("20")
+        .within(1e-3, 1000.0),
+        text("frame_prefix", "Prefix of all frame names (default empty).").or(""),
+        flag("ignore_timestamp", "Accept joint states of any time stamp (default false).")
+            .or("false"),
     ],
 };
 
-/// What a [`RobotStatePublisher`] may be told.
+/// Options of a [`RobotStatePublisher`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotStateOptions {
-    /// Most messages per second on `/tf`, above 0 \[Hz\].
+    /// Maximum rate of messages on `/tf`, above 0 \[Hz\].
     pub publish_frequency_hz: f64,
-    /// Before the name of every frame.
+    /// Prefix of all frame names.
     pub frame_prefix: String,
-    /// Whether joint states count whatever their time.
+    /// True if joint states of any time stamp are accepted.
     pub ignore_timestamp: bool,
 }
 
@@ -46,7 +51,7 @@ impl Default for RobotStateOptions {
 }
 
 impl RobotStateOptions {
-    /// As parameters of [`ROBOT_STATE_PUBLISHER`].
+    /// Converts to parameters of [`ROBOT_STATE_PUBLISHER`].
     fn values(&self, description: &str) -> Values {
         let mut values = ROBOT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
         values.set("robot_description", Value::Text(description.to_owned()));
@@ -56,45 +61,45 @@ impl RobotStateOptions {
         values
     }
 
-    /// From parameters of [`ROBOT_STATE_PUBLISHER`].
+    /// Reads parameters of [`ROBOT_STATE_PUBLISHER`].
     #[must_use]
     pub fn read(values: &Values) -> Self {
-        let usual = Self::default();
+        let fallback = Self::default();
         Self {
             publish_frequency_hz: values
                 .number("publish_frequency")
-                .unwrap_or(usual.publish_frequency_hz),
+                .unwrap_or(fallback.publish_frequency_hz),
             frame_prefix: values.text("frame_prefix").unwrap_or_default(),
             ignore_timestamp: values.flag("ignore_timestamp").unwrap_or_default(),
         }
     }
 }
 
-/// Tells where the frames of a robot are: those that never move on `/tf_static`, once and kept for
-/// latecomers; those on joints on `/tf`, when `joint_states` come, at most at a rate. The
-/// description itself is on `robot_description`, kept as well.
+/// Publishes the frames of a robot: fixed ones latched on `/tf_static`, those on joints on `/tf`
+/// when `joint_states` arrive, with a maximum rate. The description is latched on
+/// `robot_description`.
 ///
-/// Source: `robot_state_publisher.cpp` of ROS 2. As there, joints that are not in a message are not
-/// told, joints that follow others are worked out, and a jump back in time starts anew.
+/// Source: `robot_state_publisher.cpp` of ROS 2. As there, joints missing from a message are not
+/// published, mimic joints are computed, and a jump back in time resets the state.
 pub struct RobotStatePublisher {
-    actor: Actor<State>,
+    actor: Actor<PublisherState>,
 }
 
-struct State {
+struct PublisherState {
     tree: FrameTree,
     options: RobotStateOptions,
     described: Option<String>,
     tf: Publisher<tf2_msgs::TFMessage>,
     description: Publisher<std_msgs::String>,
     tf_static: Publisher<tf2_msgs::TFMessage>,
-    /// Times of the states that were told last, by joint [ns].
+    /// Times of the last published states by joint [ns].
     told_ns: BTreeMap<String, i64>,
     last_ns: i64,
 }
 
 impl RobotStatePublisher {
-    /// As a node of a graph. `description` is the URDF; the frames are those of `model`, which was
-    /// made from it: what a simulator merges is fixed.
+    /// Creates the publisher as a node of a graph. `description` is the URDF. The frames are those
+    /// of `model`, which was made from it: links that a simulator lumps are fixed frames.
     ///
     /// # Errors
     /// When a topic of that name has another type.
@@ -107,10 +112,10 @@ impl RobotStatePublisher {
         Self::of_tree(node, description.into(), FrameTree::of(model), options)
     }
 
-    /// As a node of a graph, with the frames that the URDF itself has: links need no inertia to move.
+    /// Creates the publisher with the frames of the URDF itself: links without inertia can move.
     ///
     /// # Errors
-    /// When the text is no URDF, or a topic of that name has another type.
+    /// When the text is not a URDF, or a topic of that name has another type.
     pub fn of_urdf(
         node: Node,
         description: impl Into<String>,
@@ -133,7 +138,7 @@ impl RobotStatePublisher {
         let values = options.values(&description);
         described.publish(std_msgs::String { data: description });
         let now_ns = node.now_ns();
-        let state = State {
+        let state = PublisherState {
             tree,
             options,
             described: values.text("robot_description"),
@@ -154,19 +159,19 @@ impl RobotStatePublisher {
         actor.subscribe::<sensor_msgs::JointState>(
             "joint_states",
             Qos::sensor_data(),
-            |state, message, io| state.hear(&message, io.now_ns()),
+            |state, message, io| state.on_joint_states(&message, io.now_ns()),
         )?;
         Ok(Self { actor })
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 }
 
-/// The frames of a URDF, or what is wrong with it.
+/// Returns the frames of a URDF, or the problem.
 fn tree_of(description: &str) -> Result<FrameTree, String> {
     if description.trim().is_empty() {
         return Err("`robot_description` must not be empty".into());
@@ -181,7 +186,7 @@ fn tree_of(description: &str) -> Result<FrameTree, String> {
         None => {
             let wrong = diagnostics.iter().find(|it| it.severity == Severity::Error);
             let why = wrong.map_or("it has no links", |wrong| wrong.message.as_str());
-            Err(format!("`robot_description` is no robot: {why}"))
+            Err(format!("`robot_description` is not a robot: {why}"))
         }
     }
 }
@@ -195,9 +200,8 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
     tf2_msgs::TFMessage { transforms: transforms.collect() }
 }
 
-impl State {
-    /// Takes other parameters. Another description is published as it was the first time, with its
-    /// fixed frames.
+impl PublisherState {
+    /// Applies other parameters. A changed description is published again, with its fixed frames.
     fn change(&mut self, values: &Values, now_ns: i64) -> Result<(), String> {
         let description = values.text("robot_description");
         let tree = match &description {
@@ -217,7 +221,7 @@ impl State {
         Ok(())
     }
 
-    fn hear(&mut self, message: &Arc<sensor_msgs::JointState>, now_ns: i64) {
+    fn on_joint_states(&mut self, message: &Arc<sensor_msgs::JointState>, now_ns: i64) {
         let sensor_msgs::JointState { header, name, position, .. } = &**message;
         if name.len() != position.len() {
             return;
@@ -229,7 +233,7 @@ impl State {
         let stamp_ns = header.stamp.ns();
         let oldest_ns = name.iter().map(|name| self.told_ns.get(name).copied().unwrap_or(0)).min();
         let Some(oldest_ns) = oldest_ns.map(|oldest_ns| oldest_ns.min(now_ns)) else { return };
-        // In whole milliseconds, as the original counts.
+        // In whole milliseconds, as in the original.
         #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
         let interval_ms = (1000.0 / self.options.publish_frequency_hz) as i64;
         let due_ns = oldest_ns.saturating_add(interval_ms.saturating_mul(1_000_000));
@@ -238,7 +242,7 @@ impl State {
         }
         let mut positions = BTreeMap::new();
         for (name, position) in name.iter().zip(position) {
-            // The first position of a joint that is there twice counts.
+            // The first position of a duplicated joint counts.
             positions.entry(name.clone()).or_insert(*position);
         }
         self.tree.complete(&mut positions);
@@ -262,13 +266,13 @@ impl State {
 /// A [`RobotStatePublisher`] of a simulated robot, in its namespace.
 pub(crate) struct RobotFrames {
     name: String,
-    /// It reacts as long as it is kept.
+    /// Keeps the node alive.
     _publisher: RobotStatePublisher,
 }
 
 impl RobotFrames {
-    pub(crate) fn new(setting: &Setting<'_>, description: &str) -> Result<Self, GraphError> {
-        let node = plain_node(setting, "robot_state_publisher")?;
+    pub(crate) fn new(setting: &DeviceContext<'_>, description: &str) -> Result<Self, GraphError> {
+        let node = device_node(setting, "robot_state_publisher")?;
         let options = RobotStateOptions::default();
         let publisher = RobotStatePublisher::new(node, description, setting.root, options)?;
         let name = format!("{}::robot_state_publisher", setting.model_name);
@@ -281,6 +285,6 @@ impl Device for RobotFrames {
         &self.name
     }
 
-    /// It notices by itself when time goes back.
+    /// The publisher itself detects a jump back in time.
     fn reset(&mut self, _time_ns: i64) {}
 }

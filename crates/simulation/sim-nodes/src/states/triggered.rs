@@ -6,21 +6,21 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos};
 use periplus_gz_msgs::{AsRos, Pairs, bare_name, each_pair};
 use periplus_msgs::{Message, to_json};
-use periplus_physics::World;
+use periplus_physics::PhysicsWorld;
 use periplus_scene::Plugin;
 use periplus_xml::Element;
 use serde_json::Value;
 
-use crate::{Device, Span, gz_topic};
+use crate::{Device, StepInterval, gz_topic};
 
-/// Numbers that differ by no more are the same, unless `tol` says otherwise; as in Gazebo.
+/// Default tolerance of number comparisons, as in Gazebo; `tol` overrides it.
 const TOLERANCE: f64 = 1e-8;
 
-/// Publishes messages when one comes that matches: all `<match>` of its `<input>` must hold, each
-/// `<output>` is published, after `<delay_ms>` of simulated time.
+/// Publishes messages when a matching one arrives: all `<match>` of `<input>` must hold; each
+/// `<output>` is published after `<delay_ms>` of simulated time.
 ///
-/// Source: gz-sim 8, `TriggeredPublisher.cc`. Types are those of ROS that mean the same, fields are
-/// called as there, and a service is not called.
+/// Source: gz-sim 8, `TriggeredPublisher.cc`. Types are the ROS equivalents, with the field names of
+/// ROS; services are not called.
 pub(crate) struct TriggeredPublisher {
     name: String,
     input: Box<dyn Input>,
@@ -29,27 +29,27 @@ pub(crate) struct TriggeredPublisher {
     due_ns: VecDeque<i64>,
 }
 
-/// Messages that come.
+/// Subscription with matching.
 trait Input: Send {
-    /// How many came since the last look that match.
-    fn hits(&mut self) -> usize;
+    /// Returns the number of matching messages since the last call.
+    fn take_matches(&mut self) -> usize;
 }
 
-/// Messages of a type.
-struct Heard<R> {
+/// Subscription of one type.
+struct MatchedSubscription<R> {
     mailbox: Mailbox<R>,
     matches: Vec<Match>,
 }
 
-impl<R: Message> Input for Heard<R> {
-    fn hits(&mut self) -> usize {
+impl<R: Message> Input for MatchedSubscription<R> {
+    fn take_matches(&mut self) -> usize {
         let messages = self.mailbox.drain();
         let fits = |message: &Value| self.matches.iter().all(|one| one.holds(message));
         messages.iter().filter(|message| fits(&to_json(&***message))).count()
     }
 }
 
-/// What a message must be like.
+/// Condition on a message.
 struct Match {
     expected: Expected,
     tolerance: f64,
@@ -57,9 +57,9 @@ struct Match {
 }
 
 enum Expected {
-    /// A field, by its path, and the text that it is to be.
+    /// A field, by its path, and its expected text.
     Field(String, String),
-    /// All fields of a message that are not as usual, and the usual message.
+    /// All non-default fields of a message, and the default message.
     Message(Value, Value),
 }
 
@@ -69,13 +69,15 @@ impl Match {
             Expected::Field(path, text) => {
                 message.pointer(path).is_some_and(|value| is_text(value, text, self.tolerance))
             }
-            Expected::Message(expected, usual) => is_part(expected, usual, message, self.tolerance),
+            Expected::Message(expected, fallback) => {
+                is_part(expected, fallback, message, self.tolerance)
+            }
         };
         fits != self.is_negative
     }
 }
 
-/// Whether a value is what a text says; of a list, whether one of its items is.
+/// Returns true if a value equals a text; for a list, if one of its items does.
 fn is_text(value: &Value, text: &str, tolerance: f64) -> bool {
     match value {
         Value::Bool(value) => match text {
@@ -93,14 +95,14 @@ fn is_text(value: &Value, text: &str, tolerance: f64) -> bool {
     }
 }
 
-/// Whether a message has what is expected and not as usual. Of lists, whatever the order.
-fn is_part(expected: &Value, usual: &Value, message: &Value, tolerance: f64) -> bool {
+/// Returns true if a message contains the expected non-default fields. Lists match in any order.
+fn is_part(expected: &Value, fallback: &Value, message: &Value, tolerance: f64) -> bool {
     match (expected, message) {
-        _ if expected == usual => true,
+        _ if expected == fallback => true,
         (Value::Object(expected), Value::Object(message)) => {
             expected.iter().all(|(name, value)| {
-                let usual = usual.get(name).unwrap_or(&Value::Null);
-                message.get(name).is_some_and(|inner| is_part(value, usual, inner, tolerance))
+                let fallback = fallback.get(name).unwrap_or(&Value::Null);
+                message.get(name).is_some_and(|inner| is_part(value, fallback, inner, tolerance))
             })
         }
         (Value::Array(expected), Value::Array(items)) => expected
@@ -113,7 +115,8 @@ fn is_part(expected: &Value, usual: &Value, message: &Value, tolerance: f64) -> 
     }
 }
 
-/// From the plugin's element; none, with an error, where it cannot be.
+/// Builds the device from the plugin's element; reports an error and returns `None` if it is
+/// invalid.
 pub(crate) fn build(
     graph: &Graph,
     plugin: &Plugin,
@@ -126,9 +129,9 @@ pub(crate) fn build(
     match made(graph, plugin) {
         Ok(made) => {
             if plugin.content.iter().any(|element| element.name == "service") {
-                let message = format!("plugin `{}` calls no service here", plugin.name);
+                let message = format!("plugin `{}` cannot call services", plugin.name);
                 let warning = Diagnostic::warning("plugin-service", message).at(plugin.origin);
-                diagnostics.push(warning.note("what it publishes is published"));
+                diagnostics.push(warning.note("its messages are published"));
             }
             Some(made)
         }
@@ -144,26 +147,26 @@ fn made(graph: &Graph, plugin: &Plugin) -> Result<TriggeredPublisher, String> {
     let all = |name: &'static str| plugin.content.iter().filter(move |one| one.name == name);
     let input = all("input").next().ok_or("it has no `<input>`")?;
     let (type_name, topic) = ends(input)?;
-    let mut listening = Listening { type_name, node: &node, topic: &topic, input, made: None };
+    let mut listening = InputVisitor { type_name, node: &node, topic: &topic, input, made: None };
     each_pair(&mut listening);
     let input = listening.made.ok_or_else(|| unknown(type_name))??;
     let mut outputs = Vec::new();
     for output in all("output") {
         let (type_name, topic) = ends(output)?;
         let text = output.text();
-        let mut telling =
-            Telling { type_name, node: &node, topic: &topic, text: &text, made: None };
-        each_pair(&mut telling);
-        outputs.push(telling.made.ok_or_else(|| unknown(type_name))??);
+        let mut for_publisher =
+            OutputVisitor { type_name, node: &node, topic: &topic, text: &text, made: None };
+        each_pair(&mut for_publisher);
+        outputs.push(for_publisher.made.ok_or_else(|| unknown(type_name))??);
     }
     let delay_ms = all("delay_ms").next().map(|one| one.text().trim().parse::<i64>());
-    let delay_ms = delay_ms.transpose().map_err(|_| "`<delay_ms>` is no whole number")?;
+    let delay_ms = delay_ms.transpose().map_err(|_| "`<delay_ms>` must be an integer")?;
     let delay_ns = delay_ms.unwrap_or_default().max(0).saturating_mul(1_000_000);
     let name = node.full_name().trim_start_matches('/').to_owned();
     Ok(TriggeredPublisher { name, input, outputs, delay_ns, due_ns: VecDeque::new() })
 }
 
-/// A node of its own, numbered: a world has many of these.
+/// Creates a numbered node: a world can have many of these.
 fn node(graph: &Graph) -> Result<Node, GraphError> {
     let mut number = 1;
     loop {
@@ -174,7 +177,7 @@ fn node(graph: &Graph) -> Result<Node, GraphError> {
     }
 }
 
-/// The type and topic of an end.
+/// Returns type and topic of an input or output.
 fn ends(element: &Element) -> Result<(&str, String), String> {
     let value = |name: &str| {
         let value = element.attribute(name).map(|attribute| attribute.value.as_str());
@@ -188,11 +191,11 @@ fn ends(element: &Element) -> Result<(&str, String), String> {
 }
 
 fn unknown(type_name: &str) -> String {
-    format!("ROS has no type that means `{type_name}`")
+    format!("ROS has no equivalent of type `{type_name}`")
 }
 
-/// Looks for the type of the input.
-struct Listening<'a> {
+/// Visitor that subscribes with the type of the input.
+struct InputVisitor<'a> {
     type_name: &'a str,
     node: &'a Node,
     topic: &'a str,
@@ -200,7 +203,7 @@ struct Listening<'a> {
     made: Option<Result<Box<dyn Input>, String>>,
 }
 
-impl Pairs for Listening<'_> {
+impl Pairs for InputVisitor<'_> {
     fn pair<R: Message, G: AsRos<R>>(&mut self) {
         if self.made.is_some() || G::NAME != self.type_name {
             return;
@@ -211,7 +214,7 @@ impl Pairs for Listening<'_> {
             let of_name = self.input.children.iter().filter_map(periplus_xml::Node::as_element);
             let matches = of_name.filter(|element| element.name == "match").map(read_match::<R, G>);
             let matches = matches.collect::<Result<Vec<_>, _>>()?;
-            Ok(Box::new(Heard { mailbox, matches }) as Box<dyn Input>)
+            Ok(Box::new(MatchedSubscription { mailbox, matches }) as Box<dyn Input>)
         };
         self.made = Some(heard());
     }
@@ -221,37 +224,37 @@ fn read_match<R: Message, G: AsRos<R>>(element: &Element) -> Result<Match, Strin
     let value = |name: &str| element.attribute(name).map(|attribute| attribute.value.as_str());
     let text = element.text();
     let text = text.trim();
-    let usual = to_json(&R::default());
+    let fallback = to_json(&R::default());
     let expected = match value("field") {
         Some(field) => {
             let path = format!("/{}", field.trim().replace('.', "/"));
-            if usual.pointer(&path).is_none() {
-                return Err(format!("`{field}` is no field of {}", R::TYPE_NAME));
+            if fallback.pointer(&path).is_none() {
+                return Err(format!("`{field}` is not a field of {}", R::TYPE_NAME));
             }
             Expected::Field(path, text.to_owned())
         }
-        None => Expected::Message(to_json(&read::<R, G>(text)?), usual),
+        None => Expected::Message(to_json(&read::<R, G>(text)?), fallback),
     };
     let tolerance = value("tol").map(|text| text.trim().parse::<f64>());
-    let tolerance = tolerance.transpose().map_err(|_| "`tol` is no number")?;
+    let tolerance = tolerance.transpose().map_err(|_| "`tol` must be a number")?;
     let is_negative = match value("logic_type") {
         None | Some("positive") => false,
         Some("negative") => true,
         Some(other) => {
-            return Err(format!("`logic_type` is positive or negative, and not `{other}`"));
+            return Err(format!("`logic_type` must be positive or negative, not `{other}`"));
         }
     };
     Ok(Match { expected, tolerance: tolerance.unwrap_or(TOLERANCE), is_negative })
 }
 
-/// A message of ROS from the text of protobuf.
+/// Converts the text format of protobuf to a ROS message.
 fn read<R: Message, G: AsRos<R>>(text: &str) -> Result<R, String> {
     let message = G::from_text(text.trim()).map_err(|error| error.to_string())?;
-    message.to_ros().ok_or_else(|| format!("ROS has no word for `{}`", text.trim()))
+    message.to_ros().ok_or_else(|| format!("`{}` has no ROS equivalent", text.trim()))
 }
 
-/// Looks for the type of an output.
-struct Telling<'a> {
+/// Visitor that publishes with the type of an output.
+struct OutputVisitor<'a> {
     type_name: &'a str,
     node: &'a Node,
     topic: &'a str,
@@ -259,18 +262,18 @@ struct Telling<'a> {
     made: Option<Result<Box<dyn Fn() + Send>, String>>,
 }
 
-impl Pairs for Telling<'_> {
+impl Pairs for OutputVisitor<'_> {
     fn pair<R: Message, G: AsRos<R>>(&mut self) {
         if self.made.is_some() || G::NAME != self.type_name {
             return;
         }
-        let telling = || {
+        let for_publisher = || {
             let message = read::<R, G>(self.text)?;
             let publisher = self.node.publisher::<R>(self.topic, Qos::reliable(10));
             let publisher = publisher.map_err(|error| error.to_string())?;
             Ok(Box::new(move || publisher.publish(message.clone())) as Box<dyn Fn() + Send>)
         };
-        self.made = Some(telling());
+        self.made = Some(for_publisher());
     }
 }
 
@@ -279,9 +282,9 @@ impl Device for TriggeredPublisher {
         &self.name
     }
 
-    fn act(&mut self, _world: &mut World, span: Span) {
+    fn act(&mut self, _world: &mut PhysicsWorld, span: StepInterval) {
         let due_ns = span.start_ns + self.delay_ns;
-        self.due_ns.extend(std::iter::repeat_n(due_ns, self.input.hits()));
+        self.due_ns.extend(std::iter::repeat_n(due_ns, self.input.take_matches()));
         while self.due_ns.front().is_some_and(|due_ns| *due_ns <= span.start_ns) {
             self.due_ns.pop_front();
             self.outputs.iter().for_each(|publish| publish());

@@ -6,13 +6,13 @@ use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
-use periplus_physics::{Mode, ModelId, NoMeshes, World};
+use periplus_physics::{ModelId, NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_plugin_specs::{interpret, model_sites};
 use periplus_rendering::NoAssets;
 use periplus_scene as scene;
 use periplus_sdf::{Context, NoIncludes, read_document};
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, Moment, Setting, Span, Views, drives};
+use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
 
 pub(crate) const STEP_NS: i64 = 1_000_000;
 
@@ -54,7 +54,7 @@ const ROBOT: &str = r#"
 /// A robot that stands somewhere with some plugins.
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
-    pub(crate) world: World,
+    pub(crate) world: PhysicsWorld,
     pub(crate) model: ModelId,
     pub(crate) scene: scene::World,
     /// What building its devices found wrong.
@@ -68,16 +68,16 @@ pub(crate) struct Bench {
 impl Bench {
     /// The robot with plugins at the origin of a plane, without physics.
     pub(crate) fn exact(plugins: &str) -> Self {
-        Self::of(&format!("{ROBOT}{plugins}"), Mode::Kinematic)
+        Self::of(&format!("{ROBOT}{plugins}"), PhysicsMode::Kinematic)
     }
 
     /// The same with physics.
     pub(crate) fn rigid(plugins: &str) -> Self {
-        Self::of(&format!("{ROBOT}{plugins}"), Mode::Rigid)
+        Self::of(&format!("{ROBOT}{plugins}"), PhysicsMode::Rigid)
     }
 
     /// A model of one's own.
-    pub(crate) fn of(model: &str, mode: Mode) -> Self {
+    pub(crate) fn of(model: &str, mode: PhysicsMode) -> Self {
         Self::in_world(
             &format!(
                 r#"<sdf version="1.9"><world name="hall">
@@ -91,7 +91,7 @@ impl Bench {
     }
 
     /// A whole file, whose last model is the robot.
-    pub(crate) fn in_world(text: &str, mode: Mode) -> Self {
+    pub(crate) fn in_world(text: &str, mode: PhysicsMode) -> Self {
         let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add("robot.sdf", text);
         let document = periplus_xml::parse(file, &sources, &mut found).unwrap();
@@ -99,7 +99,7 @@ impl Bench {
             Context { sources: &mut sources, diagnostics: &mut found, includes: &mut NoIncludes };
         let scene = read_document(&document, &mut context).worlds.remove(0);
         assert!(!found.has_errors(), "{}", said(&sources, &found));
-        let (world, found) = World::new(&scene, mode, &NoMeshes);
+        let (world, found) = PhysicsWorld::new(&scene, mode, &NoMeshes);
         assert!(!found.has_errors(), "{}", said(&sources, &found));
         let model = world.models().last().unwrap().0;
         let graph = Graph::new();
@@ -111,7 +111,7 @@ impl Bench {
         Self { graph, world, model, scene, said, devices, views, ear, now_ns: 0 }
     }
 
-    pub(crate) fn setting(&self) -> Setting<'_> {
+    pub(crate) fn setting(&self) -> DeviceContext<'_> {
         setting(&self.graph, &self.world, &self.scene, self.model)
     }
 
@@ -132,7 +132,10 @@ impl Bench {
         let end_ns = self.now_ns + (time_s * 1e9).round() as i64;
         while self.now_ns < end_ns {
             self.graph.settle();
-            let span = Span { start_ns: self.now_ns, length_ns: step_ns.min(end_ns - self.now_ns) };
+            let span = StepInterval {
+                start_ns: self.now_ns,
+                length_ns: step_ns.min(end_ns - self.now_ns),
+            };
             for device in &mut self.devices {
                 device.act(&mut self.world, span);
             }
@@ -140,7 +143,7 @@ impl Bench {
             self.now_ns = span.end_ns();
             self.graph.advance_to(self.now_ns);
             let (world, views) = (&self.world, &mut self.views);
-            let mut moment = Moment { span, world, views, threads: 1 };
+            let mut moment = SenseContext { span, world, views, threads: 1 };
             for device in &mut self.devices {
                 device.sense(&mut moment);
             }
@@ -187,12 +190,12 @@ impl Bench {
 
 fn setting<'a>(
     graph: &'a Graph,
-    world: &'a World,
+    world: &'a PhysicsWorld,
     scene: &'a scene::World,
     model: ModelId,
-) -> Setting<'a> {
+) -> DeviceContext<'a> {
     let root = scene.models.last().unwrap();
-    Setting {
+    DeviceContext {
         graph,
         world,
         scene,
@@ -205,13 +208,13 @@ fn setting<'a>(
         quirks: Quirks::NONE,
         rolling_scans: false,
         start_ns: 0,
-        tells_joints: true,
+        publishes_joint_states: true,
     }
 }
 
 fn devices(
     graph: &Graph,
-    world: &World,
+    world: &PhysicsWorld,
     scene: &scene::World,
     model: ModelId,
     diagnostics: &mut Diagnostics,

@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 use periplus_msgs::{geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs};
-use periplus_physics::Mode;
+use periplus_physics::PhysicsMode;
 
 use crate::bench::*;
 
@@ -96,8 +96,8 @@ fn with_physics_it_does_nearly_the_same() {
     bench.run(2.0);
     let [x, y, yaw, speed, ..] = numbers(&odometry.latest().unwrap());
     near(&[x, y, yaw, speed], &[1.0, 0.0, 0.0, 0.5], 0.02);
-    let truth = bench.world.model_pose(bench.model).unwrap().translation;
-    near(&[truth.x, truth.y], &[x, y], 0.02);
+    let true_twist = bench.world.model_pose(bench.model).unwrap().translation;
+    near(&[true_twist.x, true_twist.y], &[x, y], 0.02);
 }
 
 /// 1 m/s² reaches 0.5 m/s in half a second, on 12.5 cm; without physics it is the same ramp.
@@ -268,10 +268,10 @@ fn skid_steering_moves_both_pairs_alike() {
 fn a_planar_robot_slides_sideways() {
     let plugin = "<plugin name='slide' filename='libgazebo_ros_planar_move.so'>
         <robot_base_frame>base</robot_base_frame><update_rate>0</update_rate></plugin>";
-    for mode in [Mode::Kinematic, Mode::Rigid] {
+    for mode in [PhysicsMode::Kinematic, PhysicsMode::Rigid] {
         let mut bench = match mode {
-            Mode::Kinematic => Bench::exact(plugin),
-            Mode::Rigid => Bench::rigid(plugin),
+            PhysicsMode::Kinematic => Bench::exact(plugin),
+            PhysicsMode::Rigid => Bench::rigid(plugin),
         };
         let odometry = bench.hear::<nav_msgs::Odometry>("/odom");
         let tf = bench.hear::<tf2_msgs::TFMessage>("/tf");
@@ -280,7 +280,7 @@ fn a_planar_robot_slides_sideways() {
         let heard = odometry.drain();
         // Every 50 ms.
         assert_eq!((heard.len(), tf.drain().len()), (20, 20));
-        let error = if mode == Mode::Kinematic { 1e-9 } else { 0.01 };
+        let error = if mode == PhysicsMode::Kinematic { 1e-9 } else { 0.01 };
         near(&numbers(&heard[19])[..2], &[0.0, 0.5], error);
         assert_eq!(heard[19].pose.covariance[35], 1e-3);
     }
@@ -336,7 +336,7 @@ fn tricycle_steered_by_45_degrees(source: &str) {
         <publish_wheel_joint_state>true</publish_wheel_joint_state></plugin>";
     let mut bench = Bench::of(
         &format!("{TRICYCLE}{}", plugin.replace("</plugin>", &format!("{source}</plugin>"))),
-        Mode::Kinematic,
+        PhysicsMode::Kinematic,
     );
     let odometry = bench.hear::<nav_msgs::Odometry>("/odom");
     let states = bench.hear::<sensor_msgs::JointState>("/joint_states");
@@ -384,7 +384,7 @@ fn a_car_steers_by_an_angle() {
         <linear_velocity_pid_gain>1 0 0</linear_velocity_pid_gain>
         <left_steering_pid_gain>1 0 0</left_steering_pid_gain>
         <right_steering_pid_gain>1 0 0</right_steering_pid_gain></plugin>";
-    let mut bench = Bench::of(&format!("{CAR}{plugin}"), Mode::Kinematic);
+    let mut bench = Bench::of(&format!("{CAR}{plugin}"), PhysicsMode::Kinematic);
     assert_eq!(bench.said, "");
     let odometry = bench.hear::<nav_msgs::Odometry>("/odom");
     let distance = bench.hear::<std_msgs::Float32>("/distance");
@@ -402,7 +402,7 @@ fn a_car_steers_by_an_angle() {
     near(&[angle("left_steering_joint"), angle("right_steering_joint")], &expected, 1e-6);
     let standing = Bench::of(
         &format!("{CAR}<plugin name='car' filename='libgazebo_ros_ackermann_drive.so'/>"),
-        Mode::Kinematic,
+        PhysicsMode::Kinematic,
     );
     assert!(standing.said.contains("the car stands"), "{}", standing.said);
 }

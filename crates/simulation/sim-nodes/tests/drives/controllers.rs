@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 use periplus_msgs::std_msgs;
-use periplus_physics::Mode;
+use periplus_physics::PhysicsMode;
 
 use crate::bench::*;
 
@@ -17,7 +17,7 @@ const ARM: &str = r#"
     <axis><xyz>0 0 1</xyz></axis></joint>
 "#;
 
-fn bench(plugin: &str, mode: Mode) -> Bench {
+fn bench(plugin: &str, mode: PhysicsMode) -> Bench {
     Bench::of(&format!("{ARM}{plugin}"), mode)
 }
 
@@ -32,7 +32,7 @@ fn a_joint_turns_at_the_speed_it_is_told() {
     let plugin = "<plugin filename='gz-sim-joint-controller-system'
         name='gz::sim::systems::JointController'><joint_name>elbow</joint_name>
         <initial_velocity>2</initial_velocity></plugin>";
-    for mode in [Mode::Kinematic, Mode::Rigid] {
+    for mode in [PhysicsMode::Kinematic, PhysicsMode::Rigid] {
         let mut bench = bench(plugin, mode);
         expect![[r#"
             /JointController <- /model/robot/joint/elbow/cmd_vel std_msgs/msg/Float64 reliable volatile 1
@@ -56,7 +56,7 @@ fn a_speed_held_by_forces() {
         name='gz::sim::systems::JointController'><joint_name>elbow</joint_name>
         <initial_velocity>1</initial_velocity><use_force_commands>true</use_force_commands>
         <p_gain>10</p_gain></plugin>";
-    let mut bench = bench(plugin, Mode::Rigid);
+    let mut bench = bench(plugin, PhysicsMode::Rigid);
     bench.run(0.1);
     near(&state(&bench)[1..], &[1.0 - (-1.0f64).exp()], 0.01);
     bench.run(0.9);
@@ -68,7 +68,7 @@ fn a_position_held_by_forces() {
     let plugin = "<plugin filename='gz-sim-joint-position-controller-system'
         name='gz::sim::systems::JointPositionController'><joint_name>elbow</joint_name>
         <topic>elbow_to</topic><p_gain>100</p_gain><i_gain>0</i_gain><d_gain>20</d_gain></plugin>";
-    let mut bench = bench(plugin, Mode::Rigid);
+    let mut bench = bench(plugin, PhysicsMode::Rigid);
     bench.say("/elbow_to").publish(std_msgs::Float64 { data: 0.5 });
     // Critically damped at 10 rad/s: 1 - 11 exp(-10) after a second.
     bench.run(1.0);
@@ -80,7 +80,7 @@ fn a_position_reached_at_a_speed() {
     let plugin = "<plugin filename='gz-sim-joint-position-controller-system'
         name='gz::sim::systems::JointPositionController'><joint_name>elbow</joint_name>
         <use_velocity_commands>true</use_velocity_commands><cmd_max>0.5</cmd_max></plugin>";
-    for mode in [Mode::Kinematic, Mode::Rigid] {
+    for mode in [PhysicsMode::Kinematic, PhysicsMode::Rigid] {
         let mut bench = bench(plugin, mode);
         let topic = "/model/robot/joint/elbow/_0/cmd_pos";
         let heard = bench.topics();

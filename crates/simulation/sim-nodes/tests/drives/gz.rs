@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 use periplus_msgs::{nav_msgs, std_msgs, tf2_msgs};
-use periplus_physics::Mode;
+use periplus_physics::PhysicsMode;
 
 use crate::bench::*;
 
@@ -134,7 +134,7 @@ fn mecanum_wheels_go_sideways() {
         <front_left_joint>fl_joint</front_left_joint><front_right_joint>fr_joint</front_right_joint>
         <back_left_joint>bl_joint</back_left_joint><back_right_joint>br_joint</back_right_joint>
         </plugin>";
-    let mut bench = Bench::of(&four_wheels(plugin), Mode::Kinematic);
+    let mut bench = Bench::of(&four_wheels(plugin), PhysicsMode::Kinematic);
     let odometry = bench.hear::<nav_msgs::Odometry>("/model/robot/odometry");
     bench.say("/model/robot/cmd_vel").publish(twist(0.0, 0.2, 0.0));
     bench.run(1.0);
@@ -148,8 +148,8 @@ fn mecanum_wheels_go_sideways() {
         1e-9,
     );
     near(&numbers(&odometry.latest().unwrap()), &[0.0, 0.2, 0.0, 0.0, 0.2, 0.0], 1e-9);
-    let truth = bench.world.model_pose(bench.model).unwrap().translation;
-    near(&[truth.x, truth.y], &[0.0, 0.2], 1e-9);
+    let true_twist = bench.world.model_pose(bench.model).unwrap().translation;
+    near(&[true_twist.x, true_twist.y], &[0.0, 0.2], 1e-9);
 }
 
 /// Wheel base 1 m, pivots 0.8 m apart: a circle of 4 m needs 1/3.6 and 1/4.4 as tangents.
@@ -161,7 +161,7 @@ fn ackermann_steering() {
         <left_steering_joint>fl_joint</left_steering_joint>
         <right_steering_joint>fr_joint</right_steering_joint>
         <steer_p_gain>10</steer_p_gain></plugin>";
-    let mut bench = Bench::of(&four_wheels(plugin), Mode::Kinematic);
+    let mut bench = Bench::of(&four_wheels(plugin), PhysicsMode::Kinematic);
     let odometry = bench.hear::<nav_msgs::Odometry>("/model/robot/odometry");
     bench.say("/model/robot/cmd_vel").publish(twist(1.0, 0.0, 0.25));
     bench.run(2.0);
@@ -182,7 +182,7 @@ fn ackermann_steering() {
 fn velocity_control_flies() {
     let plugin = "<plugin filename='gz-sim-velocity-control-system'
         name='gz::sim::systems::VelocityControl'><initial_linear>0.5 0 0.1</initial_linear></plugin>";
-    for mode in [Mode::Kinematic, Mode::Rigid] {
+    for mode in [PhysicsMode::Kinematic, PhysicsMode::Rigid] {
         let model = format!("<pose>0 0 1 0 0 0</pose><link name='base'/>{plugin}");
         let mut bench = Bench::of(&model, mode);
         bench.run(1.0);

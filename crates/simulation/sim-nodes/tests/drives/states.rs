@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 use periplus_msgs::{geometry_msgs, nav_msgs, rosgraph_msgs, sensor_msgs, tf2_msgs};
-use periplus_physics::Mode;
+use periplus_physics::PhysicsMode;
 use periplus_sim_nodes::states::{ClockPublisher, JointStatePublisher};
 
 use crate::bench::*;
@@ -56,14 +56,14 @@ fn joint_states_of_every_generation() {
 #[test]
 fn without_a_plugin_all_joints_50_times_a_second() {
     let mut bench = Bench::exact(TURNING);
-    let publisher = JointStatePublisher::usual(&bench.setting()).unwrap().unwrap();
+    let publisher = JointStatePublisher::fallback(&bench.setting()).unwrap().unwrap();
     assert_eq!(publisher.topic(), "/joint_states");
     bench.devices.push(Box::new(publisher));
     let states = bench.hear::<sensor_msgs::JointState>("/joint_states");
     bench.run(1.0);
     assert_eq!(states.drain().len(), 50);
-    let still = Bench::of("<link name='base'/>", Mode::Kinematic);
-    assert!(JointStatePublisher::usual(&still.setting()).unwrap().is_none());
+    let still = Bench::of("<link name='base'/>", PhysicsMode::Kinematic);
+    assert!(JointStatePublisher::fallback(&still.setting()).unwrap().is_none());
 }
 
 /// The robot goes 1 m/s along x and has gone 1 m.
@@ -200,7 +200,7 @@ fn poses_of_parts_in_what_they_are_parts_of() {
 
 #[test]
 fn the_clock() {
-    let mut bench = Bench::of("<link name='base'/>", Mode::Kinematic);
+    let mut bench = Bench::of("<link name='base'/>", PhysicsMode::Kinematic);
     bench.devices.push(Box::new(ClockPublisher::new(&bench.graph, 100.0, 0).unwrap()));
     let clock = bench.hear::<rosgraph_msgs::Clock>("/clock");
     bench.run(1.5);

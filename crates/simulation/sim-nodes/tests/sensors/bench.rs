@@ -5,18 +5,18 @@ use std::sync::Arc;
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::Message;
-use periplus_physics::{Mode, NoMeshes, World};
+use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_rendering::NoAssets;
 use periplus_sdf::{Context, NoIncludes, read_document};
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, Moment, Setting, Span, Views, devices};
+use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, devices};
 
 const STEP_NS: i64 = 1_000_000;
 
 /// A world whose last model is the robot.
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
-    pub(crate) world: World,
+    pub(crate) world: PhysicsWorld,
     /// What was found wrong in making its devices.
     pub(crate) said: String,
     devices: Vec<Box<dyn Device>>,
@@ -34,15 +34,15 @@ impl Bench {
 
     /// The same with more in the world.
     pub(crate) fn in_world(in_world: &str, on_base: &str) -> Self {
-        Self::of(in_world, on_base, Mode::Rigid)
+        Self::of(in_world, on_base, PhysicsMode::Rigid)
     }
 
     /// The same without physics: everything stays exactly where it is.
     pub(crate) fn still(in_world: &str, on_base: &str) -> Self {
-        Self::of(in_world, on_base, Mode::Kinematic)
+        Self::of(in_world, on_base, PhysicsMode::Kinematic)
     }
 
-    fn of(in_world: &str, on_base: &str, mode: Mode) -> Self {
+    fn of(in_world: &str, on_base: &str, mode: PhysicsMode) -> Self {
         let text = format!(
             r#"<sdf version="1.9"><world name="hall">{in_world}
             <model name="floor"><static>true</static><link name="link">
@@ -65,14 +65,14 @@ impl Bench {
         let mut context =
             Context { sources: &mut sources, diagnostics: &mut found, includes: &mut NoIncludes };
         let scene = read_document(&document, &mut context).worlds.remove(0);
-        let (world, _) = World::new(&scene, mode, &NoMeshes);
+        let (world, _) = PhysicsWorld::new(&scene, mode, &NoMeshes);
         let graph = Graph::new();
         let mut views = Views::new(Arc::new(NoAssets), 1);
         for (model, (id, _)) in scene.models.iter().zip(world.models()) {
             views.add(Arc::new(model.clone()), id, &world);
         }
         let (model, name) = world.models().last().unwrap();
-        let setting = Setting {
+        let setting = DeviceContext {
             graph: &graph,
             world: &world,
             scene: &scene,
@@ -85,7 +85,7 @@ impl Bench {
             quirks: Quirks::NONE,
             rolling_scans: false,
             start_ns: 0,
-            tells_joints: true,
+            publishes_joint_states: true,
         };
         let mut diagnostics = Diagnostics::new();
         let devices = devices(&setting, None, &mut diagnostics);
@@ -112,7 +112,7 @@ impl Bench {
     pub(crate) fn run(&mut self, time_s: f64) {
         let end_ns = self.now_ns + (time_s * 1e9).round() as i64;
         while self.now_ns < end_ns {
-            let span = Span { start_ns: self.now_ns, length_ns: STEP_NS };
+            let span = StepInterval { start_ns: self.now_ns, length_ns: STEP_NS };
             for device in &mut self.devices {
                 device.act(&mut self.world, span);
             }
@@ -120,7 +120,7 @@ impl Bench {
             self.now_ns = span.end_ns();
             self.graph.advance_to(self.now_ns);
             let (world, views) = (&self.world, &mut self.views);
-            let mut moment = Moment { span, world, views, threads: 1 };
+            let mut moment = SenseContext { span, world, views, threads: 1 };
             for device in &mut self.devices {
                 device.sense(&mut moment);
             }

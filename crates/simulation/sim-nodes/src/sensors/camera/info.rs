@@ -1,24 +1,29 @@
-//! The camera info.
+//! Camera info.
 
 use periplus_msgs::sensor_msgs::CameraInfo;
 use periplus_msgs::std_msgs::Header;
 use periplus_scene::Camera;
-use periplus_sensors::{Calibration, Pinhole};
+use periplus_sensors::{CameraCalibration, Pinhole};
 
-use super::super::port::{Port, Style};
+use super::super::port::{Convention, SensorPort};
 
-/// What a plugin of Classic says of its camera: parameters that are given count before what follows
-/// from the image. In ROS 1 a 0 is as good as not given.
-pub(super) fn calibration(port: &Port, pinhole: &Pinhole, camera: &Camera) -> Calibration {
-    let given = |ros2: &str, ros1: &str| match port.style {
-        Style::Ros1 => port.given(ros1).filter(|value| *value != 0.0),
+/// Returns the calibration of a camera of a Classic plugin: given parameters have priority over
+/// values derived from the image. In ROS 1 a 0 counts as not given.
+pub(super) fn calibration(
+    port: &SensorPort,
+    pinhole: &Pinhole,
+    camera: &Camera,
+) -> CameraCalibration {
+    let given = |ros2: &str, ros1: &str| match port.convention {
+        Convention::Ros1 => port.given(ros1).filter(|value| *value != 0.0),
         _ => port.given(ros2),
     };
-    let usual = Calibration::of_classic(pinhole, camera);
+    let fallback = CameraCalibration::of_classic(pinhole, camera);
     let focal_px = given("focal_length", "focalLength").unwrap_or(pinhole.focal_px);
-    let middle = [given("cx", "Cx").unwrap_or(usual.k[2]), given("cy", "Cy").unwrap_or(usual.k[5])];
-    let mut made = Calibration::new(focal_px, middle, camera);
-    if port.style == Style::Ros1 && !port.flag("autoDistortion") {
+    let middle =
+        [given("cx", "Cx").unwrap_or(fallback.k[2]), given("cy", "Cy").unwrap_or(fallback.k[5])];
+    let mut made = CameraCalibration::new(focal_px, middle, camera);
+    if port.convention == Convention::Ros1 && !port.flag("autoDistortion") {
         let names =
             ["distortionK1", "distortionK2", "distortionT1", "distortionT2", "distortionK3"];
         made.d = names.map(|name| port.number(name));
@@ -44,7 +49,11 @@ pub(super) fn calibration(port: &Port, pinhole: &Pinhole, camera: &Camera) -> Ca
     made
 }
 
-pub(super) fn message(header: Header, pinhole: &Pinhole, numbers: &Calibration) -> CameraInfo {
+pub(super) fn message(
+    header: Header,
+    pinhole: &Pinhole,
+    numbers: &CameraCalibration,
+) -> CameraInfo {
     CameraInfo {
         header,
         height: pinhole.height,

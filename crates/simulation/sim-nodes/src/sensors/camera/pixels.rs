@@ -1,11 +1,11 @@
-//! Images as messages carry them. Bytes are handed on in one piece where they lie as they should.
+//! Conversion to image messages. Bytes in the right order are copied as a whole.
 
 use periplus_geometry::Stream;
 use periplus_msgs::sensor_msgs::Image;
 use periplus_msgs::std_msgs::Header;
 use periplus_rendering::RenderedImages;
 
-/// How colours are told.
+/// Encoding of colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Rgb8,
@@ -16,7 +16,7 @@ pub(super) enum Encoding {
 }
 
 impl Encoding {
-    /// Of a format of SDF; what has no name in ROS is told in red, green, blue.
+    /// Returns the encoding of an SDF format; formats without a ROS name become `rgb8`.
     pub(super) fn of(format: &str) -> Self {
         match format {
             "L8" | "L_INT8" => Self::Mono8,
@@ -69,7 +69,7 @@ pub(super) fn depth_image(header: Header, picture: &RenderedImages) -> Image {
     image(header, picture, "32FC1", data)
 }
 
-/// Depths in millimetres, `16UC1`; 0 where there is none (OpenNI).
+/// Depths in millimetres, `16UC1`; 0 without a hit (OpenNI).
 pub(super) fn millimetre_image(header: Header, picture: &RenderedImages) -> Image {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to u16")]
     let millimetres = |depth_m: &f32| {
@@ -80,7 +80,7 @@ pub(super) fn millimetre_image(header: Header, picture: &RenderedImages) -> Imag
 }
 
 /// Labels of gz's segmentation cameras: the instance in the first two bytes, the class in the third;
-/// or a colour of their own for each.
+/// or one colour per label.
 pub(super) fn label_image(header: Header, picture: &RenderedImages, coloured: bool) -> Image {
     let mut data = Vec::with_capacity(picture.classes.len() * 3);
     let mut last = ((0, 0), [0; 3]);
@@ -104,7 +104,7 @@ fn colour_of(class: u8, instance: u16) -> [u8; 3] {
     }
     let key = u64::from(class) << 16 | u64::from(instance);
     let bytes = Stream::keyed(0, "label", key).bits().to_le_bytes();
-    // Never as dark as the background.
+    // Brighter than the background.
     [bytes[0] | 32, bytes[1] | 32, bytes[2] | 32]
 }
 

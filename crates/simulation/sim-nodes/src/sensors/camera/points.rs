@@ -1,4 +1,4 @@
-//! Points of depth cameras.
+//! Point clouds of depth cameras.
 
 use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 use periplus_msgs::std_msgs::Header;
@@ -7,14 +7,14 @@ use periplus_sensors::Pinhole;
 
 use super::super::cloud::{Column, Layout};
 
-/// How points lie, and in which axes.
+/// Layout and axes of the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cloud {
-    /// Classic: the optical frame (x right, y down, z ahead), 32 bytes.
+    /// Classic: the optical frame (x right, y down, z forward), 32 bytes.
     Classic,
-    /// The same with red and blue exchanged, as `gazebo_ros_camera` has it.
+    /// The same with red and blue swapped, as in `gazebo_ros_camera`.
     ClassicSwapped,
-    /// Today's Gazebo: x ahead, y left, z up, 24 bytes.
+    /// Gazebo: x forward, y left, z up, 24 bytes.
     Gz,
 }
 
@@ -25,7 +25,7 @@ const COLUMNS: &[Column] = &[
     Column { name: "rgb", offset: 16, datatype: PointField::FLOAT32 },
 ];
 
-/// A point for every pixel; infinite in all three where there is none.
+/// Returns one point per pixel; all coordinates are infinite without a hit.
 pub(super) fn cloud(
     header: Header,
     picture: &RenderedImages,

@@ -1,33 +1,33 @@
-//! A scan in the forms that people subscribe to.
+//! Conversion of scans to messages.
 
 use std::ops::Range;
 
 use periplus_msgs::geometry_msgs::Point32;
 use periplus_msgs::sensor_msgs::{self, ChannelFloat32, LaserScan, PointCloud, PointCloud2};
 use periplus_msgs::std_msgs::Header;
-use periplus_sensors::{Lidar, Quirks};
+use periplus_sensors::{LidarSensor, Quirks};
 
 use crate::sensors::cloud::{CLASSIC_LASER, GZ_LIDAR, cloud};
 
-/// What a publisher of scans is told beside the scan.
+/// Publisher settings of a lidar.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Told {
+pub(super) struct PublishSettings {
     pub(super) frame_id: String,
-    /// Intensities below are raised to this.
-    pub(super) least_intensity: f64,
-    /// Of `Range` messages.
+    /// Lower intensities are raised to this.
+    pub(super) min_intensity: f64,
+    /// Radiation type of `Range` messages.
     pub(super) is_ultrasound: bool,
-    /// Of `Range` messages \[rad\]; without it the wider of the scan's angles.
+    /// Field of view of `Range` messages \[rad\]; by default the wider of the scan's angles.
     pub(super) field_of_view_rad: Option<f64>,
     pub(super) quirks: Quirks,
 }
 
-impl Told {
-    /// The ranges of some beams. `span_ns` is how long the scan took, 0 when all were measured at
-    /// once: then Gazebo's plugins leave both times at 0, and so do we.
+impl PublishSettings {
+    /// Returns the ranges of some beams. `span_ns` is the duration of the scan, 0 for a scan that is
+    /// measured at once: then both times are 0, as in Gazebo's plugins.
     pub(super) fn scan(
         &self,
-        lidar: &Lidar,
+        lidar: &LidarSensor,
         beams: Range<usize>,
         time_ns: i64,
         span_ns: i64,
@@ -54,8 +54,8 @@ impl Told {
         }
     }
 
-    /// The points that were met, side by side (Classic's plugins).
-    pub(super) fn points(&self, lidar: &Lidar, time_ns: i64) -> PointCloud2 {
+    /// Returns the points of the hits (Classic's plugins).
+    pub(super) fn points(&self, lidar: &LidarSensor, time_ns: i64) -> PointCloud2 {
         let intensities = self.intensities(&lidar.last().intensities);
         let mut data = Vec::with_capacity(16 * intensities.len());
         for (point, intensity) in lidar.points().zip(intensities) {
@@ -69,8 +69,8 @@ impl Told {
         cloud(Header::at(time_ns, &self.frame_id), CLASSIC_LASER, [count, 1], true, data)
     }
 
-    /// All points in rows, those that were not met as well (Gazebo's own).
-    pub(super) fn rings(&self, lidar: &Lidar, time_ns: i64) -> PointCloud2 {
+    /// Returns all points in rows, including those without a hit (Gazebo's own layout).
+    pub(super) fn rings(&self, lidar: &LidarSensor, time_ns: i64) -> PointCloud2 {
         let intensities = self.intensities(&lidar.last().intensities);
         let [columns, rows] = lidar.beams().ranges;
         let mut data = Vec::with_capacity(32 * intensities.len());
@@ -88,8 +88,8 @@ impl Told {
         cloud(Header::at(time_ns, &self.frame_id), GZ_LIDAR, [columns, rows], false, data)
     }
 
-    /// The points that were met, in the message of old.
-    pub(super) fn old_points(&self, lidar: &Lidar, time_ns: i64) -> PointCloud {
+    /// Returns the points of the hits as the legacy `PointCloud`.
+    pub(super) fn old_points(&self, lidar: &LidarSensor, time_ns: i64) -> PointCloud {
         let intensities = self.intensities(&lidar.last().intensities);
         let met = lidar
             .points()
@@ -103,8 +103,8 @@ impl Told {
         }
     }
 
-    /// The nearest of all ranges. Nothing there is `inf` (REP 117).
-    pub(super) fn range(&self, lidar: &Lidar, time_ns: i64) -> sensor_msgs::Range {
+    /// Returns the minimum of all ranges; `inf` without a hit (REP 117).
+    pub(super) fn range(&self, lidar: &LidarSensor, time_ns: i64) -> sensor_msgs::Range {
         let nearest = lidar.last().ranges_m.iter().copied().fold(f32::INFINITY, f32::min);
         let quirk = self.quirks.greatest_float_for_no_range && nearest == f32::INFINITY;
         let angles = lidar.beams();
@@ -126,7 +126,7 @@ impl Told {
     }
 
     fn intensities(&self, measured: &[f32]) -> Vec<f32> {
-        let least = single(self.least_intensity);
+        let least = single(self.min_intensity);
         measured.iter().map(|value| value.max(least)).collect()
     }
 }
