@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use periplus_loader::{Setting, load};
 use periplus_os::Machine;
-use periplus_physics::{Command, JointId, LinkId, Mode, ModelId, NoMeshes, Twist, World};
+use periplus_physics::{
+    JointCommand, JointId, LinkId, ModelId, NoMeshes, PhysicsMode, PhysicsWorld, Twist,
+};
 use periplus_resources::Resolver;
 use periplus_scene::{Collision, DVec3, Link, Model, Pose, Shape};
 
@@ -21,7 +23,7 @@ const HEIGHT_M: f64 = 0.15;
 const TORQUE_N_M: f64 = 20.0;
 
 struct Robot {
-    world: World,
+    world: PhysicsWorld,
     model: ModelId,
     base: LinkId,
     wheels: [JointId; 2],
@@ -34,7 +36,7 @@ pub(super) fn drive_all(orders: &[Order]) -> Result<Vec<Outcome>, String> {
 
 /// One step of the exact mode, with new orders at each step.
 pub(super) fn kinematic_us_per_step() -> Result<f64, String> {
-    let mut robot = Robot::new(&sam_bot()?, Mode::Kinematic, Block::Nothing)?;
+    let mut robot = Robot::new(&sam_bot()?, PhysicsMode::Kinematic, Block::Nothing)?;
     let mut best = f64::INFINITY;
     for _ in 0..200 {
         let steps = 2000;
@@ -71,8 +73,8 @@ fn fixed(name: &str, shape: Shape) -> Model {
 }
 
 impl Robot {
-    fn new(model: &Model, mode: Mode, block: Block) -> Result<Self, String> {
-        let mut world = World::empty(DVec3::new(0.0, 0.0, -9.81), mode);
+    fn new(model: &Model, mode: PhysicsMode, block: Block) -> Result<Self, String> {
+        let mut world = PhysicsWorld::empty(DVec3::new(0.0, 0.0, -9.81), mode);
         let floor = fixed("floor", Shape::Plane { normal: DVec3::Z, size_m: [100.0; 2] });
         let mut put = |model: &Model, pose: Pose| {
             world.add(model, pose, &NoMeshes).model.ok_or(format!("{} is refused", model.name))
@@ -99,7 +101,7 @@ impl Robot {
     fn turn(&mut self, ahead_m_s: f64, turn_rad_s: f64) {
         for (wheel, side) in self.wheels.into_iter().zip([-1.0, 1.0]) {
             let target = (ahead_m_s + side * turn_rad_s * SEPARATION_M / 2.0) / RADIUS_M;
-            self.world.command(wheel, Command::Velocity { target, max_effort: TORQUE_N_M });
+            self.world.command(wheel, JointCommand::Velocity { target, max_effort: TORQUE_N_M });
         }
     }
 
@@ -113,7 +115,7 @@ impl Robot {
 }
 
 fn drive(model: &Model, order: &Order) -> Result<Outcome, String> {
-    let mut robot = Robot::new(model, Mode::Rigid, order.block)?;
+    let mut robot = Robot::new(model, PhysicsMode::Rigid, order.block)?;
     robot.turn(0.0, 0.0);
     for _ in 0..1000 {
         robot.world.step(STEP_NS).map_err(|why| why.to_string())?;

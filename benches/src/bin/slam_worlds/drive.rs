@@ -8,7 +8,7 @@ use periplus_graph::{NodeSettings, Qos};
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_sim::script::{Goal, Script};
-use periplus_sim::{Composition, Driver, Mode, Options, Recorder, Simulation};
+use periplus_sim::{Composition, Driver, Options, PhysicsMode, Recorder, Simulation};
 
 use crate::stage::{LASER_M, Stage};
 
@@ -47,7 +47,7 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
         members: stage.composition.members.clone(),
         files: stage.composition.files.clone(),
     };
-    let options = Options { seed, mode: Mode::Rigid, ..Options::default() };
+    let options = Options { seed, mode: PhysicsMode::Rigid, ..Options::default() };
     let mut simulation = Simulation::new(&mut composition, stage.files.clone(), options);
     let goals = stage.way.iter().map(|&to| Goal { tolerance_m: 0.15, ..Goal::at(to) });
     let mut driver = Driver::new(Script {

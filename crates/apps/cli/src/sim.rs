@@ -19,8 +19,8 @@ use periplus_diagnostics::SourceMap;
 use periplus_graph::Arguments;
 use periplus_os::Stopwatch;
 use periplus_sim::{
-    Composition, Driver, Mode, Options, Quirks, Recorder, Run, Services, ShapeFiles, Simulation,
-    Wanted, compose, hear,
+    Composition, Driver, Options, PhysicsMode, Quirks, Recorder, Run, Services, ShapeFiles,
+    Simulation, Wanted, compose, hear,
 };
 
 use crate::arguments;
@@ -482,8 +482,8 @@ impl SimOptions {
         Options {
             seed: self.seed,
             mode: match self.dynamics {
-                Dynamics::Rigid => Mode::Rigid,
-                Dynamics::Kinematic => Mode::Kinematic,
+                Dynamics::Rigid => PhysicsMode::Rigid,
+                Dynamics::Kinematic => PhysicsMode::Kinematic,
             },
             step_s: self.step,
             threads: self.threads.unwrap_or_else(terminal::processors),

@@ -9,7 +9,7 @@ mod tutorial;
 use periplus_costmap::cost::occupancy_of;
 use periplus_maps::palette::{Scheme, paint};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
-use periplus_sim::Mode;
+use periplus_sim::PhysicsMode;
 
 use tutorial::Run;
 
@@ -55,7 +55,7 @@ fn main() {
         std::process::exit(2);
     };
     let mut sheet = Sheet::new(4);
-    let mut run = Run::new(Mode::Rigid);
+    let mut run = Run::new(PhysicsMode::Rigid);
     run.go_on(4000);
     for (panel, node) in run.costmaps.iter().enumerate() {
         sheet.draw(panel, node);

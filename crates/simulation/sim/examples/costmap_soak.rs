@@ -11,7 +11,7 @@ use periplus_geometry::Pose;
 use periplus_graph::Qos;
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
-use periplus_sim::Mode;
+use periplus_sim::PhysicsMode;
 
 use tutorial::Run;
 
@@ -108,7 +108,7 @@ fn step(run: &mut Run, are_things_there: bool) {
 
 fn main() {
     let minutes = std::env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(60);
-    let mut run = Run::new(Mode::Kinematic);
+    let mut run = Run::new(PhysicsMode::Kinematic);
     run.let_infinite_ranges_clear();
     let wheels = run.user.publisher::<Twist>("/cmd_vel", Qos::reliable(1)).unwrap();
     let forward = Vector3 { x: 0.06, ..Vector3::default() };

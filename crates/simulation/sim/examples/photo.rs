@@ -60,12 +60,12 @@ fn take(world: &Path, world_from_camera: Pose) -> RenderedImages {
     };
     let composition = compose(world, &[], &setting);
     let files = Arc::new(ShapeFiles::default());
-    let mut motion = periplus_physics::World::empty(
+    let mut motion = periplus_physics::PhysicsWorld::empty(
         composition.world.gravity_m_s2,
-        periplus_physics::Mode::Kinematic,
+        periplus_physics::PhysicsMode::Kinematic,
     );
-    let mut views =
-        periplus_sim_nodes::Views::new(Arc::clone(&files) as _, 2).under(&composition.world);
+    let mut views = periplus_sim_nodes::Views::new(Arc::clone(&files) as _, 2)
+        .with_lights_of(&composition.world);
     for member in &composition.members {
         let added = motion.add(&member.model, member.world_from_model, &*files);
         if let Some(id) = added.model {

@@ -24,7 +24,7 @@ pub use files::ShapeFiles;
 pub use hear::hear;
 pub use pace::Pace;
 pub use periplus_physics::limits::STEP_RANGE_S;
-pub use periplus_physics::{Diverged, Mode};
+pub use periplus_physics::{Diverged, PhysicsMode};
 pub use periplus_sensors::Quirks;
 pub use record::{RecordError, Recorder, Recording, Wanted};
 pub use run::{Progress, Run, Tick};

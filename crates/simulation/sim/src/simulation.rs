@@ -9,11 +9,11 @@ use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_graph::{Arguments, Graph, Node, NodeSettings};
 use periplus_os::Stopwatch;
 use periplus_physics::limits::{MAX_GRAVITY_M_S2, STEP_RANGE_S, is_within};
-use periplus_physics::{Diverged, Mode, ModelId};
+use periplus_physics::{Diverged, ModelId, PhysicsMode};
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
-use periplus_sim_nodes::{Device, Moment, SensorMount, Setting, Span, Views};
+use periplus_sim_nodes::{Device, DeviceContext, SenseContext, SensorMount, StepInterval, Views};
 
 use crate::compose::{Composition, Member};
 use crate::files::ShapeFiles;
@@ -32,7 +32,7 @@ pub struct Options {
     /// Seed of all noise.
     pub seed: u64,
     /// How things move.
-    pub mode: Mode,
+    pub mode: PhysicsMode,
     /// Step \[s\]; without one that of the world's physics.
     pub step_s: Option<f64>,
     /// Threads for rays.
@@ -48,14 +48,14 @@ pub struct Options {
     /// Messages on `/clock` per simulated second \[Hz\].
     pub clock_rate_hz: f64,
     /// Whether the joints of robots are told where no plugin does so.
-    pub tells_joints: bool,
+    pub publishes_joint_states: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Self {
             seed: 0,
-            mode: Mode::Rigid,
+            mode: PhysicsMode::Rigid,
             step_s: None,
             threads: 1,
             quirks: Quirks::default(),
@@ -63,7 +63,7 @@ impl Default for Options {
             remaps: Vec::new(),
             arguments: Arguments::default(),
             clock_rate_hz: 100.0,
-            tells_joints: true,
+            publishes_joint_states: true,
         }
     }
 }
@@ -83,7 +83,7 @@ pub(crate) struct Running {
 pub struct Simulation {
     pub(crate) graph: Graph,
     pub(crate) scene: scene::World,
-    pub(crate) motion: periplus_physics::World,
+    pub(crate) motion: periplus_physics::PhysicsWorld,
     pub(crate) running: Vec<Running>,
     world_devices: Vec<Box<dyn Device>>,
     pub(crate) views: Views,
@@ -112,10 +112,10 @@ impl Simulation {
         let mut of_world = Diagnostics::new();
         let step_s = options.step_s.unwrap_or_else(|| step_of(&scene, &mut of_world));
         let gravity_m_s2 = gravity_of(&scene, &mut of_world);
-        let motion = periplus_physics::World::empty(gravity_m_s2, options.mode);
+        let motion = periplus_physics::PhysicsWorld::empty(gravity_m_s2, options.mode);
         let graph = Graph::new();
         graph.set_arguments(options.arguments.clone());
-        let views = Views::new(Arc::clone(&files) as _, options.threads).under(&scene);
+        let views = Views::new(Arc::clone(&files) as _, options.threads).with_lights_of(&scene);
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
             world_devices: Vec::new(),
@@ -167,7 +167,7 @@ impl Simulation {
 
     /// What moves.
     #[must_use]
-    pub fn motion(&self) -> &periplus_physics::World {
+    pub fn motion(&self) -> &periplus_physics::PhysicsWorld {
         &self.motion
     }
 
@@ -298,7 +298,7 @@ impl Simulation {
         model: ModelId,
         findings: &mut Diagnostics,
     ) -> Vec<Box<dyn Device>> {
-        let setting = Setting {
+        let setting = DeviceContext {
             graph: &self.graph,
             world: &self.motion,
             scene: &self.scene,
@@ -311,7 +311,7 @@ impl Simulation {
             quirks: self.options.quirks,
             rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,
-            tells_joints: self.options.tells_joints,
+            publishes_joint_states: self.options.publishes_joint_states,
         };
         periplus_sim_nodes::devices(&setting, member.description.as_deref(), findings)
     }
@@ -333,7 +333,7 @@ impl Simulation {
         let model = self.running[place].model;
         let moved = self.motion.set_pose(model, world_from_model);
         if moved {
-            self.views.moved();
+            self.views.invalidate();
         }
         moved
     }
@@ -348,7 +348,7 @@ impl Simulation {
     /// Models back to where they came in, at rest; time goes on.
     pub fn reset_models(&mut self) {
         self.motion.reset();
-        self.views.moved();
+        self.views.invalidate();
         self.restart_devices();
     }
 
@@ -384,7 +384,7 @@ impl Simulation {
         let mut stopwatch = Stopwatch::start();
         self.graph.advance_to(self.time_ns);
         self.shares.lap(Work::Messages, &mut stopwatch);
-        let span = Span { start_ns: self.time_ns, length_ns: self.next_length_ns(end_ns) };
+        let span = StepInterval { start_ns: self.time_ns, length_ns: self.next_length_ns(end_ns) };
         for device in all(&mut self.world_devices, &mut self.running) {
             device.act(&mut self.motion, span);
         }
@@ -395,7 +395,7 @@ impl Simulation {
         self.shares.lap(Work::Physics, &mut stopwatch);
         self.graph.advance_to(self.time_ns);
         self.shares.lap(Work::Messages, &mut stopwatch);
-        let mut moment = Moment {
+        let mut moment = SenseContext {
             span,
             world: &self.motion,
             views: &mut self.views,
@@ -411,8 +411,8 @@ impl Simulation {
 
     /// Measures once for subscribers that came while time stands still.
     pub(crate) fn sense_paused(&mut self) {
-        let mut moment = Moment {
-            span: Span { start_ns: self.time_ns, length_ns: 0 },
+        let mut moment = SenseContext {
+            span: StepInterval { start_ns: self.time_ns, length_ns: 0 },
             world: &self.motion,
             views: &mut self.views,
             threads: self.options.threads,
@@ -460,7 +460,7 @@ impl Simulation {
     fn next_length_ns(&mut self, end_ns: i64) -> i64 {
         let step_ns = self.step_ns;
         let left_ns = end_ns.saturating_sub(self.time_ns).max(1);
-        if self.options.mode == Mode::Rigid {
+        if self.options.mode == PhysicsMode::Rigid {
             // Always whole: physics with another step is another physics.
             return step_ns;
         }

@@ -8,7 +8,7 @@ mod tutorial;
 use periplus_costmap::cost;
 
 use periplus_msgs::gazebo_msgs::{DeleteEntity, DeleteEntityRequest};
-use periplus_sim::Mode;
+use periplus_sim::PhysicsMode;
 
 use tutorial::{LAYERS, Run};
 
@@ -19,7 +19,7 @@ const SPHERE: (f64, f64) = (-0.62, 0.76);
 
 #[test]
 fn the_cube_and_the_sphere_appear_inflate_and_go() {
-    let mut run = Run::new(Mode::Rigid);
+    let mut run = Run::new(PhysicsMode::Rigid);
     run.go_on(4000);
     assert_eq!(run.largest(CUBE.0, CUBE.1), [cost::LETHAL; 2]);
     assert_eq!(run.largest(SPHERE.0, SPHERE.1), [cost::LETHAL; 2]);

@@ -151,7 +151,7 @@ fn in_world(
         seed: options.seed.or(wish.seed).unwrap_or_default(),
         threads: options.threads.unwrap_or_else(terminal::processors),
         arguments: launched.arguments,
-        tells_joints: !bringup.tells_joints(),
+        publishes_joint_states: !bringup.publishes_joint_states(),
         ..Options::default()
     };
     let mut simulation =

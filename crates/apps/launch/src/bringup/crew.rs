@@ -202,7 +202,7 @@ impl Bringup {
 
     /// Whether a node of the plan tells where joints are, so that nobody else has to.
     #[must_use]
-    pub fn tells_joints(&self) -> bool {
+    pub fn publishes_joint_states(&self) -> bool {
         self.has(crate::bringup::catalogue::Role::JointStatePublisher)
     }
 

@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::closest;
 use periplus_geometry::{DVec3, Pose};
-use periplus_physics::{LinkId, ModelId, World};
+use periplus_physics::{LinkId, ModelId, PhysicsWorld};
 
 use crate::Simulation;
 
@@ -73,7 +73,7 @@ pub(super) fn frame(simulation: &Simulation, name: &str) -> Result<Motion, Strin
 }
 
 /// Where an entity is.
-pub(super) fn motion_of(motion: &World, entity: Entity) -> Option<Motion> {
+pub(super) fn motion_of(motion: &PhysicsWorld, entity: Entity) -> Option<Motion> {
     match entity {
         Entity::Link(link) => {
             let state = motion.link_state(link)?;

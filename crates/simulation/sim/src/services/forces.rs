@@ -10,7 +10,7 @@ use periplus_msgs::gazebo_msgs::{
 };
 use periplus_msgs::geometry_msgs::{Point, Wrench};
 use periplus_physics::limits::{MAX_FORCE_N, MAX_POSITION_M, is_within};
-use periplus_physics::{Command, JointId, LinkId, Mode};
+use periplus_physics::{JointCommand, JointId, LinkId, PhysicsMode};
 
 use super::convert::vector;
 use super::entity;
@@ -72,7 +72,7 @@ impl Forces {
             if let Some(joint) = find_joint(simulation, &asked.joint_name) {
                 pushes
                     .retain(|push| !matches!(push.on, On::Joint { joint: on, .. } if on == joint));
-                simulation.motion.command(joint, Command::Free);
+                simulation.motion.command(joint, JointCommand::Free);
             }
             JointRequestResponse::default()
         });
@@ -112,10 +112,10 @@ impl Forces {
             }
             match push.on {
                 On::Joint { joint, .. } if is_over => {
-                    simulation.motion.command(joint, Command::Free);
+                    simulation.motion.command(joint, JointCommand::Free);
                 }
                 On::Joint { joint, effort } => {
-                    simulation.motion.command(joint, Command::Effort(effort));
+                    simulation.motion.command(joint, JointCommand::Effort(effort));
                 }
                 On::Link { .. } if is_over => {}
                 On::Link { link, link_from_point_m, force_n, torque_n_m } => {
@@ -123,7 +123,7 @@ impl Forces {
                     let at_m =
                         state.map(|state| state.world_from_link.transform_point(link_from_point_m));
                     if let Some(at_m) = at_m {
-                        simulation.motion.push(link, at_m, force_n, torque_n_m);
+                        simulation.motion.apply_force(link, at_m, force_n, torque_n_m);
                     }
                 }
             }
@@ -162,7 +162,7 @@ fn wrench(
     point: &Point,
     wrench: &Wrench,
 ) -> Result<On, String> {
-    if simulation.motion().mode() == Mode::Kinematic {
+    if simulation.motion().mode() == PhysicsMode::Kinematic {
         return Err("this run moves things exactly as told; forces move nothing in it".into());
     }
     let name = link;
@@ -192,7 +192,7 @@ fn wrench(
 }
 
 fn effort(simulation: &Simulation, name: &str, effort: f64) -> Result<On, String> {
-    if simulation.motion().mode() == Mode::Kinematic {
+    if simulation.motion().mode() == PhysicsMode::Kinematic {
         return Err("this run moves things exactly as told; efforts move nothing in it".into());
     }
     if effort.is_nan() || effort.abs() > MAX_FORCE_N {

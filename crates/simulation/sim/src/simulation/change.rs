@@ -14,14 +14,14 @@ impl Simulation {
             Entity::Model(model) => self.motion.set_pose(model, world_from_entity),
             Entity::Link(link) => self.motion.set_link_pose(link, world_from_entity),
         };
-        self.views.moved();
+        self.views.invalidate();
     }
 
     /// Time back to zero; models stay where they are.
     pub(crate) fn reset_time(&mut self) {
         self.time_ns = 0;
         self.graph.jump_to(0);
-        self.views.moved();
+        self.views.invalidate();
         self.restart_devices();
     }
 

@@ -18,7 +18,7 @@ use std::time::Instant;
 use periplus_loader::Setting;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{Mode, Placement};
+use periplus_sim::{PhysicsMode, Placement};
 
 use trial::{Report, Trial, drive};
 
@@ -28,7 +28,7 @@ fn tried(
     robots: &[Placement],
     name: &str,
     seconds: i64,
-    mode: Mode,
+    mode: PhysicsMode,
     setting: &Setting<'_>,
 ) -> Report {
     let run = || drive(path, robots, name, seconds, mode, setting);
@@ -68,7 +68,7 @@ fn our_robots_drive_and_measure() {
     ];
     with_setting(&root, &[], |setting| {
         for (name, path, robots) in runs {
-            let report = tried(&path, robots, name, 2, Mode::Rigid, setting);
+            let report = tried(&path, robots, name, 2, PhysicsMode::Rigid, setting);
             assert!(!report.trials.is_empty(), "{name}: no robot with a drive");
             for trial in report.trials {
                 assert!(trial.faults.is_empty(), "{trial:?}");
@@ -101,7 +101,7 @@ fn every_robot_of_the_corpus_drives_and_measures() {
     with_setting(&corpus, &search, |setting| {
         for path in &paths {
             let name = path.strip_prefix(&corpus).unwrap_or(path).display().to_string();
-            for mode in [Mode::Rigid, Mode::Kinematic] {
+            for mode in [PhysicsMode::Rigid, PhysicsMode::Kinematic] {
                 let started = Instant::now();
                 let report = tried(path, &[], &name, 5, mode, setting);
                 table.add(report, started.elapsed().as_secs_f64());

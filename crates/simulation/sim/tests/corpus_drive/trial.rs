@@ -12,7 +12,7 @@ use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_plugin_specs::{Role, interpret, model_sites};
 use periplus_scene::{Model, World};
 use periplus_sim::{
-    Composition, Member, Mode, Options, Placement, ShapeFiles, Simulation, compose,
+    Composition, Member, Options, PhysicsMode, Placement, ShapeFiles, Simulation, compose,
 };
 
 use crate::ears::Ears;
@@ -75,7 +75,7 @@ pub(crate) fn drive(
     robots: &[Placement],
     name: &str,
     seconds: i64,
-    mode: Mode,
+    mode: PhysicsMode,
     setting: &Setting<'_>,
 ) -> Report {
     let mut composition = compose(path, robots, setting);

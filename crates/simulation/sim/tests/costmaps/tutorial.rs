@@ -20,7 +20,9 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{Mode, Options, Placement, Search, Services, ShapeFiles, Simulation, compose};
+use periplus_sim::{
+    Options, PhysicsMode, Placement, Search, Services, ShapeFiles, Simulation, compose,
+};
 
 /// The parameters that the tutorial about footprints ships for its robot.
 const NAV2: &str = "/../../../../shared/corpus/navigation2_tutorials@humble/sam_bot_description/config/\
@@ -65,7 +67,7 @@ pub(crate) struct Run {
 
 impl Run {
     /// sam_bot between the cube and the sphere; `map` is where `odom` is, and holds nothing.
-    pub(crate) fn new(mode: Mode) -> Self {
+    pub(crate) fn new(mode: PhysicsMode) -> Self {
         let resolver = Resolver::new(&Machine, &[own("robots").into(), own("worlds").into()]);
         let setting = Setting {
             host: &Machine,
