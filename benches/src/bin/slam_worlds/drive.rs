@@ -7,8 +7,8 @@ use periplus_geometry::Pose2;
 use periplus_graph::{NodeSettings, Qos};
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
-use periplus_sim::script::{Goal, Script};
-use periplus_sim::{Composition, Driver, Options, PhysicsMode, Recorder, Simulation};
+use periplus_sim::script::{DriveScript, Goal};
+use periplus_sim::{Composition, Driver, Options, PhysicsMode, Simulation, SimulationRecorder};
 
 use crate::stage::{LASER_M, Stage};
 
@@ -50,10 +50,10 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
     let options = Options { seed, mode: PhysicsMode::Rigid, ..Options::default() };
     let mut simulation = Simulation::new(&mut composition, stage.files.clone(), options);
     let goals = stage.way.iter().map(|&to| Goal { tolerance_m: 0.15, ..Goal::at(to) });
-    let mut driver = Driver::new(Script {
+    let mut driver = Driver::new(DriveScript {
         goals: goals.collect(),
         goal_topic: Some("/kbot/base_controller/cmd_vel".into()),
-        ..Script::default()
+        ..DriveScript::default()
     });
     driver.join(&simulation).map_err(|why| why.to_string())?;
     let node = simulation.graph().node(NodeSettings::new("bench")).map_err(|it| it.to_string())?;
@@ -66,8 +66,8 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
         .map_err(|why| why.to_string())?;
     let mut odom_from_base = Pose2::IDENTITY;
     let mut log = String::new();
-    let recorder =
-        Recorder::start(&simulation, bag, Box::new(wanted)).map_err(|it| it.to_string())?;
+    let recorder = SimulationRecorder::start(&simulation, bag, Box::new(wanted))
+        .map_err(|it| it.to_string())?;
     let mut truth: Vec<(i64, Pose2)> = Vec::new();
     // A little standing still at the end.
     let mut left_ns = 300_000_000;

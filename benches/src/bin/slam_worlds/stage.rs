@@ -9,7 +9,7 @@ use periplus_os::Machine;
 use periplus_raycast::{Filter, Ray};
 use periplus_rendering::{RenderScene, SensedGeometry};
 use periplus_resources::Resolver;
-use periplus_sim::{Composition, Placement, ShapeFiles, Standing, compose};
+use periplus_sim::{AssetFiles, Composition, PlacementPose, RobotPlacement, compose};
 
 use crate::floor::Floor;
 
@@ -88,7 +88,7 @@ pub(crate) const LASER_M: [f64; 2] = [0.065, 0.075];
 /// A world with a robot in it, and the way that the robot is to go.
 pub(crate) struct Stage {
     pub(crate) composition: Composition,
-    pub(crate) files: Arc<ShapeFiles>,
+    pub(crate) files: Arc<AssetFiles>,
     /// What a lidar sees, without the robot.
     scene: RenderScene,
     pub(crate) bounds_m: [f64; 4],
@@ -112,11 +112,11 @@ impl Stage {
         if is_turned {
             yaw += std::f64::consts::PI;
         }
-        let robot = Placement {
+        let robot = RobotPlacement {
             file: PathBuf::from(ROBOT),
             arguments: arguments.map(|(name, value)| (name.to_owned(), value)).to_vec(),
-            pose: Standing::OnGround([x, y, yaw]),
-            ..Placement::default()
+            pose: PlacementPose::OnGround([x, y, yaw]),
+            ..RobotPlacement::default()
         };
         let resolver = Resolver::new(&Machine, &[]);
         let setting = Setting {
@@ -133,7 +133,7 @@ impl Stage {
         // What stands around loose stays where it is: a wall that moves has no true place.
         let standing = composition.members.iter_mut().filter(|it| it.description.is_none());
         standing.for_each(|it| it.model.is_static = true);
-        let files = Arc::new(ShapeFiles::default());
+        let files = Arc::new(AssetFiles::default());
         let mut world = composition.world.clone();
         for member in composition.members.iter().filter(|it| it.description.is_none()) {
             let mut model = member.model.clone();

@@ -14,9 +14,11 @@ use std::sync::Arc;
 use clap::Args;
 use periplus_geometry::Pose2;
 use periplus_graph::NodeSettings;
-use periplus_nav_nodes::slam_toolbox::Pace;
+use periplus_nav_nodes::slam_toolbox::RealTimePacer;
 use periplus_os::Stopwatch;
-use periplus_sim::{Driver, Options, Recorder, Run, Search, Services, ShapeFiles, Simulation};
+use periplus_sim::{
+    AssetFiles, Driver, Options, Run, Search, Services, Simulation, SimulationRecorder,
+};
 
 use crate::costmap::Costmaps;
 use crate::mapping::Mapping;
@@ -100,7 +102,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let start = Stopwatch::start();
     let words = |error: &dyn std::fmt::Display| error.to_string();
     let mut composition = stage::composition();
-    let files = Arc::new(ShapeFiles::default());
+    let files = Arc::new(AssetFiles::default());
     let threads = terminal::processors();
     let settings = Options { seed: options.seed, threads, ..Options::default() };
     let mut simulation = Simulation::new(&mut composition, files, settings);
@@ -113,7 +115,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let mut services = Services::new(&simulation, search).map_err(|error| words(&error))?;
     let graph = simulation.graph().clone();
     let (program, values) = stage::mapping();
-    let pace = if options.headless { Pace::Whole } else { Pace::Sliced };
+    let pace = if options.headless { RealTimePacer::Whole } else { RealTimePacer::Sliced };
     let node = graph.node(NodeSettings::new(program.node_name()));
     let mapping = Mapping::new(node, program, values, pace, out.as_deref());
     let mapping = mapping.map_err(|()| "the mapping node could not start".to_owned())?;
@@ -184,9 +186,9 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
 }
 
 /// Records everything but images, which only a viewer subscribes to.
-fn record(simulation: &Simulation, out: &Path) -> Result<Recorder, String> {
+fn record(simulation: &Simulation, out: &Path) -> Result<SimulationRecorder, String> {
     let wanted = |name: &str| !name.starts_with("/depth_camera/");
-    Recorder::start(simulation, &out.join("demo.mcap"), Box::new(wanted))
+    SimulationRecorder::start(simulation, &out.join("demo.mcap"), Box::new(wanted))
         .map_err(|error| format!("cannot record to {}: {error}", out.display()))
 }
 

@@ -19,8 +19,8 @@ use periplus_diagnostics::SourceMap;
 use periplus_graph::Arguments;
 use periplus_os::Stopwatch;
 use periplus_sim::{
-    Composition, Driver, Options, PhysicsMode, Quirks, Recorder, Run, Services, ShapeFiles,
-    Simulation, Wanted, compose, hear,
+    AssetFiles, Composition, Driver, Options, PhysicsMode, Quirks, Run, Services, Simulation,
+    SimulationRecorder, TopicFilter, compose, compute_topics,
 };
 
 use crate::arguments;
@@ -207,7 +207,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     });
     let mut simulation = Simulation::new(
         &mut composition,
-        Arc::new(ShapeFiles::default()),
+        Arc::new(AssetFiles::default()),
         options.simulation(to_nodes),
     );
     let whole = tell_findings(&composition, options.quiet)?;
@@ -225,7 +225,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     let profile = profile.as_ref();
     let recorder = match options.record.as_deref() {
         None => None,
-        Some(path) => match Recorder::start(&simulation, path, options.wanted()) {
+        Some(path) => match SimulationRecorder::start(&simulation, path, options.wanted()) {
             Ok(recorder) => Some(recorder),
             Err(error) => {
                 terminal::complain(&format!("cannot record to {}: {error}", path.display()));
@@ -234,7 +234,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         },
     };
     if let Some(heard) = options.hear.clone() {
-        hear(&simulation, Box::new(move |name| heard.is_match(name)));
+        compute_topics(&simulation, Box::new(move |name| heard.is_match(name)));
     }
     let mut services = match Services::new(&simulation, terminal::search(search)) {
         Ok(services) => services,
@@ -514,7 +514,7 @@ impl SimOptions {
         }
     }
 
-    fn wanted(&self) -> Wanted {
+    fn wanted(&self) -> TopicFilter {
         let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
         Box::new(move |name| {
             topics.as_ref().is_none_or(|topics| topics.is_match(name))

@@ -9,7 +9,7 @@ use periplus_loader::Setting;
 use periplus_os::Machine;
 use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
 use periplus_resources::Resolver;
-use periplus_sim::{ShapeFiles, compose};
+use periplus_sim::{AssetFiles, compose};
 
 const WIDTH: usize = 960;
 const HEIGHT: usize = 540;
@@ -59,7 +59,7 @@ fn take(world: &Path, world_from_camera: Pose) -> RenderedImages {
         open_meshes: false,
     };
     let composition = compose(world, &[], &setting);
-    let files = Arc::new(ShapeFiles::default());
+    let files = Arc::new(AssetFiles::default());
     let mut motion = periplus_physics::PhysicsWorld::empty(
         composition.world.gravity_m_s2,
         periplus_physics::PhysicsMode::Kinematic,

@@ -1,4 +1,4 @@
-//! From files to one world with robots in it.
+//! Composition of a world and robots from files.
 
 use std::path::{Path, PathBuf};
 
@@ -8,72 +8,71 @@ use periplus_loader::{Loaded, Setting, load, load_bytes, settle_images};
 use periplus_scene::{Model, Scene, World};
 use periplus_xml::write_document;
 
-use crate::ground;
+use crate::default_world;
 
-/// A robot that is put into a world.
+/// A robot to add to a world.
 #[derive(Clone, Debug, Default)]
-pub struct Placement {
-    /// Its file: URDF, xacro, or an SDF with one model.
+pub struct RobotPlacement {
+    /// File of the robot: URDF, xacro, or an SDF with one model.
     pub file: PathBuf,
-    /// `name:=value` for xacro.
+    /// Xacro arguments, `name:=value`.
     pub arguments: Vec<(String, String)>,
-    /// What it is called; without it as in its file, with a number when that is taken.
+    /// Name of the robot; by default that of its file, with a number appended when it is in use.
     pub name: Option<String>,
-    /// The namespace of its topics; without it none for a single robot, and its name for one of
-    /// several.
+    /// Namespace of its topics; by default none for a single robot, and its name for one of several.
     pub namespace: Option<String>,
-    /// Where it stands.
-    pub pose: Standing,
+    /// Pose of the robot.
+    pub pose: PlacementPose,
 }
 
-/// Where a robot stands.
+/// Pose of a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Standing {
-    /// At the pose in its file, or above the origin so that it touches the ground.
+pub enum PlacementPose {
+    /// At the pose of its file, or above the origin so that it touches the floor.
     #[default]
     AsWritten,
-    /// On the ground z = 0, at x, y \[m\] and yaw \[rad\].
+    /// On the plane z = 0, at x, y \[m\] and yaw \[rad\].
     OnGround([f64; 3]),
     /// `world_from_model`.
     At(Pose),
 }
 
-/// A model that is to be simulated, and where it came from.
+/// A model to simulate, and its source.
 #[derive(Clone, Debug)]
-pub struct Member {
+pub struct ModelInstance {
     /// The model.
     pub model: Model,
-    /// What it is called in the world.
+    /// Name in the world.
     pub name: String,
     /// Namespace of its nodes; `/` is none.
     pub namespace: String,
-    /// Its frame in the world.
+    /// Pose of its frame in the world.
     pub world_from_model: Pose,
-    /// The text that `robot_description` publishes, of a URDF.
+    /// Text that `robot_description` publishes, for a URDF.
     pub description: Option<String>,
-    /// Which file of [`Composition::files`] it came from.
+    /// Index of its file in [`Composition::files`].
     pub file: usize,
 }
 
-/// A world and all that stands in it.
+/// A world with all of its models.
 #[derive(Debug)]
 pub struct Composition {
-    /// The world without its models, which are all in `members`.
+    /// The world without its models, which are in `members`.
     pub world: World,
     /// Models, those of the world first.
-    pub members: Vec<Member>,
-    /// The files with what is wrong in them; the one that was given as the world comes first.
+    pub members: Vec<ModelInstance>,
+    /// Files with their findings; the world file comes first.
     pub files: Vec<Loaded>,
 }
 
 impl Composition {
-    /// Whether any file has an error, so that something is missing.
+    /// Returns true if any file has an error, so that something is missing.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.files.iter().any(|file| file.diagnostics.has_errors())
     }
 
-    /// The first file of which nothing came.
+    /// Returns the first file that could not be used.
     #[must_use]
     pub fn missing(&self) -> Option<&Path> {
         let from = |file: usize| self.members.iter().any(|member| member.file == file);
@@ -82,8 +81,7 @@ impl Composition {
         self.files.iter().enumerate().find(empty).map(|(_, loaded)| loaded.path.as_path())
     }
 
-    /// Simulated seconds per second of the wall that the world asks for; none when it wants all
-    /// that the machine has.
+    /// Returns the real-time factor of the world; `None` if it is unlimited.
     #[must_use]
     pub fn real_time_factor(&self) -> Option<f64> {
         let factor = self.world.physics.first().map_or(1.0, |physics| physics.real_time_factor);
@@ -91,10 +89,10 @@ impl Composition {
     }
 }
 
-/// Reads a world and robots. A world file that is a robot or a model stands on a plane in the sun.
-/// Findings are in [`Composition::files`]; what could not be read is missing.
+/// Reads a world and robots. A world file that is a robot or a model is placed on a plane with a
+/// sun. Findings are in [`Composition::files`]; files that cannot be read are omitted.
 #[must_use]
-pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Composition {
+pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &Setting<'_>) -> Composition {
     let mut first = load(world, setting);
     for name in first.unknown_arguments(&setting.arguments) {
         first.warn_of_argument(name);
@@ -102,19 +100,23 @@ pub fn compose(world: &Path, robots: &[Placement], setting: &Setting<'_>) -> Com
     compose_loaded(first, robots, setting)
 }
 
-/// A plane in the sun with nothing on it.
+/// Returns an empty plane with a sun.
 #[must_use]
 pub fn compose_plain(setting: &Setting<'_>) -> Composition {
     compose_loaded(plain_world(setting), &[], setting)
 }
 
-fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>) -> Composition {
+fn compose_loaded(
+    mut first: Loaded,
+    robots: &[RobotPlacement],
+    setting: &Setting<'_>,
+) -> Composition {
     settle(&mut first, setting);
     if first.scene.is_none() && !first.diagnostics.has_errors() {
         let what = first.language.name();
-        let told = Diagnostic::error("no-world", format!("a {what} holds no world to simulate"));
+        let told = Diagnostic::error("no-world", format!("a {what} contains no world to simulate"));
         let told = first.language.advice().into_iter().fold(told, Diagnostic::help);
-        let told = told.help("give an SDF world, or a robot: it will stand on a plane in the sun");
+        let told = told.help("use an SDF world, or a robot, which is placed on a plane with a sun");
         first.diagnostics.push(told);
     }
     let mut scene = first.scene.take().unwrap_or_default();
@@ -122,14 +124,14 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
         let others: Vec<&str> = scene.worlds[1..].iter().map(|world| world.name.as_str()).collect();
         first.diagnostics.push(
             Diagnostic::warning("several-worlds", "only the first world of the file is simulated")
-                .note(format!("left out: {}", others.join(", "))),
+                .note(format!("omitted: {}", others.join(", "))),
         );
     }
     let lonely = scene.worlds.is_empty();
     let description = description_of(&first);
     let mut files = vec![first];
     let mut world = if lonely {
-        // A file of its own, for its findings point into its own text.
+        // A separate file, since its findings refer to its own text.
         let mut plain = plain_world(setting);
         let world = plain.scene.as_mut().and_then(|scene| scene.worlds.pop());
         files.push(plain);
@@ -138,8 +140,8 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
         scene.worlds.remove(0)
     };
     let file_of_world = files.len() - 1;
-    let mut members: Vec<Member> = Vec::new();
-    let add = |model: Model, placed: Placed<'_>, file: usize, members: &mut Vec<Member>| {
+    let mut members: Vec<ModelInstance> = Vec::new();
+    let add = |model: Model, placed: Placed<'_>, file: usize, members: &mut Vec<ModelInstance>| {
         let taken = |name: &str| members.iter().any(|member| member.name == name);
         let wanted = placed.name.unwrap_or(&model.name).to_owned();
         let mut name = wanted.clone();
@@ -149,19 +151,21 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
             name = format!("{wanted}_{number}");
         }
         let world_from_model = match placed.standing {
-            Standing::At(pose) => pose,
-            Standing::OnGround([x, y, yaw]) => ground::standing(&model, x, y, yaw),
-            Standing::AsWritten if placed.is_robot => ground::standing(&model, 0.0, 0.0, 0.0),
-            Standing::AsWritten => model.parent_from_model,
+            PlacementPose::At(pose) => pose,
+            PlacementPose::OnGround([x, y, yaw]) => default_world::standing(&model, x, y, yaw),
+            PlacementPose::AsWritten if placed.is_robot => {
+                default_world::standing(&model, 0.0, 0.0, 0.0)
+            }
+            PlacementPose::AsWritten => model.parent_from_model,
         };
-        // One of several has the name that it has here: two copies have two.
+        // Two copies of a robot have their names in this run.
         let namespace = match placed.namespace {
             Some(namespace) => absolute(namespace),
             None if placed.is_one_of_several => absolute(&name),
             None => "/".to_owned(),
         };
         let description = placed.description;
-        members.push(Member { model, name, namespace, world_from_model, description, file });
+        members.push(ModelInstance { model, name, namespace, world_from_model, description, file });
     };
     for model in std::mem::take(&mut world.models) {
         add(model, Placed::default(), file_of_world, &mut members);
@@ -183,8 +187,11 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
         let models = models_of(scene);
         if models.is_empty() && !loaded.diagnostics.has_errors() {
             loaded.diagnostics.push(
-                Diagnostic::error("no-robot", format!("{} holds no robot", robot.file.display()))
-                    .help("give a URDF, a xacro file, or an SDF with a model"),
+                Diagnostic::error(
+                    "no-robot",
+                    format!("{} contains no robot", robot.file.display()),
+                )
+                .help("use a URDF, a xacro file, or an SDF with a model"),
             );
         }
         for model in models {
@@ -203,9 +210,9 @@ fn compose_loaded(mut first: Loaded, robots: &[Placement], setting: &Setting<'_>
     Composition { world, members, files }
 }
 
-/// The plane in the sun.
+/// Returns the plane with a sun.
 fn plain_world(setting: &Setting<'_>) -> Loaded {
-    load_bytes("plain.world".as_ref(), ground::PLAIN_WORLD.as_bytes(), setting)
+    load_bytes("plain.world".as_ref(), default_world::DEFAULT_WORLD_SDF.as_bytes(), setting)
 }
 
 #[derive(Default)]
@@ -213,7 +220,7 @@ struct Placed<'a> {
     name: Option<&'a str>,
     namespace: Option<&'a str>,
     is_one_of_several: bool,
-    standing: Standing,
+    standing: PlacementPose,
     is_robot: bool,
     description: Option<String>,
 }
@@ -228,12 +235,12 @@ fn absolute(namespace: &str) -> String {
     format!("/{}", namespace.trim_matches('/'))
 }
 
-/// The models of a file, wherever they stand in it.
+/// Returns the models of a file, at any depth.
 pub(crate) fn models_of(scene: Scene) -> Vec<Model> {
     scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models).collect()
 }
 
-/// The URDF that a file is, macros expanded.
+/// Returns the URDF of a file, with macros expanded.
 pub(crate) fn description_of(loaded: &Loaded) -> Option<String> {
     loaded.robot.as_ref()?;
     loaded.document.as_ref().map(write_document)

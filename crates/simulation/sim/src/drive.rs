@@ -1,11 +1,11 @@
-//! Driving without a person: a script or a recording, played on the graph.
+//! Driver for scripts and recordings of velocity commands.
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::File;
 use std::path::Path;
 
-use crate::script::{Body, Pilot, Script};
+use crate::script::{CommandMessage, DriveScript, GoalController};
 use periplus_bags::Reader;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, Publisher, Qos};
@@ -17,27 +17,27 @@ use periplus_resources::Host as _;
 
 use crate::Simulation;
 
-/// Time between velocities towards a goal \[ns\].
+/// Period of velocity commands towards a goal \[ns\].
 const STEER_NS: i64 = 50_000_000;
 
-/// Plays a script. Without one it does nothing.
+/// Plays a script. Without a script it does nothing.
 #[derive(Default)]
 pub struct Driver {
-    script: Script,
-    /// The next of the script's commands.
+    script: DriveScript,
+    /// Index of the next command.
     next: usize,
-    pilot: Option<Pilot>,
+    pilot: Option<GoalController>,
     steer_ns: i64,
-    /// By topic as the script has it; none is that of the robot.
+    /// Publishers by topic of the script; `None` is the topic of the robot.
     outlets: BTreeMap<Option<String>, Outlet>,
 }
 
-/// A reason for which a script cannot be driven.
+/// Reasons that a script cannot be driven.
 #[derive(Debug)]
 pub enum DriveError {
-    /// The script names no topic, and the robots listen on none or on several.
+    /// The script names no topic, and no robot or several robots subscribe to velocities.
     NoTopic(String),
-    /// A name is not valid, or a topic has another type.
+    /// A name is invalid, or a topic has another type.
     Graph(GraphError),
 }
 
@@ -58,12 +58,12 @@ impl From<GraphError> for DriveError {
     }
 }
 
-/// What a script's file gave beside the driver.
+/// Findings of a script's file.
 #[derive(Debug, Default)]
 pub struct ScriptFindings {
-    /// The text.
+    /// Source text.
     pub sources: SourceMap,
-    /// What is wrong with it.
+    /// Problems of the script.
     pub diagnostics: Diagnostics,
 }
 
@@ -73,7 +73,7 @@ enum Outlet {
 }
 
 impl Driver {
-    /// Reads a script (YAML), or takes the commands of a recording (`.mcap`).
+    /// Reads a script (YAML), or the commands of a recording (`.mcap`).
     #[must_use]
     pub fn read(path: &Path) -> (Self, ScriptFindings) {
         let mut findings = ScriptFindings::default();
@@ -83,24 +83,27 @@ impl Driver {
         (Self::new(script), findings)
     }
 
-    /// Plays a script from its start.
+    /// Creates a driver at the start of a script.
     #[must_use]
-    pub fn new(script: Script) -> Self {
-        let pilot = (!script.goals.is_empty()).then(|| Pilot::new(script.goals.clone()));
+    pub fn new(script: DriveScript) -> Self {
+        let pilot = (!script.goals.is_empty()).then(|| GoalController::new(script.goals.clone()));
         Self { script, pilot, ..Self::default() }
     }
 
-    /// Makes the publishers of the script's topics. Commands without a topic go to the one on which
-    /// the robot listens. Warns about topics on which nobody does.
+    /// Creates the publishers of the script's topics. Commands without a topic use the topic that
+    /// the robot subscribes to. Warns about topics without subscribers.
     ///
     /// # Errors
-    /// When no topic can be chosen, a name is not valid, or a topic has another type.
+    /// When no topic can be chosen, a name is invalid, or a topic has another type.
     pub fn join(&mut self, simulation: &Simulation) -> Result<Diagnostics, DriveError> {
         let mut warnings = Diagnostics::new();
         let mut wanted: Vec<(Option<String>, bool)> = Vec::new();
         for command in &self.script.commands {
             if wanted.iter().all(|(topic, _)| *topic != command.topic) {
-                wanted.push((command.topic.clone(), matches!(command.body, Body::TwistStamped(_))));
+                wanted.push((
+                    command.topic.clone(),
+                    matches!(command.body, CommandMessage::TwistStamped(_)),
+                ));
             }
         }
         let goal_topic = &self.script.goal_topic;
@@ -132,14 +135,14 @@ impl Driver {
         Ok(warnings)
     }
 
-    /// Begins again, after time went back.
+    /// Restarts after a jump back in time.
     pub fn restart(&mut self) {
         self.next = 0;
         self.steer_ns = 0;
-        self.pilot = self.pilot.is_some().then(|| Pilot::new(self.script.goals.clone()));
+        self.pilot = self.pilot.is_some().then(|| GoalController::new(self.script.goals.clone()));
     }
 
-    /// Publishes what is due.
+    /// Publishes due commands.
     pub fn play(&mut self, simulation: &Simulation) {
         let now_ns = simulation.time_ns();
         while let Some(command) = self.script.commands.get(self.next) {
@@ -158,14 +161,14 @@ impl Driver {
             let twist = velocity.unwrap_or_default().into();
             let body = self.script.goal_body(&twist, now_ns);
             self.send(self.script.goal_topic.as_deref(), now_ns, body);
-            // The last word was to stand.
+            // The last command is zero.
             if velocity.is_none() {
                 self.pilot = None;
             }
         }
     }
 
-    /// When it next has something to say \[ns\].
+    /// Returns the time of the next command \[ns\].
     #[must_use]
     pub fn next_ns(&self) -> Option<i64> {
         let command = self.script.commands.get(self.next).map(|command| command.time_ns);
@@ -173,38 +176,43 @@ impl Driver {
         [command, steer].into_iter().flatten().min()
     }
 
-    fn send(&self, topic: Option<&str>, time_ns: i64, body: Body) {
+    fn send(&self, topic: Option<&str>, time_ns: i64, body: CommandMessage) {
         let outlet = self.outlets.iter().find(|(name, _)| name.as_deref() == topic);
         match (outlet.map(|(_, outlet)| outlet), body) {
-            (Some(Outlet::Twist(publisher)), Body::Twist(twist)) => publisher.publish(twist),
-            (Some(Outlet::Stamped(publisher)), Body::TwistStamped(twist)) => {
+            (Some(Outlet::Twist(publisher)), CommandMessage::Twist(twist)) => {
+                publisher.publish(twist)
+            }
+            (Some(Outlet::Stamped(publisher)), CommandMessage::TwistStamped(twist)) => {
                 publisher.publish(twist);
             }
-            // The robot's own topic has the type that the robot has.
-            (Some(Outlet::Twist(publisher)), Body::TwistStamped(stamped)) if topic.is_none() => {
+            // The robot's topic has the type of the robot's subscription.
+            (Some(Outlet::Twist(publisher)), CommandMessage::TwistStamped(stamped))
+                if topic.is_none() =>
+            {
                 publisher.publish(stamped.twist);
             }
-            (Some(Outlet::Stamped(publisher)), Body::Twist(twist)) if topic.is_none() => {
+            (Some(Outlet::Stamped(publisher)), CommandMessage::Twist(twist)) if topic.is_none() => {
                 let mut stamped = TwistStamped { twist, ..TwistStamped::default() };
                 stamped.header.stamp = Time::of_ns(time_ns);
                 publisher.publish(stamped);
             }
-            // A script that has both types on one topic: the first decided, the rest cannot be sent.
+            // A script with both types on one topic: the type of the first is used, the rest cannot
+            // be sent.
             _ => {}
         }
     }
 }
 
-/// A topic on which a robot takes velocities.
+/// A topic on which a robot receives velocities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VelocityTopic {
     /// Its full name.
     pub name: String,
-    /// Whether its messages are `TwistStamped`, not `Twist`.
+    /// True if its messages are `TwistStamped`, not `Twist`.
     pub is_stamped: bool,
 }
 
-/// The topics of a graph on which nodes take velocities, by name.
+/// Returns the velocity topics with subscribers, by name.
 #[must_use]
 pub fn velocity_topics(graph: &Graph) -> Vec<VelocityTopic> {
     let topics = graph.topics().into_iter().filter(|topic| !topic.subscriptions.is_empty());
@@ -216,21 +224,21 @@ pub fn velocity_topics(graph: &Graph) -> Vec<VelocityTopic> {
     topics.collect()
 }
 
-/// The usual name of a topic with velocities.
-const USUAL: &str = "/cmd_vel";
+/// Default name of a velocity topic.
+const DEFAULT_TOPIC: &str = "/cmd_vel";
 
-/// The topic of commands that name none.
+/// Returns the topic of commands without one.
 fn chosen(listeners: &[VelocityTopic]) -> Result<(String, bool), DriveError> {
-    let usual = listeners.iter().find(|listener| listener.name == USUAL);
+    let usual = listeners.iter().find(|listener| listener.name == DEFAULT_TOPIC);
     match (usual, listeners) {
         (Some(one), _) | (None, [one]) => Ok((one.name.clone(), one.is_stamped)),
         (None, []) => Err(DriveError::NoTopic(
-            "no robot of this world takes velocities; add one with `--robot FILE`, or write `topic: \
+            "no robot of this world subscribes to velocities; add one with `--robot FILE`, or set `topic: \
              NAME` where one that comes later listens"
                 .into(),
         )),
         (None, several) => Err(DriveError::NoTopic(format!(
-            "the commands name no topic, and robots listen on {}; add `topic: NAME` to them",
+            "the commands name no topic, and robots subscribe to {}; add `topic: NAME` to them",
             names(several)
         ))),
     }
@@ -240,14 +248,14 @@ fn unheard(topic: &str, listeners: &[VelocityTopic]) -> Diagnostic {
     let warning = Diagnostic::warning(
         "unheard-commands",
         format!(
-            "nobody listens on `{topic}`, where the \
+            "nothing subscribes to `{topic}`, where the \
              script sends velocities"
         ),
     );
     match listeners {
-        [] => warning.help("no robot of this world takes velocities"),
+        [] => warning.help("no robot of this world subscribes to velocities"),
         listeners => warning.help(format!(
-            "robots listen on {}; commands without `topic:` go there",
+            "robots subscribe to {}; commands without `topic:` are published there",
             names(listeners)
         )),
     }
@@ -267,7 +275,7 @@ fn outlet(node: &Node, topic: &str, is_stamped: bool) -> Result<Outlet, GraphErr
     })
 }
 
-fn written(path: &Path, findings: &mut ScriptFindings) -> Script {
+fn written(path: &Path, findings: &mut ScriptFindings) -> DriveScript {
     match Machine.read(path) {
         Ok(bytes) => {
             let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -276,13 +284,13 @@ fn written(path: &Path, findings: &mut ScriptFindings) -> Script {
         }
         Err(error) => {
             findings.diagnostics.push(unreadable(path, &error.to_string()));
-            Script::default()
+            DriveScript::default()
         }
     }
 }
 
 #[allow(clippy::disallowed_methods, reason = "recordings are read in pieces, not as a whole")]
-fn replayed(path: &Path, findings: &mut ScriptFindings) -> Script {
+fn replayed(path: &Path, findings: &mut ScriptFindings) -> DriveScript {
     let commands = File::open(path)
         .map_err(|error| error.to_string())
         .and_then(|file| Reader::open(file).map_err(|error| error.to_string()))
@@ -291,15 +299,15 @@ fn replayed(path: &Path, findings: &mut ScriptFindings) -> Script {
                 .map_err(|error| error.to_string())
         });
     match commands {
-        Ok(commands) => Script { commands, ..Script::default() },
+        Ok(commands) => DriveScript { commands, ..DriveScript::default() },
         Err(error) => {
             findings.diagnostics.push(unreadable(path, &error));
-            Script::default()
+            DriveScript::default()
         }
     }
 }
 
 fn unreadable(path: &Path, why: &str) -> Diagnostic {
     Diagnostic::error("unreadable-file", format!("`{}` cannot be read: {why}", path.display()))
-        .help("give a script (YAML) or a recording (.mcap)")
+        .help("use a script (YAML) or a recording (.mcap)")
 }

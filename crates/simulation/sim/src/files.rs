@@ -1,4 +1,4 @@
-//! Shapes from files, each read once.
+//! Files of shapes, each read once.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,13 +13,13 @@ use periplus_rendering::{AssetLoader, sample_heightmap, select_submesh};
 use periplus_resources::Host;
 use periplus_scene::{Heightmap, Mesh};
 
-/// Reads the files that a scene was found to name, for those who touch and those who see.
+/// Reads the files of a scene, for physics and rendering.
 #[derive(Debug, Default)]
-pub struct ShapeFiles {
+pub struct AssetFiles {
     meshes: Mutex<BTreeMap<PathBuf, Option<Arc<periplus_meshes::Mesh>>>>,
 }
 
-impl AssetLoader for ShapeFiles {
+impl AssetLoader for AssetFiles {
     fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
         let path = mesh.path.as_ref()?;
         let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -33,7 +33,7 @@ impl AssetLoader for ShapeFiles {
     }
 
     fn image(&self, uri: &str, _: Origin) -> Option<Arc<[u8]>> {
-        // The URIs of images are paths since the composition.
+        // The composition has replaced the URIs of images by paths.
         Machine.read(Path::new(uri)).ok().map(Arc::from)
     }
 
@@ -43,7 +43,7 @@ impl AssetLoader for ShapeFiles {
     }
 }
 
-impl Meshes for ShapeFiles {
+impl Meshes for AssetFiles {
     fn triangles(&self, mesh: &Mesh) -> Option<Triangles> {
         let selected = select_submesh(mesh, &*AssetLoader::mesh(self, mesh)?);
         let points_m = selected.positions_m.into_iter().map(DVec3::from_array).collect();
@@ -51,7 +51,7 @@ impl Meshes for ShapeFiles {
     }
 
     fn heights(&self, heightmap: &Heightmap) -> Option<Heights> {
-        // What is wrong with it is told by those who see it.
+        // Problems are reported by rendering.
         let samples = sample_heightmap(heightmap, self).ok()?;
         Some(Heights {
             columns: samples.columns,

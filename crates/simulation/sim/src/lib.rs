@@ -1,36 +1,38 @@
-//! A world with its robots, run step by step.
+//! Step-by-step simulation of a world with its robots.
 //!
-//! [`compose`] reads files, [`Simulation`] makes nodes of what is in them and steps them, [`Run`]
-//! goes on until it is time, at the pace that is asked for. A [`Recorder`] writes what is published
-//! into a bag, a [`Driver`] drives without a person, [`Services`] let others change the world.
+//! [`compose`] reads files, [`Simulation`] creates nodes for their contents and steps them, [`Run`]
+//! runs them at a real-time factor. A [`SimulationRecorder`] writes published messages to a bag, a [`Driver`]
+//! plays velocity commands, [`Services`] let clients change the world.
 
 mod compose;
+mod compute_topics;
+mod default_world;
 mod drive;
 mod files;
-mod ground;
-mod hear;
 mod pace;
+mod profile;
 mod record;
 mod run;
 pub mod script;
 mod services;
-mod shares;
 mod simulation;
-mod slice;
+mod truth_map;
 
-pub use compose::{Composition, Member, Placement, Standing, compose, compose_plain};
+pub use compose::{
+    Composition, ModelInstance, PlacementPose, RobotPlacement, compose, compose_plain,
+};
+pub use compute_topics::compute_topics;
 pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
-pub use files::ShapeFiles;
-pub use hear::hear;
-pub use pace::Pace;
+pub use files::AssetFiles;
+pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;
 pub use periplus_physics::{Diverged, PhysicsMode};
 pub use periplus_sensors::Quirks;
-pub use record::{RecordError, Recorder, Recording, Wanted};
-pub use run::{Progress, Run, Tick};
+pub use profile::{Work, WorkProfile};
+pub use record::{RecordError, RecordingSummary, SimulationRecorder, TopicFilter};
+pub use run::{Run, RunProgress, Tick};
 pub use services::{
-    Arrival, ArrivalFrom, Arrived, GazeboAnswer, GazeboDesk, GazeboOutlet, GazeboService,
-    GazeboTopic, Search, Services, gazebo_topic,
+    GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,
+    InsertionSource, ModelInsertion, Search, Services, gazebo_topic,
 };
-pub use shares::{Shares, Work};
 pub use simulation::{Options, Simulation};

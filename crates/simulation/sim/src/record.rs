@@ -1,4 +1,4 @@
-//! Into a bag.
+//! Recording to a bag.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -19,41 +19,41 @@ use periplus_msgs::TypeRegistry;
 use periplus_os::Stopwatch;
 
 use crate::Simulation;
-use crate::shares::Work;
+use crate::profile::Work;
 
-/// Which topics are recorded, by their full names.
-pub type Wanted = Box<dyn Fn(&str) -> bool + Send + Sync>;
+/// Filter of the topics to record, by their full names.
+pub type TopicFilter = Box<dyn Fn(&str) -> bool + Send + Sync>;
 
-/// Writes what is published into a bag.
-pub struct Recorder {
+/// Writes published messages to a bag.
+pub struct SimulationRecorder {
     path: PathBuf,
-    /// The folder to which a `metadata.yaml` belongs.
+    /// Folder of `metadata.yaml`.
     folder: Option<PathBuf>,
     tap: TapId,
     shared: Arc<Shared>,
 }
 
-/// What was recorded.
+/// Result of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Recording {
-    /// The file or folder.
+pub struct RecordingSummary {
+    /// File or folder.
     pub path: PathBuf,
-    /// How many messages.
+    /// Number of messages.
     pub messages: u64,
-    /// How many topics.
+    /// Number of topics.
     pub topics: usize,
     /// Size of the file.
     pub bytes: u64,
 }
 
-/// Why a bag is not there, or not whole.
+/// Reasons that a bag is missing or incomplete.
 #[derive(Debug)]
 pub enum RecordError {
-    /// A file or folder cannot be made.
+    /// A file or folder cannot be created.
     File(PathBuf, io::Error),
-    /// Something is there already.
+    /// The folder exists already.
     Exists(PathBuf),
-    /// A message cannot be kept.
+    /// A message cannot be written.
     Write(WriteError),
 }
 
@@ -61,11 +61,11 @@ impl fmt::Display for RecordError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(path, error) => {
-                write!(f, "`{}` cannot be made: {}", path.display(), plain_words(error))
+                write!(f, "`{}` cannot be created: {}", path.display(), plain_words(error))
             }
             Self::Exists(path) => write!(
                 f,
-                "the folder `{}` is there already; take it away or name another",
+                "the folder `{}` exists already; remove it or use another name",
                 path.display()
             ),
             Self::Write(error) => error.fmt(f),
@@ -76,12 +76,12 @@ impl fmt::Display for RecordError {
 impl std::error::Error for RecordError {}
 
 struct Shared {
-    wanted: Wanted,
+    wanted: TopicFilter,
     state: Mutex<State>,
 }
 
 struct State {
-    /// None once it has ended or failed.
+    /// `None` after the end or a failure.
     writer: Option<Writer<File>>,
     topics: BTreeMap<String, TopicId>,
     failure: Option<WriteError>,
@@ -90,16 +90,16 @@ struct State {
 
 struct BagSink(Arc<Shared>);
 
-impl Recorder {
-    /// Begins a bag: a file when the path ends in `.mcap` (an old one is replaced), otherwise a new
-    /// folder with a file and its `metadata.yaml`, as `ros2 bag` makes it.
+impl SimulationRecorder {
+    /// Starts a bag: a file if the path ends in `.mcap` (an existing one is replaced), otherwise a
+    /// new folder with a file and its `metadata.yaml`, like `ros2 bag`.
     ///
     /// # Errors
-    /// When the file cannot be made, or the folder is there.
+    /// When the file cannot be created, or the folder exists.
     pub fn start(
         simulation: &Simulation,
         path: &Path,
-        wanted: Wanted,
+        wanted: TopicFilter,
     ) -> Result<Self, RecordError> {
         let is_file = path.extension().is_some_and(|extension| extension == "mcap");
         let folder = (!is_file).then(|| path.to_owned());
@@ -130,18 +130,18 @@ impl Recorder {
         Ok(Self { path: file, folder, tap, shared })
     }
 
-    /// The file whose recording has failed, and why; none as long as all is written.
+    /// Returns the file of a failed recording and the reason; `None` without a failure.
     #[must_use]
     pub fn failure(&self) -> Option<(PathBuf, String)> {
         let state = self.shared.lock();
         state.failure.as_ref().map(|failure| (self.path.clone(), failure.to_string()))
     }
 
-    /// Ends the bag.
+    /// Finishes the bag.
     ///
     /// # Errors
-    /// When a message could not be kept, or the end cannot be written.
-    pub fn finish(self, simulation: &mut Simulation) -> Result<Recording, RecordError> {
+    /// When a message could not be written, or the end cannot be written.
+    pub fn finish(self, simulation: &mut Simulation) -> Result<RecordingSummary, RecordError> {
         simulation.graph().untap(self.tap);
         let mut state = self.shared.lock();
         simulation.shares_mut().shift(Work::Sensing, Work::Recording, state.spent);
@@ -149,7 +149,12 @@ impl Recorder {
             return Err(RecordError::Write(failure));
         }
         let Some(writer) = state.writer.take() else {
-            return Ok(Recording { path: self.path.clone(), messages: 0, topics: 0, bytes: 0 });
+            return Ok(RecordingSummary {
+                path: self.path.clone(),
+                messages: 0,
+                topics: 0,
+                bytes: 0,
+            });
         };
         let stopwatch = Stopwatch::start();
         let (file, info) = writer.finish().map_err(RecordError::Write)?;
@@ -159,7 +164,7 @@ impl Recorder {
         }
         simulation.shares_mut().add(Work::Recording, stopwatch.elapsed());
         let path = self.folder.clone().unwrap_or_else(|| self.path.clone());
-        Ok(Recording { path, messages: info.messages(), topics: info.topics.len(), bytes })
+        Ok(RecordingSummary { path, messages: info.messages(), topics: info.topics.len(), bytes })
     }
 }
 
@@ -188,7 +193,7 @@ impl Sink for BagSink {
 }
 
 impl State {
-    /// After a failure nothing more is taken; it is told at the end.
+    /// After a failure no messages are written; `finish` reports it.
     fn take(&mut self, topic: &TopicInfo, sample: &Sample) {
         let Some(writer) = &mut self.writer else { return };
         if let Err(failure) = write(writer, &mut self.topics, topic, sample) {

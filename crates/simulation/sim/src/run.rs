@@ -1,4 +1,4 @@
-//! A run from its start to its end.
+//! Run loop.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -6,75 +6,75 @@ use std::time::Duration;
 use periplus_os::{Stopwatch, sleep};
 use periplus_physics::Diverged;
 
-use crate::pace::Pace;
+use crate::pace::RealTimePacer;
 use crate::services::Services;
 use crate::{Driver, Simulation};
 
-/// While a world stands still, its services are looked at this often.
+/// Polling period of the services while a world is paused.
 const PAUSED_WAIT: Duration = Duration::from_millis(5);
 
-/// How a run goes.
+/// Options of a run.
 pub struct Run<'a> {
-    /// Simulated time at which it ends \[ns\]; without one it goes on until it is stopped.
+    /// Simulated end time \[ns\]; `None` runs until stopped.
     pub end_ns: Option<i64>,
-    /// Simulated seconds per second of the wall; without one as fast as can be.
+    /// Real-time factor; `None` is unlimited.
     pub factor: Option<f64>,
-    /// Set from anywhere to end it after the step.
+    /// Flag that ends the run after the current step; can be set from any thread.
     pub stop: &'a AtomicBool,
-    /// Whether it begins standing still.
+    /// True if the run starts paused.
     pub paused: bool,
 }
 
-/// How far a run is.
+/// State of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
+pub struct RunProgress {
     /// Simulated time \[ns\].
     pub time_ns: i64,
-    /// Wall time since it began.
+    /// Wall time since the start.
     pub wall: Duration,
-    /// Simulated seconds per second of the wall, since it began.
+    /// Real-time factor since the start.
     pub real_time_factor: f64,
 }
 
-/// Whether a run goes on.
+/// Decision after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tick {
-    /// It does.
+    /// Continue.
     Go,
-    /// It ends.
+    /// End.
     End,
 }
 
 impl Run<'_> {
-    /// Runs. `watch` is told how far it is after each step.
+    /// Runs. `watch` gets the progress after each step.
     ///
     /// # Errors
-    /// When a body's motion is no longer one; what was recorded until then is whole.
+    /// When a body's motion diverges; the recording up to then is complete.
     pub fn go(
         &self,
         simulation: &mut Simulation,
         services: &mut Services,
         driver: &mut Driver,
-        watch: &mut dyn FnMut(Progress),
+        watch: &mut dyn FnMut(RunProgress),
     ) -> Result<(), Diverged> {
         self.go_with(simulation, services, driver, &mut |_| Tick::Go, watch)
     }
 
-    /// As [`Run::go`]; `work` is done before each step, and from time to time while the world stands
-    /// still.
+    /// As [`Run::go`]; `work` is called before each step, and periodically while the world is
+    /// paused.
     ///
     /// # Errors
-    /// When a body's motion is no longer one; what was recorded until then is whole.
+    /// When a body's motion diverges; the recording up to then is complete.
     pub fn go_with(
         &self,
         simulation: &mut Simulation,
         services: &mut Services,
         driver: &mut Driver,
         work: &mut dyn FnMut(&mut Simulation) -> Tick,
-        watch: &mut dyn FnMut(Progress),
+        watch: &mut dyn FnMut(RunProgress),
     ) -> Result<(), Diverged> {
         services.set_paused(self.paused);
-        let mut pace = Pace::new(self.factor, simulation.time_ns());
+        let mut pace = RealTimePacer::new(self.factor, simulation.time_ns());
         let stopwatch = Stopwatch::start();
         let start_ns = simulation.time_ns();
         while !self.stop.load(Ordering::Relaxed)
@@ -90,7 +90,7 @@ impl Run<'_> {
                 break;
             }
             if let Some(factor) = services.take_factor() {
-                pace = Pace::new(factor, simulation.time_ns());
+                pace = RealTimePacer::new(factor, simulation.time_ns());
             }
             if !services.may_step() {
                 sleep(PAUSED_WAIT);
@@ -110,8 +110,8 @@ impl Run<'_> {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a run lasts less than 2^53 ns")]
-fn progress(time_ns: i64, start_ns: i64, wall: Duration) -> Progress {
+fn progress(time_ns: i64, start_ns: i64, wall: Duration) -> RunProgress {
     let simulated_s = (time_ns - start_ns) as f64 * 1e-9;
     let real_time_factor = simulated_s / wall.as_secs_f64().max(1e-9);
-    Progress { time_ns, wall, real_time_factor }
+    RunProgress { time_ns, wall, real_time_factor }
 }

@@ -1,4 +1,4 @@
-//! Driving without a person.
+//! Scripts of velocity commands and goals.
 //!
 //! A script is a YAML list; each entry is a velocity or a goal:
 //!
@@ -10,19 +10,19 @@
 //! - {goto: [0, 0], speed: 0.3, turn: 0.5, tolerance: 0.05}
 //! ```
 //!
-//! Commands without `topic` go to the one on which the robot listens, in its type.
+//! Commands without `topic` use the topic that the robot subscribes to, with its type.
 //!
-//! Times are seconds of simulated time. `linear: 0.5` is forward, `angular: 0.2` is to the left;
-//! lists are x, y, z; mappings such as `{x: 0.5}` work too. What is not given is zero. Goals are
-//! driven to in their order by a [`Pilot`]; with `at` not before that time. A [recording](replay)
-//! can be driven again as well.
+//! Times are seconds of simulated time. `linear: 0.5` is forward, `angular: 0.2` is
+//! counterclockwise; lists are x, y, z; mappings such as `{x: 0.5}` work too. Missing values are
+//! zero. A [`GoalController`] drives to goals in their order; with `at` not before that time. A
+//! [recording](replay) can be played as well.
 
 mod command;
-mod pilot;
+mod goal_controller;
 mod read;
 mod replay;
 
-pub use command::{Body, Command};
-pub use pilot::{Goal, Pilot, Velocity};
-pub use read::{Script, read};
+pub use command::{CommandMessage, VelocityCommand};
+pub use goal_controller::{Goal, GoalController, PlanarVelocity};
+pub use read::{DriveScript, read};
 pub use replay::replay;

@@ -1,5 +1,4 @@
-//! What others may do to the world, and ask of it: Gazebo's services under the names of all its
-//! generations.
+//! Gazebo's services for inspecting and changing the world, under the names of all its generations.
 //!
 //! | names | from |
 //! |---|---|
@@ -7,28 +6,28 @@
 //! | `/gazebo/pause_physics`, `/gazebo/spawn_urdf_model`, `/gazebo/set_model_state`, ... | ROS 1 |
 //! | `/world/<world>/control`, `create`, `remove`, `set_pose`, `set_physics`, `light_config` | Harmonic |
 //!
-//! What cannot be done is answered with `success = false` and the reason; where an answer has no
-//! place for a reason, it is among the [findings](Services::take_findings).
+//! Failures are answered with `success = false` and the reason; for response types without a reason
+//! field it is among the [findings](Services::take_findings).
 
-mod arrival;
 mod convert;
 mod entity;
 mod factory;
 mod forces;
 mod gazebo;
-mod harmonic;
+mod gz_sim;
+mod insertion;
 mod light;
 mod metrics;
-mod offer;
+mod pause_state;
 mod physics;
 mod properties;
 mod reading;
+mod service_aliases;
 mod spawn;
-mod stage;
 mod state;
 mod state_plugin;
-mod tempo;
 mod topics;
+mod viewer;
 
 use std::path::PathBuf;
 
@@ -39,50 +38,50 @@ use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use self::factory::Factory;
 use self::forces::Forces;
 use self::gazebo::Gazebo;
-use self::harmonic::{Harmonic, name_of};
+use self::gz_sim::{GzSimServices, name_of};
 use self::metrics::Metrics;
-use self::offer::Offer;
+use self::pause_state::PauseState;
 use self::physics::{Factor, Physics};
 use self::properties::Properties;
-use self::stage::Stage;
+use self::service_aliases::ServiceAliases;
 use self::state::State;
 use self::state_plugin::StatePlugin;
-use self::tempo::Tempo;
 use self::topics::StateTopics;
+use self::viewer::ViewerTopics;
 use crate::Simulation;
 
-pub use self::arrival::{Arrival, ArrivalFrom, Arrived};
 pub(crate) use self::entity::Entity;
 pub use self::gazebo::{
-    GazeboAnswer, GazeboDesk, GazeboOutlet, GazeboService, GazeboTopic, gazebo_topic,
+    GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, gazebo_topic,
 };
+pub use self::insertion::{InsertionResult, InsertionSource, ModelInsertion};
 pub use self::reading::Search;
 
-/// The services of a world. They are looked at between steps.
+/// Services of a world, processed between steps.
 pub struct Services {
-    tempo: Tempo,
+    tempo: PauseState,
     search: Search,
     new_factor: Option<Factor>,
-    log: Log,
-    pause: Offer<Empty>,
-    unpause: Offer<Empty>,
-    reset_simulation: Offer<Empty>,
-    reset_world: Offer<Empty>,
+    log: RejectionLog,
+    pause: ServiceAliases<Empty>,
+    unpause: ServiceAliases<Empty>,
+    reset_simulation: ServiceAliases<Empty>,
+    reset_world: ServiceAliases<Empty>,
     factory: Factory,
     state: State,
     properties: Properties,
     physics: Physics,
     forces: Forces,
-    harmonic: Harmonic,
+    gz_sim: GzSimServices,
     topics: StateTopics,
     metrics: Metrics,
-    stage: Option<Stage>,
+    stage: Option<ViewerTopics>,
     gazebo: Option<Gazebo>,
     last_ns: i64,
 }
 
 impl Services {
-    /// Offers them on the graph of a simulation. What a spawned text mentions is looked for with
+    /// Offers the services on the graph of a simulation. Files of spawned models are resolved with
     /// `search`.
     ///
     /// # Errors
@@ -93,13 +92,16 @@ impl Services {
         let states = StatePlugin::of(scene, "gazebo_ros_state");
         let properties = StatePlugin::of(scene, "gazebo_ros_properties");
         let offer = |name: &str| {
-            Offer::new(&node, [format!("/{name}").as_str(), format!("/gazebo/{name}").as_str()])
+            ServiceAliases::new(
+                &node,
+                [format!("/{name}").as_str(), format!("/gazebo/{name}").as_str()],
+            )
         };
         Ok(Self {
-            tempo: Tempo::default(),
+            tempo: PauseState::default(),
             search,
             new_factor: None,
-            log: Log { found: Diagnostics::new(), node: node.clone() },
+            log: RejectionLog { found: Diagnostics::new(), node: node.clone() },
             pause: offer("pause_physics")?,
             unpause: offer("unpause_physics")?,
             reset_simulation: offer("reset_simulation")?,
@@ -109,7 +111,7 @@ impl Services {
             properties: Properties::new(&node, &properties)?,
             physics: Physics::new(&node, &properties, &name_of(&scene.name, "set_physics"))?,
             forces: Forces::new(&node)?,
-            harmonic: Harmonic::new(&node, &scene.name)?,
+            gz_sim: GzSimServices::new(&node, &scene.name)?,
             topics: StateTopics::new(&node, &states, now_ns)?,
             metrics: Metrics::new(&node, &scene.name, now_ns),
             stage: None,
@@ -118,9 +120,9 @@ impl Services {
         })
     }
 
-    /// Shows the world to who draws it, and lets them save it: `/world/<world>/scene`, `poses`,
-    /// `save` and `library`. Models that could be put into it are looked for in these folders beside
-    /// those of the environment.
+    /// Publishes the world for viewers, and offers to save it: `/world/<world>/scene`, `poses`,
+    /// `save` and `library`. Insertable models are searched in these folders besides those of the
+    /// environment.
     ///
     /// # Errors
     /// When one of the topics has another type.
@@ -130,46 +132,46 @@ impl Services {
         folders: Vec<PathBuf>,
     ) -> Result<(), GraphError> {
         let folders = self.search.folders.iter().cloned().chain(folders).collect();
-        self.stage = Some(Stage::new(&self.log.node, &simulation.scene.name, folders)?);
+        self.stage = Some(ViewerTopics::new(&self.log.node, &simulation.scene.name, folders)?);
         self.metrics.offer()
     }
 
-    /// Offers the world to programs of Gazebo, with Gazebo's own messages; the desk is where they ask.
-    pub fn open_to_gazebo(&mut self, simulation: &Simulation) -> GazeboDesk {
+    /// Offers the world to Gazebo programs, with Gazebo's own messages; the request queue receives
+    /// their calls.
+    pub fn open_to_gazebo(&mut self, simulation: &Simulation) -> GazeboRequestQueue {
         self.gazebo.insert(Gazebo::new(&simulation.scene.name)).desk()
     }
 
-    /// Stops time, or lets it go on.
+    /// Pauses or resumes the simulation.
     pub fn set_paused(&mut self, is_paused: bool) {
         self.tempo.set_paused(is_paused);
     }
 
-    /// Whether the next step may be taken.
+    /// Returns true if the next step may be taken.
     #[must_use]
     pub fn may_step(&self) -> bool {
         self.tempo.may_step()
     }
 
-    /// Where the next step must end at the latest \[ns\]: somebody asked for so many steps.
+    /// Returns the latest end of the next step \[ns\], for a client that requested single steps.
     #[must_use]
     pub fn until_ns(&self) -> i64 {
         self.tempo.until_ns()
     }
 
-    /// Simulated seconds per second of the wall, if somebody asked for another pace; none inside is
-    /// as fast as can be.
+    /// Returns a newly requested real-time factor, if any; an inner `None` is unlimited.
     #[must_use]
     pub fn take_factor(&mut self) -> Option<Option<f64>> {
         self.new_factor.take()
     }
 
-    /// What was refused since this was last asked, and why.
+    /// Returns and clears the rejected requests with their reasons.
     pub fn take_findings(&mut self) -> Diagnostics {
         std::mem::take(&mut self.log.found)
     }
 
-    /// Does what was asked since the last time, and publishes states that are due. Call it before
-    /// each step, and from time to time while no step may be taken.
+    /// Processes requests and publishes due states. Call it before each step, and periodically while
+    /// no step may be taken.
     pub fn serve(&mut self, simulation: &mut Simulation) {
         self.tempo.arrived(simulation.time_ns());
         self.pause.answer(|_| {
@@ -189,7 +191,7 @@ impl Services {
         self.properties.serve(simulation);
         let new_factor = self.physics.serve(simulation, self.tempo);
         self.new_factor = new_factor.or(self.new_factor);
-        self.harmonic.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
+        self.gz_sim.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
         if let Some(gazebo) = &mut self.gazebo {
             gazebo.serve(simulation, &self.search, &mut self.tempo, &mut self.log);
         }
@@ -217,7 +219,7 @@ impl Services {
             if self.stage.is_some() {
                 simulation.sense_paused();
             }
-            // Who waits for an answer hears it though time stands still.
+            // Clients get their answers also while the simulation is paused.
             simulation.graph().settle();
         }
     }
@@ -232,15 +234,15 @@ impl Services {
     }
 }
 
-/// What was refused where the answer has no place for a reason.
+/// Rejected requests whose response has no reason field.
 #[derive(Debug)]
-struct Log {
+struct RejectionLog {
     found: Diagnostics,
     node: Node,
 }
 
-impl Log {
-    /// Keeps the reason of what was not done; whether it was.
+impl RejectionLog {
+    /// Records the reason of a failure; returns true on success.
     fn note(&mut self, call: &str, done: Result<(), String>) -> bool {
         if let Err(why) = &done {
             self.refused(call, why);
@@ -258,7 +260,7 @@ impl Log {
         self.found.push(finding);
     }
 
-    /// Keeps what is to be said about something that was done.
+    /// Records notes about a successful request.
     fn notes(&mut self, call: &str, notes: &str) {
         if !notes.trim().is_empty() {
             let message = format!("`{call}`: {}", notes.trim_end());

@@ -1,4 +1,4 @@
-//! A world that runs.
+//! A running world.
 
 mod change;
 
@@ -15,39 +15,39 @@ use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
 use periplus_sim_nodes::{Device, DeviceContext, SenseContext, SensorMount, StepInterval, Views};
 
-use crate::compose::{Composition, Member};
-use crate::files::ShapeFiles;
-use crate::shares::{Shares, Work};
+use crate::compose::{Composition, ModelInstance};
+use crate::files::AssetFiles;
+use crate::profile::{Work, WorkProfile};
 
-/// Where motion needs no small steps, time still goes no further than this at once \[ns\]: drives
-/// that listen at each step want to be asked.
-const LONGEST_STEP_NS: i64 = 10_000_000;
+/// Maximum step if motion needs no small steps \[ns\]: drives that check commands in each step must
+/// be called.
+const MAX_STEP_NS: i64 = 10_000_000;
 
-/// Shortest step that is taken \[ns\].
-const SHORTEST_STEP_NS: i64 = 1_000;
+/// Minimum step \[ns\].
+const MIN_STEP_NS: i64 = 1_000;
 
-/// What a run is asked to be like.
+/// Options of a simulation.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Seed of all noise.
     pub seed: u64,
-    /// How things move.
+    /// Kind of motion.
     pub mode: PhysicsMode,
-    /// Step \[s\]; without one that of the world's physics.
+    /// Step \[s\]; `None` for that of the world's physics.
     pub step_s: Option<f64>,
-    /// Threads for rays.
+    /// Number of threads for ray casting.
     pub threads: usize,
-    /// Which oddities of Gazebo are wanted.
+    /// Deviations of Gazebo to reproduce.
     pub quirks: Quirks,
-    /// Whether beams of a lidar are measured one after the other while the robot moves.
+    /// True if the beams of a lidar are measured one after the other while the robot moves.
     pub rolling_scans: bool,
-    /// `from:=to` for all nodes.
+    /// Remappings `from:=to` of all nodes.
     pub remaps: Vec<String>,
-    /// What `--ros-args` say to all nodes but those of the world itself.
+    /// Arguments of `--ros-args` for all nodes except those of the world itself.
     pub arguments: Arguments,
-    /// Messages on `/clock` per simulated second \[Hz\].
+    /// Rate of `/clock` in simulated time \[Hz\].
     pub clock_rate_hz: f64,
-    /// Whether the joints of robots are told where no plugin does so.
+    /// True if joint states of robots are published when no plugin does.
     pub publishes_joint_states: bool,
 }
 
@@ -68,46 +68,46 @@ impl Default for Options {
     }
 }
 
-/// A model that is there, with what acts and measures on it.
-pub(crate) struct Running {
-    pub(crate) member: Member,
+/// A model with its devices.
+pub(crate) struct RunningModel {
+    pub(crate) member: ModelInstance,
     pub(crate) model: ModelId,
     devices: Vec<Box<dyn Device>>,
 }
 
 /// A world with its robots, ready to run.
 ///
-/// In each step first all messages are delivered, then devices act, then everything moves, then
+/// In each step first all messages are delivered, then devices act, then physics advances, then
 /// devices measure and publish, always in the same order. Nothing depends on the wall clock or the
 /// number of threads.
 pub struct Simulation {
     pub(crate) graph: Graph,
     pub(crate) scene: scene::World,
     pub(crate) motion: periplus_physics::PhysicsWorld,
-    pub(crate) running: Vec<Running>,
+    pub(crate) running: Vec<RunningModel>,
     world_devices: Vec<Box<dyn Device>>,
     pub(crate) views: Views,
-    files: Arc<ShapeFiles>,
+    files: Arc<AssetFiles>,
     options: Options,
-    /// Whether the seed is another than that with which devices were made.
+    /// True if the seed has changed since the devices were created.
     has_new_seed: bool,
-    /// How often models came or went.
+    /// Number of insertions and removals of models.
     changes: u64,
     step_ns: i64,
     pub(crate) time_ns: i64,
-    shares: Shares,
-    /// Whose log says what is found wrong.
+    shares: WorkProfile,
+    /// Node whose log reports findings.
     journal: Option<Node>,
     found: Diagnostics,
-    /// Models that were removed because their motion diverged.
+    /// Models that were removed after their motion diverged.
     diverged: Vec<Diverged>,
 }
 
 impl Simulation {
-    /// Puts a composition to work. Findings are added to its files; what cannot be simulated is
-    /// left out.
+    /// Creates the simulation of a composition. Findings are added to its files; invalid parts are
+    /// omitted.
     #[must_use]
-    pub fn new(composition: &mut Composition, files: Arc<ShapeFiles>, options: Options) -> Self {
+    pub fn new(composition: &mut Composition, files: Arc<AssetFiles>, options: Options) -> Self {
         let scene = composition.world.clone();
         let mut of_world = Diagnostics::new();
         let step_s = options.step_s.unwrap_or_else(|| step_of(&scene, &mut of_world));
@@ -117,13 +117,13 @@ impl Simulation {
         graph.set_arguments(options.arguments.clone());
         let views = Views::new(Arc::clone(&files) as _, options.threads).with_lights_of(&scene);
         let mut simulation = Self {
-            step_ns: nanoseconds(step_s).max(SHORTEST_STEP_NS),
+            step_ns: nanoseconds(step_s).max(MIN_STEP_NS),
             world_devices: Vec::new(),
             has_new_seed: false,
             running: Vec::new(),
             changes: 0,
             time_ns: 0,
-            shares: Shares::default(),
+            shares: WorkProfile::default(),
             journal: graph.node(NodeSettings::new("periplus").keep_names()).ok(),
             found: Diagnostics::new(),
             diverged: Vec::new(),
@@ -136,7 +136,7 @@ impl Simulation {
         };
         match ClockPublisher::new(&simulation.graph, simulation.options.clock_rate_hz, 0) {
             Ok(clock) => simulation.world_devices.push(Box::new(clock)),
-            // Cannot be: the graph is new.
+            // Impossible: the graph is new.
             Err(error) => composition.files[0]
                 .diagnostics
                 .push(Diagnostic::error("no-clock", error.to_string())),
@@ -144,7 +144,7 @@ impl Simulation {
         let devices =
             periplus_sim_nodes::world_devices(&simulation.graph, &simulation.scene, &mut of_world);
         simulation.world_devices.extend(devices);
-        // A world in its own file is the first; a plane for a robot has no plugins.
+        // Plugins of a world file are in the first file; the default plane has none.
         composition.files[0].diagnostics.append(of_world);
         for member in composition.members.clone() {
             let file = member.file;
@@ -159,25 +159,25 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// The nodes and topics of this world.
+    /// Returns the graph with all nodes and topics.
     #[must_use]
     pub fn graph(&self) -> &Graph {
         &self.graph
     }
 
-    /// What moves.
+    /// Returns the physics world.
     #[must_use]
     pub fn motion(&self) -> &periplus_physics::PhysicsWorld {
         &self.motion
     }
 
-    /// Simulated time \[ns\].
+    /// Returns the simulated time \[ns\].
     #[must_use]
     pub fn time_ns(&self) -> i64 {
         self.time_ns
     }
 
-    /// The step of the simulation \[ns\].
+    /// Returns the step \[ns\].
     #[must_use]
     pub fn step_ns(&self) -> i64 {
         self.step_ns
@@ -185,29 +185,28 @@ impl Simulation {
 
     /// Changes the step \[s\].
     pub fn set_step(&mut self, step_s: f64) {
-        self.step_ns = nanoseconds(step_s).max(SHORTEST_STEP_NS);
+        self.step_ns = nanoseconds(step_s).max(MIN_STEP_NS);
     }
 
-    /// Wall time by kind of work.
+    /// Returns wall time by kind of work.
     #[must_use]
-    pub fn shares(&self) -> &Shares {
+    pub fn shares(&self) -> &WorkProfile {
         &self.shares
     }
 
-    /// Wall time by kind of work, to be added to.
-    pub(crate) fn shares_mut(&mut self) -> &mut Shares {
+    /// Returns wall time by kind of work, mutably.
+    pub(crate) fn shares_mut(&mut self) -> &mut WorkProfile {
         &mut self.shares
     }
 
-    /// What was found wrong on the way since this was last asked: connections that do not fit,
-    /// shapes that cannot be seen. Models of many files are in one world, so no finding has a
-    /// place.
+    /// Returns and clears findings during the run: mismatched connections, unsupported shapes.
+    /// Models of several files share the world, so findings have no positions.
     pub fn take_findings(&mut self) -> Diagnostics {
         self.collect_findings();
         std::mem::take(&mut self.found)
     }
 
-    /// Keeps what was found wrong since the last time, and logs it.
+    /// Collects and logs new findings.
     fn collect_findings(&mut self) {
         for found in [self.graph.take_findings(), self.views.take_findings()] {
             for diagnostic in found.iter() {
@@ -222,7 +221,7 @@ impl Simulation {
         }
     }
 
-    /// Says on `/rosout` what was found.
+    /// Logs findings on `/rosout`.
     fn log(&self, findings: &Diagnostics) {
         for finding in findings.iter() {
             if let Some(journal) = &self.journal {
@@ -231,38 +230,38 @@ impl Simulation {
         }
     }
 
-    /// The names of the models that are there, in the order of coming.
+    /// Returns the names of the models, in the order of insertion.
     pub fn models(&self) -> impl Iterator<Item = &str> {
         self.running.iter().map(|running| running.member.name.as_str())
     }
 
-    /// `from:=to` for all nodes.
+    /// Returns the remappings of all nodes.
     #[must_use]
     pub fn remaps(&self) -> &[String] {
         &self.options.remaps
     }
 
-    /// Where the first robot is: the first model of a description, or else the first that can
-    /// move.
+    /// Returns the pose of the first robot: the first model with a description, or else the first
+    /// movable one.
     #[must_use]
     pub fn robot_pose(&self) -> Option<Pose> {
         self.motion.model_pose(self.robot()?.model)
     }
 
-    /// The radius of the first robot around its frame, seen from above \[m\]; none where its
-    /// collisions do not say.
+    /// Returns the radius of the first robot about its frame, seen from above \[m\]; `None` if its
+    /// collisions do not define one.
     #[must_use]
     pub fn robot_radius_m(&self) -> Option<f64> {
-        crate::ground::radius_m(&self.robot()?.member.model, Pose::IDENTITY)
+        crate::default_world::radius_m(&self.robot()?.member.model, Pose::IDENTITY)
     }
 
-    pub(crate) fn robot(&self) -> Option<&Running> {
-        let described = |running: &&Running| running.member.description.is_some();
-        let moves = |running: &&Running| !running.member.model.is_static;
+    pub(crate) fn robot(&self) -> Option<&RunningModel> {
+        let described = |running: &&RunningModel| running.member.description.is_some();
+        let moves = |running: &&RunningModel| !running.member.model.is_static;
         self.running.iter().find(described).or(self.running.iter().find(moves))
     }
 
-    /// Names of the first robot's links, and where they are on the plane of the world.
+    /// Returns the names of the first robot's links, and their planar poses.
     pub(crate) fn robot_links(&self) -> Vec<(String, Pose2)> {
         let Some(robot) = self.robot() else { return Vec::new() };
         let links = self.motion.links(robot.model).filter_map(|link| {
@@ -272,29 +271,29 @@ impl Simulation {
         links.collect()
     }
 
-    /// The names of all devices, in the order in which they act.
+    /// Returns the names of all devices, in their order.
     pub fn devices(&self) -> impl Iterator<Item = &str> {
         let own = self.running.iter().flat_map(|running| &running.devices);
         self.world_devices.iter().chain(own).map(|device| device.name())
     }
 
-    /// Puts a model into the world, with its drives and sensors.
-    pub fn spawn(&mut self, mut member: Member) -> Diagnostics {
+    /// Inserts a model with its drives and sensors.
+    pub fn spawn(&mut self, mut member: ModelInstance) -> Diagnostics {
         member.model.name.clone_from(&member.name);
         let added = self.motion.add(&member.model, member.world_from_model, &*self.files);
         let mut findings = added.diagnostics;
         let Some(model) = added.model else { return findings };
         self.views.add(Arc::new(member.model.clone()), model, &self.motion);
         let devices = self.devices_of(&member, model, &mut findings);
-        self.running.push(Running { member, model, devices });
+        self.running.push(RunningModel { member, model, devices });
         self.changes += 1;
         findings
     }
 
-    /// Makes what acts and measures on a model.
+    /// Builds the devices of a model.
     fn devices_of(
         &self,
-        member: &Member,
+        member: &ModelInstance,
         model: ModelId,
         findings: &mut Diagnostics,
     ) -> Vec<Box<dyn Device>> {
@@ -316,7 +315,7 @@ impl Simulation {
         periplus_sim_nodes::devices(&setting, member.description.as_deref(), findings)
     }
 
-    /// Takes a model out. False if there is none of that name.
+    /// Removes a model. Returns false for an unknown name.
     pub fn delete(&mut self, name: &str) -> bool {
         let Some(place) = self.place_of(name) else { return false };
         let gone = self.running.remove(place);
@@ -326,8 +325,7 @@ impl Simulation {
         true
     }
 
-    /// Puts a model down somewhere, at rest. False if there is none of that name, or the pose is
-    /// not finite.
+    /// Sets the pose of a model, at rest. Returns false for an unknown name or a non-finite pose.
     pub fn set_pose(&mut self, name: &str, world_from_model: Pose) -> bool {
         let Some(place) = self.place_of(name) else { return false };
         let model = self.running[place].model;
@@ -338,27 +336,27 @@ impl Simulation {
         moved
     }
 
-    /// Everything back to where it came in, at time zero.
+    /// Resets all models to their initial poses, and time to zero.
     pub fn reset(&mut self) {
         self.time_ns = 0;
         self.graph.jump_to(0);
         self.reset_models();
     }
 
-    /// Models back to where they came in, at rest; time goes on.
+    /// Resets models to their initial poses, at rest; time continues.
     pub fn reset_models(&mut self) {
         self.motion.reset();
         self.views.invalidate();
         self.restart_devices();
     }
 
-    /// Changes whenever a model comes or goes.
+    /// Returns a counter that changes with each insertion and removal.
     pub(crate) fn changes(&self) -> u64 {
         self.changes
     }
 
-    /// What reads the files of shapes.
-    pub(crate) fn files(&self) -> &ShapeFiles {
+    /// Returns the reader of shape files.
+    pub(crate) fn files(&self) -> &AssetFiles {
         &self.files
     }
 
@@ -366,20 +364,20 @@ impl Simulation {
         self.running.iter().position(|running| running.member.name == name)
     }
 
-    /// One step.
+    /// Takes one step.
     ///
     /// # Errors
-    /// When the motion of a body that is no part of a model diverges. A model whose motion
-    /// diverges is removed; see [`Simulation::diverged`].
+    /// When the motion of a body outside of all models diverges. A diverging model is removed; see
+    /// [`Simulation::diverged`].
     pub fn step(&mut self) -> Result<(), Diverged> {
         self.step_until(i64::MAX)
     }
 
-    /// One step that ends at `end_ns` at the latest.
+    /// Takes one step that ends at `end_ns` at the latest.
     ///
     /// # Errors
-    /// When the motion of a body that is no part of a model diverges. A model whose motion
-    /// diverges is removed; see [`Simulation::diverged`].
+    /// When the motion of a body outside of all models diverges. A diverging model is removed; see
+    /// [`Simulation::diverged`].
     pub fn step_until(&mut self, end_ns: i64) -> Result<(), Diverged> {
         let mut stopwatch = Stopwatch::start();
         self.graph.advance_to(self.time_ns);
@@ -409,7 +407,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Measures once for subscribers that came while time stands still.
+    /// Measures once for subscribers that joined during a pause.
     pub(crate) fn sense_paused(&mut self) {
         let mut moment = SenseContext {
             span: StepInterval { start_ns: self.time_ns, length_ns: 0 },
@@ -423,7 +421,7 @@ impl Simulation {
         self.collect_findings();
     }
 
-    /// Mounting poses of the sensors' data, with the name of the model of each.
+    /// Returns mounting poses of the sensors' data, with the names of their models.
     pub(crate) fn sensor_mounts(&self) -> impl Iterator<Item = (&str, SensorMount)> {
         self.running.iter().flat_map(|running| {
             let name = running.member.name.as_str();
@@ -432,14 +430,14 @@ impl Simulation {
         })
     }
 
-    /// Takes out a model whose motion diverged; everything else goes on.
+    /// Removes a model whose motion diverged; the rest continues.
     fn remove_diverged(&mut self, diverged: Diverged) -> Result<(), Diverged> {
         let place = self.running.iter().position(|it| Some(it.model) == diverged.model);
         let Some(name) = place.map(|place| self.running[place].member.name.clone()) else {
             return Err(diverged);
         };
         self.delete(&name);
-        let message = format!("model `{name}` is removed: {diverged}");
+        let message = format!("model `{name}` was removed: {diverged}");
         let mut findings = Diagnostics::new();
         findings.push(Diagnostic::error("model-diverged", message));
         self.log(&findings);
@@ -448,61 +446,61 @@ impl Simulation {
         Ok(())
     }
 
-    /// Models that were removed because their motion diverged, in the order of time. All else went
-    /// on without them.
+    /// Returns models that were removed after their motion diverged, by time.
     #[must_use]
     pub fn diverged(&self) -> &[Diverged] {
         &self.diverged
     }
 
-    /// One step of the world's size; where motion is exact for any step, straight to the time at
-    /// which a device has something to do.
+    /// Returns the length of the next step: the world's step, or if motion is exact for any step,
+    /// the time to the next action of a device.
     fn next_length_ns(&mut self, end_ns: i64) -> i64 {
         let step_ns = self.step_ns;
         let left_ns = end_ns.saturating_sub(self.time_ns).max(1);
         if self.options.mode == PhysicsMode::Rigid {
-            // Always whole: physics with another step is another physics.
+            // Always a whole step: results depend on the step.
             return step_ns;
         }
         let start_ns = self.time_ns;
-        let longest_ns = LONGEST_STEP_NS.max(step_ns);
+        let longest_ns = MAX_STEP_NS.max(step_ns);
         let due_ns = all(&mut self.world_devices, &mut self.running)
             .filter_map(|device| device.next_ns())
             .map(|due_ns| due_ns - start_ns)
             .filter(|wait_ns| *wait_ns > 0)
             .fold(longest_ns, i64::min);
-        // Only whole steps, so that both kinds of motion measure at the same times.
+        // Only multiples of the step, so that both modes measure at the same times.
         let steps = (due_ns + step_ns - 1) / step_ns;
         (steps * step_ns).min(left_ns)
     }
 }
 
-/// All devices in the order in which they act.
+/// Returns all devices in their order.
 fn all<'a>(
     world: &'a mut [Box<dyn Device>],
-    running: &'a mut [Running],
+    running: &'a mut [RunningModel],
 ) -> impl Iterator<Item = &'a mut Box<dyn Device>> {
     let own = running.iter_mut().flat_map(|running| &mut running.devices);
     world.iter_mut().chain(own)
 }
 
-/// The gravity that a world asks for, or none \[m/s²\].
+/// Returns the gravity of a world, or zero \[m/s²\].
 fn gravity_of(world: &scene::World, findings: &mut Diagnostics) -> DVec3 {
     if is_within(world.gravity_m_s2, MAX_GRAVITY_M_S2) {
         return world.gravity_m_s2;
     }
-    let message = format!("gravity is no number, or beyond {MAX_GRAVITY_M_S2} m/s²; there is none");
+    let message =
+        format!("gravity is not finite, or beyond {MAX_GRAVITY_M_S2} m/s²; it is set to zero");
     findings.push(Diagnostic::error("gravity-out-of-range", message).at(world.origin));
     DVec3::ZERO
 }
 
-/// Step of a world that asks for none, or for one out of range \[s\].
-const USUAL_STEP_S: f64 = 0.001;
+/// Step of a world without a valid one \[s\].
+const DEFAULT_STEP_S: f64 = 0.001;
 
-/// The step that a world asks for \[s\].
+/// Returns the step of a world \[s\].
 fn step_of(world: &scene::World, findings: &mut Diagnostics) -> f64 {
     let physics = world.physics.iter().find(|physics| physics.default).or(world.physics.first());
-    let asked_s = physics.map_or(USUAL_STEP_S, |physics| physics.max_step_size_s);
+    let asked_s = physics.map_or(DEFAULT_STEP_S, |physics| physics.max_step_size_s);
     let [shortest_s, longest_s] = STEP_RANGE_S;
     if (shortest_s..=longest_s).contains(&asked_s) {
         return asked_s;
@@ -513,9 +511,9 @@ fn step_of(world: &scene::World, findings: &mut Diagnostics) -> f64 {
     findings.push(
         Diagnostic::warning("step-out-of-range", message)
             .at(world.origin)
-            .note(format!("steps of {USUAL_STEP_S} s are used")),
+            .note(format!("steps of {DEFAULT_STEP_S} s are used")),
     );
-    USUAL_STEP_S
+    DEFAULT_STEP_S
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a step is a fraction of a second")]

@@ -8,11 +8,11 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::Message;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::std_msgs::String as Text;
-use periplus_sim::script::{Body, Goal, Script, read, replay};
+use periplus_sim::script::{CommandMessage, DriveScript, Goal, read, replay};
 use proptest::prelude::*;
 
 /// The script, and the findings as `line:column message`.
-fn parse(text: &str) -> (Script, Vec<String>) {
+fn parse(text: &str) -> (DriveScript, Vec<String>) {
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add("drive.yaml", text);
     let script = read(file, &sources, &mut findings);
@@ -25,8 +25,8 @@ fn parse(text: &str) -> (Script, Vec<String>) {
 }
 
 /// Time, topic, forward, left.
-fn sends(script: &Script) -> Vec<(i64, &str, f64, f64)> {
-    let row = |command: &'_ periplus_sim::script::Command| {
+fn sends(script: &DriveScript) -> Vec<(i64, &str, f64, f64)> {
+    let row = |command: &'_ periplus_sim::script::VelocityCommand| {
         (command.time_ns, command.body.twist().linear.x, command.body.twist().angular.z)
     };
     let commands = script.commands.iter();
@@ -76,7 +76,9 @@ fn stamped_messages_carry_time_and_frame() {
     ] {
         let (script, findings) = parse(text);
         assert_eq!(findings, Vec::<String>::new());
-        let Body::TwistStamped(stamped) = &script.commands[0].body else { panic!("{text}") };
+        let CommandMessage::TwistStamped(stamped) = &script.commands[0].body else {
+            panic!("{text}")
+        };
         assert_eq!(stamped.header.frame_id, "base_link");
         assert_eq!((stamped.header.stamp.sec, stamped.header.stamp.nanosec), (1, 500_000_000));
         let bytes = script.commands[0].body.to_cdr().unwrap();
@@ -170,7 +172,7 @@ fn a_recording_is_driven_again() {
         let mut reader = Reader::open(Cursor::new(&*bytes)).unwrap();
         let mut findings = Diagnostics::new();
         let commands = replay(&mut reader, &mut findings).unwrap();
-        let script = Script { commands, ..Script::default() };
+        let script = DriveScript { commands, ..DriveScript::default() };
         assert_eq!(
             sends(&script),
             [

@@ -19,7 +19,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{Marker, MarkerArray};
 use periplus_msgs::{Encapsulation, Format, Message, Service, encode};
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_sim::{Options, Search, Services, ShapeFiles, Simulation, compose};
+use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
 /// A ground, a ball that falls, and a lidar at a height of 1 m that looks along x.
 const LAB: &str = r#"<sdf version="1.9"><world name="lab">
@@ -80,7 +80,7 @@ impl Lab {
             open_meshes: true,
         };
         let mut composition = compose(Path::new("/lab.sdf"), &[], &setting);
-        let files = Arc::new(ShapeFiles::default());
+        let files = Arc::new(AssetFiles::default());
         let simulation = Simulation::new(&mut composition, files, Options::default());
         assert!(!composition.has_errors(), "{:?}", composition.files[0].diagnostics);
         let services = Services::new(&simulation, Search::default()).unwrap();
@@ -476,7 +476,7 @@ fn states_without_a_plugin_are_there_for_who_subscribes() {
     lab.run(30);
     let heard = states.drain();
     assert!(heard.len() >= 15, "{}", heard.len());
-    assert_eq!(heard[0].name, ["ground::link", "ball::body", "eye::head"]);
+    assert_eq!(heard[0].name, ["default_world::link", "ball::body", "eye::head"]);
 }
 
 #[test]

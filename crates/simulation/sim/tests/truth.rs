@@ -16,7 +16,7 @@ use periplus_msgs::nav_msgs;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_sim::{Options, Search, Services, ShapeFiles, Simulation, compose};
+use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
 /// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the ground,
 /// a box that it sees and one that is too low.
@@ -54,7 +54,7 @@ fn room() -> Simulation {
     };
     let mut composition = compose(Path::new("/room.sdf"), &[], &setting);
     let simulation =
-        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), Options::default());
+        Simulation::new(&mut composition, Arc::new(AssetFiles::default()), Options::default());
     assert!(!composition.has_errors(), "{:?}", composition.files[0].diagnostics);
     simulation
 }

@@ -7,7 +7,7 @@ use periplus_loader::Setting;
 use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_params::{Value, Values};
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_sim::{Composition, Placement, Standing, compose};
+use periplus_sim::{Composition, PlacementPose, RobotPlacement, compose};
 
 /// Name of the world.
 pub(super) const WORLD_NAME: &str = "demo_room";
@@ -50,11 +50,11 @@ pub(super) fn composition() -> Composition {
     };
     // Exact wheels, and no filter that would publish the pose.
     let arguments = [("drive_wheel_separation", "0.36"), ("publish_odom_tf", "true")];
-    let robot = Placement {
+    let robot = RobotPlacement {
         file: PathBuf::from(ROBOT),
         arguments: arguments.map(|(name, value)| (name.to_owned(), value.to_owned())).into(),
-        pose: Standing::OnGround([0.0; 3]),
-        ..Placement::default()
+        pose: PlacementPose::OnGround([0.0; 3]),
+        ..RobotPlacement::default()
     };
     compose(Path::new(WORLD), &[robot], &setting)
 }

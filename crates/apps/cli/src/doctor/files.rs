@@ -12,7 +12,7 @@ use periplus_graph::NodeSettings;
 use periplus_loader::Language;
 use periplus_ros2cli::doctor::{Ears, examine};
 use periplus_ros2cli::{Failure, Seen};
-use periplus_sim::{Options, ShapeFiles, Simulation, compose};
+use periplus_sim::{AssetFiles, Options, Simulation, compose};
 
 use super::{DoctorOptions, parameters, tell};
 use crate::options::split;
@@ -93,7 +93,7 @@ fn simulated(
     let threads = terminal::processors();
     let settings = Options { threads, ..Options::default() };
     let mut simulation =
-        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), settings);
+        Simulation::new(&mut composition, Arc::new(AssetFiles::default()), settings);
     if let Some(missing) = composition.missing() {
         return Err(format!("{} has nothing to simulate", missing.display()));
     }

@@ -17,7 +17,7 @@ use periplus_launch::bringup::{Bringup, Kind, Settings};
 use periplus_launch::{Dialect, Plan};
 use periplus_os::{Stopwatch, sleep};
 use periplus_sim::{
-    Composition, Driver, Options, Recorder, Run, Services, ShapeFiles, Simulation, Tick,
+    AssetFiles, Composition, Driver, Options, Run, Services, Simulation, SimulationRecorder, Tick,
 };
 use serde_json::json;
 
@@ -155,7 +155,7 @@ fn in_world(
         ..Options::default()
     };
     let mut simulation =
-        Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), to_simulation);
+        Simulation::new(&mut composition, Arc::new(AssetFiles::default()), to_simulation);
     let whole = tell_findings(&composition, options.quiet)?;
     if let Some(missing) = composition.missing() {
         terminal::complain(&format!("{} has nothing to simulate", missing.display()));
@@ -163,7 +163,7 @@ fn in_world(
     }
     let recorder = match options.record.as_deref() {
         None => None,
-        Some(path) => match Recorder::start(&simulation, path, options.wanted()) {
+        Some(path) => match SimulationRecorder::start(&simulation, path, options.wanted()) {
             Ok(recorder) => Some(recorder),
             Err(error) => {
                 terminal::complain(&format!("cannot record to {}: {error}", path.display()));
@@ -487,7 +487,7 @@ impl PlayOptions {
         }
     }
 
-    fn wanted(&self) -> periplus_sim::Wanted {
+    fn wanted(&self) -> periplus_sim::TopicFilter {
         let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
         Box::new(move |name| {
             topics.as_ref().is_none_or(|topics| topics.is_match(name))

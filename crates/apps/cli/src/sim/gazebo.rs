@@ -8,7 +8,7 @@ use periplus_diagnostics::SourceMap;
 use periplus_gz_msgs::Dialect;
 use periplus_gz_transport::{Link, Publisher, Reach, Server, Settings, Transport, WireError};
 use periplus_os::Machine;
-use periplus_sim::{GazeboOutlet, Services, Simulation, gazebo_topic};
+use periplus_sim::{GazeboPublisher, Services, Simulation, gazebo_topic};
 
 use crate::terminal;
 
@@ -43,7 +43,7 @@ pub(crate) struct Gazebo {
 /// Publishers of world state and statistics.
 struct Outlet(Vec<Publisher>);
 
-impl GazeboOutlet for Outlet {
+impl GazeboPublisher for Outlet {
     fn is_heard(&self, topic: usize) -> bool {
         self.0.get(topic).is_some_and(Publisher::is_heard)
     }

@@ -4,7 +4,7 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use periplus_sim::Progress;
+use periplus_sim::RunProgress;
 
 /// Period of lines without a terminal.
 const LINES: Duration = Duration::from_secs(10);
@@ -41,7 +41,7 @@ impl Line {
         clippy::cast_sign_loss,
         reason = "for display"
     )]
-    pub(crate) fn show(&mut self, progress: Progress) {
+    pub(crate) fn show(&mut self, progress: RunProgress) {
         if progress.wall < self.drawn + REDRAW {
             return;
         }

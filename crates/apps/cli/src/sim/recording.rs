@@ -3,7 +3,7 @@
 use std::io;
 use std::time::Duration;
 
-use periplus_sim::{Progress, Recorder};
+use periplus_sim::{RunProgress, SimulationRecorder};
 
 use crate::terminal;
 
@@ -24,15 +24,15 @@ impl RecordingWatch {
     /// Checks a recording, at a limited rate.
     pub(crate) fn look(
         &mut self,
-        recorder: Option<&Recorder>,
-        progress: Progress,
+        recorder: Option<&SimulationRecorder>,
+        progress: RunProgress,
         aside: &Aside<'_>,
     ) {
         if self.has_reported || progress.wall < self.next {
             return;
         }
         self.next = progress.wall + PERIOD;
-        let Some((path, why)) = recorder.and_then(Recorder::failure) else { return };
+        let Some((path, why)) = recorder.and_then(SimulationRecorder::failure) else { return };
         self.has_reported = true;
         #[expect(clippy::cast_precision_loss, reason = "for display")]
         let time_s = progress.time_ns as f64 * 1e-9;

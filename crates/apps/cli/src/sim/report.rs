@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
-use periplus_sim::{Recording, Shares, Simulation, Work};
+use periplus_sim::{RecordingSummary, Simulation, Work, WorkProfile};
 use serde_json::{Value, json};
 
 /// Report of a run.
@@ -13,7 +13,7 @@ pub(crate) struct Report<'a> {
     pub(crate) start_up: Duration,
     /// Wall time of all steps.
     pub(crate) wall: Duration,
-    pub(crate) recording: Option<&'a Recording>,
+    pub(crate) recording: Option<&'a RecordingSummary>,
 }
 
 impl Report<'_> {
@@ -75,7 +75,7 @@ fn seconds(time_ns: i64) -> f64 {
     time_ns as f64 / 1e9
 }
 
-fn percent(shares: &Shares, work: Work) -> f64 {
+fn percent(shares: &WorkProfile, work: Work) -> f64 {
     shares.spent(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
 }
 

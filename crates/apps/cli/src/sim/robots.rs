@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, error::ErrorKind};
 use periplus_geometry::{Pose, Rpy};
-use periplus_sim::{Placement, Standing};
+use periplus_sim::{PlacementPose, RobotPlacement};
 
 /// Robots of a command line, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Robots {
-    pub(crate) placements: Vec<Placement>,
+    pub(crate) placements: Vec<RobotPlacement>,
     /// Words after a robot that are not its arguments: one may be the world.
     pub(crate) others: Vec<String>,
 }
@@ -54,7 +54,7 @@ impl FromArgMatches for Robots {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         // Files with their positions on the command line, then the options of the nearest preceding
         // one.
-        let mut robots: Vec<(usize, Placement)> = Vec::new();
+        let mut robots: Vec<(usize, RobotPlacement)> = Vec::new();
         let mut others = Vec::new();
         for (group, index) in groups(matches, ROBOT) {
             let mut words = group.into_iter();
@@ -66,10 +66,11 @@ impl FromArgMatches for Robots {
                     None => others.push(word),
                 }
             }
-            robots.push((index, Placement { file, arguments, ..Placement::default() }));
+            robots.push((index, RobotPlacement { file, arguments, ..RobotPlacement::default() }));
         }
         let mut told =
-            |id: &'static str, tell: &mut dyn FnMut(&mut Placement, &str) -> Result<(), String>| {
+            |id: &'static str,
+             tell: &mut dyn FnMut(&mut RobotPlacement, &str) -> Result<(), String>| {
                 for (group, index) in groups(matches, id) {
                     let before = robots.iter_mut().rev().find(|(place, _)| *place < index);
                     let Some((_, robot)) = before else {
@@ -113,16 +114,16 @@ fn groups(matches: &ArgMatches, id: &str) -> Vec<(Vec<String>, usize)> {
     .collect()
 }
 
-fn standing(word: &str) -> Result<Standing, String> {
+fn standing(word: &str) -> Result<PlacementPose, String> {
     let numbers: Option<Vec<f64>> = word
         .split(',')
         .map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite()))
         .collect();
     match numbers.as_deref() {
-        Some(&[x, y]) => Ok(Standing::OnGround([x, y, 0.0])),
-        Some(&[x, y, yaw]) => Ok(Standing::OnGround([x, y, yaw])),
+        Some(&[x, y]) => Ok(PlacementPose::OnGround([x, y, 0.0])),
+        Some(&[x, y, yaw]) => Ok(PlacementPose::OnGround([x, y, yaw])),
         Some(&[x, y, z, roll, pitch, yaw]) => {
-            Ok(Standing::At(Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw })))
+            Ok(PlacementPose::At(Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw })))
         }
         _ => Err(format!("`{word}` is not a pose; write X,Y,YAW or X,Y,Z,ROLL,PITCH,YAW")),
     }
@@ -136,7 +137,7 @@ fn wrong(words: String) -> Error {
 mod tests {
     use super::*;
 
-    fn read(line: &str) -> Result<Vec<Placement>, String> {
+    fn read(line: &str) -> Result<Vec<RobotPlacement>, String> {
         let command = Robots::augment_args(Command::new("sim").arg(Arg::new("world")));
         let matches = command.try_get_matches_from(line.split(' ')).map_err(|e| e.to_string())?;
         Robots::from_arg_matches(&matches)
@@ -153,7 +154,7 @@ mod tests {
         assert_eq!(robots.len(), 2);
         assert_eq!(robots[0].file, PathBuf::from("a.urdf"));
         assert_eq!(robots[0].arguments[1], ("y".to_owned(), "2".to_owned()));
-        assert_eq!(robots[0].pose, Standing::OnGround([-1.0, 2.0, 0.5]));
+        assert_eq!(robots[0].pose, PlacementPose::OnGround([-1.0, 2.0, 0.5]));
         assert_eq!((robots[0].name.as_deref(), robots[1].name.as_deref()), (None, Some("r2")));
         assert_eq!(robots[1].namespace.as_deref(), Some("/b"));
     }

@@ -14,7 +14,7 @@ use periplus_msgs::std_srvs::{Empty, EmptyRequest};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{Options, Search, Services, ShapeFiles, Simulation, compose};
+use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
 /// Simulated time of a part of the test \[ns\].
 const PART_NS: i64 = 6_000_000_000;
@@ -94,7 +94,7 @@ impl Stack {
         let mut composition = compose(Path::new(&world), &[], &setting);
         let options = Options::default();
         let simulation =
-            Simulation::new(&mut composition, Arc::new(ShapeFiles::default()), options);
+            Simulation::new(&mut composition, Arc::new(AssetFiles::default()), options);
         let services = Services::new(&simulation, bringup.search().clone()).unwrap();
         let node = simulation.graph().node(NodeSettings::new("watch").bare()).unwrap();
         Self {

@@ -1,30 +1,30 @@
-//! One command.
+//! Commands of a script.
 
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::{EncodeError, Message};
 
-/// A message that is sent at its time.
+/// A message with its time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Command {
-    /// When, in simulated time \[ns\].
+pub struct VelocityCommand {
+    /// Simulated time of publishing \[ns\].
     pub time_ns: i64,
-    /// The topic, such as `/cmd_vel`; none is the one on which the robot listens.
+    /// Topic, such as `/cmd_vel`; `None` is the topic that the robot subscribes to.
     pub topic: Option<String>,
-    /// What.
-    pub body: Body,
+    /// Message.
+    pub body: CommandMessage,
 }
 
-/// The message of a command.
+/// Message of a command.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Body {
+pub enum CommandMessage {
     /// A velocity [m/s, rad/s].
     Twist(Twist),
     /// A velocity with time and frame [m/s, rad/s].
     TwistStamped(TwistStamped),
 }
 
-impl Body {
-    /// The full name of its type.
+impl CommandMessage {
+    /// Returns the full name of its type.
     #[must_use]
     pub fn type_name(&self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Body {
         }
     }
 
-    /// The velocity [m/s, rad/s].
+    /// Returns the velocity [m/s, rad/s].
     #[must_use]
     pub fn twist(&self) -> &Twist {
         match self {
@@ -42,7 +42,7 @@ impl Body {
         }
     }
 
-    /// The message as CDR.
+    /// Returns the message as CDR.
     ///
     /// # Errors
     /// When its frame has a name longer than 4 GiB.
@@ -54,7 +54,7 @@ impl Body {
     }
 }
 
-/// Commands in the order in which they are sent; those of one time stay in their order.
-pub(crate) fn sort(commands: &mut [Command]) {
+/// Sorts commands by time; the sort is stable.
+pub(crate) fn sort(commands: &mut [VelocityCommand]) {
     commands.sort_by_key(|command| command.time_ns);
 }

@@ -1,4 +1,4 @@
-//! A script as YAML.
+//! Parser of scripts in YAML.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span, closest};
 use periplus_msgs::Message;
@@ -6,35 +6,35 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped, Vector3};
 use periplus_yaml::Node;
 
-use crate::script::command::{self, Body, Command};
-use crate::script::pilot::Goal;
+use crate::script::command::{self, CommandMessage, VelocityCommand};
+use crate::script::goal_controller::Goal;
 
-/// What a script says.
+/// A parsed script.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Script {
-    /// Velocities, in the order of their times.
-    pub commands: Vec<Command>,
-    /// Goals, in the order in which they are driven to.
+pub struct DriveScript {
+    /// Velocities by time.
+    pub commands: Vec<VelocityCommand>,
+    /// Goals in their order.
     pub goals: Vec<Goal>,
-    /// The topic of velocities towards the goals, that of the first goal; none is the one on which
-    /// the robot listens.
+    /// Topic of velocities towards the goals, that of the first goal; `None` is the topic that the
+    /// robot subscribes to.
     pub goal_topic: Option<String>,
-    /// Whether these are of type `TwistStamped`.
+    /// True if these are `TwistStamped`.
     pub goals_are_stamped: bool,
-    /// The frame that these name.
+    /// Frame of these.
     pub goal_frame: String,
 }
 
-/// More commands than this are refused: three hours at 100 Hz.
-const MOST_COMMANDS: usize = 1_000_000;
+/// Maximum number of commands: three hours at 100 Hz.
+const MAX_COMMAND_COUNT: usize = 1_000_000;
 
-/// How often a velocity is repeated that says until when and not how often [Hz].
-const RATE_HZ: f64 = 10.0;
+/// Default rate of a repeated velocity [Hz].
+const DEFAULT_RATE_HZ: f64 = 10.0;
 
-/// Later times are refused [s]: thirty years.
-const LATEST_S: f64 = 1e9;
+/// Latest time [s]: thirty years.
+const MAX_TIME_S: f64 = 1e9;
 
-/// Names that an entry with a velocity may have, and one with a goal.
+/// Keys of an entry with a velocity, and of one with a goal.
 const OF_VELOCITY: [&str; 8] =
     ["at", "until", "rate", "topic", "type", "frame", "linear", "angular"];
 const OF_GOAL: [&str; 10] = [
@@ -50,9 +50,9 @@ const OF_GOAL: [&str; 10] = [
     "radius",
 ];
 
-/// Reads a script. Entries that are wrong are left out, and the findings say why.
-pub fn read(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -> Script {
-    let mut script = Script::default();
+/// Reads a script. Invalid entries are omitted and reported.
+pub fn read(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -> DriveScript {
+    let mut script = DriveScript::default();
     let node = match periplus_yaml::parse(file, sources) {
         Ok(Some(node)) => node,
         Ok(None) => return script,
@@ -89,11 +89,11 @@ fn wrong(span: Span, message: impl Into<String>, help: &str) -> Box<Diagnostic> 
     Box::new(Diagnostic::error("bad-command", message).at(span).help(help))
 }
 
-fn velocity(entry: &Node, script: &mut Script) -> Outcome<()> {
+fn velocity(entry: &Node, script: &mut DriveScript) -> Outcome<()> {
     names(entry, &OF_VELOCITY)?;
     let Some(at) = entry.get("at") else {
         let help = "add `at: 0.0`, in seconds of simulated time";
-        return Err(wrong(entry.span, "a command does not say when", help));
+        return Err(wrong(entry.span, "a command has no time", help));
     };
     let first_ns = time(at)?;
     let mut twist = Twist::default();
@@ -104,7 +104,8 @@ fn velocity(entry: &Node, script: &mut Script) -> Outcome<()> {
     let mut count = 1;
     let mut period_ns = 0.0;
     if let Some(until) = entry.get("until") {
-        let rate_hz = entry.get("rate").map_or(Ok(RATE_HZ), |node| positive(node, "rate"))?;
+        let rate_hz =
+            entry.get("rate").map_or(Ok(DEFAULT_RATE_HZ), |node| positive(node, "rate"))?;
         let end_ns = time(until)?;
         if end_ns <= first_ns {
             let help = "`until` is later than `at`, both in seconds";
@@ -117,23 +118,23 @@ fn velocity(entry: &Node, script: &mut Script) -> Outcome<()> {
         let periods = periods.max(1.0) as usize;
         count = periods;
     } else if let Some(rate) = entry.get("rate") {
-        return Err(wrong(rate.span, "a command is repeated without end", "add `until: 5.0`"));
+        return Err(wrong(rate.span, "a command repeats without end", "add `until: 5.0`"));
     }
-    if count > MOST_COMMANDS - script.commands.len() {
+    if count > MAX_COMMAND_COUNT - script.commands.len() {
         let help = "make `until` earlier or `rate` lower";
-        let message = format!("the script has more than {MOST_COMMANDS} commands");
+        let message = format!("the script has more than {MAX_COMMAND_COUNT} commands");
         return Err(wrong(entry.span, message, help));
     }
     for index in 0..count {
         #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "small")]
         let time_ns = first_ns + libm::round(index as f64 * period_ns) as i64;
         let body = message(&twist, is_stamped, &frame, time_ns);
-        script.commands.push(Command { time_ns, topic: topic.clone(), body });
+        script.commands.push(VelocityCommand { time_ns, topic: topic.clone(), body });
     }
     Ok(())
 }
 
-fn goal(entry: &Node, script: &mut Script) -> Outcome<()> {
+fn goal(entry: &Node, script: &mut DriveScript) -> Outcome<()> {
     names(entry, &OF_GOAL)?;
     let Some(to) = entry.get("goto") else { return Ok(()) };
     let help = "write `goto: [2.0, 1.0]`, x and y in metres";
@@ -165,33 +166,33 @@ fn goal(entry: &Node, script: &mut Script) -> Outcome<()> {
         script.goal_frame = frame;
     } else if let Some(node) = entry.get("topic").filter(|_| script.goal_topic != topic) {
         let help = "one script drives one robot to goals; name the topic at the first goal";
-        return Err(wrong(node.span, "goals are on two topics", help));
+        return Err(wrong(node.span, "goals have two topics", help));
     }
     script.goals.push(goal);
     Ok(())
 }
 
-impl Script {
-    /// The message of a velocity towards a goal at a time \[ns\].
+impl DriveScript {
+    /// Returns the message of a velocity towards a goal at a time \[ns\].
     #[must_use]
-    pub fn goal_body(&self, twist: &Twist, time_ns: i64) -> Body {
+    pub fn goal_body(&self, twist: &Twist, time_ns: i64) -> CommandMessage {
         message(twist, self.goals_are_stamped, &self.goal_frame, time_ns)
     }
 }
 
-fn message(twist: &Twist, is_stamped: bool, frame: &str, time_ns: i64) -> Body {
+fn message(twist: &Twist, is_stamped: bool, frame: &str, time_ns: i64) -> CommandMessage {
     if !is_stamped {
-        return Body::Twist(twist.clone());
+        return CommandMessage::Twist(twist.clone());
     }
     let mut stamped = TwistStamped { twist: twist.clone(), ..TwistStamped::default() };
     stamped.header.frame_id = frame.into();
     let sec = i32::try_from(time_ns / 1_000_000_000).unwrap_or(i32::MAX);
     let nanosec = u32::try_from(time_ns % 1_000_000_000).unwrap_or(0);
     stamped.header.stamp = Time { sec, nanosec };
-    Body::TwistStamped(stamped)
+    CommandMessage::TwistStamped(stamped)
 }
 
-/// Topic, whether messages are stamped, and the frame that they name.
+/// Returns topic, whether messages are stamped, and their frame.
 fn addressee(entry: &Node) -> Outcome<(Option<String>, bool, String)> {
     let text = |name: &str| match entry.get(name) {
         None => Ok(None),
@@ -234,10 +235,10 @@ fn names(entry: &Node, known: &[&str]) -> Outcome<()> {
         if !known.contains(&name) {
             let help = closest(name, known.iter().copied())
                 .map_or_else(|| known.join(", "), |near| format!("did you mean `{near}`?"));
-            return Err(wrong(key.span, format!("a command has no `{name}`"), &help));
+            return Err(wrong(key.span, format!("a command has no key `{name}`"), &help));
         }
         if entries[..index].iter().any(|(earlier, _)| earlier.text() == Some(name)) {
-            let message = format!("`{name}` stands here twice");
+            let message = format!("the key `{name}` occurs twice");
             return Err(wrong(key.span, message, "remove one of them"));
         }
     }
@@ -245,10 +246,10 @@ fn names(entry: &Node, known: &[&str]) -> Outcome<()> {
 }
 
 fn time(node: &Node) -> Outcome<i64> {
-    let time_s = node.number().filter(|time_s| (0.0..=LATEST_S).contains(time_s));
+    let time_s = node.number().filter(|time_s| (0.0..=MAX_TIME_S).contains(time_s));
     let Some(time_s) = time_s else {
         let help = "write seconds of simulated time, such as 2.5";
-        return Err(wrong(node.span, "this is no time", help));
+        return Err(wrong(node.span, "this is not a time", help));
     };
     #[expect(clippy::cast_possible_truncation, reason = "held in range above")]
     let time_ns = libm::round(time_s * 1e9) as i64;
@@ -262,7 +263,7 @@ fn positive(node: &Node, name: &str) -> Outcome<f64> {
     })
 }
 
-/// A list x, y, z; a mapping of these names; or one number, which is the component `main`.
+/// Reads a list x, y, z; a mapping of these names; or a number, which is the component `main`.
 fn vector(node: Option<&Node>, name: &str, main: usize, into: &mut Vector3) -> Outcome<()> {
     let Some(node) = node else { return Ok(()) };
     let mut values = [0.0; 3];

@@ -1,4 +1,4 @@
-//! The commands of a recording, driven again.
+//! Commands of a recording.
 
 use std::collections::BTreeSet;
 use std::io::{Read, Seek};
@@ -9,27 +9,27 @@ use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::{DecodeError, Message};
 use periplus_rosidl::TypeName;
 
-use crate::script::command::{Body, Command};
+use crate::script::command::{CommandMessage, VelocityCommand};
 
-/// Times from here on are those of a real clock \[ns\]: the year 2001. Earlier ones are simulated.
-const REAL_TIMES_NS: i64 = 1_000_000_000_000_000_000;
+/// Minimum time stamp of a wall clock \[ns\]: the year 2001. Earlier ones are simulated time.
+const MIN_WALL_TIME_NS: i64 = 1_000_000_000_000_000_000;
 
-/// All velocities of a recording, of every topic of type `Twist` or `TwistStamped`, at their times.
-/// Times of a real clock are counted from the beginning of the recording.
+/// Returns all velocities of a recording, from every topic of type `Twist` or `TwistStamped`, at
+/// their times. Wall-clock times are relative to the start of the recording.
 ///
 /// # Errors
-/// When the recording cannot be read. A message that is damaged is left out, and the findings tell.
+/// When the recording cannot be read. A damaged message is omitted and reported.
 pub fn replay<R: Read + Seek>(
     bag: &mut Reader<R>,
     diagnostics: &mut Diagnostics,
-) -> Result<Vec<Command>, ReadError> {
-    type Decode = fn(&[u8]) -> Result<Body, DecodeError>;
+) -> Result<Vec<VelocityCommand>, ReadError> {
+    type Decode = fn(&[u8]) -> Result<CommandMessage, DecodeError>;
     let decoder = |type_name: &str, encoding: &str| -> Option<Decode> {
         let name = TypeName::read(type_name).filter(|_| encoding == "cdr")?.to_string();
         match name.as_str() {
-            Twist::TYPE_NAME => Some(|data| Twist::decode_cdr(data).map(Body::Twist)),
+            Twist::TYPE_NAME => Some(|data| Twist::decode_cdr(data).map(CommandMessage::Twist)),
             TwistStamped::TYPE_NAME => {
-                Some(|data| TwistStamped::decode_cdr(data).map(Body::TwistStamped))
+                Some(|data| TwistStamped::decode_cdr(data).map(CommandMessage::TwistStamped))
             }
             _ => None,
         }
@@ -50,7 +50,7 @@ pub fn replay<R: Read + Seek>(
         return Ok(Vec::new());
     }
     let start_ns = bag.span_ns().map_or(0, |(start_ns, _)| start_ns);
-    let shift_ns = if start_ns >= REAL_TIMES_NS { start_ns } else { 0 };
+    let shift_ns = if start_ns >= MIN_WALL_TIME_NS { start_ns } else { 0 };
     let mut commands = Vec::new();
     let mut messages = bag.messages(Selection { topics: Some(wanted), ..Selection::default() });
     while let Some(message) = messages.next()? {
@@ -58,7 +58,7 @@ pub fn replay<R: Read + Seek>(
         match decode(message.data) {
             Ok(body) => {
                 let time_ns = message.log_ns - shift_ns;
-                commands.push(Command { time_ns, topic: Some(topic.clone()), body });
+                commands.push(VelocityCommand { time_ns, topic: Some(topic.clone()), body });
             }
             Err(error) => {
                 let wrong = format!("a message of `{topic}` cannot be read: {error}");

@@ -1,4 +1,4 @@
-//! Poses, velocities and colours in messages.
+//! Conversion of poses, velocities and colours to and from messages.
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_msgs::geometry_msgs::{self, Point, Quaternion, Twist, Vector3};
@@ -6,11 +6,12 @@ use periplus_msgs::std_msgs::ColorRGBA;
 use periplus_physics::limits::is_pose;
 use periplus_scene::Colour;
 
-/// Refusal of a pose that [`pose`] does not take.
+/// Error for an invalid pose, see [`pose`].
 pub(super) const BAD_POSE: &str =
-    "the pose holds a number that is none (NaN or infinite), or a position beyond 1e7 m";
+    "the pose contains a value that is not finite, or a position beyond 1e7 m";
 
-/// None if a number is none, or beyond [`MAX_POSITION_M`](periplus_physics::limits). A rotation of no length is none at all, as in Gazebo.
+/// Returns `None` for a value that is not finite or beyond
+/// [`MAX_POSITION_M`](periplus_physics::limits). A zero quaternion is the identity, as in Gazebo.
 pub(super) fn pose(message: &geometry_msgs::Pose) -> Option<Pose> {
     let (at, turned) = (&message.position, &message.orientation);
     let turned = DQuat::from_xyzw(turned.x, turned.y, turned.z, turned.w);
@@ -35,7 +36,7 @@ pub(super) fn vector_message(vector: DVec3) -> Vector3 {
     Vector3 { x: vector.x, y: vector.y, z: vector.z }
 }
 
-/// From velocities \[m/s, rad/s\].
+/// Converts velocities \[m/s, rad/s\].
 pub(super) fn twist_message(linear_m_s: DVec3, angular_rad_s: DVec3) -> Twist {
     Twist { linear: vector_message(linear_m_s), angular: vector_message(angular_rad_s) }
 }

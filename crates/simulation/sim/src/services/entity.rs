@@ -1,4 +1,4 @@
-//! What a name in a call means.
+//! Lookup of entities by name.
 
 use periplus_diagnostics::closest;
 use periplus_geometry::{DVec3, Pose};
@@ -6,34 +6,34 @@ use periplus_physics::{LinkId, ModelId, PhysicsWorld};
 
 use crate::Simulation;
 
-/// So many names are told to who named nothing that is there.
-const MOST_NAMES: usize = 12;
+/// Maximum number of names listed in an error.
+const MAX_NAME_COUNT: usize = 12;
 
-/// Frames that are the world's.
+/// Names of the world frame.
 pub(super) const WORLD_FRAMES: [&str; 4] = ["", "world", "map", "/map"];
 
-/// What has a place and moves.
+/// A model or link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Entity {
     Model(ModelId),
     Link(LinkId),
 }
 
-/// Where something is and how it moves, in the world's frame.
+/// Pose and velocity in the world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Motion {
     /// `world_from_entity`.
     pub(super) pose: Pose,
-    /// Of the frame's origin \[m/s\].
+    /// Linear velocity of the frame's origin \[m/s\].
     pub(super) linear_m_s: DVec3,
-    /// \[rad/s\]
+    /// Angular velocity \[rad/s\].
     pub(super) angular_rad_s: DVec3,
 }
 
-/// A model, or a link as `model::link`.
+/// Finds a model, or a link by `model::link`.
 ///
 /// # Errors
-/// What to name instead.
+/// The unknown name and the known ones.
 pub(super) fn find(simulation: &Simulation, name: &str) -> Result<Entity, String> {
     let motion = simulation.motion();
     let model = motion.find_model(name).map(Entity::Model);
@@ -43,10 +43,10 @@ pub(super) fn find(simulation: &Simulation, name: &str) -> Result<Entity, String
     model.or(link).ok_or_else(|| unknown(simulation, name))
 }
 
-/// A link as `model::link`.
+/// Finds a link by `model::link`.
 ///
 /// # Errors
-/// What to name instead.
+/// The unknown name and the known ones.
 pub(super) fn find_link(simulation: &Simulation, name: &str) -> Result<LinkId, String> {
     match find(simulation, name)? {
         Entity::Link(link) => Ok(link),
@@ -54,25 +54,25 @@ pub(super) fn find_link(simulation: &Simulation, name: &str) -> Result<LinkId, S
             let motion = simulation.motion();
             let links = motion.links(model).filter_map(|link| motion.link_name(link));
             let links: Vec<String> = links.map(|link| format!("{name}::{link}")).collect();
-            Err(format!("`{name}` is a model; name one of its links: {}", listed(&links)))
+            Err(format!("`{name}` is a model; use one of its links: {}", listed(&links)))
         }
     }
 }
 
-/// Where the frame of a call is: an entity's, or the world's.
+/// Returns the reference frame of a request: an entity's, or the world's.
 ///
 /// # Errors
-/// What to name instead.
+/// The unknown name and the known ones.
 pub(super) fn frame(simulation: &Simulation, name: &str) -> Result<Motion, String> {
     if WORLD_FRAMES.contains(&name) {
         return Ok(Motion::default());
     }
-    let wrong = |why| format!("the reference frame is not there: {why}; the world's is \"world\"");
+    let wrong = |why| format!("unknown reference frame: {why}; the world's is \"world\"");
     let entity = find(simulation, name).map_err(wrong)?;
     motion_of(simulation.motion(), entity).ok_or_else(|| unknown(simulation, name))
 }
 
-/// Where an entity is.
+/// Returns pose and velocity of an entity.
 pub(super) fn motion_of(motion: &PhysicsWorld, entity: Entity) -> Option<Motion> {
     match entity {
         Entity::Link(link) => {
@@ -99,7 +99,7 @@ pub(super) fn motion_of(motion: &PhysicsWorld, entity: Entity) -> Option<Motion>
     }
 }
 
-/// Tells that nothing has this name, and what has.
+/// Returns the error for an unknown name, with the known ones.
 pub(super) fn unknown(simulation: &Simulation, name: &str) -> String {
     let motion = simulation.motion();
     let models: Vec<String> = motion.models().map(|(_, name)| name.to_owned()).collect();
@@ -116,13 +116,13 @@ pub(super) fn unknown(simulation: &Simulation, name: &str) -> String {
     )
 }
 
-/// Some names, and how many more there are.
+/// Lists some names, and the number of omitted ones.
 pub(super) fn listed(names: &[String]) -> String {
     if names.is_empty() {
         return "none".into();
     }
-    let shown = names[..names.len().min(MOST_NAMES)].join(", ");
-    match names.len().checked_sub(MOST_NAMES) {
+    let shown = names[..names.len().min(MAX_NAME_COUNT)].join(", ");
+    match names.len().checked_sub(MAX_NAME_COUNT) {
         Some(more) if more > 0 => format!("{shown} and {more} more"),
         _ => shown,
     }

@@ -1,4 +1,4 @@
-//! Spawning and deleting under the names of `gazebo_ros_factory` and of ROS 1.
+//! Spawning and deleting: services of `gazebo_ros_factory` and of ROS 1.
 
 use periplus_geometry::Pose;
 use periplus_graph::{GraphError, Node};
@@ -11,32 +11,35 @@ use periplus_msgs::geometry_msgs;
 use periplus_msgs::std_msgs::Header;
 
 use super::convert::BAD_POSE;
-use super::offer::Offer;
 use super::reading::{Search, Source};
-use super::spawn::{Spawned, Standing, Wish, delete, lights, spawn};
+use super::service_aliases::ServiceAliases;
+use super::spawn::{SpawnPose, SpawnRequest, Spawned, delete, lights, spawn};
 use super::{convert, entity};
 use crate::Simulation;
 
 pub(super) struct Factory {
-    spawn: Offer<SpawnEntity>,
-    spawn_model: Offer<SpawnModel>,
-    delete: Offer<DeleteEntity>,
-    delete_model: Offer<DeleteModel>,
-    delete_light: Offer<DeleteLight>,
-    list: Offer<GetModelList>,
-    world: Offer<GetWorldProperties>,
+    spawn: ServiceAliases<SpawnEntity>,
+    spawn_model: ServiceAliases<SpawnModel>,
+    delete: ServiceAliases<DeleteEntity>,
+    delete_model: ServiceAliases<DeleteModel>,
+    delete_light: ServiceAliases<DeleteLight>,
+    list: ServiceAliases<GetModelList>,
+    world: ServiceAliases<GetWorldProperties>,
 }
 
 impl Factory {
     pub(super) fn new(node: &Node) -> Result<Self, GraphError> {
         Ok(Self {
-            spawn: Offer::new(node, ["/spawn_entity", "/gazebo/spawn_entity"])?,
-            spawn_model: Offer::new(node, ["/gazebo/spawn_sdf_model", "/gazebo/spawn_urdf_model"])?,
-            delete: Offer::new(node, ["/delete_entity", "/gazebo/delete_entity"])?,
-            delete_model: Offer::new(node, ["/gazebo/delete_model"])?,
-            delete_light: Offer::new(node, ["/gazebo/delete_light"])?,
-            list: Offer::new(node, ["/get_model_list", "/gazebo/get_model_list"])?,
-            world: Offer::new(node, ["/gazebo/get_world_properties"])?,
+            spawn: ServiceAliases::new(node, ["/spawn_entity", "/gazebo/spawn_entity"])?,
+            spawn_model: ServiceAliases::new(
+                node,
+                ["/gazebo/spawn_sdf_model", "/gazebo/spawn_urdf_model"],
+            )?,
+            delete: ServiceAliases::new(node, ["/delete_entity", "/gazebo/delete_entity"])?,
+            delete_model: ServiceAliases::new(node, ["/gazebo/delete_model"])?,
+            delete_light: ServiceAliases::new(node, ["/gazebo/delete_light"])?,
+            list: ServiceAliases::new(node, ["/get_model_list", "/gazebo/get_model_list"])?,
+            world: ServiceAliases::new(node, ["/gazebo/get_world_properties"])?,
         })
     }
 
@@ -97,7 +100,7 @@ impl Factory {
     }
 }
 
-/// What a call to spawn asks for.
+/// A spawn request.
 struct Order<'a> {
     name: &'a str,
     xml: &'a str,
@@ -111,12 +114,12 @@ impl Order<'_> {
         let frame_from_here =
             convert::pose(self.pose).ok_or_else(|| format!("`initial_pose`: {BAD_POSE}"))?;
         let world_from_frame: Pose = entity::frame(simulation, self.frame)?.pose;
-        let wish = Wish {
+        let wish = SpawnRequest {
             source: Source::Text(self.xml, ""),
             name: self.name,
             may_rename: false,
             namespace: self.namespace,
-            standing: Standing::AsSeenFrom(world_from_frame * frame_from_here),
+            standing: SpawnPose::AsSeenFrom(world_from_frame * frame_from_here),
             with_frames: true,
         };
         spawn(simulation, search, &wish)

@@ -1,4 +1,4 @@
-//! Pushes from outside, under the names of `gazebo_ros_force_system` and of ROS 1.
+//! External forces: services of `gazebo_ros_force_system` and of ROS 1.
 
 use periplus_geometry::DVec3;
 use periplus_graph::{GraphError, Node};
@@ -14,27 +14,27 @@ use periplus_physics::{JointCommand, JointId, LinkId, PhysicsMode};
 
 use super::convert::vector;
 use super::entity;
-use super::offer::Offer;
+use super::service_aliases::ServiceAliases;
 use crate::Simulation;
 
 pub(super) struct Forces {
-    body: Offer<ApplyBodyWrench>,
-    link: Offer<ApplyLinkWrench>,
-    joint: Offer<ApplyJointEffort>,
-    clear_body: Offer<BodyRequest>,
-    clear_link: Offer<LinkRequest>,
-    clear_joint: Offer<JointRequest>,
-    /// At work, or to come.
+    body: ServiceAliases<ApplyBodyWrench>,
+    link: ServiceAliases<ApplyLinkWrench>,
+    joint: ServiceAliases<ApplyJointEffort>,
+    clear_body: ServiceAliases<BodyRequest>,
+    clear_link: ServiceAliases<LinkRequest>,
+    clear_joint: ServiceAliases<JointRequest>,
+    /// Active and scheduled forces.
     pushes: Vec<Push>,
-    /// The step before which it was pushed last \[ns\].
+    /// Time of the last step in which forces were applied \[ns\].
     pushed_ns: Option<i64>,
 }
 
-/// A push for some time.
+/// A force with a duration.
 struct Push {
     on: On,
     start_ns: i64,
-    /// When it is over \[ns\].
+    /// End time \[ns\].
     end_ns: i64,
 }
 
@@ -47,12 +47,21 @@ enum On {
 impl Forces {
     pub(super) fn new(node: &Node) -> Result<Self, GraphError> {
         Ok(Self {
-            body: Offer::new(node, ["/gazebo/apply_body_wrench"])?,
-            link: Offer::new(node, ["/apply_link_wrench", "/gazebo/apply_link_wrench"])?,
-            joint: Offer::new(node, ["/apply_joint_effort", "/gazebo/apply_joint_effort"])?,
-            clear_body: Offer::new(node, ["/gazebo/clear_body_wrenches"])?,
-            clear_link: Offer::new(node, ["/clear_link_wrenches", "/gazebo/clear_link_wrenches"])?,
-            clear_joint: Offer::new(node, ["/clear_joint_efforts", "/gazebo/clear_joint_forces"])?,
+            body: ServiceAliases::new(node, ["/gazebo/apply_body_wrench"])?,
+            link: ServiceAliases::new(node, ["/apply_link_wrench", "/gazebo/apply_link_wrench"])?,
+            joint: ServiceAliases::new(
+                node,
+                ["/apply_joint_effort", "/gazebo/apply_joint_effort"],
+            )?,
+            clear_body: ServiceAliases::new(node, ["/gazebo/clear_body_wrenches"])?,
+            clear_link: ServiceAliases::new(
+                node,
+                ["/clear_link_wrenches", "/gazebo/clear_link_wrenches"],
+            )?,
+            clear_joint: ServiceAliases::new(
+                node,
+                ["/clear_joint_efforts", "/gazebo/clear_joint_forces"],
+            )?,
             pushes: Vec::new(),
             pushed_ns: None,
         })
@@ -98,8 +107,8 @@ impl Forces {
         });
     }
 
-    /// Before a step: pushes what is to be pushed now, and lets go what is over. Asked again before
-    /// the same step, it does nothing: forces add up.
+    /// Applies active forces before a step, and drops expired ones. A second call before the same
+    /// step does nothing, since forces accumulate.
     pub(super) fn push(&mut self, simulation: &mut Simulation) {
         let now_ns = simulation.time_ns();
         if self.pushed_ns.replace(now_ns) == Some(now_ns) {
@@ -131,7 +140,7 @@ impl Forces {
         });
     }
 
-    /// After a reset nothing pushes any more.
+    /// Removes all forces after a reset.
     pub(super) fn forget(&mut self) {
         self.pushes.clear();
         self.pushed_ns = None;
@@ -144,7 +153,7 @@ fn clear_link(simulation: &Simulation, pushes: &mut Vec<Push>, name: &str) {
     }
 }
 
-/// The first joint of this name in any model; or `model::joint`.
+/// Finds the first joint of this name in any model; or `model::joint`.
 fn find_joint(simulation: &Simulation, name: &str) -> Option<JointId> {
     let motion = simulation.motion();
     motion.models().find_map(|(model, own)| {
@@ -153,8 +162,8 @@ fn find_joint(simulation: &Simulation, name: &str) -> Option<JointId> {
     })
 }
 
-/// A wrench at a point of a frame. In the world's frame its point is the middle of the link's mass,
-/// as in Gazebo.
+/// Computes a wrench at a point of a frame. In the world frame its point is the link's centre of
+/// mass, as in Gazebo.
 fn wrench(
     simulation: &Simulation,
     link: &str,
@@ -163,7 +172,7 @@ fn wrench(
     wrench: &Wrench,
 ) -> Result<On, String> {
     if simulation.motion().mode() == PhysicsMode::Kinematic {
-        return Err("this run moves things exactly as told; forces move nothing in it".into());
+        return Err("this run has no physics (kinematic mode): forces have no effect".into());
     }
     let name = link;
     let link = entity::find_link(simulation, link)?;
@@ -175,7 +184,7 @@ fn wrench(
         && is_within(point_m, MAX_POSITION_M);
     if !sound {
         return Err(format!(
-            "the wrench or its point holds a number that is none (NaN or infinite), or beyond \
+            "the wrench or its point contains a value that is not finite, or beyond \
              {MAX_FORCE_N:e} N, {MAX_FORCE_N:e} N m or {MAX_POSITION_M:e} m"
         ));
     }
@@ -193,17 +202,17 @@ fn wrench(
 
 fn effort(simulation: &Simulation, name: &str, effort: f64) -> Result<On, String> {
     if simulation.motion().mode() == PhysicsMode::Kinematic {
-        return Err("this run moves things exactly as told; efforts move nothing in it".into());
+        return Err("this run has no physics (kinematic mode): efforts have no effect".into());
     }
     if effort.is_nan() || effort.abs() > MAX_FORCE_N {
-        return Err(format!("`effort` is no number (NaN or infinite), or beyond {MAX_FORCE_N:e}"));
+        return Err(format!("`effort` is not finite, or beyond {MAX_FORCE_N:e}"));
     }
     let joint = find_joint(simulation, name);
     let joint = joint.ok_or_else(|| format!("there is no joint `{name}`"))?;
     Ok(On::Joint { joint, effort })
 }
 
-/// Takes a push up. One that lasts no time does nothing; one shorter than a step lasts a step.
+/// Adds a force. A duration of zero has no effect; one shorter than a step lasts a step.
 fn accept(
     simulation: &Simulation,
     pushes: &mut Vec<Push>,
@@ -217,7 +226,7 @@ fn accept(
     };
     let start_ns = start.ns().max(simulation.time_ns());
     let end_ns = match duration.ns() {
-        0 => return (true, "a duration of 0 does nothing; below 0 is without end".into()),
+        0 => return (true, "a duration of 0 has no effect; a negative one is unlimited".into()),
         below if below < 0 => i64::MAX,
         length_ns => start_ns.saturating_add(length_ns.max(simulation.step_ns())),
     };

@@ -1,4 +1,4 @@
-//! The world for programs of Gazebo: its services with Gazebo's own messages, and what it says of itself.
+//! Gazebo Transport interface of the world: services and topics with Gazebo's own messages.
 //!
 //! | name | type |
 //! |---|---|
@@ -12,9 +12,9 @@
 //! | `/gazebo/worlds` | `Empty` to `StringMsg_V` |
 //! | topics `/stats`, `/world/<world>/stats`, `clock`, `pose/info`, `dynamic_pose/info`, `scene/info` | `WorldStatistics`, `Clock`, `Pose_V`, `Scene` |
 //!
-//! Those that change the world are there as `.../blocking` too. `/world/<world>/state`, which Gazebo's own
-//! window needs, is not there. Who carries the bytes is told by a [`GazeboOutlet`]; this room knows no
-//! network.
+//! Services that change the world exist as `.../blocking` too. `/world/<world>/state`, which
+//! Gazebo's own GUI needs, is not implemented. A [`GazeboPublisher`] carries the bytes; this crate is
+//! independent of the network.
 //!
 //! Source: gz-sim's `SimulationRunner`, `UserCommands` and `SceneBroadcaster`.
 
@@ -28,55 +28,55 @@ use std::time::Duration;
 use periplus_gz_msgs::{Clock, Message, Time, WorldStatistics};
 use periplus_os::Stopwatch;
 
-use super::Log;
+use super::RejectionLog;
+use super::pause_state::PauseState;
 use super::reading::Search;
-use super::tempo::Tempo;
 use crate::Simulation;
 
 /// Wall time between two messages, as in Gazebo.
 const STATS_PERIOD: Duration = Duration::from_millis(100);
 const POSES_PERIOD: Duration = Duration::from_millis(16);
 
-/// So many questions wait at most; more are refused.
-const MOST_WAITING: usize = 1_000;
+/// Maximum number of queued requests; more are rejected.
+const MAX_REQUEST_COUNT: usize = 1_000;
 
-/// Takes an answer: none says that there is none.
+/// Callback for a response; `None` means that there is none.
 pub type GazeboAnswer = Box<dyn FnOnce(Option<Vec<u8>>) + Send>;
 
-/// Carries what the world says.
-pub trait GazeboOutlet: Send {
-    /// Whether somebody hears a topic, by its place in [`GazeboDesk::topics`].
+/// Transport of published messages.
+pub trait GazeboPublisher: Send {
+    /// Returns true if a topic, by its index in [`GazeboRequestQueue::topics`], has subscribers.
     fn is_heard(&self, topic: usize) -> bool;
 
-    /// Sends a message.
+    /// Publishes a message.
     fn put(&self, topic: usize, message: Vec<u8>);
 }
 
-/// A service and the types of its question and answer, without what a release puts in front.
+/// A service with its request and response types, without the package prefix of a release.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GazeboService {
-    /// Its name.
+    /// Name of the service.
     pub name: String,
-    /// The type of the question.
+    /// Type of the request.
     pub request: &'static str,
-    /// The type of the answer.
+    /// Type of the response.
     pub response: &'static str,
-    does: Does,
+    does: GazeboAction,
 }
 
-/// A topic and its type, without what a release puts in front.
+/// A topic with its type, without the package prefix of a release.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GazeboTopic {
-    /// Its name.
+    /// Name of the topic.
     pub name: String,
-    /// The type of its messages.
+    /// Type of its messages.
     pub of: &'static str,
-    says: Says,
+    says: GazeboContent,
 }
 
-/// What a service does.
+/// Action of a service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Does {
+enum GazeboAction {
     Control,
     Create,
     CreateMany,
@@ -89,62 +89,67 @@ enum Does {
     TellWorlds,
 }
 
-/// What a topic says.
+/// Content of a topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Says {
+enum GazeboContent {
     Stats,
     Clock,
     Poses,
     Scene,
 }
 
-/// Where programs of Gazebo ask. Handles of it mean the same.
+/// Queue of requests from Gazebo programs. Clones share the queue.
 #[derive(Clone)]
-pub struct GazeboDesk(Arc<Shared>);
+pub struct GazeboRequestQueue(Arc<Shared>);
 
 struct Shared {
     services: Vec<GazeboService>,
     topics: Vec<GazeboTopic>,
-    waiting: Mutex<VecDeque<(Does, Vec<u8>, GazeboAnswer)>>,
-    outlet: Mutex<Option<Box<dyn GazeboOutlet>>>,
+    waiting: Mutex<VecDeque<(GazeboAction, Vec<u8>, GazeboAnswer)>>,
+    outlet: Mutex<Option<Box<dyn GazeboPublisher>>>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl GazeboDesk {
+impl GazeboRequestQueue {
     fn new(world: &str) -> Self {
-        // Gazebo does not allow spaces in names of topics.
+        // Gazebo does not allow spaces in topic names.
         let world = world.replace(' ', "_");
         let name = |what: &str| format!("/world/{world}/{what}");
         let mut services = Vec::new();
         let mut service = |name: String, request, response, does| {
             services.push(GazeboService { name, request, response, does });
         };
-        service(name("control"), "WorldControl", "Boolean", Does::Control);
+        service(name("control"), "WorldControl", "Boolean", GazeboAction::Control);
         for (what, request, does) in [
-            ("create", "EntityFactory", Does::Create),
-            ("create_multiple", "EntityFactory_V", Does::CreateMany),
-            ("remove", "Entity", Does::Remove),
-            ("set_pose", "Pose", Does::SetPose),
-            ("set_pose_vector", "Pose_V", Does::SetPoses),
-            ("light_config", "Light", Does::SetLight),
+            ("create", "EntityFactory", GazeboAction::Create),
+            ("create_multiple", "EntityFactory_V", GazeboAction::CreateMany),
+            ("remove", "Entity", GazeboAction::Remove),
+            ("set_pose", "Pose", GazeboAction::SetPose),
+            ("set_pose_vector", "Pose_V", GazeboAction::SetPoses),
+            ("light_config", "Light", GazeboAction::SetLight),
         ] {
-            // All wait until it is done here.
+            // All variants block until the action is done.
             service(name(what), request, "Boolean", does);
             service(name(&format!("{what}/blocking")), request, "Boolean", does);
         }
-        service(name("scene/info"), "Empty", "Scene", Does::TellScene);
-        service(name("generate_world_sdf"), "SdfGeneratorConfig", "StringMsg", Does::TellSdf);
-        service("/gazebo/worlds".into(), "Empty", "StringMsg_V", Does::TellWorlds);
+        service(name("scene/info"), "Empty", "Scene", GazeboAction::TellScene);
+        service(
+            name("generate_world_sdf"),
+            "SdfGeneratorConfig",
+            "StringMsg",
+            GazeboAction::TellSdf,
+        );
+        service("/gazebo/worlds".into(), "Empty", "StringMsg_V", GazeboAction::TellWorlds);
         let topics = [
-            ("/stats".to_owned(), "WorldStatistics", Says::Stats),
-            (name("stats"), "WorldStatistics", Says::Stats),
-            (name("clock"), "Clock", Says::Clock),
-            (name("pose/info"), "Pose_V", Says::Poses),
-            (name("dynamic_pose/info"), "Pose_V", Says::Poses),
-            (name("scene/info"), "Scene", Says::Scene),
+            ("/stats".to_owned(), "WorldStatistics", GazeboContent::Stats),
+            (name("stats"), "WorldStatistics", GazeboContent::Stats),
+            (name("clock"), "Clock", GazeboContent::Clock),
+            (name("pose/info"), "Pose_V", GazeboContent::Poses),
+            (name("dynamic_pose/info"), "Pose_V", GazeboContent::Poses),
+            (name("scene/info"), "Scene", GazeboContent::Scene),
         ];
         let topics = topics.into_iter().map(|(name, of, says)| GazeboTopic { name, of, says });
         Self(Arc::new(Shared {
@@ -155,23 +160,24 @@ impl GazeboDesk {
         }))
     }
 
-    /// What can be asked.
+    /// Returns the services.
     #[must_use]
     pub fn services(&self) -> &[GazeboService] {
         &self.0.services
     }
 
-    /// What is said.
+    /// Returns the topics.
     #[must_use]
     pub fn topics(&self) -> &[GazeboTopic] {
         &self.0.topics
     }
 
-    /// Asks a service, by its place in [`GazeboDesk::services`]. The answer comes between two steps.
+    /// Requests a service, by its index in [`GazeboRequestQueue::services`]. The response is sent between
+    /// two steps.
     pub fn ask(&self, service: usize, request: Vec<u8>, answer: GazeboAnswer) {
         let mut waiting = lock(&self.0.waiting);
         match self.0.services.get(service) {
-            Some(known) if waiting.len() < MOST_WAITING => {
+            Some(known) if waiting.len() < MAX_REQUEST_COUNT => {
                 waiting.push_back((known.does, request, answer));
             }
             _ => {
@@ -181,22 +187,22 @@ impl GazeboDesk {
         }
     }
 
-    /// Says who carries what the world says.
-    pub fn set_outlet(&self, outlet: Box<dyn GazeboOutlet>) {
+    /// Sets the transport of published messages.
+    pub fn set_outlet(&self, outlet: Box<dyn GazeboPublisher>) {
         *lock(&self.0.outlet) = Some(outlet);
     }
 }
 
-impl std::fmt::Debug for GazeboDesk {
+impl std::fmt::Debug for GazeboRequestQueue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("GazeboDesk").field("services", &self.0.services.len()).finish()
     }
 }
 
-/// The world for programs of Gazebo.
+/// Gazebo interface of a world.
 pub(super) struct Gazebo {
-    desk: GazeboDesk,
-    /// How long the world is there, and how long of that it stood still.
+    desk: GazeboRequestQueue,
+    /// Wall time of the world, and the paused part of it.
     since: Stopwatch,
     paused: Duration,
     last: Duration,
@@ -209,7 +215,7 @@ pub(super) struct Gazebo {
 impl Gazebo {
     pub(super) fn new(world: &str) -> Self {
         Self {
-            desk: GazeboDesk::new(world),
+            desk: GazeboRequestQueue::new(world),
             since: Stopwatch::start(),
             paused: Duration::ZERO,
             last: Duration::ZERO,
@@ -220,17 +226,17 @@ impl Gazebo {
         }
     }
 
-    pub(super) fn desk(&self) -> GazeboDesk {
+    pub(super) fn desk(&self) -> GazeboRequestQueue {
         self.desk.clone()
     }
 
-    /// Answers what was asked, and says what is due.
+    /// Answers requests and publishes due messages.
     pub(super) fn serve(
         &mut self,
         simulation: &mut Simulation,
         search: &Search,
-        tempo: &mut Tempo,
-        log: &mut Log,
+        tempo: &mut PauseState,
+        log: &mut RejectionLog,
     ) {
         let asked = std::mem::take(&mut *lock(&self.desk.0.waiting));
         for (does, request, answer) in asked {
@@ -244,7 +250,7 @@ impl Gazebo {
         self.say(simulation, *tempo);
     }
 
-    fn say(&mut self, simulation: &Simulation, tempo: Tempo) {
+    fn say(&mut self, simulation: &Simulation, tempo: PauseState) {
         let is_due = |since: &Option<Stopwatch>, period| {
             since.as_ref().is_none_or(|since| since.elapsed() >= period)
         };
@@ -261,10 +267,10 @@ impl Gazebo {
         let Some(outlet) = outlet.as_ref() else { return };
         for (place, topic) in self.desk.0.topics.iter().enumerate() {
             let is_due = match topic.says {
-                Says::Stats => stats,
-                Says::Clock => clock,
-                Says::Poses => poses,
-                Says::Scene => scene,
+                GazeboContent::Stats => stats,
+                GazeboContent::Clock => clock,
+                GazeboContent::Poses => poses,
+                GazeboContent::Scene => scene,
             };
             if is_due && outlet.is_heard(place) {
                 outlet.put(place, self.message(topic.says, simulation, tempo));
@@ -272,21 +278,21 @@ impl Gazebo {
         }
     }
 
-    fn message(&self, says: Says, simulation: &Simulation, tempo: Tempo) -> Vec<u8> {
+    fn message(&self, says: GazeboContent, simulation: &Simulation, tempo: PauseState) -> Vec<u8> {
         match says {
-            Says::Stats => self.statistics(simulation, tempo).encode(),
-            Says::Clock => Clock {
+            GazeboContent::Stats => self.statistics(simulation, tempo).encode(),
+            GazeboContent::Clock => Clock {
                 real: Some(of(self.last)),
                 sim: Some(Time::of_ns(simulation.time_ns())),
                 ..Clock::default()
             }
             .encode(),
-            Says::Poses => scene::poses(simulation).encode(),
-            Says::Scene => scene::scene(simulation).encode(),
+            GazeboContent::Poses => scene::poses(simulation).encode(),
+            GazeboContent::Scene => scene::scene(simulation).encode(),
         }
     }
 
-    fn statistics(&self, simulation: &Simulation, tempo: Tempo) -> WorldStatistics {
+    fn statistics(&self, simulation: &Simulation, tempo: PauseState) -> WorldStatistics {
         let running = self.last.saturating_sub(self.paused);
         let time_ns = simulation.time_ns();
         #[expect(clippy::cast_precision_loss, reason = "a run lasts less than 2^53 ns")]
@@ -310,8 +316,8 @@ fn of(time: Duration) -> Time {
     Time::of_ns(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
 }
 
-/// Names that Gazebo has for topics of the graph: ROS allows fewer letters, so that
-/// `/model/pong-bot/odometry` is `/model/pong_bot/odometry` there.
+/// Returns Gazebo's names of graph topics. ROS allows fewer characters: `/model/pong-bot/odometry`
+/// of Gazebo is `/model/pong_bot/odometry` in the graph.
 pub fn gazebo_topic(simulation: &Simulation) -> impl Fn(&str) -> Option<String> + Send + 'static {
     let mut names = Vec::new();
     let mut name = |own: &str| {

@@ -1,4 +1,4 @@
-//! Lights: asked and set.
+//! Services of lights.
 
 use periplus_geometry::DVec3;
 use periplus_msgs::ros_gz_interfaces;
@@ -9,10 +9,10 @@ use super::convert::{colour, pose, vector};
 use super::spawn::lights;
 use crate::Simulation;
 
-/// A light by its name, or as `model::link::light`.
+/// Finds a light by name, or by `model::link::light`.
 ///
 /// # Errors
-/// What to name instead.
+/// The unknown name and the known ones.
 pub(super) fn light<'a>(
     simulation: &'a mut Simulation,
     name: &str,
@@ -40,19 +40,19 @@ pub(super) fn light<'a>(
     lights.find(|one| one.name == light).ok_or(known)
 }
 
-/// Whether these can fade a light.
+/// Checks the attenuation of a light.
 pub(super) fn attenuation(constant: f64, linear: f64, quadratic: f64) -> Result<[f64; 3], String> {
     let factors = [constant, linear, quadratic];
     if factors.iter().all(|factor| factor.is_finite() && *factor >= 0.0) {
         return Ok(factors);
     }
-    Err("attenuation must be numbers from 0 on".into())
+    Err("attenuation must be numbers of at least 0".into())
 }
 
-/// Sets all of a light, as Harmonic's `light_config` does.
+/// Sets all properties of a light, like Harmonic's `light_config`.
 ///
 /// # Errors
-/// What is wrong with the message.
+/// The invalid field of the message.
 pub(super) fn configure(
     simulation: &mut Simulation,
     message: &ros_gz_interfaces::Light,
@@ -66,7 +66,7 @@ pub(super) fn configure(
     )?;
     let (range_m, intensity) = (f64::from(message.range), f64::from(message.intensity));
     if !(range_m >= 0.0 && intensity >= 0.0 && intensity.is_finite()) {
-        return Err("range and intensity must be numbers from 0 on".into());
+        return Err("range and intensity must be numbers of at least 0".into());
     }
     let direction = vector(&message.direction);
     known.kind = match message.r#type {
@@ -78,7 +78,7 @@ pub(super) fn configure(
             falloff: message.spot_falloff.into(),
         }),
         other => {
-            return Err(format!("{other} is no type of light: 0 point, 1 spot, 2 directional"));
+            return Err(format!("{other} is not a type of light: 0 point, 1 spot, 2 directional"));
         }
     };
     known.parent_from_light = parent_from_light;

@@ -1,5 +1,5 @@
-//! How fast it goes, for who wants to know. These numbers come from the wall's clock, so nothing of
-//! this is published unless somebody subscribes: a bag stays the same from run to run.
+//! Performance metrics. They depend on the wall clock, so they are published only with subscribers:
+//! bags are the same from run to run.
 
 use std::time::Duration;
 
@@ -10,18 +10,18 @@ use periplus_msgs::ros_gz_interfaces::WorldStatistics;
 use periplus_msgs::std_msgs::Header;
 use periplus_os::Stopwatch;
 
-use super::harmonic::name_of;
-use super::tempo::Tempo;
+use super::gz_sim::name_of;
+use super::pause_state::PauseState;
 use super::topics::{OnDemand, subscribed};
 use crate::Simulation;
 
-/// Wall time between two messages: Harmonic's, and near Classic's.
+/// Wall time between two messages, as in Harmonic and close to Classic.
 const PERIOD: Duration = Duration::from_millis(100);
 
 pub(super) struct Metrics {
     node: Node,
     classic: OnDemand<PerformanceMetrics>,
-    harmonic: OnDemand<WorldStatistics>,
+    gz_sim: OnDemand<WorldStatistics>,
     since_last: Stopwatch,
     last_ns: i64,
     real: Duration,
@@ -34,7 +34,7 @@ impl Metrics {
         Self {
             node: node.clone(),
             classic: OnDemand::new("/performance_metrics"),
-            harmonic: OnDemand::new(name_of(world, "stats")),
+            gz_sim: OnDemand::new(name_of(world, "stats")),
             since_last: Stopwatch::start(),
             last_ns: now_ns,
             real: Duration::ZERO,
@@ -43,28 +43,28 @@ impl Metrics {
         }
     }
 
-    /// Offers the statistics of the world also while nobody subscribes: programs that show the world
-    /// find them among its topics.
+    /// Advertises the statistics of the world also without subscribers, so that viewers find the
+    /// topic.
     ///
     /// # Errors
     /// When a topic of this name has another type.
     pub(super) fn offer(&mut self) -> Result<(), GraphError> {
-        self.harmonic.keep(&self.node)
+        self.gz_sim.keep(&self.node)
     }
 
-    /// A step was taken.
+    /// Counts a step.
     pub(super) fn count_step(&mut self) {
         self.iterations += 1;
     }
 
-    /// Publishes what is due by the wall's clock.
+    /// Publishes metrics that are due by the wall clock.
     ///
     /// # Errors
     /// When a topic of this name has another type.
     pub(super) fn publish(
         &mut self,
         simulation: &Simulation,
-        tempo: Tempo,
+        tempo: PauseState,
     ) -> Result<(), GraphError> {
         if self.since_last.elapsed() < PERIOD {
             return Ok(());
@@ -80,7 +80,7 @@ impl Metrics {
         self.last_ns = now_ns;
         let wanted = subscribed(simulation);
         self.classic.look(&self.node, &wanted)?;
-        self.harmonic.look(&self.node, &wanted)?;
+        self.gz_sim.look(&self.node, &wanted)?;
         if let Some(publisher) = self.classic.heard() {
             publisher.publish(PerformanceMetrics {
                 header: Header::at(now_ns, ""),
@@ -88,7 +88,7 @@ impl Metrics {
                 sensors: Vec::new(),
             });
         }
-        if let Some(publisher) = self.harmonic.heard() {
+        if let Some(publisher) = self.gz_sim.heard() {
             publisher.publish(WorldStatistics {
                 header: Header::at(now_ns, ""),
                 sim_time: Time::of_ns(now_ns),
@@ -111,7 +111,7 @@ fn wall(time: Duration) -> Time {
     Time::of_ns(i64::try_from(time.as_nanos()).unwrap_or(i64::MAX))
 }
 
-/// Simulated seconds per second of the wall; a jump back counts as standing still.
+/// Returns the real-time factor; a jump back counts as zero.
 #[expect(clippy::cast_precision_loss, reason = "times between two messages are short")]
 fn factor(simulated_ns: i64, wall: Duration) -> f64 {
     simulated_ns.max(0) as f64 * 1e-9 / wall.as_secs_f64().max(1e-9)

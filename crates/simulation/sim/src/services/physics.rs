@@ -1,4 +1,4 @@
-//! Gravity, step and pace: asked and set.
+//! Services of gravity, step and real-time factor.
 
 use periplus_graph::{GraphError, Node};
 use periplus_msgs::gazebo_msgs::{
@@ -8,21 +8,21 @@ use periplus_msgs::gazebo_msgs::{
 use periplus_physics::limits::{MAX_GRAVITY_M_S2, STEP_RANGE_S, is_within};
 
 use super::convert::{vector, vector_message};
-use super::offer::Offer;
+use super::pause_state::PauseState;
 use super::properties::names;
+use super::service_aliases::ServiceAliases;
 use super::state_plugin::StatePlugin;
-use super::tempo::Tempo;
 use crate::Simulation;
 
-/// Largest rate of steps that can be asked for \[Hz\].
+/// Maximum update rate \[Hz\].
 const MAX_UPDATE_RATE_HZ: f64 = 1e9;
 
 pub(super) struct Physics {
-    get: Offer<GetPhysicsProperties>,
-    set: Offer<SetPhysicsProperties>,
+    get: ServiceAliases<GetPhysicsProperties>,
+    set: ServiceAliases<SetPhysicsProperties>,
 }
 
-/// Simulated seconds per second of the wall; none is as many as can be.
+/// Real-time factor; `None` is unlimited.
 pub(crate) type Factor = Option<f64>;
 
 impl Physics {
@@ -35,13 +35,13 @@ impl Physics {
         set.push(of_world.to_owned());
         let get = names(plugins, "get_physics_properties");
         Ok(Self {
-            get: Offer::new(node, get.iter().map(String::as_str))?,
-            set: Offer::new(node, set.iter().map(String::as_str))?,
+            get: ServiceAliases::new(node, get.iter().map(String::as_str))?,
+            set: ServiceAliases::new(node, set.iter().map(String::as_str))?,
         })
     }
 
-    /// Answers; a new pace, if one was asked for.
-    pub(super) fn serve(&self, simulation: &mut Simulation, tempo: Tempo) -> Option<Factor> {
+    /// Answers requests; returns a new real-time factor, if requested.
+    pub(super) fn serve(&self, simulation: &mut Simulation, tempo: PauseState) -> Option<Factor> {
         let mut new_factor = None;
         self.set.answer(|asked| match set(simulation, asked) {
             Ok((factor, note)) => {
@@ -80,7 +80,7 @@ fn set(
     let gravity = vector(gravity);
     if !is_within(gravity, MAX_GRAVITY_M_S2) {
         return Err(format!(
-            "`gravity` holds a number that is none (NaN or infinite), or beyond {MAX_GRAVITY_M_S2} \
+            "`gravity` contains a value that is not finite, or beyond {MAX_GRAVITY_M_S2} \
              m/s²"
         ));
     }
@@ -103,7 +103,7 @@ fn set(
     let usual =
         ODEPhysics { max_contacts: simulation.physics().max_contacts, ..ODEPhysics::default() };
     let is_usual = *ode_config == usual || *ode_config == ODEPhysics::default();
-    let note = if is_usual { "" } else { "; ode_config was passed over: the engine is not ODE" };
+    let note = if is_usual { "" } else { "; ode_config was ignored: the engine is not ODE" };
     let factor = max_update_rate * time_step;
     Ok(((factor > 0.0).then_some(factor), note))
 }

@@ -1,4 +1,4 @@
-//! What things are made of: asked and set, under the names of `gazebo_ros_properties` and of ROS 1.
+//! Services of models, joints, links and lights: those of `gazebo_ros_properties` and of ROS 1.
 
 use periplus_graph::{GraphError, Node};
 use periplus_msgs::gazebo_msgs::{
@@ -11,22 +11,22 @@ use periplus_msgs::gazebo_msgs::{
 use periplus_scene::{Joint, JointKind, Link, Model};
 
 use super::convert::{colour, colour_message, pose_message};
-use super::offer::Offer;
+use super::service_aliases::ServiceAliases;
 use super::state_plugin::StatePlugin;
 use super::{entity, light};
 use crate::Simulation;
 
 pub(super) struct Properties {
-    model: Offer<GetModelProperties>,
-    get_joint: Offer<GetJointProperties>,
-    set_joint: Offer<SetJointProperties>,
-    get_link: Offer<GetLinkProperties>,
-    set_link: Offer<SetLinkProperties>,
-    get_light: Offer<GetLightProperties>,
-    set_light: Offer<SetLightProperties>,
+    model: ServiceAliases<GetModelProperties>,
+    get_joint: ServiceAliases<GetJointProperties>,
+    set_joint: ServiceAliases<SetJointProperties>,
+    get_link: ServiceAliases<GetLinkProperties>,
+    set_link: ServiceAliases<SetLinkProperties>,
+    get_light: ServiceAliases<GetLightProperties>,
+    set_light: ServiceAliases<SetLightProperties>,
 }
 
-/// The names of a service of `gazebo_ros_properties`.
+/// Returns the names of a service of `gazebo_ros_properties`.
 pub(super) fn names(plugins: &[StatePlugin], name: &str) -> Vec<String> {
     let own = plugins.iter().map(|plugin| plugin.resolve(name));
     [format!("/{name}"), format!("/gazebo/{name}")].into_iter().chain(own).collect()
@@ -36,13 +36,34 @@ impl Properties {
     pub(super) fn new(node: &Node, plugins: &[StatePlugin]) -> Result<Self, GraphError> {
         let names = |name| names(plugins, name);
         Ok(Self {
-            model: Offer::new(node, names("get_model_properties").iter().map(String::as_str))?,
-            get_joint: Offer::new(node, names("get_joint_properties").iter().map(String::as_str))?,
-            set_joint: Offer::new(node, names("set_joint_properties").iter().map(String::as_str))?,
-            get_link: Offer::new(node, names("get_link_properties").iter().map(String::as_str))?,
-            set_link: Offer::new(node, names("set_link_properties").iter().map(String::as_str))?,
-            get_light: Offer::new(node, names("get_light_properties").iter().map(String::as_str))?,
-            set_light: Offer::new(node, names("set_light_properties").iter().map(String::as_str))?,
+            model: ServiceAliases::new(
+                node,
+                names("get_model_properties").iter().map(String::as_str),
+            )?,
+            get_joint: ServiceAliases::new(
+                node,
+                names("get_joint_properties").iter().map(String::as_str),
+            )?,
+            set_joint: ServiceAliases::new(
+                node,
+                names("set_joint_properties").iter().map(String::as_str),
+            )?,
+            get_link: ServiceAliases::new(
+                node,
+                names("get_link_properties").iter().map(String::as_str),
+            )?,
+            set_link: ServiceAliases::new(
+                node,
+                names("set_link_properties").iter().map(String::as_str),
+            )?,
+            get_light: ServiceAliases::new(
+                node,
+                names("get_light_properties").iter().map(String::as_str),
+            )?,
+            set_light: ServiceAliases::new(
+                node,
+                names("set_light_properties").iter().map(String::as_str),
+            )?,
         })
     }
 
@@ -74,7 +95,7 @@ impl Properties {
         self.set_link.answer(|asked| {
             let known = find_link(simulation, &asked.link_name).map(|_| ());
             let status_message = known.err().unwrap_or_else(|| {
-                "masses cannot be changed while the world runs; delete the model and spawn it with \
+                "masses cannot be changed in a running world; delete the model and spawn it with \
                  the new ones"
                     .into()
             });
@@ -122,8 +143,8 @@ fn describe(model: &Model) -> GetModelPropertiesResponse {
     }
 }
 
-/// A joint by its name within its model, or as `model::joint`; as in Gazebo, the first of all
-/// models that has it.
+/// Finds a joint by its name within its model, or by `model::joint`; as in Gazebo, the first match
+/// of all models.
 fn find_joint<'a>(simulation: &'a Simulation, name: &str) -> Option<(usize, String, &'a Joint)> {
     simulation.running.iter().enumerate().find_map(|(place, running)| {
         let model = &running.member.model;
@@ -135,7 +156,7 @@ fn find_joint<'a>(simulation: &'a Simulation, name: &str) -> Option<(usize, Stri
     })
 }
 
-/// The nested model that a scoped name leads into, and what is left of the name.
+/// Returns the nested model of a scoped name, and the rest of the name.
 fn innermost<'a, 'n>(mut model: &'a Model, mut name: &'n str) -> (&'a Model, &'n str) {
     while let Some((head, rest)) = name.split_once("::") {
         let Some(inner) = model.models.iter().find(|inner| inner.name == head) else { break };
@@ -200,7 +221,7 @@ fn set_joint(simulation: &Simulation, asked: &SetJointPropertiesRequest) -> Resu
         return Ok(());
     }
     Err(format!(
-        "{} of a joint cannot be changed while the world runs; delete the model and spawn it with \
+        "{} of a joint cannot be changed in a running world; delete the model and spawn it with \
          other joints",
         asked_for.join(", ")
     ))

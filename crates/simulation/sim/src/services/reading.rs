@@ -1,4 +1,4 @@
-//! Models and lights that come as text.
+//! Parsing of models and lights from text.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -11,28 +11,27 @@ use periplus_scene::{Light, Model, Plugin};
 
 use crate::compose::{description_of, models_of};
 
-/// Where things are looked for that a spawned text mentions.
+/// Search paths for files of a spawned model.
 #[derive(Clone, Debug, Default)]
 pub struct Search {
-    /// Folders beside those of the environment.
+    /// Folders besides those of the environment.
     pub folders: Vec<PathBuf>,
-    /// The folder that relative paths are taken from.
+    /// Base folder of relative paths.
     pub working_folder: PathBuf,
-    /// Variables of the environment that differ from those of this process; none for a removed one.
+    /// Environment variables that differ from those of this process; `None` for a removed one.
     pub variables: BTreeMap<String, Option<String>>,
-    /// What to do about a thing that cannot be found, from those who know where the variables come
-    /// from.
+    /// Hint for a file that cannot be found, from the code that knows the source of the variables.
     pub advice: Option<String>,
 }
 
-/// What a text or file brings.
+/// Source of a model.
 pub(super) enum Source<'a> {
-    /// A text, and its name in findings; empty for the usual one.
+    /// A text, and its name in findings; empty for the default.
     Text(&'a str, &'a str),
     File(&'a str),
 }
 
-/// What was read.
+/// Result of parsing.
 pub(super) struct Reading {
     pub(super) found: Found,
     pub(super) findings: Diagnostics,
@@ -43,26 +42,26 @@ pub(super) struct Reading {
 pub(super) enum Found {
     Model {
         model: Box<Model>,
-        /// The URDF that it came as.
+        /// URDF source of the model.
         description: Option<String>,
     },
     Light(Box<Light>),
 }
 
 impl Search {
-    /// The machine with the variables of the search.
+    /// Returns the machine with the variables of the search.
     #[must_use]
     pub fn host(&self) -> Overlay {
         Overlay { variables: self.variables.clone() }
     }
 
-    /// A resolver over the folders of the search.
+    /// Returns a resolver over the folders of the search.
     #[must_use]
     pub fn resolver<'h>(&self, host: &'h Overlay) -> Resolver<'h> {
         Resolver::new(host, &self.folders).advising(self.advice.clone())
     }
 
-    /// The setting that files are read with.
+    /// Returns the settings for reading files.
     #[must_use]
     pub fn setting<'a>(
         &self,
@@ -77,7 +76,7 @@ impl Search {
     /// Reads a model or light.
     ///
     /// # Errors
-    /// What is wrong with it, with its places.
+    /// The problems, with their positions.
     pub(super) fn read(&self, source: &Source<'_>) -> Result<Reading, String> {
         let host = self.host();
         let resolver = self.resolver(&host);
@@ -90,7 +89,7 @@ impl Search {
         };
         let mut loaded = match source {
             Source::Text(text, _) if text.trim().is_empty() => {
-                return Err("the text is empty; give a URDF or SDF".into());
+                return Err("the text is empty; send a URDF or SDF".into());
             }
             Source::Text(text, called) => load_bytes(&file_of(called), text.as_bytes(), &setting),
             Source::File(uri) => {
@@ -116,24 +115,27 @@ impl Search {
             (None, Some(light)) => Found::Light(Box::new(light)),
             (None, None) => {
                 let notes = told(&findings, &sources);
-                return Err(format!("there is neither a model nor a light in it\n{notes}"));
+                return Err(format!(
+                    "the text contains neither a model nor a light
+                {notes}"
+                ));
             }
         };
         Ok(Reading { found, findings, sources })
     }
 }
 
-/// Name of a text in findings where nobody names it.
+/// Default name of a text in findings.
 const SPAWNED: &str = "spawned.xml";
 
-/// The file that a text is in findings, in the working folder: `robot_description.xml` for what came on
-/// `/robot_description`.
+/// Returns the file name of a text in findings, in the working folder: `robot_description.xml` for a
+/// text from `/robot_description`.
 fn file_of(called: &str) -> PathBuf {
     let name = called.trim_matches('/').replace(['/', '\\'], "_");
     if name.is_empty() { SPAWNED.into() } else { format!("{name}.xml").into() }
 }
 
-/// Findings with their places; hints are kept to those who write the file.
+/// Renders findings with their positions, without hints for authors of the file.
 pub(super) fn told(findings: &Diagnostics, sources: &SourceMap) -> String {
     let mut text = String::new();
     for finding in findings.iter().filter(|one| one.severity != Severity::Hint) {
@@ -143,10 +145,10 @@ pub(super) fn told(findings: &Diagnostics, sources: &SourceMap) -> String {
     text
 }
 
-/// Takes their own namespaces from all plugins of a model: Gazebo puts that of a spawned robot in
-/// their place.
+/// Removes the namespaces of all plugins of a model: Gazebo replaces them by that of the spawned
+/// robot.
 pub(super) fn drop_namespaces(model: &mut Model) {
-    // A list instead of recursion: models may be nested deeper than the stack.
+    // Iterative: models can be nested deeper than the call stack allows.
     let mut open = vec![model];
     while let Some(model) = open.pop() {
         model.plugins.iter_mut().for_each(drop_namespace);

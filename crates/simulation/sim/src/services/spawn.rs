@@ -1,54 +1,54 @@
-//! Models and lights come and go.
+//! Insertion and removal of models and lights.
 
 use periplus_geometry::Pose;
 use periplus_scene::Light;
 
 use super::entity;
 use super::reading::{Found, Reading, Search, Source, drop_namespaces, told};
-use crate::{Member, Simulation};
+use crate::{ModelInstance, Simulation};
 
-/// What is to come.
-pub(super) struct Wish<'a> {
+/// A spawn request.
+pub(super) struct SpawnRequest<'a> {
     pub(super) source: Source<'a>,
-    /// Empty: as in the text, with a number when that is taken.
+    /// Name; empty for that of the text, with a number appended when it is in use.
     pub(super) name: &'a str,
-    /// Whether a number may be put behind a wanted name that is taken.
+    /// True if a number may be appended to a requested name that is in use.
     pub(super) may_rename: bool,
-    /// Of all its topics; empty is none.
+    /// Namespace of all its topics; empty is none.
     pub(super) namespace: &'a str,
-    pub(super) standing: Standing,
-    /// Whether a robot of a URDF tells where its links are.
+    pub(super) standing: SpawnPose,
+    /// True if a URDF gets a `robot_state_publisher`.
     pub(super) with_frames: bool,
 }
 
-/// Where it is to stand.
-pub(super) enum Standing {
-    /// At the pose of the text, as seen from here.
+/// Pose of insertion.
+pub(super) enum SpawnPose {
+    /// The pose of the text, relative to this.
     AsSeenFrom(Pose),
-    /// Here, whatever the text says.
+    /// This pose, instead of that of the text.
     At(Pose),
 }
 
-/// What came.
+/// Result of an insertion.
 pub(super) struct Spawned {
     pub(super) name: String,
-    /// What was found wrong with it.
+    /// Problems found.
     pub(super) notes: String,
 }
 
-/// Puts a model or light into the world.
+/// Inserts a model or light into the world.
 ///
 /// # Errors
-/// Why it is not there.
+/// The reason of a failure.
 pub(super) fn spawn(
     simulation: &mut Simulation,
     search: &Search,
-    wish: &Wish<'_>,
+    wish: &SpawnRequest<'_>,
 ) -> Result<Spawned, String> {
     let Reading { found, mut findings, sources } = search.read(&wish.source)?;
     let place = |own: Pose| match wish.standing {
-        Standing::AsSeenFrom(world_from_here) => world_from_here * own,
-        Standing::At(pose) => pose,
+        SpawnPose::AsSeenFrom(world_from_here) => world_from_here * own,
+        SpawnPose::At(pose) => pose,
     };
     match found {
         Found::Light(light) => {
@@ -65,7 +65,7 @@ pub(super) fn spawn(
                 drop_namespaces(&mut model);
             }
             let world_from_model = place(model.parent_from_model);
-            findings.append(simulation.spawn(Member {
+            findings.append(simulation.spawn(ModelInstance {
                 model: *model,
                 name: name.clone(),
                 namespace: format!("/{namespace}"),
@@ -82,64 +82,74 @@ pub(super) fn spawn(
     }
 }
 
-/// Puts a copy of a model into the world.
+/// Inserts a copy of a model.
 ///
 /// # Errors
-/// Why it is not there.
+/// The reason of a failure.
 pub(super) fn copy(
     simulation: &mut Simulation,
     original: &str,
-    wish: &Wish<'_>,
+    wish: &SpawnRequest<'_>,
     world_from_model: Pose,
 ) -> Result<Spawned, String> {
     let place =
         simulation.place_of(original).ok_or_else(|| entity::unknown(simulation, original))?;
     let name = free_name(simulation, wish, original)?;
     let member = simulation.running[place].member.clone();
-    let findings = simulation.spawn(Member { name: name.clone(), world_from_model, ..member });
-    // Its places are in a file that is no longer at hand.
+    let findings =
+        simulation.spawn(ModelInstance { name: name.clone(), world_from_model, ..member });
+    // Its positions refer to a file that is no longer available.
     let messages: Vec<&str> = findings.iter().map(|finding| finding.message.as_str()).collect();
     let notes = messages.join("\n");
     if simulation.place_of(&name).is_some() { Ok(Spawned { name, notes }) } else { Err(notes) }
 }
 
-/// Takes a model or light out of the world.
+/// Removes a model or light.
 ///
 /// # Errors
-/// What to name instead.
+/// The unknown name and the known ones.
 pub(super) fn delete(simulation: &mut Simulation, name: &str) -> Result<(), String> {
     if simulation.delete(name) || simulation.delete_light(name) {
         return Ok(());
     }
     Err(match entity::find(simulation, name) {
-        Ok(_) => format!("`{name}` is a part of a model; only whole models and lights can go"),
+        Ok(_) => {
+            format!("`{name}` is a part of a model; only whole models and lights can be removed")
+        }
         Err(_) => format!("{}; {}", entity::unknown(simulation, name), lights(simulation)),
     })
 }
 
-/// The names of the lights, to be told.
+/// Lists the names of the lights.
 pub(super) fn lights(simulation: &Simulation) -> String {
     let names: Vec<String> =
         simulation.scene.lights.iter().map(|light| light.name.clone()).collect();
     format!("lights: {}", entity::listed(&names))
 }
 
-/// The name that a new thing gets: the wanted one; or its own, with a number as Gazebo has it.
-fn free_name(simulation: &Simulation, wish: &Wish<'_>, own: &str) -> Result<String, String> {
+/// Returns the name of a new entity: the requested one, or its own with a number as in Gazebo.
+fn free_name(
+    simulation: &Simulation,
+    wish: &SpawnRequest<'_>,
+    own: &str,
+) -> Result<String, String> {
     let taken = |name: &str| {
         simulation.place_of(name).is_some()
             || simulation.scene.lights.iter().any(|light| light.name == name)
     };
     let wanted = if wish.name.is_empty() { own } else { wish.name };
     if wanted.contains("::") {
-        return Err(format!("`{wanted}` cannot be a name: `::` divides names"));
+        return Err(format!("`{wanted}` is not a valid name: `::` separates scopes"));
     }
     if !taken(wanted) {
         return Ok(wanted.to_owned());
     }
     if !(wish.name.is_empty() || wish.may_rename) {
-        return Err(format!("`{wanted}` is there already; delete it, or take another name"));
+        return Err(format!("`{wanted}` exists already; delete it, or use another name"));
     }
     let numbered = (0_u64..).map(|number| format!("{wanted}_{number}"));
-    numbered.take(usize::MAX).find(|name| !taken(name)).ok_or_else(|| "no name is free".into())
+    numbered
+        .take(usize::MAX)
+        .find(|name| !taken(name))
+        .ok_or_else(|| "no unused name is left".into())
 }

@@ -1,4 +1,4 @@
-//! Where things are: asked, set and published, under the names of `gazebo_ros_state` and of ROS 1.
+//! Services and topics of poses: those of `gazebo_ros_state` and of ROS 1.
 
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::gazebo_msgs::{
@@ -11,21 +11,21 @@ use periplus_msgs::geometry_msgs::{Pose, Twist};
 use periplus_msgs::std_msgs::Header;
 use periplus_physics::limits::{MAX_ANGULAR_SPEED_RAD_S, MAX_SPEED_M_S, is_within};
 
-use super::Log;
+use super::RejectionLog;
 use super::convert::{BAD_POSE, pose, pose_message, twist_message, vector};
 use super::entity::{self, Entity, Motion};
-use super::offer::Offer;
+use super::service_aliases::ServiceAliases;
 use super::state_plugin::StatePlugin;
 use crate::Simulation;
 
 pub(super) struct State {
-    get_entity: Offer<GetEntityState>,
-    set_entity: Offer<SetEntityState>,
-    get_model: Offer<GetModelState>,
-    set_model: Offer<SetModelState>,
-    get_link: Offer<GetLinkState>,
-    set_link: Offer<SetLinkState>,
-    joints: Offer<SetModelConfiguration>,
+    get_entity: ServiceAliases<GetEntityState>,
+    set_entity: ServiceAliases<SetEntityState>,
+    get_model: ServiceAliases<GetModelState>,
+    set_model: ServiceAliases<SetModelState>,
+    get_link: ServiceAliases<GetLinkState>,
+    set_link: ServiceAliases<SetLinkState>,
+    joints: ServiceAliases<SetModelConfiguration>,
     models: Mailbox<ModelState>,
     links: Mailbox<LinkState>,
 }
@@ -38,53 +38,63 @@ impl State {
             names
         };
         Ok(Self {
-            get_entity: Offer::new(node, names("get_entity_state").iter().map(String::as_str))?,
-            set_entity: Offer::new(node, names("set_entity_state").iter().map(String::as_str))?,
-            get_model: Offer::new(node, ["/gazebo/get_model_state"])?,
-            set_model: Offer::new(node, ["/gazebo/set_model_state"])?,
-            get_link: Offer::new(node, ["/gazebo/get_link_state"])?,
-            set_link: Offer::new(node, ["/gazebo/set_link_state"])?,
-            joints: Offer::new(node, ["/set_joint_positions", "/gazebo/set_model_configuration"])?,
+            get_entity: ServiceAliases::new(
+                node,
+                names("get_entity_state").iter().map(String::as_str),
+            )?,
+            set_entity: ServiceAliases::new(
+                node,
+                names("set_entity_state").iter().map(String::as_str),
+            )?,
+            get_model: ServiceAliases::new(node, ["/gazebo/get_model_state"])?,
+            set_model: ServiceAliases::new(node, ["/gazebo/set_model_state"])?,
+            get_link: ServiceAliases::new(node, ["/gazebo/get_link_state"])?,
+            set_link: ServiceAliases::new(node, ["/gazebo/set_link_state"])?,
+            joints: ServiceAliases::new(
+                node,
+                ["/set_joint_positions", "/gazebo/set_model_configuration"],
+            )?,
             models: node.mailbox("/gazebo/set_model_state", Qos::reliable(10))?,
             links: node.mailbox("/gazebo/set_link_state", Qos::reliable(10))?,
         })
     }
 
-    pub(super) fn serve(&self, simulation: &mut Simulation, log: &mut Log) {
+    pub(super) fn serve(&self, simulation: &mut Simulation, log: &mut RejectionLog) {
         self.set(simulation, log);
         self.get(simulation, log);
     }
 
-    fn set(&self, simulation: &mut Simulation, log: &mut Log) {
+    fn set(&self, simulation: &mut Simulation, log: &mut RejectionLog) {
         self.set_entity.answer(|asked| {
-            let done = set(simulation, &Wanted::entity(&asked.state));
+            let done = set(simulation, &RequestedState::entity(&asked.state));
             SetEntityStateResponse { success: log.note("set_entity_state", done) }
         });
         self.set_model.answer(|asked| {
-            let done = set(simulation, &Wanted::model(&asked.model_state));
+            let done = set(simulation, &RequestedState::model(&asked.model_state));
             let (success, status_message) = said(done, "SetModelState: set model state done");
             SetModelStateResponse { success, status_message }
         });
         self.set_link.answer(|asked| {
-            let done = set(simulation, &Wanted::link(&asked.link_state));
+            let done = set(simulation, &RequestedState::link(&asked.link_state));
             let (success, status_message) = said(done, "SetLinkState: success");
             SetLinkStateResponse { success, status_message }
         });
         self.joints.answer(|_| SetModelConfigurationResponse {
             success: false,
-            status_message: "joints cannot be put somewhere at once; command them, or spawn the \
+            status_message:
+                "joint positions cannot be set at once; command the joints, or spawn the \
                              model with other joint poses"
-                .into(),
+                    .into(),
         });
         for state in self.models.drain() {
-            log.note("/gazebo/set_model_state", set(simulation, &Wanted::model(&state)));
+            log.note("/gazebo/set_model_state", set(simulation, &RequestedState::model(&state)));
         }
         for state in self.links.drain() {
-            log.note("/gazebo/set_link_state", set(simulation, &Wanted::link(&state)));
+            log.note("/gazebo/set_link_state", set(simulation, &RequestedState::link(&state)));
         }
     }
 
-    fn get(&self, simulation: &Simulation, log: &mut Log) {
+    fn get(&self, simulation: &Simulation, log: &mut RejectionLog) {
         self.get_entity.answer(|asked| {
             let found = relative(simulation, &asked.name, &asked.reference_frame);
             let success = found.is_ok();
@@ -135,8 +145,8 @@ impl State {
     }
 }
 
-/// Where an entity is as seen from a frame; velocities are differences in the frame's axes, as in
-/// Gazebo.
+/// Returns the state of an entity relative to a frame; velocities are differences in the frame's
+/// axes, as in Gazebo.
 fn relative(simulation: &Simulation, name: &str, frame: &str) -> Result<Motion, String> {
     let found = entity::find(simulation, name)?;
     let found = entity::motion_of(simulation.motion(), found)
@@ -150,15 +160,15 @@ fn relative(simulation: &Simulation, name: &str, frame: &str) -> Result<Motion, 
     })
 }
 
-/// A state that something is to have.
-struct Wanted<'a> {
+/// A requested state.
+struct RequestedState<'a> {
     name: &'a str,
     pose: &'a Pose,
     twist: &'a Twist,
     frame: &'a str,
 }
 
-impl<'a> Wanted<'a> {
+impl<'a> RequestedState<'a> {
     fn entity(state: &'a EntityState) -> Self {
         let EntityState { name, pose, twist, reference_frame: frame } = state;
         Self { name, pose, twist, frame }
@@ -175,12 +185,12 @@ impl<'a> Wanted<'a> {
     }
 }
 
-fn set(simulation: &mut Simulation, wanted: &Wanted<'_>) -> Result<(), String> {
+fn set(simulation: &mut Simulation, wanted: &RequestedState<'_>) -> Result<(), String> {
     let frame_from_entity = pose(wanted.pose).ok_or(BAD_POSE)?;
     let (linear, angular) = (vector(&wanted.twist.linear), vector(&wanted.twist.angular));
     if !(is_within(linear, MAX_SPEED_M_S) && is_within(angular, MAX_ANGULAR_SPEED_RAD_S)) {
         return Err(format!(
-            "the twist holds a number that is none (NaN or infinite), or beyond {MAX_SPEED_M_S} m/s \
+            "the twist contains a value that is not finite, or beyond {MAX_SPEED_M_S} m/s \
              or {MAX_ANGULAR_SPEED_RAD_S} rad/s"
         ));
     }

@@ -1,4 +1,4 @@
-//! States that are published: those that a plugin asks for always, others while somebody listens.
+//! State topics: those of plugins always, others while they have subscribers.
 
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::Message;
@@ -9,18 +9,18 @@ use super::entity::{Entity, motion_of};
 use super::state_plugin::StatePlugin;
 use crate::Simulation;
 
-/// Without a plugin states are published this often \[ns\], as `gazebo_ros_state` does by default.
-const USUAL_PERIOD_NS: i64 = 10_000_000;
+/// Default publishing period \[ns\], that of `gazebo_ros_state`.
+const DEFAULT_PERIOD_NS: i64 = 10_000_000;
 
-/// So often it is looked whether somebody has begun to listen \[ns\].
-const LOOK_PERIOD_NS: i64 = 100_000_000;
+/// Period of checks for subscribers \[ns\].
+const CHECK_PERIOD_NS: i64 = 100_000_000;
 
-/// A topic that is there while somebody subscribes to it. Taps do not count: a bag of everything
-/// is not to hold what nobody asked for.
+/// A topic that exists while it has subscribers. Taps do not count: a bag of all topics must not
+/// contain unrequested ones.
 pub(super) struct OnDemand<T> {
     name: String,
     publisher: Option<Publisher<T>>,
-    /// Whether it is offered without a subscriber too.
+    /// True if it exists without subscribers too.
     is_kept: bool,
 }
 
@@ -29,14 +29,14 @@ impl<T: Message> OnDemand<T> {
         Self { name: name.into(), publisher: None, is_kept: false }
     }
 
-    /// Offers it from now on, subscribed to or not.
+    /// Advertises the topic permanently, with or without subscribers.
     pub(super) fn keep(&mut self, node: &Node) -> Result<(), GraphError> {
         self.is_kept = true;
         let wanted = [self.name.clone()];
         self.look(node, &wanted)
     }
 
-    /// Comes or goes, by the names of the topics that are subscribed to.
+    /// Creates or removes the publisher, by the names of the subscribed topics.
     pub(super) fn look(&mut self, node: &Node, wanted: &[String]) -> Result<(), GraphError> {
         match (&self.publisher, wanted.contains(&self.name)) {
             (None, true) => self.publisher = Some(node.publisher(&self.name, Qos::reliable(1))?),
@@ -46,34 +46,34 @@ impl<T: Message> OnDemand<T> {
         Ok(())
     }
 
-    /// The publisher, if somebody hears it.
+    /// Returns the publisher, if it has subscribers.
     pub(super) fn heard(&self) -> Option<&Publisher<T>> {
         self.publisher.as_ref().filter(|publisher| publisher.is_heard())
     }
 }
 
-/// Names of the topics that somebody subscribes to.
+/// Returns the names of subscribed topics.
 pub(super) fn subscribed(simulation: &Simulation) -> Vec<String> {
     let topics = simulation.graph().topics().into_iter();
     topics.filter(|topic| !topic.subscriptions.is_empty()).map(|topic| topic.name).collect()
 }
 
-/// When to do something again and again, in simulated time.
+/// Periodic timer in simulated time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beat {
+pub(super) struct PeriodTimer {
     period_ns: i64,
     next_ns: i64,
     last_ns: i64,
 }
 
-impl Beat {
-    /// The first time after one period.
+impl PeriodTimer {
+    /// The first time is after one period.
     pub(super) fn new(period_ns: i64, now_ns: i64) -> Self {
         Self { period_ns, next_ns: now_ns.saturating_add(period_ns), last_ns: now_ns }
     }
 
-    /// Whether it is time. A time before the last one is a new beginning. Nothing happens twice at
-    /// one time.
+    /// Returns true if the timer is due. A jump back in time restarts it. It is due at most once per
+    /// time.
     pub(super) fn is_due(&mut self, now_ns: i64) -> bool {
         if now_ns < self.last_ns {
             *self = Self::new(self.period_ns, now_ns);
@@ -89,9 +89,9 @@ impl Beat {
     }
 }
 
-/// `model_states` and `link_states`, under one pair of names.
+/// `model_states` and `link_states` with a common prefix.
 struct Pair {
-    beat: Beat,
+    beat: PeriodTimer,
     models: Outlet<ModelStates>,
     links: Outlet<LinkStates>,
 }
@@ -120,7 +120,7 @@ impl<T: Message> Outlet<T> {
 /// Publishes the states of models and links.
 pub(super) struct StateTopics {
     node: Node,
-    look: Beat,
+    look: PeriodTimer,
     pairs: Vec<Pair>,
 }
 
@@ -135,7 +135,7 @@ impl StateTopics {
         for plugin in plugins {
             let (models, links) = (plugin.resolve("model_states"), plugin.resolve("link_states"));
             pairs.push(Pair {
-                beat: Beat::new(plugin.period_ns(), now_ns),
+                beat: PeriodTimer::new(plugin.period_ns(), now_ns),
                 models: Outlet::Always(node.publisher(&models, Qos::reliable(1))?),
                 links: Outlet::Always(node.publisher(&links, Qos::reliable(1))?),
             });
@@ -145,18 +145,18 @@ impl StateTopics {
             let (models, links) = (format!("{space}/model_states"), format!("{space}/link_states"));
             if !(taken.contains(&models) || taken.contains(&links)) {
                 pairs.push(Pair {
-                    beat: Beat::new(USUAL_PERIOD_NS, now_ns),
+                    beat: PeriodTimer::new(DEFAULT_PERIOD_NS, now_ns),
                     models: Outlet::OnDemand(OnDemand::new(models)),
                     links: Outlet::OnDemand(OnDemand::new(links)),
                 });
             }
         }
-        // The first look comes at once.
-        let look = Beat::new(LOOK_PERIOD_NS, now_ns.saturating_sub(LOOK_PERIOD_NS));
+        // The first check is immediate.
+        let look = PeriodTimer::new(CHECK_PERIOD_NS, now_ns.saturating_sub(CHECK_PERIOD_NS));
         Ok(Self { node: node.clone(), look, pairs })
     }
 
-    /// Publishes what is due.
+    /// Publishes due states.
     ///
     /// # Errors
     /// When a topic of this name has another type.
@@ -215,11 +215,11 @@ fn link_states(simulation: &Simulation) -> LinkStates {
 
 #[cfg(test)]
 mod tests {
-    use super::Beat;
+    use super::PeriodTimer;
 
     #[test]
     fn a_beat_keeps_its_time_and_begins_anew_after_a_jump_back() {
-        let mut beat = Beat::new(10, 0);
+        let mut beat = PeriodTimer::new(10, 0);
         let due = [0, 5, 10, 10, 19, 20, 47, 50, 3, 12, 13].map(|now_ns| beat.is_due(now_ns));
         let wanted = [false, false, true, false, false, true, true, true, false, false, true];
         assert_eq!(due, wanted);
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn without_a_period_each_step_is_one() {
-        let mut beat = Beat::new(0, 0);
+        let mut beat = PeriodTimer::new(0, 0);
         assert_eq!([0, 1, 1, 2].map(|now_ns| beat.is_due(now_ns)), [false, true, false, true]);
     }
 }

@@ -1,4 +1,4 @@
-//! What others may change in a world that runs.
+//! Changes of a running world.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
@@ -8,7 +8,7 @@ use super::{Simulation, all};
 use crate::services::Entity;
 
 impl Simulation {
-    /// Puts a model or link down somewhere, at rest.
+    /// Sets the pose of a model or link, at rest.
     pub(crate) fn place(&mut self, entity: Entity, world_from_entity: Pose) {
         match entity {
             Entity::Model(model) => self.motion.set_pose(model, world_from_entity),
@@ -17,7 +17,7 @@ impl Simulation {
         self.views.invalidate();
     }
 
-    /// Time back to zero; models stay where they are.
+    /// Resets time to zero; models keep their poses.
     pub(crate) fn reset_time(&mut self) {
         self.time_ns = 0;
         self.graph.jump_to(0);
@@ -25,8 +25,8 @@ impl Simulation {
         self.restart_devices();
     }
 
-    /// Devices begin again now. With another seed they are made anew: noise is drawn from streams
-    /// that they got when they were made.
+    /// Restarts devices at the current time. After a change of the seed they are rebuilt, since they
+    /// get their noise streams when they are built.
     pub(super) fn restart_devices(&mut self) {
         if std::mem::take(&mut self.has_new_seed) {
             self.remake_devices();
@@ -35,7 +35,7 @@ impl Simulation {
         all(&mut self.world_devices, &mut self.running).for_each(|device| device.reset(time_ns));
     }
 
-    /// Another seed for all noise, from the next reset on.
+    /// Sets another seed of all noise, from the next reset on.
     pub(crate) fn set_seed(&mut self, seed: u64) {
         self.has_new_seed |= self.options.seed != seed;
         self.options.seed = seed;
@@ -43,36 +43,36 @@ impl Simulation {
 
     fn remake_devices(&mut self) {
         let mut running = std::mem::take(&mut self.running);
-        // Their nodes go first, so that their names are free.
+        // Remove their nodes first, so that the names are unused.
         running.iter_mut().for_each(|running| running.devices.clear());
         for running in &mut running {
-            // What is wrong with them was told when they were first made.
+            // Their problems were reported when they were built first.
             let mut told = Diagnostics::new();
             running.devices = self.devices_of(&running.member, running.model, &mut told);
         }
         self.running = running;
     }
 
-    /// The step of the simulation \[s\].
+    /// Returns the step \[s\].
     #[expect(clippy::cast_precision_loss, reason = "a step is far below 2^53 ns")]
     pub(crate) fn step_s(&self) -> f64 {
         self.step_ns as f64 * 1e-9
     }
 
-    /// Another gravity \[m/s²\].
+    /// Sets gravity \[m/s²\].
     pub(crate) fn set_gravity(&mut self, gravity_m_s2: DVec3) {
         self.motion.set_gravity(gravity_m_s2);
         self.scene.gravity_m_s2 = gravity_m_s2;
     }
 
-    /// The settings that are in use.
+    /// Returns the physics settings.
     pub(crate) fn physics(&self) -> scene::Physics {
         let profiles = &self.scene.physics;
         let used = profiles.iter().find(|physics| physics.default).or(profiles.first());
         used.cloned().unwrap_or_default()
     }
 
-    /// The settings that are in use, to be changed.
+    /// Returns the physics settings, mutably.
     pub(crate) fn physics_mut(&mut self) -> &mut scene::Physics {
         let profiles = &mut self.scene.physics;
         if profiles.is_empty() {
@@ -82,8 +82,8 @@ impl Simulation {
         &mut profiles[used]
     }
 
-    /// The middle of the mass of a link, `model::link`, in its frame \[m\]; its origin where that
-    /// is not known.
+    /// Returns the centre of mass of a link, `model::link`, in its frame \[m\]; its origin if
+    /// unknown.
     pub(crate) fn centre_of_mass(&self, link: &str) -> DVec3 {
         let centre = link.split_once("::").and_then(|(model, link)| {
             let member = &self.running[self.place_of(model)?].member;
@@ -98,7 +98,7 @@ impl Simulation {
         self.scene.lights.push(light);
     }
 
-    /// Takes a light out of the world. False if there is none of that name.
+    /// Removes a light. Returns false for an unknown name.
     pub(crate) fn delete_light(&mut self, name: &str) -> bool {
         let lights = &mut self.scene.lights;
         let Some(place) = lights.iter().position(|light| light.name == name) else { return false };
@@ -107,7 +107,7 @@ impl Simulation {
         true
     }
 
-    /// Lets a light be seen as it is now: it was changed. One on a link is `model::link::light`.
+    /// Updates a changed light in the scenes. One on a link is `model::link::light`.
     pub(crate) fn show_light(&mut self, name: &str) {
         if let Some(light) = self.scene.lights.iter().find(|light| light.name == name) {
             self.views.set_light(light);
@@ -125,8 +125,8 @@ impl Simulation {
         }
     }
 
-    /// All lights that are lit, with `world_from_light`, as they are now: those of the world, and
-    /// those that links carry.
+    /// Returns all active lights, with current `world_from_light`: those of the world and those on
+    /// links.
     #[must_use]
     pub fn lights(&self) -> Vec<(Pose, scene::Light)> {
         let of_world = self.scene.lights.iter();

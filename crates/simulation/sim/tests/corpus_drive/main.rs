@@ -18,14 +18,14 @@ use std::time::Instant;
 use periplus_loader::Setting;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{PhysicsMode, Placement};
+use periplus_sim::{PhysicsMode, RobotPlacement};
 
 use trial::{Report, Trial, drive};
 
 /// The robots of a file, or why there are none.
 fn tried(
     path: &Path,
-    robots: &[Placement],
+    robots: &[RobotPlacement],
     name: &str,
     seconds: i64,
     mode: PhysicsMode,
@@ -59,8 +59,8 @@ fn our_robots_drive_and_measure() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
     let sam_bot = root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro");
     let kbot = root.join("robots/kbot/urdf/kbot.urdf.xacro");
-    let in_room = Placement { file: sam_bot.clone(), ..Placement::default() };
-    let runs: [(&str, PathBuf, &[Placement]); 4] = [
+    let in_room = RobotPlacement { file: sam_bot.clone(), ..RobotPlacement::default() };
+    let runs: [(&str, PathBuf, &[RobotPlacement]); 4] = [
         ("sam_bot", sam_bot, &[]),
         ("sam_bot in the room", root.join("worlds/closed_room.world"), &[in_room]),
         ("kbot", kbot, &[]),

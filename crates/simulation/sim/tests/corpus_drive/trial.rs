@@ -12,7 +12,8 @@ use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_plugin_specs::{Role, interpret, model_sites};
 use periplus_scene::{Model, World};
 use periplus_sim::{
-    Composition, Member, Options, PhysicsMode, Placement, ShapeFiles, Simulation, compose,
+    AssetFiles, Composition, ModelInstance, Options, PhysicsMode, RobotPlacement, Simulation,
+    compose,
 };
 
 use crate::ears::Ears;
@@ -72,24 +73,24 @@ pub(crate) struct Report {
 /// Drives every robot of a file that can be driven. Nothing for a file without one.
 pub(crate) fn drive(
     path: &Path,
-    robots: &[Placement],
+    robots: &[RobotPlacement],
     name: &str,
     seconds: i64,
     mode: PhysicsMode,
     setting: &Setting<'_>,
 ) -> Report {
     let mut composition = compose(path, robots, setting);
-    let has_drive = |member: &Member| !drives(&composition.world, &member.model).is_empty();
+    let has_drive = |member: &ModelInstance| !drives(&composition.world, &member.model).is_empty();
     if !composition.members.iter().any(has_drive) {
         return Report::default();
     }
-    let files = Arc::new(ShapeFiles::default());
+    let files = Arc::new(AssetFiles::default());
     let options = Options { mode, ..Options::default() };
     let mut simulation = Simulation::new(&mut composition, files, options);
     let node = simulation.graph().node(NodeSettings::new("trial")).unwrap();
     let pedals = Pedals::of(&simulation, &node);
     let mut ears = Ears::open(&simulation, &node);
-    let driven: Vec<(&Member, Vec<&'static str>)> = composition
+    let driven: Vec<(&ModelInstance, Vec<&'static str>)> = composition
         .members
         .iter()
         .map(|member| (member, drives(&composition.world, &member.model)))

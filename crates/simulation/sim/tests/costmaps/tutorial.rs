@@ -21,7 +21,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::{
-    Options, PhysicsMode, Placement, Search, Services, ShapeFiles, Simulation, compose,
+    AssetFiles, Options, PhysicsMode, RobotPlacement, Search, Services, Simulation, compose,
 };
 
 /// The parameters that the tutorial about footprints ships for its robot.
@@ -77,10 +77,10 @@ impl Run {
             open_meshes: true,
         };
         let file = own("robots/sam_bot/urdf/sam_bot.urdf.xacro").into();
-        let robot = Placement { file, ..Placement::default() };
+        let robot = RobotPlacement { file, ..RobotPlacement::default() };
         let world = own("worlds/cube_and_sphere.sdf");
         let mut composition = compose(Path::new(&world), &[robot], &setting);
-        let files = Arc::new(ShapeFiles::default());
+        let files = Arc::new(AssetFiles::default());
         let options = Options { mode, ..Options::default() };
         let simulation = Simulation::new(&mut composition, files, options);
         assert!(!composition.has_errors());

@@ -3,7 +3,7 @@
 use periplus_geometry::{Pose, Rpy};
 use periplus_graph::{Mailbox, Node, Qos};
 use periplus_msgs::std_msgs;
-use periplus_sim::{Arrival, ArrivalFrom};
+use periplus_sim::{InsertionSource, ModelInsertion};
 
 use super::{Done, Hand, Stage};
 use crate::bringup::parameters::{Named, number_of, text_of};
@@ -160,13 +160,13 @@ impl Hand for Spawner {
             _ => None,
         };
         let from = match &self.from {
-            From::Text(text, parameter) => ArrivalFrom::Text(text, parameter),
-            From::File(file) => ArrivalFrom::File(file),
+            From::Text(text, parameter) => InsertionSource::Text(text, parameter),
+            From::File(file) => InsertionSource::File(file),
             From::Topic(mailbox) => {
-                ArrivalFrom::Text(heard.as_ref().map_or("", |text| &text.data), mailbox.topic())
+                InsertionSource::Text(heard.as_ref().map_or("", |text| &text.data), mailbox.topic())
             }
         };
-        let arrival = Arrival {
+        let arrival = ModelInsertion {
             from,
             name: &self.name,
             may_rename: self.may_rename,

@@ -1,4 +1,4 @@
-//! The world as a message of Gazebo.
+//! Conversion of the world to Gazebo messages.
 
 use periplus_geometry::{DVec3, Pose};
 use periplus_gz_msgs as gz;
@@ -10,12 +10,12 @@ use periplus_gz_msgs::{
 use periplus_scene::{Colour, Light, Link, Material, Model, Shape, Visual};
 
 use crate::Simulation;
-use crate::simulation::Running;
+use crate::simulation::RunningModel;
 
-/// The world has the first number; what is in it has those that follow, in its order.
-const FIRST: u32 = 2;
+/// Id of the first entity; the world has the id before it, entities count in the order of the world.
+const FIRST_ENTITY_ID: u32 = 2;
 
-/// Counts what is in the world, in one order for all messages.
+/// Counter of entity ids, in one order for all messages.
 struct Numbers(u32);
 
 impl Numbers {
@@ -49,9 +49,9 @@ fn header(simulation: &Simulation) -> Option<Header> {
     Some(Header { stamp, data: Vec::new() })
 }
 
-/// Where models are, and links in them.
+/// Returns the poses of models and their links.
 pub(super) fn poses(simulation: &Simulation) -> PoseV {
-    let mut numbers = Numbers(FIRST);
+    let mut numbers = Numbers(FIRST_ENTITY_ID);
     let mut all = Vec::new();
     let motion = simulation.motion();
     for running in &simulation.running {
@@ -74,9 +74,9 @@ pub(super) fn poses(simulation: &Simulation) -> PoseV {
     PoseV { header: header(simulation), pose: all }
 }
 
-/// The name of the model with this number.
+/// Returns the name of the model with this id.
 pub(super) fn name_of(simulation: &Simulation, id: u32) -> Option<String> {
-    let mut numbers = Numbers(FIRST);
+    let mut numbers = Numbers(FIRST_ENTITY_ID);
     for running in &simulation.running {
         let own = numbers.next();
         if own == id {
@@ -87,10 +87,10 @@ pub(super) fn name_of(simulation: &Simulation, id: u32) -> Option<String> {
     None
 }
 
-/// All that is in the world.
+/// Returns the whole scene.
 pub(super) fn scene(simulation: &Simulation) -> Scene {
     let world = &simulation.scene;
-    let mut numbers = Numbers(FIRST);
+    let mut numbers = Numbers(FIRST_ENTITY_ID);
     let model = simulation.running.iter().map(|it| running(simulation, it, &mut numbers)).collect();
     let light = world.lights.iter().map(|light| self::light(light, numbers.next(), 1)).collect();
     Scene {
@@ -106,7 +106,7 @@ pub(super) fn scene(simulation: &Simulation) -> Scene {
     }
 }
 
-fn running(simulation: &Simulation, running: &Running, numbers: &mut Numbers) -> gz::Model {
+fn running(simulation: &Simulation, running: &RunningModel, numbers: &mut Numbers) -> gz::Model {
     let motion = simulation.motion();
     let id = numbers.next();
     let world_from_model = motion.model_pose(running.model).unwrap_or_default();
@@ -125,10 +125,10 @@ fn running(simulation: &Simulation, running: &Running, numbers: &mut Numbers) ->
     made
 }
 
-/// Where a link is in its model now.
+/// Lookup of a link's current pose in its model.
 type Now<'a> = &'a dyn Fn(&str) -> Option<Pose>;
 
-/// A model without its number; models in it are as they came.
+/// Converts a model; nested models keep their initial poses.
 fn model(model: &Model, numbers: &mut Numbers, now: Option<Now<'_>>) -> gz::Model {
     let links = model.links.iter().map(|one| {
         let model_from_link = now.and_then(|now| now(&one.name)).unwrap_or(one.model_from_link);
@@ -145,7 +145,7 @@ fn model(model: &Model, numbers: &mut Numbers, now: Option<Now<'_>>) -> gz::Mode
     }
 }
 
-/// Models in a model, all one level below: they may be nested deeper than the stack.
+/// Returns the nested models, flattened: they can be nested deeper than the call stack allows.
 fn inner(outer: &Model) -> Vec<gz::Model> {
     let mut open: Vec<(String, Pose, &Model)> = Vec::new();
     open.extend(outer.models.iter().map(|one| (one.name.clone(), one.parent_from_model, one)));
@@ -203,7 +203,7 @@ fn material(material: &Material) -> gz::Material {
     }
 }
 
-/// None for shapes whose corners are in files of their own.
+/// Returns `None` for shapes with vertices in other files.
 fn geometry(shape: &Shape) -> Option<Geometry> {
     let blank = |r#type| Geometry { r#type, ..Geometry::default() };
     Some(match shape {

@@ -1,15 +1,15 @@
-//! Whether time goes on.
+//! Pausing and stepping.
 
-/// Whether time goes on: freely, or so many steps and then no more.
+/// Pause state: running, paused, or a number of steps before a pause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Tempo {
+pub(crate) struct PauseState {
     is_paused: bool,
-    /// A paused world goes to here \[ns\].
+    /// End of the requested steps of a paused world \[ns\].
     until_ns: Option<i64>,
 }
 
-impl Tempo {
-    /// Stops time, or lets it go on.
+impl PauseState {
+    /// Pauses or resumes.
     pub(crate) fn set_paused(&mut self, is_paused: bool) {
         *self = Self { is_paused, until_ns: None };
     }
@@ -18,7 +18,7 @@ impl Tempo {
         self.is_paused
     }
 
-    /// Whether only the steps that were asked for are left.
+    /// Returns true while requested steps remain.
     pub(crate) fn is_stepping(self) -> bool {
         self.until_ns.is_some()
     }
@@ -27,24 +27,24 @@ impl Tempo {
         !self.is_paused || self.is_stepping()
     }
 
-    /// Where the next step must end at the latest \[ns\].
+    /// Returns the latest end of the next step \[ns\].
     pub(crate) fn until_ns(self) -> i64 {
         self.until_ns.unwrap_or(i64::MAX)
     }
 
-    /// So many steps more, then a pause; those of an earlier call come on top.
+    /// Adds steps before a pause, after those of earlier requests.
     pub(crate) fn add_steps(&mut self, steps: u32, step_ns: i64, now_ns: i64) {
         let from_ns = self.until_ns.unwrap_or(now_ns);
         let way_ns = i64::from(steps).saturating_mul(step_ns);
         self.run_to(from_ns.saturating_add(way_ns), now_ns);
     }
 
-    /// To a time \[ns\], then a pause. A time that is over is a pause at once.
+    /// Runs to a time \[ns\], then pauses. A past time pauses at once.
     pub(crate) fn run_to(&mut self, time_ns: i64, now_ns: i64) {
         *self = Self { is_paused: true, until_ns: (time_ns > now_ns).then_some(time_ns) };
     }
 
-    /// Time has come to here \[ns\].
+    /// Records the current time \[ns\].
     pub(crate) fn arrived(&mut self, now_ns: i64) {
         self.until_ns = self.until_ns.filter(|until_ns| now_ns < *until_ns);
     }
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn steps_add_up_and_end_in_a_pause() {
-        let mut tempo = Tempo::default();
+        let mut tempo = PauseState::default();
         assert!(tempo.may_step());
         tempo.set_paused(true);
         assert!(!tempo.may_step());
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn a_time_that_is_over_is_a_pause() {
-        let mut tempo = Tempo::default();
+        let mut tempo = PauseState::default();
         tempo.run_to(5, 7);
         assert!(!tempo.may_step());
         tempo.run_to(8, 7);

@@ -1,22 +1,22 @@
-//! Ground, sun, and how a robot stands on it.
+//! Default world, and the height of a robot above the floor.
 
 use periplus_geometry::{DVec3, Pose, Rpy};
 use periplus_scene::{Model, Shape};
 
-/// A robot stands this far above the ground that it should touch \[m\]: solvers like a drop better
-/// than a push.
+/// Initial distance of a robot from the floor \[m\]: solvers handle a small drop better than a
+/// penetration.
 const CLEARANCE_M: f64 = 1e-4;
 
-/// The pose of a model that touches the plane z = 0 with its lowest collision, at x, y \[m\] and
-/// yaw \[rad\].
+/// Returns the pose of a model whose lowest collision touches the plane z = 0, at x, y \[m\] and yaw
+/// \[rad\].
 pub(crate) fn standing(model: &Model, x_m: f64, y_m: f64, yaw_rad: f64) -> Pose {
     let lowest = lowest_m(model, Pose::IDENTITY).filter(|lowest| lowest.is_finite());
     let z_m = CLEARANCE_M - lowest.unwrap_or(CLEARANCE_M);
     Pose::from_xyz_rpy([x_m, y_m, z_m], Rpy { roll: 0.0, pitch: 0.0, yaw: yaw_rad })
 }
 
-/// The lowest point of all collisions of a model, in the frame that `up_from_model` leads to.
-/// Shapes from files are passed over: robots touch the ground with wheels.
+/// Returns the lowest point of all collisions of a model, in the frame of `up_from_model`. Shapes
+/// from files are ignored: robots touch the floor with wheels.
 fn lowest_m(model: &Model, up_from_model: Pose) -> Option<f64> {
     let own = model.links.iter().flat_map(|link| {
         link.collisions.iter().filter_map(move |collision| {
@@ -33,8 +33,9 @@ fn lowest_m(model: &Model, up_from_model: Pose) -> Option<f64> {
     own.chain(nested).reduce(f64::min)
 }
 
-/// The radius of the smallest circle around a model's frame that all its collisions are in, seen from
-/// above \[m\]; each collision counts with its bounding sphere. Shapes from files are passed over.
+/// Returns the radius of the smallest circle about a model's frame that contains all collisions,
+/// seen from above \[m\], with each collision replaced by its bounding sphere. Shapes from files are
+/// ignored.
 pub(crate) fn radius_m(model: &Model, base_from_model: Pose) -> Option<f64> {
     let own = model.links.iter().flat_map(|link| {
         link.collisions.iter().filter_map(move |collision| {
@@ -53,7 +54,7 @@ pub(crate) fn radius_m(model: &Model, base_from_model: Pose) -> Option<f64> {
     own.chain(nested).filter(|radius_m| radius_m.is_finite()).reduce(f64::max)
 }
 
-/// How far a shape reaches to the side from its middle, at most \[m\].
+/// Returns the maximum horizontal extent of a shape from its centre \[m\].
 fn reach_aside_m(shape: &Shape, base_from_shape: Pose) -> Option<f64> {
     let reach_along = |axis: DVec3| {
         let axis_of_shape = base_from_shape.rotation.conjugate() * axis;
@@ -63,14 +64,14 @@ fn reach_aside_m(shape: &Shape, base_from_shape: Pose) -> Option<f64> {
     Some(libm::hypot(reach_along(DVec3::X)?, reach_along(DVec3::Y)?))
 }
 
-/// A rotation that takes an axis of a shape up.
+/// Returns the rotation of a shape's axis to z.
 fn turn_up(axis: DVec3) -> periplus_geometry::DQuat {
     periplus_geometry::DQuat::from_rotation_arc(axis.normalize_or(DVec3::Z), DVec3::Z)
 }
 
-/// How far a shape reaches down from its middle \[m\].
+/// Returns the extent of a shape below its centre \[m\].
 fn reach_down_m(shape: &Shape, up_from_shape: Pose) -> Option<f64> {
-    // The up axis as the shape sees it.
+    // The z axis in the frame of the shape.
     let up = up_from_shape.rotation.conjugate() * DVec3::Z;
     let round = (1.0 - up.z * up.z).max(0.0).sqrt();
     match *shape {
@@ -85,8 +86,8 @@ fn reach_down_m(shape: &Shape, up_from_shape: Pose) -> Option<f64> {
     }
 }
 
-/// A plane in the sun, as text: where robots stand that come without a world.
-pub(crate) const PLAIN_WORLD: &str = r#"<?xml version="1.0"?>
+/// World file of a plane with a sun, for robots without a world.
+pub(crate) const DEFAULT_WORLD_SDF: &str = r#"<?xml version="1.0"?>
 <sdf version="1.9">
   <world name="default">
     <include><uri>model://sun</uri></include>

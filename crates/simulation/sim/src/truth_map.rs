@@ -1,4 +1,4 @@
-//! The world as a map could know it: a horizontal slice at the height of a lidar.
+//! True occupancy grid: a horizontal slice of the world at the height of a lidar.
 
 use std::collections::VecDeque;
 
@@ -10,29 +10,27 @@ use periplus_rendering::{RenderScene, SensedGeometry, filter};
 use periplus_scene::{Model, SensorKind};
 
 use crate::Simulation;
-use crate::simulation::Running;
+use crate::simulation::RunningModel;
 
-/// A point of a wall counts to the cell this far behind its surface \[m\]: walls stand on the edges of
-/// cells more often than not.
+/// Offset of a wall's point behind its surface \[m\]: walls are often on the borders of cells.
 const INTO_WALL_M: f64 = 1e-3;
 
-/// A ray meets no more surfaces than this.
+/// Maximum number of surfaces that a ray hits.
 const MOST_SURFACES: usize = 1000;
 
-/// Where there is no lidar, the slice is this high \[m\].
-const USUAL_HEIGHT_M: f64 = 0.2;
+/// Height of the slice without a lidar \[m\].
+const DEFAULT_HEIGHT_M: f64 = 0.2;
 
 /// A lidar on a robot.
-struct Eye {
+struct SliceView {
     height_m: f64,
     geometry: SensedGeometry,
 }
 
 impl Simulation {
-    /// What is really there, on the cells of a map that lies like this in the world: walls are where
-    /// a shape cuts the height of the first robot's lidar, free is what the robot could get to from
-    /// where it is without crossing one, all else is unknown. The robot itself is no wall. None where
-    /// there is no robot.
+    /// Returns the true map on the cells of a grid: walls are where a shape intersects the height of
+    /// the first robot's lidar, free is what the robot can reach without crossing one, the rest is
+    /// unknown. The robot itself is not a wall. `None` without a robot.
     pub fn truth_map(&mut self, lattice: Lattice) -> Option<OccupancyGrid> {
         let robot = self.robot()?;
         let (name, model) = (robot.member.name.clone(), robot.model);
@@ -49,16 +47,19 @@ impl Simulation {
         Some(map)
     }
 
-    /// Where the first lidar of a robot is, and what it sees.
-    fn eye(&self, robot: &Running) -> Eye {
+    /// Returns height and geometry of a robot's first lidar.
+    fn eye(&self, robot: &RunningModel) -> SliceView {
         lidar(&robot.member.model, "")
             .and_then(|(link, eye)| {
                 let link = self.motion.find_link(robot.model, &link)?;
                 let world_from_link = self.motion.link_state(link)?.world_from_link;
                 let place = world_from_link * eye.link_from_sensor;
-                Some(Eye { height_m: place.translation.z, geometry: eye.geometry })
+                Some(SliceView { height_m: place.translation.z, geometry: eye.geometry })
             })
-            .unwrap_or(Eye { height_m: USUAL_HEIGHT_M, geometry: SensedGeometry::Collision })
+            .unwrap_or(SliceView {
+                height_m: DEFAULT_HEIGHT_M,
+                geometry: SensedGeometry::Collision,
+            })
     }
 }
 
@@ -68,12 +69,12 @@ struct Mounted {
     geometry: SensedGeometry,
 }
 
-/// The first lidar of a model, with the scoped name of its link; those of nested models come after.
+/// Returns the first lidar of a model, with the scoped name of its link; nested models come last.
 fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
     let own = model.links.iter().find_map(|link| {
         let is_lidar = |kind: &SensorKind| matches!(kind, SensorKind::Lidar(_));
         let sensor = link.sensors.iter().find(|sensor| is_lidar(&sensor.kind))?;
-        // As in Gazebo: the graphics card renders what is seen, the others ask physics.
+        // As in Gazebo: GPU lidars sense visuals, others collisions.
         let is_rendered = sensor.type_name.starts_with("gpu");
         let geometry = if is_rendered { SensedGeometry::Visual } else { SensedGeometry::Collision };
         let mounted = Mounted { link_from_sensor: sensor.parent_from_sensor, geometry };
@@ -85,8 +86,8 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
     })
 }
 
-/// Marks what rays along all rows and columns of cells meet, two in each and in both directions, so
-/// that no face is missed for being seen from its edge or from behind.
+/// Marks the hits of rays along all rows and columns of cells, two in each and in both directions,
+/// so that no face is missed edge-on or from behind.
 fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
     let lattice = map.lattice;
     let (columns, rows) = (lattice.width as f64, lattice.height as f64);
@@ -100,7 +101,7 @@ fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot:
     }
 }
 
-/// Marks what a line between two places, in columns and rows, meets from either end.
+/// Marks the hits on a line between two points, in columns and rows, from either end.
 fn mark_line(
     map: &mut OccupancyGrid,
     seen: &RenderScene,
@@ -117,7 +118,7 @@ fn mark_line(
     for (from, to) in [(first, last), (last, first)] {
         let length_m = (to - from).length();
         let mut ray = Ray { max_m: length_m, ..Ray::new(from, (to - from) / length_m) };
-        // What the ray is in: the next surface of such a thing is its far side.
+        // Shapes around the ray's origin: their next surface is the far side.
         let mut inside: Vec<InstanceId> = Vec::new();
         for _ in 0..MOST_SURFACES {
             let Some(hit) = seen.rays().cast(&ray, filter(u32::MAX, None)) else { break };
@@ -142,7 +143,7 @@ fn mark_line(
     }
 }
 
-/// Makes free what can be reached from a cell, over edges of cells.
+/// Marks as free all cells reachable from a cell over edges.
 fn flood(map: &mut OccupancyGrid, from: (usize, usize)) {
     let (width, height) = (map.lattice.width, map.lattice.height);
     let mut open = VecDeque::from([from]);

@@ -1,6 +1,6 @@
-//! What Harmonic offers for a world, with the types that `ros_gz_bridge` gives it.
+//! Services of Harmonic, with the types of `ros_gz_bridge`.
 //!
-//! Meaning of fields: gz-sim's `SimulationRunner` and `UserCommands`.
+//! Semantics of the fields: gz-sim's `SimulationRunner` and `UserCommands`.
 
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::ros_gz_interfaces::{
@@ -11,34 +11,40 @@ use periplus_sim_nodes::gz_topic;
 
 use super::convert::BAD_POSE;
 use super::convert::pose;
-use super::offer::Offer;
+use super::pause_state::PauseState;
 use super::reading::{Search, Source};
-use super::spawn::{Spawned, Standing, Wish, copy, delete, lights, spawn};
-use super::tempo::Tempo;
-use super::{Log, entity, light};
+use super::service_aliases::ServiceAliases;
+use super::spawn::{SpawnPose, SpawnRequest, Spawned, copy, delete, lights, spawn};
+use super::{RejectionLog, entity, light};
 use crate::Simulation;
 
-pub(super) struct Harmonic {
-    control: Offer<ControlWorld>,
-    create: Offer<SpawnEntity>,
-    remove: Offer<DeleteEntity>,
-    set_pose: Offer<SetEntityPose>,
+pub(super) struct GzSimServices {
+    control: ServiceAliases<ControlWorld>,
+    create: ServiceAliases<SpawnEntity>,
+    remove: ServiceAliases<DeleteEntity>,
+    set_pose: ServiceAliases<SetEntityPose>,
     lights: Mailbox<Light>,
 }
 
-/// `/world/<name>/<what>`, as ROS allows it.
+/// Returns `/world/<name>/<what>` as a valid ROS name.
 pub(super) fn name_of(world: &str, what: &str) -> String {
     gz_topic(&format!("/world/{world}/{what}"))
 }
 
-impl Harmonic {
+impl GzSimServices {
     pub(super) fn new(node: &Node, world: &str) -> Result<Self, GraphError> {
         let name = |what| name_of(world, what);
         Ok(Self {
-            control: Offer::new(node, [name("control").as_str()])?,
-            create: Offer::new(node, [name("create").as_str(), name("create/blocking").as_str()])?,
-            remove: Offer::new(node, [name("remove").as_str(), name("remove/blocking").as_str()])?,
-            set_pose: Offer::new(
+            control: ServiceAliases::new(node, [name("control").as_str()])?,
+            create: ServiceAliases::new(
+                node,
+                [name("create").as_str(), name("create/blocking").as_str()],
+            )?,
+            remove: ServiceAliases::new(
+                node,
+                [name("remove").as_str(), name("remove/blocking").as_str()],
+            )?,
+            set_pose: ServiceAliases::new(
                 node,
                 [name("set_pose").as_str(), name("set_pose/blocking").as_str()],
             )?,
@@ -50,8 +56,8 @@ impl Harmonic {
         &self,
         simulation: &mut Simulation,
         search: &Search,
-        tempo: &mut Tempo,
-        log: &mut Log,
+        tempo: &mut PauseState,
+        log: &mut RejectionLog,
     ) {
         self.create.answer(|asked| {
             let done = create(simulation, search, &asked.entity_factory);
@@ -80,8 +86,8 @@ impl Harmonic {
     }
 }
 
-/// Pauses, steps, resets. A reset comes first, so that steps count from the new beginning.
-pub(super) fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &WorldControl) {
+/// Pauses, steps, resets. A reset comes first, so that steps count from the new start.
+pub(super) fn control(simulation: &mut Simulation, tempo: &mut PauseState, asked: &WorldControl) {
     if asked.seed != 0 {
         simulation.set_seed(asked.seed.into());
     }
@@ -99,7 +105,7 @@ pub(super) fn control(simulation: &mut Simulation, tempo: &mut Tempo, asked: &Wo
         steps => steps,
     };
     let to_ns = asked.run_to_sim_time.ns();
-    // Only a paused world can be stepped; one that runs goes on.
+    // Only a paused world can be stepped; a running one continues.
     if !asked.pause {
         tempo.set_paused(false);
     } else if steps == 0 || !tempo.is_stepping() {
@@ -124,9 +130,9 @@ pub(super) fn create(
     let sources = [&asked.sdf, &asked.sdf_filename, &asked.clone_name];
     let given = sources.iter().filter(|source| !source.is_empty()).count();
     if given != 1 {
-        return Err("give exactly one of `sdf`, `sdf_filename` and `clone_name`".into());
+        return Err("set exactly one of `sdf`, `sdf_filename` and `clone_name`".into());
     }
-    let wish = Wish {
+    let wish = SpawnRequest {
         source: if asked.sdf.is_empty() {
             Source::File(&asked.sdf_filename)
         } else {
@@ -136,7 +142,7 @@ pub(super) fn create(
         may_rename: asked.allow_renaming,
         namespace: "",
         with_frames: true,
-        standing: Standing::At(world_from_model),
+        standing: SpawnPose::At(world_from_model),
     };
     if asked.clone_name.is_empty() {
         spawn(simulation, search, &wish)
@@ -155,14 +161,14 @@ pub(super) fn remove(simulation: &mut Simulation, asked: &Entity) -> Result<(), 
         Entity::MODEL if simulation.delete(name) => Ok(()),
         Entity::MODEL => Err(entity::unknown(simulation, name)),
         Entity::NONE => delete(simulation, name),
-        _ => Err("only models and lights can be taken out of the world".into()),
+        _ => Err("only models and lights can be removed".into()),
     }
 }
 
-/// The name of an entity; numbers are not given out here.
+/// Returns the name of an entity; ids are not supported.
 fn named(entity: &Entity) -> Result<&str, String> {
     if entity.name.is_empty() {
-        return Err("name the entity: it is not known by a number here".into());
+        return Err("set the name of the entity: ids are not supported".into());
     }
     Ok(&entity.name)
 }

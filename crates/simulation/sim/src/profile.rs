@@ -1,27 +1,27 @@
-//! Where the time of a run goes.
+//! Profile of a run.
 
 use std::time::Duration;
 
 use periplus_os::Stopwatch;
 
-/// What is done in a step.
+/// Kind of work in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Work {
     /// Drives, joints, contacts.
     Physics,
-    /// Rays, pictures and the other measurements.
+    /// Rays, images and other measurements.
     Sensing,
-    /// Delivering messages, and what nodes do with them.
+    /// Message delivery and callbacks of nodes.
     Messages,
-    /// Writing the bag: encoding, compressing, disk.
+    /// Bag writing: encoding, compression, disk.
     Recording,
 }
 
 impl Work {
-    /// All, in the order of a step.
+    /// All kinds, in the order of a step.
     pub const ALL: [Self; 4] = [Self::Physics, Self::Sensing, Self::Messages, Self::Recording];
 
-    /// Its name for a person.
+    /// Returns the name for reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,24 +35,24 @@ impl Work {
 
 /// Wall time by kind of work.
 #[derive(Clone, Debug, Default)]
-pub struct Shares {
+pub struct WorkProfile {
     spent: [Duration; 4],
 }
 
-impl Shares {
-    /// Time spent on one kind of work.
+impl WorkProfile {
+    /// Returns the time of one kind of work.
     #[must_use]
     pub fn spent(&self, work: Work) -> Duration {
         self.spent[work as usize]
     }
 
-    /// Time spent on all.
+    /// Returns the total time.
     #[must_use]
     pub fn total(&self) -> Duration {
         self.spent.iter().sum()
     }
 
-    /// Adds what a stopwatch shows, and starts it again.
+    /// Adds the elapsed time of a stopwatch, and restarts it.
     pub(crate) fn lap(&mut self, work: Work, stopwatch: &mut Stopwatch) {
         self.spent[work as usize] += stopwatch.lap();
     }
@@ -62,7 +62,7 @@ impl Shares {
         self.spent[work as usize] += time;
     }
 
-    /// Counts a time as work of another kind.
+    /// Moves a time to another kind of work.
     pub(crate) fn shift(&mut self, from: Work, to: Work, time: Duration) {
         let time = time.min(self.spent[from as usize]);
         self.spent[from as usize] -= time;

@@ -1,21 +1,22 @@
-//! The world for who draws it: what is in it, where everything is, what could be put into it.
+//! The world for viewers: its visuals, poses, and insertable models.
 //!
 //! | name | type | what |
 //! |---|---|---|
 //! | `/world/<world>/scene` | `visualization_msgs/MarkerArray`, latched | every visual, after a marker that deletes all |
 //! | `/world/<world>/poses` | `tf2_msgs/TFMessage` | models and links in the frame `world`, 30 times a second |
 //! | `/world/<world>/sensors` | `tf2_msgs/TFMessage`, latched | mounting poses of the sensors, by topic and by frame |
-//! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | how well maps agree with the world, now and then |
+//! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | agreement of maps with
+//! the world, periodically |
 //! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
-//! | `/world/<world>/library` | `std_srvs/Trigger` | models that could be put into it, as JSON |
+//! | `/world/<world>/library` | `std_srvs/Trigger` | insertable models, as JSON |
 //!
-//! They are there when somebody asks for them ([`super::Services::show`]): a bag of everything is not
-//! to hold what nobody asked for.
+//! They exist only after a request ([`super::Services::show`]): a bag of all topics must not contain
+//! unrequested ones.
 
 mod library;
+mod map_comparison;
 mod markers;
 pub(super) mod save;
-mod truth;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -29,50 +30,50 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::MarkerArray;
 use periplus_os::Stopwatch;
 
-use self::truth::Truth;
+use self::map_comparison::MapComparison;
 use super::convert::{pose_message, vector_message};
-use super::harmonic::name_of;
-use super::offer::Offer;
+use super::gz_sim::name_of;
+use super::service_aliases::ServiceAliases;
 use crate::Simulation;
 
-/// Wall time between two messages about where things are: what an eye takes for motion.
+/// Wall time between two pose messages: smooth motion for a viewer.
 const PERIOD: Duration = Duration::from_millis(33);
 
-/// The frame that is the world itself.
+/// Name of the world frame.
 const WORLD: &str = "world";
 
-/// The world for who draws it.
-pub(super) struct Stage {
+/// The world for viewers.
+pub(super) struct ViewerTopics {
     scene: Publisher<MarkerArray>,
     poses: Publisher<TFMessage>,
     sensors: Publisher<TFMessage>,
-    truth: Truth,
-    save: Offer<Trigger>,
-    library: Offer<Trigger>,
-    /// Where models are looked for that could be put into it.
+    truth: MapComparison,
+    save: ServiceAliases<Trigger>,
+    library: ServiceAliases<Trigger>,
+    /// Folders of insertable models.
     folders: Vec<PathBuf>,
-    /// Which state of the world was told.
+    /// Version of the world that was published last.
     told: Option<u64>,
     since: Option<Stopwatch>,
 }
 
-impl Stage {
+impl ViewerTopics {
     pub(super) fn new(node: &Node, world: &str, folders: Vec<PathBuf>) -> Result<Self, GraphError> {
         let name = |what| name_of(world, what);
         Ok(Self {
             scene: node.publisher(&name("scene"), Qos::latched(1))?,
             poses: node.publisher(&name("poses"), Qos::best_effort(1))?,
             sensors: node.publisher(&name("sensors"), Qos::latched(1))?,
-            truth: Truth::new(node, &name("truth"))?,
-            save: Offer::new(node, [name("save").as_str()])?,
-            library: Offer::new(node, [name("library").as_str()])?,
+            truth: MapComparison::new(node, &name("truth"))?,
+            save: ServiceAliases::new(node, [name("save").as_str()])?,
+            library: ServiceAliases::new(node, [name("library").as_str()])?,
             folders,
             told: None,
             since: None,
         })
     }
 
-    /// Answers, and publishes what is due.
+    /// Answers requests, and publishes due messages.
     pub(super) fn serve(&mut self, simulation: &mut Simulation) -> Result<(), GraphError> {
         self.save.answer(|_| match save::text(simulation) {
             Ok(message) => TriggerResponse { success: true, message },
@@ -103,8 +104,8 @@ fn transform(header: &Header, child_frame_id: String, pose: Pose) -> TransformSt
     TransformStamped { header: header.clone(), child_frame_id, transform }
 }
 
-/// Mounting poses of the sensors' data in `<model>/<link>`. Each is there by its topic, and by the
-/// frame of its messages, for bridges that publish them under another name; of two with one frame the
+/// Returns mounting poses of the sensors' data in `<model>/<link>`. Each is listed by its topic, and
+/// by the frame of its messages for bridges that use other names; of two with the same frame the
 /// first counts.
 fn sensors(simulation: &Simulation) -> TFMessage {
     let mut transforms: Vec<TransformStamped> = Vec::new();
@@ -120,7 +121,7 @@ fn sensors(simulation: &Simulation) -> TFMessage {
     TFMessage { transforms }
 }
 
-/// Where all models and links are.
+/// Returns the poses of all models and links.
 fn poses(simulation: &Simulation) -> TFMessage {
     let header = Header::at(simulation.time_ns(), WORLD);
     let mut transforms = Vec::new();

@@ -1,4 +1,4 @@
-//! Models that could be put into a world.
+//! Insertable models.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,15 +7,15 @@ use periplus_os::Machine;
 use periplus_resources::{Host, Kind};
 use serde_json::json;
 
-/// Folders that are looked into; a resource path may name a whole disk.
-const MOST_FOLDERS: usize = 20_000;
+/// Maximum number of searched folders; a resource path may contain a whole disk.
+const MAX_FOLDER_COUNT: usize = 20_000;
 
-/// Variables that name folders with models in them, as Gazebo has them.
+/// Gazebo's environment variables for model folders.
 const VARIABLES: [&str; 4] =
     ["GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH"];
 
-/// A list of `{"name", "uri", "path"}` as JSON, by name: every model in the folders and on the paths
-/// that the environment names. The first of a name counts, as for `model://`.
+/// Returns a list of `{"name", "uri", "path"}` as JSON, by name: every model in the folders and on
+/// the paths of the environment. The first of equal names counts, as for `model://`.
 pub(super) fn models(folders: &[PathBuf]) -> String {
     let named = VARIABLES.iter().filter_map(|name| Machine.variable(name));
     let named: Vec<PathBuf> =
@@ -35,7 +35,7 @@ pub(super) fn models(folders: &[PathBuf]) -> String {
 
 fn look(folder: &Path, found: &mut BTreeMap<String, PathBuf>, looks: &mut usize, depth: usize) {
     *looks += 1;
-    if *looks > MOST_FOLDERS {
+    if *looks > MAX_FOLDER_COUNT {
         return;
     }
     if Machine.kind(&folder.join("model.config")) == Some(Kind::File) {

@@ -1,4 +1,4 @@
-//! A world as it is now, as SDF.
+//! Export of the current world as SDF.
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_scene::{Model, Scene};
@@ -7,10 +7,10 @@ use periplus_xml::write_document;
 use super::super::reading::told;
 use crate::Simulation;
 
-/// The text; models stand where they are now, their links as they came.
+/// Returns the SDF with models at their current poses, and links at their initial poses in them.
 ///
 /// # Errors
-/// What SDF cannot say.
+/// The part of the world that SDF cannot represent.
 pub(in crate::services) fn text(simulation: &Simulation) -> Result<String, String> {
     let mut world = simulation.scene.clone();
     let running = simulation.running.iter();

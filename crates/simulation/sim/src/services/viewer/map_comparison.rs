@@ -1,4 +1,4 @@
-//! How well maps agree with the world, for who compares: `/world/<world>/truth`.
+//! Comparison of maps with the world: `/world/<world>/truth`.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -22,67 +22,67 @@ use crate::Simulation;
 /// Wall time between two messages.
 const PERIOD: Duration = Duration::from_secs(2);
 
-/// To compare may take this part of the time.
-const SHARE: u32 = 20;
+/// Inverse of the maximum fraction of time for comparisons.
+const COMPARISON_PERIOD_FACTOR: u32 = 20;
 
-/// What is compared is compared within this of where the robot believes to be.
+/// Search window about the robot's estimated pose.
 const WINDOW_M: f64 = 0.6;
 const WINDOW_RAD: f64 = 0.12;
 
-/// Larger maps are not compared \[cells\].
-const MOST_CELLS: usize = 16_000_000;
+/// Maximum size of a compared map \[cells\].
+const MAX_CELLS: usize = 16_000_000;
 
-/// The robot's place is kept this often, and so many times \[ns\]: what it believes comes later.
-const KEEP_NS: i64 = 20_000_000;
-const KEPT: usize = 150;
+/// Period \[ns\] and number of stored robot poses: estimates arrive later.
+const STORE_PERIOD_NS: i64 = 20_000_000;
+const STORED_POSE_COUNT: usize = 150;
 
-/// Walls further from true ones than this are told as a warning \[m\].
-const GOOD_M: f64 = 0.1;
+/// Mean distance of walls beyond which the status is a warning \[m\].
+const GOOD_DISTANCE_M: f64 = 0.1;
 
-/// How well maps agree with the world.
-pub(super) struct Truth {
+/// Comparison of maps with the world.
+pub(super) struct MapComparison {
     node: Node,
     told: Publisher<DiagnosticArray>,
-    hearing: Option<Hearing>,
+    hearing: Option<MapSubscriptions>,
     since: Option<Stopwatch>,
     took: Duration,
 }
 
-/// What is heard while somebody wants to know.
-struct Hearing {
+/// Subscriptions, while the topic has subscribers.
+struct MapSubscriptions {
     frames: Frames,
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     maps: BTreeMap<String, Map>,
     generation: Option<u64>,
-    /// Where the robot's links were, by time \[ns\].
+    /// Past poses of the robot's links, by time \[ns\].
     places: VecDeque<(i64, Vec<(String, Pose2)>)>,
 }
 
-/// A map that somebody publishes.
+/// A published map.
 struct Map {
     mailbox: Mailbox<nav_msgs::OccupancyGrid>,
     last: Option<Arc<nav_msgs::OccupancyGrid>>,
 }
 
-impl Truth {
+impl MapComparison {
     pub(super) fn new(node: &Node, topic: &str) -> Result<Self, GraphError> {
         let told = node.publisher(topic, Qos::latched(1))?;
         Ok(Self { node: node.clone(), told, hearing: None, since: None, took: Duration::ZERO })
     }
 
-    /// Compares and tells when it is time.
+    /// Compares and publishes when it is due.
     pub(super) fn serve(&mut self, simulation: &mut Simulation) -> Result<(), GraphError> {
         if !self.told.is_heard() {
             self.hearing = None;
             return Ok(());
         }
         if self.hearing.is_none() {
-            self.hearing = Some(Hearing::new(&self.node)?);
+            self.hearing = Some(MapSubscriptions::new(&self.node)?);
         }
         let Some(hearing) = &mut self.hearing else { return Ok(()) };
         hearing.keep(simulation);
-        let period = PERIOD.max(self.took * SHARE);
+        let period = PERIOD.max(self.took * COMPARISON_PERIOD_FACTOR);
         if self.since.as_ref().is_some_and(|since| since.elapsed() < period) {
             return Ok(());
         }
@@ -99,7 +99,7 @@ impl Truth {
     }
 }
 
-impl Hearing {
+impl MapSubscriptions {
     fn new(node: &Node) -> Result<Self, GraphError> {
         Ok(Self {
             frames: Frames::default(),
@@ -111,19 +111,19 @@ impl Hearing {
         })
     }
 
-    /// Keeps where the robot is now.
+    /// Stores the robot's current pose.
     fn keep(&mut self, simulation: &Simulation) {
         let now_ns = simulation.time_ns();
         match self.places.back() {
-            // Time went back.
+            // Time jumped back.
             Some((last_ns, _)) if *last_ns > now_ns => {
                 self.places.clear();
                 self.frames.forget();
             }
-            Some((last_ns, _)) if now_ns - last_ns < KEEP_NS => return,
+            Some((last_ns, _)) if now_ns - last_ns < STORE_PERIOD_NS => return,
             _ => {}
         }
-        if self.places.len() == KEPT {
+        if self.places.len() == STORED_POSE_COUNT {
             self.places.pop_front();
         }
         self.places.push_back((now_ns, simulation.robot_links()));
@@ -132,7 +132,7 @@ impl Hearing {
         }
     }
 
-    /// Takes in new maps, of all who publish one.
+    /// Receives new maps of all publishers.
     fn hear(&mut self, node: &Node, simulation: &Simulation) {
         let graph = simulation.graph();
         if self.generation.replace(graph.generation()) != Some(graph.generation()) {
@@ -161,7 +161,7 @@ impl Hearing {
                 });
                 self.maps.extend(map.map(|map| (topic.name, map)));
             }
-            // Mailboxes that were made count as changes.
+            // New mailboxes count as changes.
             self.generation = Some(graph.generation());
         }
         for map in self.maps.values_mut() {
@@ -172,18 +172,18 @@ impl Hearing {
     fn compare(&self, simulation: &mut Simulation) -> Vec<DiagnosticStatus> {
         let maps = self.maps.iter().filter_map(|(name, map)| Some((name, map.last.as_ref()?)));
         maps.filter_map(|(name, message)| {
-            let map = from_message(message).ok().filter(|map| map.lattice.len() <= MOST_CELLS)?;
+            let map = from_message(message).ok().filter(|map| map.lattice.len() <= MAX_CELLS)?;
             let world_from_map = self.world_from_map(&message.header.frame_id)?;
             Some(describe(name, &simulation.beside_truth(&map, world_from_map)?))
         })
         .collect()
     }
 
-    /// Where a map lies in the world, if the robot is where it believes to be: by the newest place of
-    /// which both are known.
+    /// Returns the pose of a map in the world if the robot's estimate is right, at the newest time
+    /// with both poses.
     fn world_from_map(&self, frame: &str) -> Option<Pose2> {
         let (_, links) = self.places.back()?;
-        // Others may be held by joints of which nobody tells.
+        // Other links may depend on joints without published states.
         let rank = |name: &str| match name {
             "base_link" => 0,
             "base_footprint" => 1,
@@ -201,8 +201,8 @@ impl Hearing {
 }
 
 impl Simulation {
-    /// How well a map agrees with the world, where it lies there like this, give or take what a robot
-    /// may be wrong by. None where there is no robot, or the world around it is too large.
+    /// Compares a map at this pose with the world, with a search window for the robot's estimation
+    /// error. `None` without a robot, or if the world around it is too large.
     pub fn beside_truth(
         &mut self,
         map: &OccupancyGrid,
@@ -216,8 +216,8 @@ impl Simulation {
         Some(BesideTruth { explored, ..found })
     }
 
-    /// The truth on the cells of a map, and on as many more as it takes to have all that the robot
-    /// could get to, and whether that is all; no more than the map where there is no end of it.
+    /// Returns the true map on the cells of a map, extended to all that the robot could reach, and
+    /// whether it is complete; without the extension if it is unbounded.
     fn truth_around(&mut self, lattice: Lattice) -> Option<(OccupancyGrid, bool)> {
         let own = self.truth_map(lattice)?;
         let mut truth = own.clone();
@@ -227,7 +227,8 @@ impl Simulation {
             let (width, height) = (width + 2 * more, height + 2 * more);
             let corner = truth.lattice.moved(-(more as i64), -(more as i64)).origin;
             let larger = Lattice::new(resolution_m, width, height, corner).ok();
-            let Some(larger) = larger.filter(|it| it.len() <= MOST_AROUND.max(4 * lattice.len()))
+            let Some(larger) =
+                larger.filter(|it| it.len() <= MAX_MARGIN_CELLS.max(4 * lattice.len()))
             else {
                 return Some((own, false));
             };
@@ -237,10 +238,10 @@ impl Simulation {
     }
 }
 
-/// The truth is looked for on no more cells than this beyond the map.
-const MOST_AROUND: usize = 1_000_000;
+/// Maximum number of cells of the true map beyond the map.
+const MAX_MARGIN_CELLS: usize = 1_000_000;
 
-/// Whether what is free goes on beyond: it reaches the edge, or begins elsewhere.
+/// Returns true if free space continues beyond the map: it reaches the border, or begins elsewhere.
 fn is_open(map: &OccupancyGrid) -> bool {
     let (width, height) = (map.lattice.width, map.lattice.height);
     let edge = |index: usize| {
@@ -266,7 +267,7 @@ fn describe(topic: &str, found: &BesideTruth) -> DiagnosticStatus {
     let values = found.numbers().into_iter();
     let values =
         values.map(|(key, value)| KeyValue { key: key.to_owned(), value: format!("{value:.4}") });
-    let is_good = walls.mean_m.is_nan() || walls.mean_m <= GOOD_M;
+    let is_good = walls.mean_m.is_nan() || walls.mean_m <= GOOD_DISTANCE_M;
     DiagnosticStatus {
         level: if is_good { DiagnosticStatus::OK } else { DiagnosticStatus::WARN },
         name: topic.to_owned(),

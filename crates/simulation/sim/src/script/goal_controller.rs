@@ -1,29 +1,29 @@
-//! From where the robot is to where it should be: a row of goals, one after the other.
+//! Path following over a sequence of goals.
 
 use periplus_geometry::Pose;
 use periplus_msgs::geometry_msgs::Twist;
 
-/// A place to drive to.
+/// A goal position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// Where, in the world's frame \[m\].
+    /// Position in the world frame \[m\].
     pub position_m: [f64; 2],
-    /// Not before this simulated time \[ns\].
+    /// Earliest simulated time \[ns\].
     pub not_before_ns: i64,
-    /// The highest speed [m/s].
+    /// Maximum speed [m/s].
     pub speed_m_s: f64,
-    /// The highest turning rate [rad/s].
+    /// Maximum yaw rate [rad/s].
     pub turn_rad_s: f64,
-    /// How the speed falls towards the last goal and rises from standstill [m/s²].
+    /// Maximum deceleration towards the last goal and acceleration from standstill [m/s²].
     pub acceleration_m_s2: f64,
-    /// How near is there \[m\].
+    /// Tolerance of the position \[m\].
     pub tolerance_m: f64,
-    /// The smallest radius of a curve \[m\]: of a car. 0 turns in place.
+    /// Minimum turning radius of a car \[m\]; 0 turns in place.
     pub radius_m: f64,
 }
 
 impl Goal {
-    /// At most 0.5 m/s and 1 rad/s, to within 0.1 m.
+    /// Returns a goal with defaults: at most 0.5 m/s and 1 rad/s, to within 0.1 m.
     #[must_use]
     pub fn at(position_m: [f64; 2]) -> Self {
         Self {
@@ -38,17 +38,17 @@ impl Goal {
     }
 }
 
-/// Forwards and to the left.
+/// A planar velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Velocity {
+pub struct PlanarVelocity {
     /// Forwards [m/s].
     pub forward_m_s: f64,
-    /// To the left [rad/s].
+    /// Yaw rate, counterclockwise [rad/s].
     pub left_rad_s: f64,
 }
 
-impl From<Velocity> for Twist {
-    fn from(velocity: Velocity) -> Self {
+impl From<PlanarVelocity> for Twist {
+    fn from(velocity: PlanarVelocity) -> Self {
         let mut twist = Self::default();
         twist.linear.x = velocity.forward_m_s;
         twist.angular.z = velocity.left_rad_s;
@@ -56,58 +56,58 @@ impl From<Velocity> for Twist {
     }
 }
 
-/// Beyond this angle to the goal a robot that can turn in place does so [rad]: about 45 degrees.
+/// Angle to the goal beyond which a robot turns in place, if it can [rad]: about 45 degrees.
 const TURN_IN_PLACE_RAD: f64 = 0.8;
 
-/// Turning in place, the rate per angle that is left [1/s].
-const TURN_GAIN: f64 = 2.0;
+/// Yaw rate per remaining angle when turning in place [1/s].
+const TURN_GAIN_PER_S: f64 = 2.0;
 
-/// Slower than this the last centimetres would take for ever [m/s].
-const CREEP_M_S: f64 = 0.02;
+/// Minimum speed, so that the last centimetres do not take forever [m/s].
+const MIN_SPEED_M_S: f64 = 0.02;
 
 /// Drives to goals in their order.
 ///
-/// The law is that of pure pursuit (Coulter 1992, "Implementation of the Pure Pursuit Path Tracking
-/// Algorithm") with the goal itself as the point that is pursued: the arc through it, tangent to the
-/// heading, has the curvature `2 y / d²`, where `y` is how far the goal lies to the left and `d` is
-/// its distance. Who has the goal far off to the side turns in place first.
+/// The control law is pure pursuit (Coulter 1992, "Implementation of the Pure Pursuit Path Tracking
+/// Algorithm") with the goal itself as the pursued point: the arc through it, tangent to the
+/// heading, has the curvature `2 y / d²`, where `y` is the lateral offset of the goal and `d` its
+/// distance. A robot with the goal far to the side turns in place first.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pilot {
+pub struct GoalController {
     goals: Vec<Goal>,
     next: usize,
     turning: bool,
 }
 
-impl Pilot {
-    /// Stands before the first goal.
+impl GoalController {
+    /// Creates a pilot before the first goal.
     #[must_use]
     pub fn new(goals: Vec<Goal>) -> Self {
         Self { goals, next: 0, turning: false }
     }
 
-    /// The goal that is driven to; none when all are reached.
+    /// Returns the current goal; `None` when all are reached.
     #[must_use]
     pub fn goal(&self) -> Option<&Goal> {
         self.goals.get(self.next)
     }
 
-    /// How many goals are reached.
+    /// Returns the number of reached goals.
     #[must_use]
     pub fn reached(&self) -> usize {
         self.next
     }
 
-    /// The velocity for now, from the time and the pose of the robot's base; none when all goals
-    /// are reached.
-    pub fn steer(&mut self, time_ns: i64, world_from_base: Pose) -> Option<Velocity> {
+    /// Returns the velocity at a time and pose of the robot's base; `None` when all goals are
+    /// reached.
+    pub fn steer(&mut self, time_ns: i64, world_from_base: Pose) -> Option<PlanarVelocity> {
         loop {
             let goal = *self.goals.get(self.next)?;
             if time_ns < goal.not_before_ns {
-                return Some(Velocity::default());
+                return Some(PlanarVelocity::default());
             }
             let Some(distance_m) = distance(&goal, world_from_base) else {
-                // A robot that is nowhere stands.
-                return Some(Velocity::default());
+                // A robot without a pose stops.
+                return Some(PlanarVelocity::default());
             };
             if distance_m > goal.tolerance_m {
                 return Some(self.towards(&goal, world_from_base, distance_m));
@@ -117,7 +117,7 @@ impl Pilot {
         }
     }
 
-    fn towards(&mut self, goal: &Goal, world_from_base: Pose, distance_m: f64) -> Velocity {
+    fn towards(&mut self, goal: &Goal, world_from_base: Pose, distance_m: f64) -> PlanarVelocity {
         let yaw_rad = world_from_base.rpy().yaw;
         let (sine, cosine) = libm::sincos(yaw_rad);
         let [x_m, y_m] = offset(goal, world_from_base);
@@ -126,12 +126,12 @@ impl Pilot {
         let angle_rad = libm::atan2(left_m, ahead_m);
 
         let can_turn_in_place = goal.radius_m <= 0.0;
-        // Once begun, a turn in place is finished: no hesitation at the border.
+        // A turn in place is finished once begun, to avoid chattering at the threshold.
         let enough_rad = if self.turning { 0.05 } else { TURN_IN_PLACE_RAD };
         self.turning = can_turn_in_place && angle_rad.abs() > enough_rad;
         if self.turning {
-            let rate = (TURN_GAIN * angle_rad).clamp(-goal.turn_rad_s, goal.turn_rad_s);
-            return Velocity { forward_m_s: 0.0, left_rad_s: rate };
+            let rate = (TURN_GAIN_PER_S * angle_rad).clamp(-goal.turn_rad_s, goal.turn_rad_s);
+            return PlanarVelocity { forward_m_s: 0.0, left_rad_s: rate };
         }
 
         let mut curvature = 2.0 * left_m / (distance_m * distance_m);
@@ -147,15 +147,15 @@ impl Pilot {
         let is_last = self.next + 1 == self.goals.len();
         let mut speed_m_s = goal.speed_m_s;
         if is_last {
-            // As fast as can still be braked: v² = 2 a s.
+            // Braking distance: v² = 2 a s.
             let braking = libm::sqrt(2.0 * goal.acceleration_m_s2 * distance_m);
-            speed_m_s = speed_m_s.min(braking).max(CREEP_M_S.min(goal.speed_m_s));
+            speed_m_s = speed_m_s.min(braking).max(MIN_SPEED_M_S.min(goal.speed_m_s));
         }
-        // A tight curve is driven slowly enough for the turning rate.
+        // A tight curve is driven slowly enough for the maximum yaw rate.
         if (curvature * speed_m_s).abs() > goal.turn_rad_s {
             speed_m_s = goal.turn_rad_s / curvature.abs();
         }
-        Velocity { forward_m_s: speed_m_s, left_rad_s: curvature * speed_m_s }
+        PlanarVelocity { forward_m_s: speed_m_s, left_rad_s: curvature * speed_m_s }
     }
 }
 
@@ -181,9 +181,9 @@ mod tests {
         Pose::from_xyz_rpy([x, y, 0.0], Rpy { roll: 0.0, pitch: 0.0, yaw })
     }
 
-    /// Drives a robot that does what it is told, 50 times a second; time and place at the end.
+    /// Simulates an ideal robot at 50 Hz; returns the final time and pose.
     fn drive(goals: Vec<Goal>, mut at: [f64; 3], longest_s: f64) -> Option<(f64, [f64; 3])> {
-        let mut pilot = Pilot::new(goals);
+        let mut pilot = GoalController::new(goals);
         let step_s = 0.02;
         let mut time_s = 0.0;
         while time_s < longest_s {
@@ -205,14 +205,17 @@ mod tests {
 
     #[test]
     fn straight_ahead_is_straight() {
-        let velocity = Pilot::new(vec![Goal::at([9.0, 0.0])]).steer(0, Pose::IDENTITY).unwrap();
-        assert_eq!(velocity, Velocity { forward_m_s: 0.5, left_rad_s: 0.0 });
+        let velocity =
+            GoalController::new(vec![Goal::at([9.0, 0.0])]).steer(0, Pose::IDENTITY).unwrap();
+        assert_eq!(velocity, PlanarVelocity { forward_m_s: 0.5, left_rad_s: 0.0 });
         // A quarter circle of 1 m would lead there, but the goal is 45 degrees off: an arc.
-        let velocity = Pilot::new(vec![Goal::at([1.0, 1.0])]).steer(0, Pose::IDENTITY).unwrap();
+        let velocity =
+            GoalController::new(vec![Goal::at([1.0, 1.0])]).steer(0, Pose::IDENTITY).unwrap();
         assert!((velocity.left_rad_s / velocity.forward_m_s - 1.0).abs() < 1e-12);
         // To the left: turn first.
-        let velocity = Pilot::new(vec![Goal::at([0.0, 1.0])]).steer(0, Pose::IDENTITY).unwrap();
-        assert_eq!(velocity, Velocity { forward_m_s: 0.0, left_rad_s: 1.0 });
+        let velocity =
+            GoalController::new(vec![Goal::at([0.0, 1.0])]).steer(0, Pose::IDENTITY).unwrap();
+        assert_eq!(velocity, PlanarVelocity { forward_m_s: 0.0, left_rad_s: 1.0 });
     }
 
     #[test]
@@ -228,8 +231,8 @@ mod tests {
     #[test]
     fn a_goal_waits_for_its_time() {
         let goal = Goal { not_before_ns: 5_000_000_000, ..Goal::at([1.0, 0.0]) };
-        let mut pilot = Pilot::new(vec![goal]);
-        assert_eq!(pilot.steer(4_999_999_999, Pose::IDENTITY), Some(Velocity::default()));
+        let mut pilot = GoalController::new(vec![goal]);
+        assert_eq!(pilot.steer(4_999_999_999, Pose::IDENTITY), Some(PlanarVelocity::default()));
         assert!(pilot.steer(5_000_000_000, Pose::IDENTITY).unwrap().forward_m_s > 0.0);
         assert_eq!(pilot.steer(6_000_000_000, pose(0.95, 0.0, 0.0)), None);
         assert_eq!(pilot.reached(), 1);
@@ -238,7 +241,7 @@ mod tests {
     #[test]
     fn a_car_keeps_its_radius() {
         let goal = Goal { radius_m: 1.5, tolerance_m: 0.2, ..Goal::at([-4.0, 0.5]) };
-        let mut pilot = Pilot::new(vec![goal]);
+        let mut pilot = GoalController::new(vec![goal]);
         let first = pilot.steer(0, Pose::IDENTITY).unwrap();
         assert!((first.left_rad_s / first.forward_m_s - 1.0 / 1.5).abs() < 1e-12);
         assert!(drive(vec![goal], [0.0; 3], 100.0).is_some());
@@ -246,9 +249,9 @@ mod tests {
 
     #[test]
     fn a_robot_that_is_nowhere_stands() {
-        let mut pilot = Pilot::new(vec![Goal::at([1.0, 0.0])]);
+        let mut pilot = GoalController::new(vec![Goal::at([1.0, 0.0])]);
         let nowhere = pose(f64::NAN, 0.0, 0.0);
-        assert_eq!(pilot.steer(0, nowhere), Some(Velocity::default()));
+        assert_eq!(pilot.steer(0, nowhere), Some(PlanarVelocity::default()));
     }
 
     proptest! {

@@ -1,13 +1,13 @@
-//! One service under several names.
+//! Services with several names.
 
 use periplus_graph::{Calls, GraphError, Node};
 use periplus_msgs::Service;
 
-/// A service under all the names that Gazebo's generations have for it.
-pub(super) struct Offer<S>(Vec<Calls<S>>);
+/// A service under its names in all generations of Gazebo.
+pub(super) struct ServiceAliases<S>(Vec<Calls<S>>);
 
-impl<S: Service> Offer<S> {
-    /// A name that comes twice counts once.
+impl<S: Service> ServiceAliases<S> {
+    /// Duplicate names are ignored.
     pub(super) fn new<'a>(
         node: &Node,
         names: impl IntoIterator<Item = &'a str>,
@@ -21,7 +21,7 @@ impl<S: Service> Offer<S> {
         wanted.into_iter().map(|name| node.server(name)).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Answers what was asked since the last time.
+    /// Answers requests since the last call.
     pub(super) fn answer(&self, mut answer: impl FnMut(&S::Request) -> S::Response) {
         for calls in &self.0 {
             while let Some(call) = calls.take() {

@@ -12,25 +12,25 @@ use periplus_scene::{
 use super::super::convert::{colour_message, pose_message, vector_message};
 use crate::Simulation;
 
-/// Gazebo's own grey for what has no material.
+/// Gazebo's default grey.
 const PLAIN: Colour = Colour([0.7, 0.7, 0.7, 1.0]);
 
-/// How thick a plane is drawn \[m\].
+/// Thickness of a plane \[m\].
 const PLANE_M: f64 = 0.001;
 
 /// Sides of a cone.
-const SIDES: u32 = 32;
+const CONE_SIDE_COUNT: u32 = 32;
 
-/// Corners of an outline, as far as it is drawn.
-const MOST_CORNERS: usize = 1024;
+/// Maximum number of corners of a polyline.
+const MAX_CORNERS: usize = 1024;
 
-/// Points along a side of a ground, as far as it is drawn.
-const MOST_POINTS: usize = 129;
+/// Maximum number of points along a side of a heightmap.
+const MAX_POINTS: usize = 129;
 
-/// What a model is made of, for the eye: all deleted first, so that what is gone goes.
+/// Returns the markers of all visuals, after a marker that deletes all.
 pub(super) fn of(simulation: &Simulation) -> MarkerArray {
     let all = Marker { action: Marker::DELETEALL, ..Marker::default() };
-    let mut artist = Artist { simulation, model: "", markers: vec![all] };
+    let mut artist = MarkerBuilder { simulation, model: "", markers: vec![all] };
     for running in &simulation.running {
         artist.model = &running.member.name;
         artist.model(&running.member.model);
@@ -38,15 +38,15 @@ pub(super) fn of(simulation: &Simulation) -> MarkerArray {
     MarkerArray { markers: artist.markers }
 }
 
-struct Artist<'a> {
+struct MarkerBuilder<'a> {
     simulation: &'a Simulation,
     model: &'a str,
     markers: Vec<Marker>,
 }
 
-impl Artist<'_> {
+impl MarkerBuilder<'_> {
     fn model(&mut self, model: &Model) {
-        // A list instead of recursion: models may be nested deeper than the stack.
+        // Iterative: models can be nested deeper than the call stack allows.
         let mut open = vec![(String::new(), model)];
         while let Some((scope, model)) = open.pop() {
             for link in &model.links {
@@ -105,7 +105,7 @@ impl Artist<'_> {
             }
             Shape::Polylines(outlines) => self.triangles(blank, at, prism(outlines)),
             Shape::Heightmap(map) => {
-                // What is wrong with it is told by those who see it.
+                // Problems are reported by rendering.
                 if let Ok(samples) = sample_heightmap(map, self.simulation.files()) {
                     let at = at * samples.shape_from_heightmap;
                     self.triangles(blank, at, terrain_triangles(&samples));
@@ -132,7 +132,7 @@ impl Artist<'_> {
         }
         let mut marker = blank.clone();
         if own_look {
-            // No tint where the file has colours of its own.
+            // No tint for a file with its own colours.
             marker.color = ColorRGBA { a: marker.color.a, ..ColorRGBA::default() };
             if marker.color.a >= 1.0 {
                 marker.color.a = 0.0;
@@ -160,7 +160,7 @@ fn colour_of(material: &Material) -> Colour {
     material.diffuse.or(material.ambient).or(material.emissive).unwrap_or(PLAIN)
 }
 
-/// A path as a URI; what is one already stays.
+/// Converts a path to a URI; URIs are kept.
 fn file_uri(path: &str) -> String {
     if path.contains("://") || !path.starts_with('/') {
         return path.to_owned();
@@ -175,10 +175,11 @@ fn round(radius_m: f64, length_m: f64) -> DVec3 {
 fn cone(radius_m: f64, length_m: f64) -> Vec<DVec3> {
     let (tip, foot) = (DVec3::new(0.0, 0.0, 0.5 * length_m), DVec3::new(0.0, 0.0, -0.5 * length_m));
     let corner = |side: u32| {
-        let angle = std::f64::consts::TAU * f64::from(side % SIDES) / f64::from(SIDES);
+        let angle =
+            std::f64::consts::TAU * f64::from(side % CONE_SIDE_COUNT) / f64::from(CONE_SIDE_COUNT);
         foot + radius_m * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0)
     };
-    let pieces = (0..SIDES).flat_map(|side| {
+    let pieces = (0..CONE_SIDE_COUNT).flat_map(|side| {
         let (one, next) = (corner(side), corner(side + 1));
         [one, next, tip, next, one, foot]
     });
@@ -186,7 +187,7 @@ fn cone(radius_m: f64, length_m: f64) -> Vec<DVec3> {
 }
 
 fn prism(outlines: &[Polyline]) -> Vec<DVec3> {
-    let Ok(edges) = edges(outlines, MOST_CORNERS) else { return Vec::new() };
+    let Ok(edges) = edges(outlines, MAX_CORNERS) else { return Vec::new() };
     let height = outlines.first().map_or(0.0, |first| first.height_m);
     let mut points = Vec::new();
     let mut quad = |corners: [[f64; 3]; 4]| {
@@ -204,9 +205,9 @@ fn prism(outlines: &[Polyline]) -> Vec<DVec3> {
     points
 }
 
-/// A ground as triangles, coarser where it is fine.
+/// Returns the triangles of a heightmap, downsampled if it is fine.
 fn terrain_triangles(samples: &periplus_rendering::HeightmapSamples) -> Vec<DVec3> {
-    let step = samples.columns.max(samples.rows).div_ceil(MOST_POINTS).max(1);
+    let step = samples.columns.max(samples.rows).div_ceil(MAX_POINTS).max(1);
     let places = |count: usize| -> Vec<usize> {
         let mut places: Vec<usize> = (0..count).step_by(step).collect();
         if places.last() != Some(&(count - 1)) {
