@@ -14,7 +14,7 @@ use std::sync::Arc;
 use clap::Args;
 use periplus_geometry::Pose2;
 use periplus_graph::NodeSettings;
-use periplus_nav_nodes::slam_toolbox::RealTimePacer;
+use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::Stopwatch;
 use periplus_sim::{
     AssetFiles, Driver, Options, Run, Search, Services, Simulation, SimulationRecorder,
@@ -115,7 +115,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let mut services = Services::new(&simulation, search).map_err(|error| words(&error))?;
     let graph = simulation.graph().clone();
     let (program, values) = stage::mapping();
-    let pace = if options.headless { RealTimePacer::Whole } else { RealTimePacer::Sliced };
+    let pace = if options.headless { Pace::Whole } else { Pace::Sliced };
     let node = graph.node(NodeSettings::new(program.node_name()));
     let mapping = Mapping::new(node, program, values, pace, out.as_deref());
     let mapping = mapping.map_err(|()| "the mapping node could not start".to_owned())?;

@@ -20,7 +20,7 @@ use std::ffi::OsString;
 use std::io::Write as _;
 use std::process::{Command, ExitCode, Stdio};
 
-/// How much too low the casters are [mm].
+/// Height error of the casters [mm], downwards.
 const DROPS_MM: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0];
 const FRICTION_RATIO: [f64; 3] = [0.001, 0.2, 0.5];
 const SECTION: [&str; 2] =

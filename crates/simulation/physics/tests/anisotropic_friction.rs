@@ -1,4 +1,4 @@
-//! What is rougher one way: skates and wheels with rollers.
+//! Anisotropic friction: skates and wheels with rollers.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 mod common;

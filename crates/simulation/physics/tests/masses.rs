@@ -42,7 +42,7 @@ fn round(mass_kg: f64, gyration_m: f64) -> [f64; 6] {
     [moment, 0.0, 0.0, moment, 0.0, moment]
 }
 
-/// What a base and its wheels have for inertias.
+/// Inertias of a base and its wheels.
 const INERTIAS: [(&str, Inertia, Inertia); 6] = [
     ("right", |mass| round(mass, 0.06), |mass| round(mass, 0.012)),
     ("far too small", |mass| round(mass, 1e-4), |mass| round(mass, 1e-4)),

@@ -58,7 +58,7 @@ fn add(world: &mut PhysicsWorld, model: &Model, pose: Pose) {
     assert!(model.is_some() && diagnostics.is_empty(), "{diagnostics:?}");
 }
 
-/// How high a ball of 2 cm that slides down a plumb line comes to rest on a shape.
+/// Returns the rest height of a ball of 2 cm that slides down a plumb line onto a shape.
 fn rest(shape: Shape, x: f64, y: f64) -> f64 {
     let mut world = PhysicsWorld::empty(DOWN, PhysicsMode::Rigid);
     add(&mut world, &fixed(shape), Pose::IDENTITY);

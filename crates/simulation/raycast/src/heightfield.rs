@@ -41,7 +41,7 @@ impl fmt::Display for HeightfieldError {
             Self::Count => {
                 write!(
                     f,
-                    "a height field needs at min_lane two columns and two rows, and columns x rows heights"
+                    "a height field needs at least two columns and two rows, and columns x rows heights"
                 )
             }
             Self::Size => write!(f, "the size of a height field must be between 0 and 1e9 m"),

@@ -44,7 +44,7 @@ impl Default for Tags {
 pub struct Filter {
     /// Compared with [`Tags::mask`] (SDF `visibility_mask`).
     pub mask: u32,
-    /// InstanceLeaves of this group are invisible; 0 excludes none.
+    /// Instances of this group are invisible; 0 excludes none.
     pub except_group: u32,
 }
 
@@ -78,7 +78,7 @@ pub struct RaycastWorld {
     parts_mask: u32,
     /// Groups of the parts, sorted.
     parts_groups: Vec<u32>,
-    /// InstanceLeaves by id.
+    /// Instances by id.
     instances: Vec<Instance>,
     /// Tree over bounded instances that have not moved.
     resting: InstanceTree,

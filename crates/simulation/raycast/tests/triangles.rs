@@ -280,7 +280,7 @@ fn equal_triangles_by_the_thousand_still_make_a_tree() {
     solid.triangles = vec![[0, 1, 2]; 5000];
     let hit = fixed(&solid).cast(&Ray::new(DVec3::ZERO, DVec3::X), Filter::default()).unwrap();
     assert_eq!((hit.distance_m, hit.primitive), (1.0, 0));
-    // Each twice the one before: splits that pop off one at a time.
+    // Each twice the one before: splits that take off one at a time.
     let mut solid = Solid::default();
     for number in 0..120_u32 {
         let size = 2f64.powi(i32::try_from(number).unwrap() / 4 - 15);

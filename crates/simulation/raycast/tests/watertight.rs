@@ -70,7 +70,7 @@ fn ball(rings: u32, sectors: u32, radius: f64, shift: DVec3) -> Solid {
     solid
 }
 
-/// How many rays from inside get out.
+/// Returns the number of rays that escape from inside.
 fn leaks(solid: &Solid, inside: impl Fn(&mut Stream) -> DVec3, count: usize) -> usize {
     let world = fixed(solid);
     let mut stream = Stream::keyed(2, "leaks", 0);

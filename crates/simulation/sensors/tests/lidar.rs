@@ -6,7 +6,7 @@ use periplus_scene::{Noise, NoiseKind, ScanAxis};
 use periplus_sensors::{LidarSensor, RayView, Streams, Sweep};
 use proptest::prelude::*;
 
-/// What the issue asks for [m].
+/// Required accuracy [m].
 const EXACT_M: f64 = 1e-5;
 
 fn axis(samples: u32, min_angle_rad: f64, max_angle_rad: f64) -> ScanAxis {
@@ -74,7 +74,7 @@ fn check(
     assert!(hits > 0);
 }
 
-/// Where a line from the origin first meets a sphere.
+/// Returns the first intersection of a line from the origin with a sphere.
 fn sphere(middle: DVec3, radius_m: f64, direction: DVec3) -> Option<f64> {
     let along = middle.dot(direction);
     let square = along * along - middle.length_squared() + radius_m * radius_m;

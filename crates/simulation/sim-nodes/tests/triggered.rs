@@ -118,7 +118,7 @@ fn slips_are_told() {
     let input = r#"<input type="gz.msgs.Int32" topic="/a">"#;
     assert!(told(FORWARD).contains("no `<input>`"));
     let field = format!(r#"{input}<match field="date">1</match></input>{FORWARD}"#);
-    assert!(told(&field).contains("`date` is no field of std_msgs/msg/Int32"));
+    assert!(told(&field).contains("`date` is not a field of std_msgs/msg/Int32"));
     let output =
         format!(r#"{input}</input><output type="gz.msgs.Twist" topic="/c">lin: 3</output>"#);
     assert!(told(&output).contains("does nothing"));

@@ -31,7 +31,7 @@ const SLACK_M: f64 = 0.15;
 /// More memory than this between the tenth and the last minute is a leak \[MB\].
 const MOST_MB: f64 = 1.0;
 
-/// Where the cube and the sphere are at a time, in the plane \[m\].
+/// Returns the positions of the cube and the sphere at a time, in the plane \[m\].
 fn places(time_ns: i64) -> [(f64, f64); 2] {
     let time_s = time_ns as f64 / 1e9;
     let on_circle = |radius_m: f64, speed: f64| {
@@ -41,7 +41,7 @@ fn places(time_ns: i64) -> [(f64, f64); 2] {
     [on_circle(2.0, 0.11), on_circle(1.8, -0.07)]
 }
 
-/// How far a place is from what is there at a time \[m\].
+/// Returns the distance of a point from the obstacles at a time \[m\].
 fn to_surface(x_m: f64, y_m: f64, time_ns: i64) -> f64 {
     let [cube, sphere] = places(time_ns);
     let [dx, dy] = [x_m - cube.0, y_m - cube.1].map(f64::abs);
@@ -56,7 +56,7 @@ fn to_surface(x_m: f64, y_m: f64, time_ns: i64) -> f64 {
 struct Marks {
     /// All of them.
     all: usize,
-    /// Where something was that is not there now; nobody has looked since.
+    /// Past positions of an obstacle that have not been observed since.
     of_the_past: usize,
     /// Without a reading, or with one that cannot have been.
     unexplained: usize,

@@ -112,19 +112,19 @@ fn mistakes_are_shown_where_they_are() {
     };
     check(
         "- {at: 0, linaer: [1, 0, 0]}",
-        "1:11 a command has no `linaer` (did you mean `linear`?)",
+        "1:11 a command has no key `linaer` (did you mean `linear`?)",
     );
-    check("- {linear: [1, 0, 0]}", "1:3 a command does not say when");
+    check("- {linear: [1, 0, 0]}", "1:3 a command has no time");
     check("- {at: 0, linear: [1, 0]}", "1:19 `linear` is not three numbers");
     check("- {at: 0, linear: [1, 0, .nan]}", "1:19 `linear` is not three numbers");
-    check("- {at: -1, linear: 1}", "1:8 this is no time");
-    check("- {at: .inf, linear: 1}", "1:8 this is no time");
+    check("- {at: -1, linear: 1}", "1:8 this is not a time");
+    check("- {at: .inf, linear: 1}", "1:8 this is not a time");
     check("- {at: 5, until: 5, linear: 1}", "1:18 a command ends before it begins");
-    check("- {at: 5, rate: 5, linear: 1}", "1:17 a command is repeated without end");
+    check("- {at: 5, rate: 5, linear: 1}", "1:17 a command repeats without end");
     check("- {at: 5, until: 6, rate: 0}", "1:27 `rate` is not a number above zero");
     check("- {at: 0, until: 1e9, rate: 1e9}", "1:3 the script has more than 1000000 commands");
     check("- {at: 0, until: 1e9, rate: 1e300}", "1:3 the script has more than 1000000 commands");
-    check("- {at: 0, at: 1}", "1:11 `at` stands here twice");
+    check("- {at: 0, at: 1}", "1:11 the key `at` occurs twice");
     check(
         "- {at: 0, type: std_msgs/msg/String}",
         "1:17 a script cannot send `std_msgs/msg/String`",

@@ -109,7 +109,7 @@ impl Lab {
         self.simulation.time_ns() / 1_000_000
     }
 
-    /// What the middle beam of the next scan says [m].
+    /// Returns the range of the middle beam in the next scan [m].
     fn ahead(&mut self) -> f32 {
         let _ = self.scans.drain();
         self.run(12);
@@ -416,8 +416,8 @@ fn harmonic_makes_copies_and_finds_names() {
     assert_eq!(
         told,
         [
-            "`create` was refused: `box` is there already; delete it, or take another name",
-            "`create` was refused: give exactly one of `sdf`, `sdf_filename` and `clone_name`",
+            "`create` was refused: `box` exists already; delete it, or use another name",
+            "`create` was refused: set exactly one of `sdf`, `sdf_filename` and `clone_name`",
         ]
     );
 }

@@ -11,7 +11,7 @@ use periplus_nav_nodes::amcl::AmclNode;
 use periplus_nav_nodes::costmap_2d::{VoxelCloud, VoxelMarkers};
 use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
-use periplus_nav_nodes::slam_toolbox::{Program, RealTimePacer, SlamNode};
+use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_os::Machine;
 use periplus_params::Given;
 use periplus_resources::Host as _;
@@ -338,7 +338,7 @@ fn slam(
         Some(tree) => periplus_nav_nodes::slam_toolbox::read(tree, Some(program), found).1,
         None => program.table().check([], None, found),
     });
-    let pace = if settings.is_paced { RealTimePacer::Sliced } else { RealTimePacer::Whole };
+    let pace = if settings.is_paced { Pace::Sliced } else { Pace::Whole };
     let slam = SlamNode::at(node, program, values, Arc::new(Machine), pace);
     let slam = slam.map_err(|error| error.to_string())?;
     // A lifecycle manager of the launch finds it by the parameter of this name.

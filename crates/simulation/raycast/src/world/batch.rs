@@ -39,7 +39,7 @@ struct Tile {
     rows: usize,
 }
 
-/// Number of image rows that can chunk a group.
+/// Number of image rows that can share a group.
 pub(super) const BAND_ROWS: usize = 4;
 
 const CACHE_LINE_BYTES: Tile = Tile { columns: 8, rows: 1 };

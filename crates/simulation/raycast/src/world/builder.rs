@@ -89,7 +89,7 @@ impl RaycastWorldBuilder {
         Ok(id)
     }
 
-    /// Adds a mesh that can move and that instances can chunk.
+    /// Adds a mesh that can move and that instances can share.
     ///
     /// # Errors
     /// When the pose is invalid.

@@ -13,7 +13,7 @@ const REBUILD_AREA_RATIO: f32 = 1.25;
 #[derive(Clone, Debug, Default)]
 pub(super) struct InstanceTree {
     pub(super) nodes: Vec<Node>,
-    /// InstanceLeaves in the order of the leaves.
+    /// Instances in the order of the leaves.
     pub(super) order: Vec<u32>,
     /// Total area of all nodes' boxes when the tree was built.
     built_area: f32,

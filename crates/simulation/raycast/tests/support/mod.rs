@@ -1,4 +1,4 @@
-//! What tests chunk.
+//! Helpers shared by the tests.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 #![allow(dead_code, reason = "not every test uses all of it")]

@@ -141,7 +141,7 @@ impl<'a> BuildContext<'a> {
         let message = format!("plugin `{plugin}` uses the joint `{name}`, which does not exist");
         let mut finding = Diagnostic::error("joint-missing", message)
             .at(origin)
-            .note("the plugin is disabled; the rest of the model runs")
+            .note("the joint is neither moved nor published; the rest of the model runs")
             .did_you_mean(origin, name, known.iter().copied());
         if !known.is_empty() {
             finding = finding.help(format!("movable joints: {}", some_of(&known)));

@@ -26,11 +26,11 @@ struct CameraDevice {
     trigger: Option<Trigger>,
     /// Number of the last measurement that was due.
     last_tick: u64,
-    /// Whether it had subscribers then.
+    /// True if that measurement had subscribers.
     had_subscribers: bool,
 }
 
-/// What one camera sees and to whom it tells.
+/// A camera with its outputs.
 struct CameraUnit {
     lens: Lens,
     pinhole: Pinhole,

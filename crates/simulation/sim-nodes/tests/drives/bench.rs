@@ -57,7 +57,7 @@ pub(crate) struct Bench {
     pub(crate) world: PhysicsWorld,
     pub(crate) model: ModelId,
     pub(crate) scene: scene::World,
-    /// What building its devices found wrong.
+    /// Findings of building the devices.
     pub(crate) said: String,
     pub(crate) devices: Vec<Box<dyn Device>>,
     views: Views,
@@ -161,7 +161,7 @@ impl Bench {
         }
     }
 
-    /// Who publishes what, under which type and quality, between which frames.
+    /// Publishers with their types, QoS and frames.
     pub(crate) fn topics(&self) -> String {
         let mut out = String::new();
         let every_node_has = ["/rosout", "/parameter_events"];
@@ -246,7 +246,7 @@ pub(crate) fn numbers(odometry: &nav_msgs::Odometry) -> [f64; 6] {
     [position.x, position.y, yaw, twist.linear.x, twist.linear.y, twist.angular.z]
 }
 
-/// Whether numbers are what they should be.
+/// Compares numbers within a tolerance.
 #[track_caller]
 pub(crate) fn near(found: &[f64], expected: &[f64], error: f64) {
     assert_eq!(found.len(), expected.len(), "{found:?} instead of {expected:?}");

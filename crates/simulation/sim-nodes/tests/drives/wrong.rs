@@ -16,36 +16,36 @@ fn a_wheel_joint_that_is_not_there() {
     let bench = Bench::exact(plugin);
     assert_eq!(bench.devices.len(), 1, "the other still publishes");
     expect![[r#"
-        error[joint-missing]: plugin `wheels` names the joint `left_jiont`, which is not there
+        error[joint-missing]: plugin `wheels` uses the joint `left_jiont`, which does not exist
           --> robot.sdf:38:15
            |
         38 |   <left_joint>left_jiont</left_joint><right_joint>caster_joint</right_joint>
            |               ^^^^^^^^^^
            |
-           = note: nothing here moves it or tells of it; the rest of the model runs
-           = help: joints that move here: `left_joint`, `right_joint`
+           = note: the joint is neither moved nor published; the rest of the model runs
+           = help: movable joints: `left_joint`, `right_joint`
         help: did you mean `left_joint`?
            |
         38 -   <left_joint>left_jiont</left_joint><right_joint>caster_joint</right_joint>
         38 +   <left_joint>left_joint</left_joint><right_joint>caster_joint</right_joint>
            |
 
-        error[joint-fixed]: plugin `wheels` names the joint `caster_joint`, which is fixed
+        error[joint-fixed]: plugin `wheels` uses the joint `caster_joint`, which is fixed
           --> robot.sdf:38:51
            |
         38 |   <left_joint>left_jiont</left_joint><right_joint>caster_joint</right_joint>
            |                                                   ^^^^^^^^^^^^
            |
-           = help: name a joint that turns or slides
+           = help: use a revolute or prismatic joint
 
-        error[joint-missing]: plugin `gz::sim::systems::JointStatePublisher` names the joint `elbow`, which is not there
+        error[joint-missing]: plugin `gz::sim::systems::JointStatePublisher` uses the joint `elbow`, which does not exist
           --> robot.sdf:41:60
            |
         41 |   name='gz::sim::systems::JointStatePublisher'><joint_name>elbow</joint_name>
            |                                                            ^^^^^
            |
-           = note: nothing here moves it or tells of it; the rest of the model runs
-           = help: joints that move here: `left_joint`, `right_joint`
+           = note: the joint is neither moved nor published; the rest of the model runs
+           = help: movable joints: `left_joint`, `right_joint`
 
     "#]].assert_eq(&bench.said);
 }
@@ -65,7 +65,7 @@ fn pairs_that_do_not_match() {
         37 | <plugin name='wheels' filename='libgazebo_ros_diff_drive.so'>
            | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
            |
-           = note: the plugin does nothing; the rest of the model runs
+           = note: the plugin is disabled; the rest of the model runs
            = help: give `left_joint` and `right_joint` once for each of `num_wheel_pairs`
 
     "#]]
@@ -79,7 +79,7 @@ fn the_same_name_twice_is_refused_as_in_ros_2() {
     let bench = Bench::exact(&plugin.repeat(2));
     assert_eq!(bench.devices.len(), 1);
     expect![[r#"
-        error[plugin-refused]: plugin `truth` cannot take its place: there is already a node `/truth`; give one of them another name (`__node:=`) or namespace (`__ns:=`)
+        error[plugin-refused]: plugin `truth` cannot be started: there is already a node `/truth`; give one of them another name (`__node:=`) or namespace (`__ns:=`)
           --> robot.sdf:37:45
            |
         37 |         <body_name>base</body_name></plugin><plugin name='truth' filename='libgazebo_ros_p3d.so'>
@@ -94,14 +94,14 @@ fn a_link_that_is_not_there() {
         "<plugin name='truth' filename='libgazebo_ros_p3d.so'><body_name>bose</body_name></plugin>",
     );
     expect![[r#"
-        error[link-missing]: plugin `truth` names the link `bose`, which is not there
+        error[link-missing]: plugin `truth` uses the link `bose`, which does not exist
           --> robot.sdf:36:65
            |
         36 | <plugin name='truth' filename='libgazebo_ros_p3d.so'><body_name>bose</body_name></plugin></model></world></sdf>
            |                                                                 ^^^^
            |
-           = note: the plugin does nothing; the rest of the model runs
-           = help: links here: `base`, `left`, `right`, `caster`
+           = note: the plugin is disabled; the rest of the model runs
+           = help: links of the model: `base`, `left`, `right`, `caster`
         help: did you mean `base`?
            |
         36 - <plugin name='truth' filename='libgazebo_ros_p3d.so'><body_name>bose</body_name></plugin></model></world></sdf>
@@ -118,7 +118,7 @@ fn what_is_not_run_yet_is_told() {
            name='gz_ros2_control::GazeboSimROS2ControlPlugin'/>",
     );
     expect![[r#"
-        warning[plugin-not-run]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` is not run
+        warning[plugin-not-run]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` is not supported
           --> robot.sdf:36:1
            |
         36 | <plugin filename='gz_ros2_control-system'

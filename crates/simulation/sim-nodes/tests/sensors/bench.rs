@@ -17,7 +17,7 @@ const STEP_NS: i64 = 1_000_000;
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
     pub(crate) world: PhysicsWorld,
-    /// What was found wrong in making its devices.
+    /// Findings of building the devices.
     pub(crate) said: String,
     devices: Vec<Box<dyn Device>>,
     views: Views,

@@ -1,4 +1,4 @@
-//! What sensors publish: topics, frames, rates and numbers.
+//! Topics, frames, rates and values of sensors.
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 mod bench;
@@ -96,7 +96,7 @@ fn a_receiver_knows_where_the_world_lies() {
 #[test]
 fn a_receiver_nowhere_is_told() {
     let bench = Bench::with("<sensor name='n' type='navsat'><topic>fix</topic></sensor>");
-    assert!(bench.said.contains("does not say where it lies"), "{}", bench.said);
+    assert!(bench.said.contains("does not define where its origin is"), "{}", bench.said);
     assert!(bench.said.contains("hall.sdf:"), "{}", bench.said);
 }
 
@@ -196,8 +196,8 @@ fn what_is_not_measured_is_told_and_the_rest_runs() {
          </sensor>
          <sensor name='imu' type='imu'><topic>imu</topic></sensor>",
     );
-    assert!(bench.said.contains("`odd` of type `air_flow` is not measured"), "{}", bench.said);
-    assert!(bench.said.contains("span no frustum"), "{}", bench.said);
+    assert!(bench.said.contains("`odd` of type `air_flow` is not supported"), "{}", bench.said);
+    assert!(bench.said.contains("do not define a frustum"), "{}", bench.said);
     assert_eq!(bench.topics(), ["/imu sensor_msgs/msg/Imu"]);
 }
 

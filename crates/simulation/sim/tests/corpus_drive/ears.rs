@@ -1,4 +1,4 @@
-//! Who listens to everything that a run publishes.
+//! Subscriber to all topics of a run.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
@@ -28,7 +28,7 @@ const TALKATIVE: [&str; 11] = [
     "rosgraph_msgs/msg/Clock",
 ];
 
-/// What came on a topic.
+/// Messages received on a topic.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Heard {
     pub(crate) messages: u64,
@@ -75,7 +75,7 @@ impl Ears {
         });
     }
 
-    /// How many messages came, and what was wrong with them or missing.
+    /// Number of messages, and their problems.
     pub(crate) fn close(mut self) -> (u64, Vec<String>) {
         self.listen();
         let topics = self.topics.lock().unwrap();

@@ -114,7 +114,7 @@ fn every_robot_of_the_corpus_drives_and_measures() {
     assert!(only.is_some() || idle.is_empty(), "explained, but seen no more: {idle:#?}");
 }
 
-/// What is told at the end.
+/// Final report.
 #[derive(Default)]
 struct Table {
     verdicts: BTreeMap<&'static str, usize>,

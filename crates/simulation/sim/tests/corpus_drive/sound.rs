@@ -1,4 +1,4 @@
-//! Whether every number of a message is one.
+//! Checks that all numbers of a message are finite.
 
 use periplus_graph::Sample;
 use periplus_msgs::sensor_msgs::{Image, LaserScan, PointCloud2, PointField, Range};

@@ -23,7 +23,7 @@ const TURN_RAD_S: f64 = 0.3;
 /// Commands come as from a joystick \[ns\].
 const COMMAND_NS: i64 = 100_000_000;
 
-/// Who went this far or turned this much has moved.
+/// Distance and angle beyond which a robot has moved.
 const MOVED_M: f64 = 0.2;
 const MOVED_RAD: f64 = 0.2;
 /// A robot that sinks so much in the end falls \[m\].
@@ -42,7 +42,7 @@ pub(crate) struct Trial {
     pub(crate) messages: u64,
     pub(crate) moved_m: f64,
     pub(crate) turned_rad: f64,
-    /// What is not as it should be; nothing for a robot that drove.
+    /// Problems; empty for a robot that drove.
     pub(crate) faults: Vec<String>,
 }
 
@@ -190,7 +190,7 @@ fn sensors(model: &Model) -> usize {
     own + model.models.iter().map(sensors).sum::<usize>()
 }
 
-/// What was found, code by code; each is told as a user sees it.
+/// Findings by code, each as a user sees it.
 fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> {
     let mut found = Vec::new();
     for file in &composition.files {
@@ -203,7 +203,7 @@ fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> 
     found
 }
 
-/// Who gives velocities to everybody that wants some.
+/// Publisher of velocities to all topics with subscribers.
 struct Pedals {
     plain: Vec<Publisher<Twist>>,
     stamped: Vec<Publisher<TwistStamped>>,
